@@ -1,0 +1,41 @@
+"""What is asked: sheet, material, supports, loads, probes; the catalogue; published figures. Knows no solver."""
+
+from scenes.loads import EdgeLoad, Load, PointLoad, Pressure
+from scenes.scene import Scene, SceneError, catalogue, free_rigid_motions, load, require_static
+from scenes.sheet import EDGES, Edge, Gravity, Material, Sheet
+from scenes.solution import FieldMesh, Iteration, Solution, Status
+from scenes.springs import DamperSet, PerDirection, SpringSet
+from scenes.supports import Clamped, Curved, Held, Hinged, Motion, Support, held_axes, holds_director
+
+__all__ = [
+    "EDGES",
+    "Clamped",
+    "Curved",
+    "DamperSet",
+    "Edge",
+    "EdgeLoad",
+    "FieldMesh",
+    "Gravity",
+    "Held",
+    "Hinged",
+    "Iteration",
+    "Load",
+    "Material",
+    "Motion",
+    "PerDirection",
+    "PointLoad",
+    "Pressure",
+    "Scene",
+    "SceneError",
+    "Sheet",
+    "Solution",
+    "SpringSet",
+    "Status",
+    "Support",
+    "catalogue",
+    "free_rigid_motions",
+    "held_axes",
+    "holds_director",
+    "load",
+    "require_static",
+]

@@ -1,0 +1,98 @@
+"""What every model answers with: status, displacement anywhere on the sheet, reactions, energies, history, timings.
+
+Part of the question's language: it holds no mechanics, so both solvers and any plug-in can use it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+
+class Status(StrEnum):
+    """How a solve ended. `advice` says what a user can do about it."""
+
+    CONVERGED = "converged"
+    UNSTABLE = "unstable"
+    SINGULAR = "singular"
+    STEP_LIMIT = "step-limit"
+    DIVERGED = "diverged"
+    NON_FINITE = "non-finite"
+    INVERTED = "inverted"
+    STRAIN_OUTSIDE_MODEL = "strain-outside-model"
+    REFUSED = "refused"
+
+    @property
+    def advice(self) -> str:
+        """One sentence: what happened and what to change."""
+        return _ADVICE[self]
+
+
+_ADVICE = {
+    Status.CONVERGED: "a stable equilibrium",
+    Status.UNSTABLE: "an equilibrium, but not a stable one: disturb the sheet or follow the path past the limit point",
+    Status.SINGULAR: "the tangent is singular: a limit or bifurcation point, or a motion that nothing resists",
+    Status.STEP_LIMIT: "iteration limit reached: use more load steps; the last converged load is kept",
+    Status.DIVERGED: "no equilibrium found: use smaller load steps; the last converged load is kept",
+    Status.NON_FINITE: "a number overflowed: check the magnitudes of loads and stiffnesses",
+    Status.INVERTED: "a cell turned inside out: refine the grid or use smaller load steps",
+    Status.STRAIN_OUTSIDE_MODEL: "strains exceed what linear springs or a linear material mean: the answer is not physical",
+    Status.REFUSED: "the model does not support what the scene asks",
+}
+
+
+@dataclass(frozen=True)
+class Iteration:
+    """One equilibrium iteration: load factor reached for, residual norm relative to the forces, step length."""
+
+    load_factor: float
+    residual: float
+    step: float
+
+
+@dataclass(frozen=True)
+class FieldMesh:
+    """A mesh with fields, ready to be written as VTU.
+
+    points: (n, 3) [m] undeformed; cells: meshio type → (m, k) connectivity; point_data: name → (n, …),
+    always with "displacement" (n, 3) [m]; cell_data: name → one array per cell block, in order.
+    """
+
+    points: np.ndarray
+    cells: list[tuple[str, np.ndarray]]
+    point_data: dict[str, np.ndarray]
+    cell_data: dict[str, list[np.ndarray]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A model's answer to a static scene.
+
+    sample: plan points (n, 2) [m] → mid-surface displacement (n, 3) [m]; reactions: edge → force [N] that
+    the support exerts on the sheet, (3,); energies: name → [J]; iterations: tangent factorisations, all
+    of them; load_factor: 1 where the full load was reached, else the last converged load.
+    """
+
+    model: str
+    label: str
+    settings: dict[str, Any]
+    status: Status
+    unknowns: int
+    iterations: int
+    setup_seconds: float
+    solve_seconds: float
+    sample: Callable[[np.ndarray], np.ndarray]
+    reactions: dict[str, np.ndarray]
+    energies: dict[str, float]
+    mesh: FieldMesh
+    history: tuple[Iteration, ...] = ()
+    load_factor: float = 1.0
+    message: str = ""
+
+    def displacement(self, points: np.ndarray) -> np.ndarray:
+        """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m] of the undeformed sheet."""
+        return self.sample(np.asarray(points, dtype=float).reshape(-1, 2))

@@ -1,0 +1,115 @@
+"""The four kinds of edge support.
+
+clamped  mid-surface and its normal (the director) held where they are in the flat sheet
+hinged   mid-surface held, director free to turn
+held     the named components of the mid-surface's displacement held
+curved   clamped to a rigid rod bent to `curvature` [1/m] in the plane of the edge and z: arc length kept,
+         the edge's middle point and tangent unmoved; curvature > 0 lifts the ends towards +z. With s
+         measured from the middle along the edge the director is e_z cos κs − e_edge sin κs.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, field_validator, model_validator
+
+from scenes.quantities import Frozen, Number, Vector3
+from scenes.sheet import EDGES, EdgeName
+
+Component = Literal["x", "y", "z"]
+
+
+class Motion(Frozen):
+    """Prescribed displacement of a support over time (dynamics only), linear between samples.
+
+    time: (n,) [s], increasing; displacement: (n, 3) [m].
+    """
+
+    time: tuple[Number, ...] = Field(min_length=1)
+    displacement: tuple[Vector3, ...]
+
+    @model_validator(mode="after")
+    def _one_displacement_each(self) -> Motion:
+        if len(self.time) != len(self.displacement):
+            raise ValueError(f"{len(self.time)} times but {len(self.displacement)} displacements")
+        if any(b <= a for a, b in zip(self.time, self.time[1:], strict=False)):
+            raise ValueError("times must increase")
+        return self
+
+
+class _EdgeSupport(Frozen):
+    edge: EdgeName
+    motion: Motion | None = None
+
+
+class Clamped(_EdgeSupport):
+    """Mid-surface and director held."""
+
+    kind: Literal["clamped"] = "clamped"
+
+
+class Hinged(_EdgeSupport):
+    """Mid-surface held, director free."""
+
+    kind: Literal["hinged"] = "hinged"
+
+
+class Held(_EdgeSupport):
+    """Named components of the mid-surface's displacement held."""
+
+    kind: Literal["held"] = "held"
+    components: tuple[Component, ...] = Field(min_length=1)
+
+    @field_validator("components")
+    @classmethod
+    def _each_once(cls, components: tuple[Component, ...]) -> tuple[Component, ...]:
+        if len(set(components)) != len(components):
+            raise ValueError("a component is named twice")
+        return components
+
+
+class Curved(_EdgeSupport):
+    """Clamped to a rod bent to `curvature` [1/m]."""
+
+    kind: Literal["curved"] = "curved"
+    curvature: Number
+
+
+Support = Annotated[Clamped | Hinged | Held | Curved, Field(discriminator="kind")]
+
+
+def held_axes(support: Clamped | Hinged | Held | Curved) -> tuple[int, ...]:
+    """Axes (0, 1, 2) in which the support holds the mid-surface."""
+    if isinstance(support, Held):
+        return tuple("xyz".index(component) for component in support.components)
+    return (0, 1, 2)
+
+
+def holds_director(support: Clamped | Hinged | Held | Curved) -> bool:
+    """Whether the support holds the normal as well as the mid-surface."""
+    return isinstance(support, Clamped | Curved)
+
+
+def contradiction(supports: tuple[Clamped | Hinged | Held | Curved, ...]) -> str | None:
+    """A sentence saying which two supports cannot both be obeyed, or None.
+
+    A bent rod moves its ends along the edge and along z and turns the director there, so nothing
+    else may hold those at a shared corner; and one edge can be held in one way only.
+    """
+    for i, first in enumerate(supports):
+        for second in supports[i + 1 :]:
+            if first.edge == second.edge:
+                return f"edge {first.edge} has two supports, {first.kind} and {second.kind}"
+            if EDGES[first.edge].normal_axis == EDGES[second.edge].normal_axis:
+                continue
+            for bent, other in ((first, second), (second, first)):
+                if not isinstance(bent, Curved) or bent.curvature == 0.0:
+                    continue
+                moved = {EDGES[bent.edge].along_axis, 2}
+                if holds_director(other) or moved & set(held_axes(other)):
+                    return (
+                        f"the rod on edge {bent.edge} (curvature {bent.curvature:g} 1/m) moves the corner "
+                        f"that the {other.kind} support on edge {other.edge} holds"
+                    )
+    return None

@@ -1,0 +1,185 @@
+"""A lattice with its springs, ready to compute: energy, internal force and tangent over a fixed block pattern.
+
+Only what the scene has is assembled: families of zero stiffness are left out. Links of the seed's
+per-direction law (unequal x, y, z stiffness) are kept apart: they have no energy, and their tangent is
+unsymmetric.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lumped import cells, springs
+from lumped.calibration import Calibration
+from lumped.lattice import Lattice, Weights, build
+from lumped.moduli import family_stiffness
+from scenes import Sheet
+
+
+@dataclass(frozen=True)
+class Links:
+    """Links of one kind, all families together: nodes (m, 2), offset (m, 3), rest_length (m,),
+    stiffness (m,) or, per direction, (m, 3) [N/m]; family (m,) numbers into `families`."""
+
+    nodes: np.ndarray
+    offset: np.ndarray
+    rest_length: np.ndarray
+    stiffness: np.ndarray
+    family: np.ndarray
+    slots: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.nodes)
+
+
+@dataclass(frozen=True)
+class Cells:
+    """Area springs of one kind: nodes (c, 4, p), rest diagonals (c, 2, 3) [m], stiffness (c,) [N/m]."""
+
+    name: str
+    nodes: np.ndarray
+    diagonals: np.ndarray
+    stiffness: np.ndarray
+    slots: np.ndarray
+
+
+@dataclass(frozen=True)
+class Stresses:
+    """The tension of every central link, (m,) [N], and the stress of every area spring, [N/m]."""
+
+    links: np.ndarray
+    cells: tuple[np.ndarray, ...]
+
+
+class Pattern:
+    """Block sparsity: sorted pairs (row, column) of masses that act on each other. indptr, indices as in BSR."""
+
+    def __init__(self, size: int, pairs: list[np.ndarray]):
+        diagonal = np.arange(size, dtype=np.int64) * (size + 1)
+        keys = np.unique(np.concatenate([diagonal, *(p[0].ravel() * size + p[1].ravel() for p in pairs)]))
+        self.size, self._keys = size, keys
+        self.rows, self.indices = keys // size, (keys % size).astype(np.int32)
+        self.indptr = np.searchsorted(self.rows, np.arange(size + 1)).astype(np.int32)
+
+    @property
+    def blocks(self) -> int:
+        return len(self._keys)
+
+    def slots(self, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
+        """Block numbers of pairs (any shape)."""
+        found: np.ndarray = np.searchsorted(self._keys, np.asarray(rows, np.int64) * self.size + columns)
+        return found.astype(np.int32)
+
+
+class Assembly:
+    """Energy, force and tangent of a calibrated lattice. Displacements and forces are (n, 3) [m], [N]."""
+
+    def __init__(self, sheet: Sheet, calibration: Calibration, weights: Weights = "tributary"):
+        self.lattice: Lattice = build(sheet, calibration.grid, calibration.layer_distance, weights)
+        self.families = tuple(dict.fromkeys(family.name for family in self.lattice.links))
+        central, directional = [], []
+        for family in self.lattice.links:
+            k = family_stiffness(calibration.springs, family.name, family.direction)
+            number = np.full(len(family.nodes), self.families.index(family.name))
+            row = (family.nodes, family.offset, family.rest_length)
+            if np.ndim(k) and len(set(np.atleast_1d(k))) > 1:
+                directional.append((*row, family.weight[:, None] * np.array(k), number))
+            elif np.max(k) > 0.0:
+                central.append((*row, family.weight * float(np.max(k)), number))
+        areas = []
+        for cell in self.lattice.cells:
+            k = getattr(calibration.springs, cell.name)
+            if k != 0.0:
+                areas.append((cell.name, cell.nodes, k))
+
+        columns = self.lattice.columns()
+        neighbours = [_couples(nodes) for nodes in _neighbourhoods(columns)]
+        self.pattern = Pattern(self.lattice.mass_count, neighbours)
+        self.links = self._links(central, 1)
+        self.directional = self._links(directional, 3)
+        self.cells = tuple(self._cells(*area) for area in areas)
+
+    @property
+    def conservative(self) -> bool:
+        """Whether the springs have an energy (and so a symmetric tangent)."""
+        return len(self.directional) == 0
+
+    def _links(self, rows: list, width: int) -> Links:
+        if not rows:
+            none = np.empty(0)
+            stiffness = none if width == 1 else np.empty((0, 3))
+            whole = np.empty((0, 2), np.int64)
+            return Links(whole, np.empty((0, 3)), none, stiffness, np.empty(0, int), np.empty((0, 4), np.int32))
+        nodes, offset, rest, stiffness, family = (np.concatenate(part) for part in zip(*rows, strict=True))
+        a, b = nodes.T
+        pairs = ((a, a), (a, b), (b, a), (b, b))
+        slots = np.stack([self.pattern.slots(*pair) for pair in pairs], axis=1)
+        return Links(nodes, offset, rest, stiffness, family, slots)
+
+    def _cells(self, name: str, nodes: np.ndarray, k: float) -> Cells:
+        corners = self.lattice.positions[nodes].mean(axis=2)
+        diagonals = np.stack([corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]], axis=1)
+        flat = nodes.reshape(len(nodes), -1)
+        slots = self.pattern.slots(flat[:, :, None], flat[:, None, :])
+        return Cells(name, nodes, diagonals, np.full(len(nodes), k), slots)
+
+    def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
+        """Elastic energy [J] and its gradient, the internal force, (n, 3) [N]."""
+        force = np.zeros_like(u)
+        links = self.links
+        energy = springs.add_forces(u, links.nodes, links.offset, links.rest_length, links.stiffness, force)
+        for c in self.cells:
+            energy += cells.add_forces(u, c.nodes, c.diagonals, c.stiffness, force)
+        d = self.directional
+        if len(d):
+            springs.add_directional_forces(u, d.nodes, d.offset, d.rest_length, d.stiffness, force)
+        return energy, force
+
+    def stresses(self, u: np.ndarray) -> Stresses:
+        """Tensions and area stresses at u."""
+        links = self.links
+        return Stresses(
+            springs.tensions(u, links.nodes, links.offset, links.rest_length, links.stiffness),
+            tuple(cells.stresses(u, c.nodes, c.diagonals, c.stiffness) for c in self.cells),
+        )
+
+    def extrapolated(self, u: np.ndarray, step: np.ndarray) -> Stresses:
+        """Tensions and area stresses that the linearisation at u predicts after `step`."""
+        links = self.links
+        return Stresses(
+            springs.extrapolated_tensions(
+                u, step, links.nodes, links.offset, links.rest_length, links.stiffness
+            ),
+            tuple(cells.extrapolated_stresses(u, step, c.nodes, c.diagonals, c.stiffness) for c in self.cells),
+        )
+
+    def tangent(self, u: np.ndarray, stresses: Stresses | None = None) -> np.ndarray:
+        """Blocks (b, 3, 3) [N/m] of the tangent at u, with the stresses given or those at u."""
+        stresses = stresses if stresses is not None else self.stresses(u)
+        blocks = np.zeros((self.pattern.blocks, 3, 3))
+        links = self.links
+        springs.add_tangent(
+            u, links.nodes, links.offset, links.rest_length, links.stiffness, stresses.links, links.slots, blocks
+        )
+        for c, stress in zip(self.cells, stresses.cells, strict=True):
+            cells.add_tangent(u, c.nodes, c.diagonals, c.stiffness, stress, c.slots, blocks)
+        d = self.directional
+        if len(d):
+            springs.add_directional_tangent(
+                u, d.nodes, d.offset, d.rest_length, d.stiffness, d.slots, blocks
+            )
+        return blocks
+
+
+def _neighbourhoods(columns: np.ndarray) -> list[np.ndarray]:
+    """Groups of masses that may act on each other: all the layers of each cell's four columns, (c, 4 layers)."""
+    around = np.stack([columns[:-1, :-1], columns[:-1, 1:], columns[1:, 1:], columns[1:, :-1]], axis=2)
+    return [around.reshape(-1, 4 * columns.shape[2])]
+
+
+def _couples(nodes: np.ndarray) -> np.ndarray:
+    """All ordered pairs within each group, (2, c · p · p)."""
+    p = nodes.shape[1]
+    return np.stack([np.repeat(nodes, p, axis=1).ravel(), np.tile(nodes, (1, p)).ravel()])

@@ -1,0 +1,40 @@
+"""One stiffness k for all five families, as the seed has it; no area springs.
+
+Its bending stiffness is D11 = k Σ z_k² (lx/ly + …): on square cells and two layers k lz². Where k is not
+given it is matched to the sheet's D11 = E h³/12(1 − ν²). Poisson's ratio and the twisting stiffness are
+then what the uniform lattice has (½ and D66/D11 = ½), not the sheet's.
+"""
+
+from __future__ import annotations
+
+from lumped import moduli
+from lumped.calibration.calibration import Calibration, plan_spacing, report
+from lumped.lattice import Grid
+from scenes import Material, Sheet, SpringSet
+
+
+def uniform(
+    sheet: Sheet, material: Material, grid: Grid, k: float | None = None, layer_distance: float | None = None
+) -> Calibration:
+    """k [N/m] as given or from D11; layer_distance [m] as given or the sheet's thickness over the gaps.
+
+    Raises ValueError for k or layer_distance not above zero.
+    """
+    _require_positive("k", k, "N/m")
+    _require_positive("layer_distance", layer_distance, "m")
+    distance = layer_distance if layer_distance is not None else sheet.thickness / (grid[2] - 1)
+    lx, ly = plan_spacing(sheet, grid)
+    if k is None:
+        unit = moduli.of_springs(_all(1.0, distance), (lx, ly, distance), grid[2])
+        k = float(moduli.of_sheet(sheet, material, (lx, ly)).bending[0, 0] / unit.bending[0, 0])
+    note = "one k for all families: Poisson's ratio and D66 are the lattice's own (Cauchy's relation C12 = C66)"
+    return report("uniform", sheet, material, grid, _all(k, distance), (note,))
+
+
+def _all(k: float, layer_distance: float) -> SpringSet:
+    return SpringSet(axial=k, diagonal=k, vertical=k, cross=k, cross_diagonal=k, layer_distance=layer_distance)
+
+
+def _require_positive(name: str, value: float | None, unit: str) -> None:
+    if value is not None and not value > 0.0:
+        raise ValueError(f"{name} = {value:g} {unit}: must be greater than 0")

@@ -1,0 +1,165 @@
+"""The lattice's linear systems: reduction to the free unknowns, factorisation, solution, inertia.
+
+The reduced tangent Tᵀ K T keeps one pattern, so the map from block entries to its entries is computed
+once and the symbolic analysis is done once. Solvers, in the order they are tried for symmetric systems:
+LAPACK's banded Cholesky (small grids; fails on indefinite matrices, which then go on), rslab's sparse
+L D Lᵀ with exact inertia, SciPy's SuperLU (always there; the inertia from the signs of U's diagonal
+when no row was exchanged). Unsymmetric systems go to rslab's or SciPy's L U. Each solution's residual is
+checked, with one step of refinement.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse as sp
+from scipy.sparse.csgraph import reverse_cuthill_mckee
+from scipy.sparse.linalg import splu
+
+from lumped.assembly import Pattern
+
+try:
+    import rslab as _rslab
+except ImportError:  # the wheel is optional; SciPy always works
+    _rslab = None
+rslab: Any = _rslab
+
+BANDED_LIMIT = 2.0e7  # n × bandwidth² below which the banded Cholesky is quicker than the sparse one
+RESIDUAL_LIMIT = 1e-6  # relative residual of a refined solution beyond which the matrix counts as singular
+
+
+class SingularMatrixError(ArithmeticError):
+    """The matrix has no usable factors."""
+
+
+class Factor:
+    """One factorisation: solve(b) and the number of negative eigenvalues (None when it is not known)."""
+
+    def __init__(self, matrix: sp.csc_array, solve: Callable[[np.ndarray], np.ndarray], negative: int | None):
+        self._matrix, self._solve, self.negative = matrix, solve, negative
+
+    def solve(self, b: np.ndarray) -> np.ndarray:
+        """x with A x = b, refined once. Raises SingularMatrixError when the residual stays large."""
+        x = self._solve(b)
+        residual = b - self._matrix @ x
+        x = x + self._solve(residual)
+        size = np.linalg.norm(b)
+        miss = np.linalg.norm(b - self._matrix @ x)
+        if not miss <= RESIDUAL_LIMIT * size:
+            raise SingularMatrixError(f"relative residual {miss / size if size else miss:.1e} after refinement")
+        return x
+
+
+class ReducedSystem:
+    """Tᵀ K T over a fixed pattern, from the blocks of K to factors.
+
+    transform: (3n, m) sparse; symmetric: factors as L D Lᵀ and tells the inertia.
+    """
+
+    def __init__(self, pattern: Pattern, transform: sp.csr_array, symmetric: bool):
+        self.symmetric = symmetric
+        self.unknowns = transform.shape[1]
+        self._transform = transform
+        self._pattern = pattern
+        rows = (3 * pattern.rows[:, None, None] + np.arange(3)[None, :, None]).repeat(3, axis=2).ravel()
+        columns = (3 * pattern.indices[:, None, None] + np.arange(3)[None, None, :]).repeat(3, axis=1).ravel()
+        source, r, c, weight = _expand(transform, rows, columns)
+        keys, target = np.unique(c.astype(np.int64) * self.unknowns + r, return_inverse=True)
+        self._map = sp.csr_array(
+            sp.coo_array((weight, (target, source)), shape=(len(keys), len(rows)))
+        )
+        self._indices = (keys % self.unknowns).astype(np.int32)
+        column_of = (keys // self.unknowns).astype(np.int32)
+        self._indptr = np.searchsorted(column_of, np.arange(self.unknowns + 1)).astype(np.int32)
+        self._analysis: Any = None
+        self._band = _Band(self._indices, column_of, self._indptr) if symmetric else None
+
+    def matrix(self, blocks: np.ndarray) -> sp.csc_array:
+        """The reduced matrix (m, m) of blocks (b, 3, 3)."""
+        data = self._map @ blocks.ravel()
+        return sp.csc_array((data, self._indices, self._indptr), shape=(self.unknowns, self.unknowns))
+
+    def apply(self, blocks: np.ndarray, u: np.ndarray) -> np.ndarray:
+        """K u for a displacement (n, 3): force (n, 3)."""
+        full = sp.bsr_array((blocks, self._pattern.indices, self._pattern.indptr))
+        product: np.ndarray = full @ u.ravel()
+        return product.reshape(u.shape)
+
+    def factor(self, blocks: np.ndarray) -> Factor:
+        """Factors of Tᵀ K T. Raises SingularMatrixError when there are none."""
+        matrix = self.matrix(blocks)
+        if not np.isfinite(matrix.data).all():
+            raise SingularMatrixError("an entry is not finite")
+        if self._band is not None and self._band.cost < BANDED_LIMIT:
+            banded = self._band.factor(matrix)
+            if banded is not None:
+                return Factor(matrix, banded, 0)
+        try:
+            if rslab is None:
+                return _superlu(matrix, self.symmetric)
+            if self._analysis is None:
+                self._analysis = rslab.analyze(matrix, path="ldlt" if self.symmetric else "lu")
+            factors = self._analysis.factor(matrix)
+            return Factor(matrix, factors.solve, factors.inertia[1] if self.symmetric else None)
+        except RuntimeError as error:
+            raise SingularMatrixError(str(error)) from None
+
+
+class _Band:
+    """Lower band storage of a symmetric matrix after reverse Cuthill–McKee ordering."""
+
+    def __init__(self, rows: np.ndarray, columns: np.ndarray, indptr: np.ndarray):
+        n = len(indptr) - 1
+        graph = sp.csr_array((np.ones(len(rows), np.int8), rows, indptr), shape=(n, n))
+        self._order = reverse_cuthill_mckee(graph, symmetric_mode=True) if n else np.empty(0, int)
+        place = np.empty(n, int)
+        place[self._order] = np.arange(n)
+        r, c = place[rows], place[columns]
+        self._width = int(np.max(np.abs(r - c), initial=0))
+        self._lower = np.flatnonzero(r >= c)
+        self._at = ((r - c)[self._lower], c[self._lower])
+        self._size = n
+        self.cost = float(n) * self._width**2
+
+    def factor(self, matrix: sp.csc_array) -> Callable[[np.ndarray], np.ndarray] | None:
+        """A solve function, or None when the matrix is not positive definite."""
+        band = np.zeros((self._width + 1, self._size))
+        band[self._at] = matrix.data[self._lower]
+        factors, info = scipy.linalg.lapack.dpbtrf(band, lower=1, overwrite_ab=1)
+        if info:
+            return None
+        order = self._order
+
+        def solve(b: np.ndarray) -> np.ndarray:
+            x = np.empty_like(b)
+            x[order] = scipy.linalg.lapack.dpbtrs(factors, b[order], lower=1)[0]
+            return x
+
+        return solve
+
+
+def _superlu(matrix: sp.csc_array, symmetric: bool) -> Factor:
+    if not symmetric:
+        return Factor(matrix, splu(matrix).solve, None)
+    scale = 1.0 / np.sqrt(np.abs(matrix.diagonal()) + np.finfo(float).tiny)
+    scaled = sp.csc_array(sp.diags_array(scale) @ matrix @ sp.diags_array(scale))
+    factors = splu(scaled, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    exchanged = not np.array_equal(factors.perm_r, factors.perm_c)
+    negative = None if exchanged else int(np.sum(factors.U.diagonal() < 0.0))
+    return Factor(matrix, lambda b: scale * factors.solve(scale * b), negative)
+
+
+def _expand(transform: sp.csr_array, rows: np.ndarray, columns: np.ndarray):
+    """Entries of Tᵀ K T that each entry (row, column) of K feeds: source entry, row, column, weight."""
+    counts = np.diff(transform.indptr)
+    left, right = counts[rows], counts[columns]
+    copies = left * right
+    source = np.repeat(np.arange(len(rows)), copies)
+    within = np.arange(len(source)) - np.repeat(np.cumsum(copies) - copies, copies)
+    i, j = within // right[source], within % right[source]
+    at_row, at_column = transform.indptr[rows[source]] + i, transform.indptr[columns[source]] + j
+    weight = transform.data[at_row] * transform.data[at_column]
+    return source, transform.indices[at_row], transform.indices[at_column], weight

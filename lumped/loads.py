@@ -1,0 +1,154 @@
+"""Loads on the masses: dead forces, follower pressure and follower edge moment, with their tangents.
+
+gravity        mass × acceleration, tributary masses
+point          shared bilinearly among the columns of its cell, equally among the layers
+edge force     per undeformed length, by tributary lengths, equally among the layers
+edge moment    per undeformed length: a couple F = ±M (t × D)/|D|² on the outer layers of each column, D the
+               vector between them, t the current edge tangent (central difference of the neighbours' mean)
+pressure       p ½ d1 × d2 on every mid-surface cell, a quarter at each corner column, equally among layers
+
+Follower loads have unsymmetric tangents in general; see e.g. Schweizerhof and Ramm (1984).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lumped.assembly import Assembly
+from lumped.lattice import Lattice
+from scenes import EDGES, EdgeLoad, PointLoad, Pressure, Scene
+
+
+def masses(scene: Scene, lattice: Lattice) -> np.ndarray:
+    """Mass of every lumped mass, (n,) [kg]: the sheet's mass by tributary share."""
+    lx, ly, _ = lattice.spacing
+    return scene.material.density * scene.sheet.thickness * lx * ly / lattice.grid[2] * lattice.share
+
+
+def locate(lattice: Lattice, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Columns (n, 4) as (j nx + i) and bilinear weights (n, 4) of plan points (n, 2) [m].
+
+    Raises ValueError for points off the sheet.
+    """
+    nx, ny, _ = lattice.grid
+    spacing = np.array(lattice.spacing[:2])
+    grid = points / spacing
+    outside = (grid < -1e-9) | (grid > np.array([nx - 1, ny - 1]) + 1e-9)
+    if outside.any():
+        raise ValueError(f"point {points[outside.any(axis=1)][0].tolist()} m is off the sheet")
+    cell = np.clip(np.floor(grid).astype(int), 0, [nx - 2, ny - 2])
+    (x, y), (i, j) = (grid - cell).T, cell.T
+    columns = np.stack([j * nx + i, j * nx + i + 1, (j + 1) * nx + i + 1, (j + 1) * nx + i], axis=1)
+    weights = np.stack([(1 - x) * (1 - y), x * (1 - y), x * y, (1 - x) * y], axis=1)
+    return columns, weights
+
+
+class Loads:
+    """The external forces of a scene at load factor 1; every load scales with the load factor.
+
+    dead: (n, 3) [N]; conservative: whether there are no follower loads.
+    """
+
+    def __init__(self, scene: Scene, assembly: Assembly):
+        self._assembly = assembly
+        lattice = assembly.lattice
+        columns = lattice.columns().reshape(-1, lattice.grid[2])
+        self.dead = np.zeros((lattice.mass_count, 3))
+        self._moments: list[tuple[np.ndarray, np.ndarray, float]] = []
+        self._pressure = 0.0
+        if scene.gravity is not None:
+            self.dead += masses(scene, lattice)[:, None] * np.array(scene.gravity.acceleration)
+        for load in scene.loads:
+            if isinstance(load, PointLoad):
+                at, weights = locate(lattice, np.array([load.at]))
+                share = weights[0][:, None] * np.array(load.force) / lattice.grid[2]
+                self.dead[columns[at[0]]] += share[:, None, :]
+            elif isinstance(load, EdgeLoad):
+                edge = lattice.edge_columns(load.edge)
+                length = np.full(len(edge), lattice.spacing[EDGES[load.edge].along_axis])
+                length[[0, -1]] /= 2.0
+                force = length[:, None] * np.array(load.force_per_length) / lattice.grid[2]
+                self.dead[edge] += force[:, None, :]
+                if load.moment_per_length:
+                    along = np.eye(3)[EDGES[load.edge].along_axis]
+                    turn = np.cross(EDGES[load.edge].outward, [0.0, 0.0, 1.0]) @ along
+                    self._moments.append((edge, length * load.moment_per_length, float(turn)))
+            elif isinstance(load, Pressure):
+                self._pressure += load.value
+        self.conservative = not self._moments and not self._pressure
+
+    def force(self, u: np.ndarray) -> np.ndarray:
+        """External force (n, 3) [N] on the masses displaced by u."""
+        if self.conservative:
+            return self.dead
+        force = self.dead.copy()
+        x = self._assembly.lattice.positions + u
+        for edge, moment, turn in self._moments:
+            top, bottom, couple = self._couple(x, edge, moment, turn)[:3]
+            force[top] += couple
+            force[bottom] -= couple
+        if self._pressure:
+            corners, d1, d2 = self._mid_cells(x)
+            share = self._pressure / 8.0 / corners.shape[2] * np.cross(d1, d2)
+            np.add.at(force, corners.reshape(len(corners), -1), share[:, None, :])
+        return force
+
+    def add_tangent(self, u: np.ndarray, load_factor: float, blocks: np.ndarray) -> None:
+        """Subtract the derivative of load_factor × force from the tangent's blocks (b, 3, 3)."""
+        if self.conservative:
+            return
+        x = self._assembly.lattice.positions + u
+        for edge, moment, turn in self._moments:
+            self._add_couple_tangent(x, edge, load_factor * moment, turn, blocks)
+        if self._pressure:
+            corners, d1, d2 = self._mid_cells(x)
+            p = corners.shape[2]
+            # δ(d1 × d2) = −[d2]× δd1 + [d1]× δd2, and d1 = x2 − x0, d2 = x3 − x1
+            by_corner = np.stack([_spin(d2), -_spin(d1), -_spin(d2), _spin(d1)], axis=1)
+            by_corner *= load_factor * self._pressure / 8.0 / p**2
+            flat = corners.reshape(len(corners), -1)
+            slots = self._assembly.pattern.slots(flat[:, :, None], flat[:, None, :])
+            columns = np.repeat(by_corner, p, axis=1)
+            np.add.at(blocks, slots, -columns[:, None, :, :, :])
+
+    def _mid_cells(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        (corners,) = (c.nodes for c in self._assembly.lattice.cells if c.name == "mid_area")
+        mean = x[corners].mean(axis=2)
+        return corners, mean[:, 2] - mean[:, 0], mean[:, 3] - mean[:, 1]
+
+    def _couple(self, x: np.ndarray, edge: np.ndarray, moment: np.ndarray, turn: float):
+        """Top and bottom masses, the force on the top, and what its derivative needs."""
+        mean = x[edge].mean(axis=1)
+        last = np.arange(len(edge))
+        before, after = np.maximum(last - 1, 0), np.minimum(last + 1, len(edge) - 1)
+        chord = mean[after] - mean[before]
+        length = np.linalg.norm(chord, axis=1)
+        tangent = turn * chord / length[:, None]
+        top, bottom = edge[:, -1], edge[:, 0]
+        director = x[top] - x[bottom]
+        square = (director**2).sum(axis=1)
+        couple = (moment / square)[:, None] * np.cross(tangent, director)
+        return top, bottom, couple, tangent, length, director, square, before, after
+
+    def _add_couple_tangent(self, x, edge, moment, turn, blocks) -> None:
+        top, bottom, couple, tangent, length, director, square, before, after = self._couple(x, edge, moment, turn)
+        scale = (moment / square)[:, None, None]
+        by_director = scale * _spin(tangent) - 2.0 * couple[:, :, None] * (director / square[:, None])[:, None, :]
+        projector = (np.eye(3) - tangent[:, :, None] * tangent[:, None, :]) * (turn / length)[:, None, None]
+        by_chord = -scale * _spin(director) @ projector / edge.shape[1]
+        slots = self._assembly.pattern.slots
+        for row, sign in ((top, -1.0), (bottom, 1.0)):
+            np.add.at(blocks, slots(row, top), sign * by_director)
+            np.add.at(blocks, slots(row, bottom), -sign * by_director)
+            for layer in range(edge.shape[1]):
+                np.add.at(blocks, slots(row, edge[after, layer]), sign * by_chord)
+                np.add.at(blocks, slots(row, edge[before, layer]), -sign * by_chord)
+
+
+def _spin(v: np.ndarray) -> np.ndarray:
+    """[v]× of vectors (n, 3): (n, 3, 3)."""
+    out = np.zeros((len(v), 3, 3))
+    out[:, 0, 1], out[:, 0, 2] = -v[:, 2], v[:, 1]
+    out[:, 1, 0], out[:, 1, 2] = v[:, 2], -v[:, 0]
+    out[:, 2, 0], out[:, 2, 1] = -v[:, 1], v[:, 0]
+    return out

@@ -1,0 +1,122 @@
+"""Homogenisation: the plate moduli of a lattice, from the energy of its unit cell in closed form.
+
+A link of rest vector d (length L) and stiffness k stores ½ k (d·E d / L)². With the in-plane strain
+(ε_x, ε_y, γ_xy) at its mid-height, the stretch of its gap ε_z and the transverse shears γ_x, γ_y:
+
+    d·E d = dx² ε_x + dy² ε_y + dx dy γ_xy + dz² ε_z + dx dz γ_x + dy dz γ_y.
+
+Summed over a cell of area lx ly this gives a 6×6 form per layer (dz = 0, with the area spring) and per
+gap between layers. Layers at z_k and gaps at z_g add up, with ε_z of each gap relaxed, to
+
+    A = Σ_k C + Σ_g G + m 1 1ᵀ,     D = Σ_k z_k² C + Σ_g z_g² G,     S = Σ s_g  (see below),
+
+where C is a layer's 3×3 form and G a gap's after relaxation. Under a transverse force the gaps carry
+shear in proportion to t_g = Σ_{k above g} z_k (equilibrium of the layers), so that the shear stiffness
+is (Σ t_g)²/Σ t_g² times one gap's: 1 for two layers, 2 for three.
+
+The sheet itself has D_ij and A_ij of an isotropic plane-stress plate and, on a grid of spacing l,
+MacNeal's (1978) residual-bending shear stiffness 1/S* = 1/(κ G h) + l²/(12 D), κ = 5/6, which makes the
+one-point sheared lattice exact for cubic deflections. Stiffness per length: A, S [N/m], D [N·m].
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lumped.lattice import STEPS
+from scenes import Material, PerDirection, Sheet, SpringSet
+
+SHEAR_CORRECTION = 5.0 / 6.0
+
+
+@dataclass(frozen=True)
+class Moduli:
+    """In-plane forms A [N/m] and D [N·m], (3, 3) over (x, y, xy); shear stiffness S (2,) [N/m] along x and y."""
+
+    membrane: np.ndarray
+    bending: np.ndarray
+    shear: np.ndarray
+
+    def named(self, square: bool) -> dict[str, float]:
+        """The moduli by name; on square cells the x and y values are one."""
+        a, d = self.membrane, self.bending
+        names = {"D11": d[0, 0], "D12": d[0, 1], "D66": d[2, 2], "A11": a[0, 0], "A12": a[0, 1], "A66": a[2, 2]}
+        if square:
+            return {**names, "S": self.shear[0]}
+        return {**names, "D22": d[1, 1], "A22": a[1, 1], "Sx": self.shear[0], "Sy": self.shear[1]}
+
+
+def family_stiffness(springs: SpringSet, family: str, direction: str) -> float | tuple[float, float, float]:
+    """Stiffness [N/m] of the links of a family that run in a direction: a number, or (kx, ky, kz) of the
+    seed's per-direction law when the scene gives x, y and z."""
+    value = getattr(springs, family)
+    if not isinstance(value, PerDirection):
+        return value
+    if value.z is not None:
+        return (value.x, value.y, value.z)
+    if direction not in ("x", "y"):
+        raise ValueError(f"springs.{family} = {{x, y}}: only axial and cross links run along x or y; give one number")
+    return value.x if direction == "x" else value.y
+
+
+def link_forms(spacing: tuple[float, float, float]) -> dict[tuple[str, str], np.ndarray]:
+    """Energy form per unit stiffness and area of each family and direction: (6, 6) over
+    (ε_x, ε_y, γ_xy, ε_z, γ_x, γ_y), energy density ½ ε·Q ε [1: m/m² · m]."""
+    lx, ly, lz = spacing
+    forms: dict[tuple[str, str], np.ndarray] = {}
+    for family, direction, step in STEPS:
+        dx, dy, dz = step[0] * lx, step[1] * ly, step[2] * lz
+        row = np.array([dx * dx, dy * dy, dx * dy, dz * dz, dx * dz, dy * dz])
+        form = np.outer(row, row) / ((dx * dx + dy * dy + dz * dz) * lx * ly)
+        forms[family, direction] = forms.get((family, direction), np.zeros((6, 6))) + form
+    return forms
+
+
+def shear_gaps(layers: int) -> float:
+    """(Σ t_g)²/Σ t_g²: the sheet's shear stiffness in units of one gap's."""
+    heights = np.arange(layers) - (layers - 1) / 2
+    carried = np.cumsum(heights[::-1])[:-1]
+    return float(carried.sum() ** 2 / (carried**2).sum())
+
+
+def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: int) -> Moduli:
+    """Moduli of an interior patch of the lattice with these springs."""
+    layer, gap = np.zeros((6, 6)), np.zeros((6, 6))
+    for (family, direction), form in link_forms(spacing).items():
+        k = np.mean(family_stiffness(springs, family, direction))
+        if family in ("axial", "diagonal"):
+            layer += k * form
+        else:
+            gap += k * form
+    dilation = np.zeros((3, 3))
+    dilation[:2, :2] = 1.0
+    in_layer = layer[:3, :3] + springs.area * dilation
+    in_gap = gap[:3, :3].copy()
+    if gap[3, 3] > 0.0:
+        in_gap -= np.outer(gap[:3, 3], gap[:3, 3]) / gap[3, 3]
+    lz = spacing[2]
+    heights = (np.arange(layers) - (layers - 1) / 2) * lz
+    gap_heights = (heights[1:] + heights[:-1]) / 2
+    return Moduli(
+        membrane=layers * in_layer + (layers - 1) * in_gap + springs.mid_area * dilation,
+        bending=(heights**2).sum() * in_layer + (gap_heights**2).sum() * in_gap,
+        shear=shear_gaps(layers) * np.array([gap[4, 4], gap[5, 5]]),
+    )
+
+
+def of_sheet(sheet: Sheet, material: Material, spacing: tuple[float, float]) -> Moduli:
+    """Moduli of the sheet, with MacNeal's S* of the in-plane spacing (lx, ly) [m] as the shear stiffness."""
+    nu, h = material.poisson, sheet.thickness
+    unit = np.array([[1.0, nu, 0.0], [nu, 1.0, 0.0], [0.0, 0.0, (1.0 - nu) / 2.0]])
+    stretching = material.young * h / (1.0 - nu**2)
+    rigidity = stretching * h**2 / 12.0
+    shear = SHEAR_CORRECTION * material.young / (2.0 * (1.0 + nu)) * h
+    effective = [1.0 / (1.0 / shear + length**2 / (12.0 * rigidity)) for length in spacing]
+    return Moduli(stretching * unit, rigidity * unit, np.array(effective))
+
+
+def shear_without_grid(sheet: Sheet, material: Material) -> float:
+    """κ G h [N/m], the sheet's own transverse shear stiffness."""
+    return SHEAR_CORRECTION * material.young / (2.0 * (1.0 + material.poisson)) * sheet.thickness

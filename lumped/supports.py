@@ -1,0 +1,109 @@
+"""Supports as linear constraints on the masses: u = T q + g(λ), q the free unknowns.
+
+clamped  every layer of the edge's row held
+hinged   the mean of the layers held: the last layer is minus the sum of the others
+held     the mean of the layers held in the named components
+curved   every layer held on the director of an arc of curvature λκ (λ the load factor)
+
+With s the arc length from the edge's middle, an arc of curvature κ in the plane of the edge's direction e
+and z has mid-line (sin κs/κ) e + ((1 − cos κs)/κ) z and normal cos κs z − sin κs e.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from lumped.lattice import Lattice
+from scenes import EDGES, Curved, Scene, held_axes, holds_director
+
+
+@dataclass(frozen=True)
+class Constraints:
+    """transform: (3n, m) sparse, q → u; prescribed: λ → g (n, 3) [m]; holders: edge → (mass rows of the
+    edge (m, layers), axes held); held: (n, 3) bool, components that some support acts on."""
+
+    transform: sp.csr_array
+    prescribed: Callable[[float], np.ndarray]
+    holders: dict[str, tuple[np.ndarray, tuple[int, ...]]]
+    held: np.ndarray
+
+    def reactions(self, residual: np.ndarray) -> tuple[dict[str, np.ndarray], np.ndarray]:
+        """Force [N] of each support on the sheet, (3,) by edge, and of all supports on each mass, (n, 3),
+        from internal minus external force (n, 3). A mass that several supports hold counts equally to each."""
+        on_masses = np.where(self.held, residual, 0.0)
+        holders = np.zeros_like(residual)
+        for masses, axes in self.holders.values():
+            holders[np.ix_(masses.ravel(), axes)] += 1.0
+        per_edge = {}
+        for edge, (masses, axes) in self.holders.items():
+            share = np.zeros(3)
+            block = np.ix_(masses.ravel(), axes)
+            share[list(axes)] = (on_masses[block] / holders[block]).sum(axis=0)
+            per_edge[edge] = share
+        return per_edge, on_masses
+
+
+def constrain(scene: Scene, lattice: Lattice) -> Constraints:
+    """The constraints of a scene's supports on a lattice."""
+    n = lattice.mass_count
+    fixed = np.zeros((n, 3), dtype=bool)
+    mean_held: dict[tuple[int, int], np.ndarray] = {}  # (last mass of a column, axis) → the column
+    holders = {}
+    for support in scene.supports:
+        masses = lattice.edge_columns(support.edge)
+        axes = held_axes(support)
+        holders[support.edge] = (masses, axes)
+        if holds_director(support):
+            fixed[masses.ravel()] = True
+        else:
+            for axis in axes:
+                mean_held.update({(column[-1], axis): column for column in masses})
+    held = fixed.copy()
+    mean_held = {key: column for key, column in mean_held.items() if not fixed[key[0], key[1]]}
+    dependent = np.zeros((n, 3), dtype=bool)
+    for (last, axis), column in mean_held.items():
+        dependent[last, axis] = True
+        held[column, axis] = True
+
+    free = ~(fixed | dependent)
+    number = np.full((n, 3), -1)
+    number[free] = np.arange(free.sum())
+    rows = [np.flatnonzero(free)]
+    columns = [number[free]]
+    values = [np.ones(free.sum())]
+    for (last, axis), column in mean_held.items():
+        rows.append(np.full(len(column) - 1, 3 * last + axis))
+        columns.append(number[column[:-1], axis])
+        values.append(np.full(len(column) - 1, -1.0))
+    entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
+    transform = sp.csr_array(sp.coo_array(entries, shape=(3 * n, int(free.sum()))))
+    bent = [s for s in scene.supports if isinstance(s, Curved)]
+
+    def prescribed(load_factor: float) -> np.ndarray:
+        g = np.zeros((n, 3))
+        for support in bent:
+            masses = lattice.edge_columns(support.edge)
+            g[masses] = _arc(lattice, support.edge, masses, load_factor * support.curvature)
+        return g
+
+    return Constraints(transform, prescribed, holders, held)
+
+
+def _arc(lattice: Lattice, edge: str, masses: np.ndarray, curvature: float) -> np.ndarray:
+    """Displacement (m, layers, 3) [m] that puts an edge's masses on the arc."""
+    along = EDGES[edge].along_axis
+    rest = lattice.positions[masses]
+    s = rest[..., along] - rest[..., along].mean()
+    height = rest[..., 2]
+    angle = curvature * s
+    # sin κs/κ and (1 − cos κs)/κ by sinc, which have no trouble at κ = 0
+    across = s * np.sinc(angle / np.pi)
+    rise = 0.5 * curvature * s**2 * np.sinc(angle / (2.0 * np.pi)) ** 2
+    u = np.zeros_like(rest)
+    u[..., along] = across - s - height * np.sin(angle)
+    u[..., 2] = rise + height * (np.cos(angle) - 1.0)
+    return u

@@ -1,0 +1,60 @@
+"""The `sheetbench` command: its verbs and its exit statuses.
+
+A verb is a module of this package named like the verb, with a function `command`. Importing it must stay
+quick, so a verb imports what it works with inside that function.
+
+Exit status: 0 done; 2 bad input, said in one line; 3 a solver did not converge.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+
+import typer
+
+VERBS = ("scenes", "compare", "calibrate")
+BAD_INPUT = 2
+NOT_CONVERGED = 3
+_OURS = ("scenes", "lumped", "fem_reference", "comparisons")
+
+app = typer.Typer(
+    help="How good is your spring lattice? Lumped-mass models of soft sheets beside finite elements.",
+    epilog="SCENE is a name that 'sheetbench scenes' lists, or a path to a TOML file.",
+    add_completion=False,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+for _verb in VERBS:
+    app.command(_verb)(import_module(f"comparisons.cli.{_verb}").command)
+
+
+@app.callback()
+def _options(
+    version: bool = typer.Option(False, "--version", help="Print the version and stop.", is_eager=True),
+) -> None:
+    if version:
+        from importlib.metadata import version as installed
+
+        print(f"sheetbench {installed('sheetbench')}")
+        raise typer.Exit
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the command line and leave with its exit status."""
+    try:
+        app(args=arguments, prog_name="sheetbench")
+    except ValueError as error:
+        if not _refused_by_us(error):
+            raise
+        print(f"sheetbench: {' '.join(str(error).split())}", file=sys.stderr)
+        raise SystemExit(BAD_INPUT) from None
+
+
+def _refused_by_us(error: ValueError) -> bool:
+    """Whether one of our packages refused the input; a ValueError from deeper is a fault of ours."""
+    frame = error.__traceback__
+    while frame is not None and frame.tb_next is not None:
+        frame = frame.tb_next
+    return frame is not None and frame.tb_frame.f_globals["__name__"].partition(".")[0] in _OURS

@@ -1,0 +1,167 @@
+"""`sheetbench calibrate`: spring constants from E, ν, density, thickness, sides and grid."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+
+import typer
+
+from comparisons.cli.options import Json, Out, command_line
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+    from scenes import Material, Sheet
+
+Quantities = TypeVar("Quantities", bound="BaseModel")
+DENSITY = 1000.0  # kg/m³
+
+
+def command(
+    scene: Annotated[
+        str | None,
+        typer.Argument(metavar="[SCENE]", help="Take sheet and material from here.", show_default=False),
+    ] = None,
+    young: Annotated[float | None, typer.Option(metavar="PA", help="Young's modulus E.")] = None,
+    poisson: Annotated[float | None, typer.Option(metavar="NU", help="Poisson's ratio ν.")] = None,
+    thickness: Annotated[float | None, typer.Option(metavar="M", help="Thickness of the sheet.")] = None,
+    density: Annotated[
+        float | None,
+        typer.Option(metavar="KG/M3", help="Density; 1000 kg/m³ unless given.", show_default=False),
+    ] = None,
+    side: Annotated[str | None, typer.Option(metavar="M", help="Sides: 0.188 or 0.188x0.3 (x by y).")] = None,
+    grid: Annotated[
+        str | None,
+        typer.Option(
+            metavar="GRID", help="Masses: 9, 9x13 or 9x13x2; 9 along the shorter side unless given."
+        ),
+    ] = None,
+    method: Annotated[str, typer.Option(metavar="NAME", help="consistent, uniform, …")] = "consistent",
+    k: Annotated[
+        float | None, typer.Option(metavar="N/M", help="Stiffness of every spring (uniform only).")
+    ] = None,
+    layer_distance: Annotated[
+        float | None, typer.Option(metavar="M", help="Distance of the lattice's layers.")
+    ] = None,
+    toml: Annotated[bool, typer.Option("--toml", help="Print the [springs] table for a scene file.")] = False,
+    json: Json = False,
+    out: Out = None,
+) -> None:
+    """Find the spring constants of a lattice, and report which of the sheet's moduli they meet.
+
+    Give a SCENE, or --young --poisson --thickness --side; with both, the options change the scene's values.
+    """
+    from comparisons import calibration as report
+    from comparisons import summary
+    from comparisons.cli import console
+    from comparisons.errors import BadInput
+    from comparisons.files import folder, to_json, write_text
+    from comparisons.grids import parse_grid
+    from comparisons.manifest import record
+    from comparisons.models import calibrate
+
+    if toml and json:
+        raise BadInput("--toml and --json: choose one")
+    sheet, material = _sheet_and_material(
+        scene,
+        {"thickness": thickness, **_sides(side)},
+        {"young": young, "poisson": poisson, "density": density},
+    )
+    found = calibrate(
+        sheet,
+        material,
+        grid=parse_grid(grid, "--grid") if grid is not None else None,
+        calibration=method,
+        k=k,
+        layer_distance=layer_distance,
+    ).as_dict()
+    springs, moduli = report.springs(found), report.moduli(found)
+    if out is not None:
+        files = {
+            "calibration.json": to_json(found),
+            "springs.toml": report.to_toml(found),
+            "springs.csv": springs.to_csv(),
+            "moduli.csv": moduli.to_csv(),
+            "table.md": f"{springs.to_markdown()}\n{moduli.to_markdown()}",
+            "manifest.json": to_json(
+                {**record(command_line()), "sheet": sheet.model_dump(), "material": material.model_dump()}
+            ),
+        }
+        for name, text in files.items():
+            write_text(folder(out) / name, text)
+    if json or toml:
+        print(to_json(found) if json else report.to_toml(found), end="")
+        return
+    nx, ny, layers = found.get("grid", ("?", "?", "?"))
+    console.heading(f"{found['method']} calibration", f"of {nx} × {ny} × {layers} masses")
+    console.note(summary.sheet(sheet, material))
+    console.show(springs)
+    console.note(f"layer distance {1e3 * found['layer_distance']:.6g} mm")
+    console.show(moduli)
+    for said in found.get("notes", ()):
+        console.note(said)
+    if out is not None:
+        console.note(f"Files in {out}: {', '.join(files)}")
+
+
+def _sides(text: str | None) -> dict[str, float]:
+    """Sides along x and y [m] of `0.188` or `0.188x0.3`; none of no text."""
+    from comparisons.errors import BadInput
+
+    if text is None:
+        return {}
+    try:
+        sides = [float(part) for part in text.lower().replace("×", "x").split("x")]
+    except ValueError:
+        sides = []
+    if len(sides) not in (1, 2):
+        raise BadInput(f"--side = '{text}': not a side; write 0.188 or 0.188x0.3, in metres")
+    return {"length_x": sides[0], "length_y": sides[-1]}
+
+
+def _sheet_and_material(
+    scene: str | None, sheet: dict[str, float | None], material: dict[str, float | None]
+) -> tuple[Sheet, Material]:
+    """The scene's sheet and material with what is given put in its place, or those of the options alone."""
+    import scenes
+    from comparisons.errors import BadInput
+
+    sheet_data: dict[str, Any] = {}
+    material_data: dict[str, Any] = {"density": DENSITY}
+    if scene is not None:
+        loaded = scenes.load(scene)
+        sheet_data, material_data = loaded.sheet.model_dump(), loaded.material.model_dump()
+    sheet_data |= {key: value for key, value in sheet.items() if value is not None}
+    material_data |= {key: value for key, value in material.items() if value is not None}
+    missing = [
+        f"--{option}"
+        for option, key, data in (
+            ("young", "young", material_data),
+            ("poisson", "poisson", material_data),
+            ("thickness", "thickness", sheet_data),
+            ("side", "length_x", sheet_data),
+        )
+        if key not in data
+    ]
+    if missing:
+        raise BadInput(f"missing {', '.join(missing)}; give them, or a SCENE to take them from")
+    return _checked(scenes.Sheet, sheet_data), _checked(scenes.Material, material_data)
+
+
+def _checked(kind: type[Quantities], data: dict[str, Any]) -> Quantities:
+    """The validated object, or BadInput naming the first option that is out of bounds."""
+    from pydantic import ValidationError
+
+    from comparisons.errors import BadInput
+
+    try:
+        return kind.model_validate(data)
+    except ValidationError as error:
+        fault = error.errors()[0]
+        if not fault["loc"]:
+            raise BadInput(str(fault["ctx"]["error"])) from None
+        key = str(fault["loc"][0])
+        option = "side" if key.startswith("length") else key
+        raise BadInput(
+            f"--{option} = {fault['input']!r}: {fault['msg'][0].lower()}{fault['msg'][1:]}"
+        ) from None

@@ -1,0 +1,109 @@
+"""`sheetbench compare SCENE`: the lattice and a finite-element reference side by side."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from comparisons.cli.options import Json, Out, Scene, command_line
+
+if TYPE_CHECKING:
+    from comparisons.displacement import Comparison
+
+
+def command(
+    scene: Scene,
+    lumped: Annotated[
+        str | None,
+        typer.Option(
+            metavar="GRID",
+            help="Masses of the lattice: 9, 9x13 or 9x13x2 (along x, along y, layers); 9 along the shorter "
+            "side unless given.",
+        ),
+    ] = None,
+    calibration: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="How k is found from E, ν and h: consistent, uniform, …; consistent, with uniform shown "
+            "alongside, unless given.",
+        ),
+    ] = None,
+    k: Annotated[
+        float | None, typer.Option(metavar="N/M", help="Stiffness of every spring; means uniform.")
+    ] = None,
+    layer_distance: Annotated[
+        float | None, typer.Option(metavar="M", help="Distance of the lattice's layers.")
+    ] = None,
+    reference: Annotated[str, typer.Option(metavar="MODEL", help="plate, shell or solid.")] = "shell",
+    elements: Annotated[
+        int, typer.Option(metavar="N", help="The reference's elements along the shorter side.")
+    ] = 16,
+    json: Json = False,
+    out: Out = None,
+) -> None:
+    """Solve a scene with the lattice and with a reference, and show what differs and what it cost."""
+    from comparisons.cli import console
+    from comparisons.cli.app import NOT_CONVERGED
+    from comparisons.displacement import compare, load_static
+    from comparisons.files import folder, to_json
+    from comparisons.grids import parse_grid
+    from comparisons.output import Output
+    from comparisons.summary import complaints
+    from scenes import Solution
+
+    asked = load_static(scene)
+    grid = parse_grid(lumped, "--lumped") if lumped is not None else None
+    output = Output(folder(out), command_line()) if out is not None else None
+
+    with console.progress() as progress:
+
+        def finished(solution: Solution) -> None:
+            if output is not None:
+                output.solution(solution)
+
+        comparison = compare(
+            asked,
+            grid=grid,
+            calibration=calibration,
+            k=k,
+            layer_distance=layer_distance,
+            reference=reference,
+            elements=elements,
+            starting=lambda model: progress(f"solving {model} …"),
+            finished=finished,
+        )
+        no_picture = None
+        if output is not None:
+            progress("writing files …")
+            output.comparison(comparison)
+            progress("drawing the picture …")
+            no_picture = output.picture(comparison)
+
+    if json:
+        print(to_json(comparison.as_dict()), end="")
+    else:
+        _show(comparison)
+        if output is not None:
+            console.note(f"Files in {output.folder}: {', '.join(output.written)}")
+    if no_picture:
+        console.warn(f"No picture: {no_picture}")
+    for complaint in complaints(comparison):
+        console.warn(complaint)
+    if not comparison.converged:
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def _show(comparison: Comparison) -> None:
+    from comparisons import summary
+    from comparisons.cli import console
+
+    scene = comparison.scene
+    console.heading(scene.name, scene.title)
+    console.note(summary.sheet(scene.sheet, scene.material))
+    console.show(summary.displacements(comparison), group_by=0, leave_out=("x", "y"))
+    console.show(summary.costs(comparison), leave_out=("what it is",))
+    for solution in comparison.solutions:
+        console.note(f"{solution.model}: {solution.label}")
+    console.note(summary.explanation(comparison))

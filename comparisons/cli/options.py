@@ -1,0 +1,26 @@
+"""Options that several verbs share."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+Scene = Annotated[
+    str, typer.Argument(metavar="SCENE", help="Catalogue name or path to a TOML file.", show_default=False)
+]
+Json = Annotated[
+    bool, typer.Option("--json", help="Print one JSON document instead of tables.", show_default=False)
+]
+Out = Annotated[
+    Path | None,
+    typer.Option("--out", metavar="DIR", help="Write files into this folder.", show_default=False),
+]
+
+
+def command_line() -> list[str]:
+    """The command as it was given, to be kept beside its results."""
+    import sys
+
+    return ["sheetbench", *sys.argv[1:]]

@@ -1,0 +1,192 @@
+"""Displacements of a lattice beside those of a reference.
+
+With u the displacement of a model and u_ref that of the reference at the same plan points,
+
+    error     largest |component of (u − u_ref)| over the probes / largest |component of u_ref| over them
+    relative  |u − u_ref| / |u_ref| at one probe
+
+Both are fractions, and None where they have no meaning: the reference does not move, a number is not
+finite, or one of the two models did not reach the full load.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from comparisons.errors import BadInput, require_choice
+from comparisons.grids import Grid
+from comparisons.models import REFERENCES, solve
+from scenes import Scene, SceneError, Solution, Status, load, require_static
+
+COMPANION = "lumped-uniform"
+
+
+def error(displacement: np.ndarray, reference: np.ndarray) -> float | None:
+    """The error of displacements (n, 3) against a reference's (n, 3), as the module defines it."""
+    return _ratio(float(np.max(np.abs(displacement - reference))), float(np.max(np.abs(reference))))
+
+
+def relative(displacement: np.ndarray, reference: np.ndarray) -> float | None:
+    """The relative difference of one displacement (3,) from the reference's (3,)."""
+    return _ratio(float(np.linalg.norm(displacement - reference)), float(np.linalg.norm(reference)))
+
+
+def _ratio(difference: float, size: float) -> float | None:
+    ratio = difference / size if size > 0 else np.nan
+    return ratio if np.isfinite(ratio) else None
+
+
+def comparable(solution: Solution) -> bool:
+    """Whether the solution is an equilibrium under the whole load."""
+    return solution.status in (Status.CONVERGED, Status.UNSTABLE) and solution.load_factor == 1.0
+
+
+@dataclass(frozen=True)
+class Difference:
+    """How far one model is from another at one probe, as a fraction of the other's displacement there."""
+
+    probe: str
+    of: str
+    against: str
+    relative: float | None
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Solutions of one scene: the chosen lattice first, the reference second, then what is shown alongside.
+
+    Every solution has its own `model` name, by which `differences` and `errors` speak of it.
+    """
+
+    scene: Scene
+    solutions: tuple[Solution, ...]
+
+    @property
+    def reference(self) -> Solution:
+        """The solution that the others are measured against."""
+        return self.solutions[1]
+
+    @property
+    def converged(self) -> bool:
+        """Whether the chosen lattice and the reference both reached a stable equilibrium."""
+        return all(solution.status is Status.CONVERGED for solution in self.solutions[:2])
+
+    def probes(self, solution: Solution) -> dict[str, np.ndarray]:
+        """Displacement (3,) [m] at each probe."""
+        values = solution.displacement(self.scene.probe_points())
+        return dict(zip(self.scene.probes, values, strict=True))
+
+    def error(self, solution: Solution) -> float | None:
+        """The solution's error against the reference."""
+        if solution is self.reference or not (comparable(solution) and comparable(self.reference)):
+            return None
+        points = self.scene.probe_points()
+        return error(solution.displacement(points), self.reference.displacement(points))
+
+    @property
+    def differences(self) -> tuple[Difference, ...]:
+        """The relative difference of every other model from the reference at every probe."""
+        truth = self.probes(self.reference)
+        found = []
+        for solution in self.solutions:
+            if solution is self.reference:
+                continue
+            both = comparable(solution) and comparable(self.reference)
+            for name, value in self.probes(solution).items():
+                off = relative(value, truth[name]) if both else None
+                found.append(Difference(name, solution.model, self.reference.model, off))
+        return tuple(found)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench compare`: metres, newtons, seconds."""
+        return {
+            "scene": self.scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+            "solutions": [self._solution_as_dict(solution) for solution in self.solutions],
+            "differences": [vars(difference) for difference in self.differences],
+            "errors": [
+                {"of": solution.model, "against": self.reference.model, "error": self.error(solution)}
+                for solution in self.solutions
+                if solution is not self.reference
+            ],
+        }
+
+    def _solution_as_dict(self, solution: Solution) -> dict[str, Any]:
+        return {
+            "model": solution.model,
+            "label": solution.label,
+            "settings": solution.settings,
+            "status": str(solution.status),
+            "advice": solution.status.advice,
+            "message": solution.message,
+            "load_factor": solution.load_factor,
+            "unknowns": solution.unknowns,
+            "iterations": solution.iterations,
+            "solve_seconds": solution.solve_seconds,
+            "setup_seconds": solution.setup_seconds,
+            "probes": self.probes(solution),
+            "reactions": solution.reactions,
+            "energies": solution.energies,
+        }
+
+
+def compare(
+    scene: Scene | str | Path,
+    *,
+    grid: Grid | None = None,
+    calibration: str | None = None,
+    k: float | None = None,
+    layer_distance: float | None = None,
+    reference: str = "shell",
+    elements: int = 16,
+    starting: Callable[[str], None] = lambda model: None,
+    finished: Callable[[Solution], None] = lambda solution: None,
+) -> Comparison:
+    """Solve a scene with the lattice and with a reference, and put the answers side by side.
+
+    grid: masses along x and y, and layers; by default nine along the shorter side. calibration: by default
+    `consistent`, and then the uniform calibration is solved too and shown alongside as `lumped-uniform`;
+    where `k` [N/m] is given the default is `uniform`. layer_distance [m]. elements: along the shorter side.
+    `starting` and `finished` are called before and after each model, so that a caller can show progress
+    and keep what is done.
+
+    Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
+    solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.
+    """
+    if not isinstance(scene, Scene):
+        scene = load_static(scene)
+    require_static(scene)
+    require_choice("reference", reference, REFERENCES)
+    chosen = calibration or ("consistent" if k is None else "uniform")
+    if k is not None and chosen != "uniform":
+        raise BadInput(f"k = {k:g} N/m with calibration = '{chosen}': only the uniform calibration takes k")
+
+    def run(model: str, name: str, **settings: Any) -> Solution:
+        starting(name)
+        solution = solve(scene, model, **settings)
+        solution = solution if solution.model == name else replace(solution, model=name)
+        finished(solution)
+        return solution
+
+    lattice = {"grid": grid, "layer_distance": layer_distance}
+    solutions = [
+        run("lumped", "lumped", calibration=chosen, k=k, **lattice),
+        run(reference, reference, elements=elements),
+    ]
+    if calibration is None and chosen != "uniform":
+        solutions.append(run("lumped", COMPANION, calibration="uniform", **lattice))
+    return Comparison(scene, tuple(solutions))
+
+
+def load_static(scene: str | Path) -> Scene:
+    """The scene of a catalogue name or file, refused by that name if its supports leave it free to move."""
+    loaded = load(scene)
+    try:
+        require_static(loaded)
+    except SceneError as error:
+        raise SceneError(f"{scene}: {error}") from None
+    return loaded

@@ -1,0 +1,47 @@
+"""Whether VTK can draw off screen here, found out without risking this process.
+
+VTK draws through the system's EGL or OSMesa library. Without either it does not raise, it ends the process
+with a segmentation fault: so a small picture is tried in a child process first, once per process.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from functools import cache
+
+PACKAGES = "libegl1 libgl1-mesa-dri (or libosmesa6)"
+_WINDOW = "VTK_DEFAULT_OPENGL_WINDOW"
+_WINDOWS = ("vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow", "")  # "": whatever VTK picks by itself
+_TRIAL = """
+import pyvista
+plotter = pyvista.Plotter(off_screen=True, window_size=(32, 32))
+plotter.add_mesh(pyvista.Plane())
+image = plotter.screenshot(return_img=True)
+raise SystemExit(0 if image.min() < image.max() else 1)
+"""
+
+
+@cache
+def why_not() -> str | None:
+    """None where off-screen drawing works; else why there is no picture and what to install.
+
+    The first kind of window that works is kept for this process.
+    """
+    asked = os.environ.get(_WINDOW)
+    for window in (asked,) if asked else _WINDOWS:
+        if _draws({**os.environ, _WINDOW: window}):
+            os.environ[_WINDOW] = window
+            return None
+    return f"off-screen drawing does not work on this system; on Debian install {PACKAGES}"
+
+
+def _draws(environment: dict[str, str]) -> bool:
+    try:
+        trial = subprocess.run(
+            [sys.executable, "-c", _TRIAL], env=environment, capture_output=True, timeout=120, check=False
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return trial.returncode == 0

@@ -1,0 +1,93 @@
+"""Geometrically nonlinear Reissner–Mindlin shell of the flat sheet: large displacements and rotations.
+
+Position φ + ζ d with a unit director d at every node; membrane, bending and transverse-shear energies of
+a plane-stress St Venant–Kirchhoff sheet, ½ h E:C:E + h³/24 κ:C:κ + ½ k h G γ·γ with k = 5/6, on nine-node
+elements with assumed strains (`shell_element`), under dead and follower loads. Small strains are
+assumed, rotations are not; the weight has no couple on the director.
+"""
+
+from __future__ import annotations
+
+from time import perf_counter
+
+import numpy as np
+from skfem import Basis, ElementQuad2, MeshQuad
+
+from fem_reference import shell_loads, shell_supports
+from fem_reference.equilibrium import trace
+from fem_reference.linear import DirectSolver
+from fem_reference.location import locate
+from fem_reference.mesh import Elements, divisions, quarters, rectangle
+from fem_reference.shell_element import Element, shape
+from fem_reference.shell_structure import ShellStructure
+from scenes import FieldMesh, Scene, Solution
+from scenes.scene import require_static
+
+
+def solve(scene: Scene, elements: Elements = 16) -> Solution:
+    """The static equilibrium of a scene; elements along the shorter side (near-square), or (nx, ny).
+
+    Raises scenes.SceneError if the supports leave a rigid motion free.
+    """
+    require_static(scene)
+    begin = perf_counter()
+    along_x, along_y = divisions(scene.sheet.lengths, elements)
+    mesh = rectangle(scene.sheet, (along_x, along_y))
+    nodes, element_nodes = node_grid(mesh)
+    element = Element.build(nodes[element_nodes], scene.material, scene.sheet.thickness)
+    supports = shell_supports.of_scene(scene, nodes)
+    dead, followers = shell_loads.of_scene(scene, mesh, element_nodes, nodes, element.areas)
+    structure = ShellStructure(element, element_nodes, supports, dead, followers)
+    solver = DirectSolver(structure.symmetric)
+    ready = perf_counter()
+    path = trace(structure, solver)
+    done = perf_counter()
+
+    displacement, turn = path.state.change
+    residual = structure.forces(path.state, path.load_factor).residual[0]
+
+    def sample(points: np.ndarray) -> np.ndarray:
+        return interpolate(mesh, element_nodes, displacement, points)
+
+    return Solution(
+        model="shell",
+        label=f"shell {along_x} × {along_y}",
+        settings={"elements": [along_x, along_y]},
+        status=path.status,
+        unknowns=structure.unknowns,
+        iterations=path.factorisations,
+        setup_seconds=ready - begin,
+        solve_seconds=done - ready,
+        sample=sample,
+        reactions=supports.reactions(residual),
+        energies=structure.energies(path.state),
+        mesh=field_mesh(nodes, element_nodes, displacement, turn + np.array([0.0, 0.0, 1.0])),
+        history=tuple(path.history),
+        load_factor=path.load_factor,
+        message=path.message,
+    )
+
+
+def node_grid(mesh: MeshQuad) -> tuple[np.ndarray, np.ndarray]:
+    """Plan positions (n, 2) [m] of the biquadratic nodes and those of every element (m, 9)."""
+    basis = Basis(mesh, ElementQuad2())
+    return basis.doflocs.T, basis.element_dofs.T
+
+
+def interpolate(
+    mesh: MeshQuad, element_nodes: np.ndarray, nodal: np.ndarray, points: np.ndarray
+) -> np.ndarray:
+    """A nodal field (n, k) at plan points (p, 2) [m]: (p, k). Raises ValueError off the mesh."""
+    element, local = locate(mesh, points)
+    value, _ = shape(*(2.0 * local - 1.0))
+    return np.einsum("pi,pik->pk", value, nodal[element_nodes[element]])
+
+
+def field_mesh(
+    nodes: np.ndarray, element_nodes: np.ndarray, displacement: np.ndarray, director: np.ndarray
+) -> FieldMesh:
+    """Nodes and bilinear quarters of the elements, with displacement [m] and director."""
+    points = np.column_stack([nodes, np.zeros(len(nodes))])
+    return FieldMesh(
+        points, [("quad", quarters(element_nodes.T))], {"displacement": displacement, "director": director}
+    )

@@ -1,0 +1,85 @@
+"""What supports hold in the shell, as a function of the load factor.
+
+Of every node the position φ = X + u and the director d may be held. A rod bent to curvature κ, with s
+measured from the middle of the edge along e and the middle and its tangent unmoved, keeps arc length:
+
+    φ(s) = φ(0) + e sin(κs)/κ + e_z (1 − cos κs)/κ,    d(s) = e_z cos κs − e sin κs.
+
+With load factor λ the rod is bent to λκ. Where two supports share a corner both hold what they hold.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from scenes import EDGES, Curved, Scene, held_axes, holds_director
+
+
+@dataclass(frozen=True)
+class Rod:
+    """nodes: (k,) on the rod; arc: s (k,) [m]; axis: 0 or 1, the edge's direction; curvature [1/m]."""
+
+    nodes: np.ndarray
+    arc: np.ndarray
+    axis: int
+    curvature: float
+
+    def change(self, load_factor: float) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement (k, 3) [m] and change of director (k, 3) at a load factor."""
+        kappa = load_factor * self.curvature
+        angle = kappa * self.arc
+        displacement, turn = np.zeros((len(self.arc), 3)), np.zeros((len(self.arc), 3))
+        displacement[:, self.axis] = self.arc * (np.sinc(angle / np.pi) - 1.0)
+        displacement[:, 2] = self.arc * np.sin(angle / 2.0) * np.sinc(angle / (2.0 * np.pi))
+        turn[:, self.axis] = -np.sin(angle)
+        turn[:, 2] = -2.0 * np.sin(angle / 2.0) ** 2
+        return displacement, turn
+
+
+@dataclass(frozen=True)
+class Supports:
+    """What is held: position (n, 3) by component, director (n,); edges: name → (nodes, held axes)."""
+
+    position: np.ndarray
+    director: np.ndarray
+    edges: dict[str, tuple[np.ndarray, tuple[int, ...]]]
+    rods: tuple[Rod, ...]
+
+    def change(self, load_factor: float) -> np.ndarray:
+        """Prescribed change (2, n, 3) of positions [m] and directors; zero where nothing moves them."""
+        out = np.zeros((2, len(self.director), 3))
+        for rod in self.rods:
+            out[:, rod.nodes] = rod.change(load_factor)
+        return out
+
+    def reactions(self, nodal: np.ndarray) -> dict[str, np.ndarray]:
+        """Force [N] (3,) of each support from the nodal ones (n, 3); supports that hold the same share it."""
+        holders = np.zeros_like(nodal)
+        for nodes, axes in self.edges.values():
+            holders[np.ix_(nodes, axes)] += 1.0
+        out = {}
+        for name, (nodes, axes) in self.edges.items():
+            out[name] = np.zeros(3)
+            held = np.ix_(nodes, axes)
+            out[name][list(axes)] = np.sum(nodal[held] / holders[held], axis=0)
+        return out
+
+
+def of_scene(scene: Scene, nodes: np.ndarray) -> Supports:
+    """The supports of a scene on nodes with plan positions (n, 2) [m]."""
+    position, director = np.zeros((len(nodes), 3), dtype=bool), np.zeros(len(nodes), dtype=bool)
+    edges, rods = {}, []
+    for support in scene.supports:
+        edge = EDGES[support.edge]
+        end = scene.sheet.lengths[edge.normal_axis] * edge.far_end
+        on = np.nonzero(np.isclose(nodes[:, edge.normal_axis], end, rtol=1e-9, atol=1e-12))[0]
+        axes = held_axes(support)
+        position[np.ix_(on, axes)] = True
+        director[on] |= holds_director(support)
+        edges[support.edge] = (on, axes)
+        if isinstance(support, Curved) and support.curvature != 0.0:
+            arc = nodes[on, edge.along_axis] - scene.sheet.lengths[edge.along_axis] / 2.0
+            rods.append(Rod(on, arc, edge.along_axis, support.curvature))
+    return Supports(position, director, edges, tuple(rods))

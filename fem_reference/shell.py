@@ -9,6 +9,7 @@ assumed, rotations are not; the weight has no couple on the director.
 from __future__ import annotations
 
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 from skfem import Basis, ElementQuad2, MeshQuad
@@ -30,14 +31,27 @@ def solve(scene: Scene, elements: Elements = 16) -> Solution:
     Raises scenes.SceneError if the supports leave a rigid motion free.
     """
     require_static(scene)
-    begin = perf_counter()
     along_x, along_y = divisions(scene.sheet.lengths, elements)
+    begin = perf_counter()
     mesh = rectangle(scene.sheet, (along_x, along_y))
-    nodes, element_nodes = node_grid(mesh)
-    element = Element.build(nodes[element_nodes], scene.material, scene.sheet.thickness)
-    supports = shell_supports.of_scene(scene, nodes)
-    dead, followers = shell_loads.of_scene(scene, mesh, element_nodes, nodes, element.areas)
-    structure = ShellStructure(element, element_nodes, supports, dead, followers)
+    settings = {"elements": [along_x, along_y]}
+    return solve_on(mesh, scene, f"shell {along_x} × {along_y}", settings, begin)
+
+
+def solve_on(
+    mesh: MeshQuad,
+    scene: Scene,
+    label: str = "shell",
+    settings: dict[str, Any] | None = None,
+    begin: float | None = None,
+) -> Solution:
+    """The same on any flat mesh of quadrilaterals [m], straight-sided (MeshQuad) or biquadratic (MeshQuad2).
+
+    Supports and loads act on the mesh's boundaries of their edges' names ("x0", …), which may lie
+    anywhere; of the scene's sheet only the thickness is used.
+    """
+    begin = perf_counter() if begin is None else begin
+    structure, nodes = discretise(mesh, scene)
     solver = DirectSolver(structure.symmetric)
     ready = perf_counter()
     path = trace(structure, solver)
@@ -47,31 +61,36 @@ def solve(scene: Scene, elements: Elements = 16) -> Solution:
     residual = structure.forces(path.state, path.load_factor).residual[0]
 
     def sample(points: np.ndarray) -> np.ndarray:
-        return interpolate(mesh, element_nodes, displacement, points)
+        return interpolate(mesh, structure.element_nodes, displacement, points)
 
     return Solution(
         model="shell",
-        label=f"shell {along_x} × {along_y}",
-        settings={"elements": [along_x, along_y]},
+        label=label,
+        settings=settings or {"elements": mesh.nelements},
         status=path.status,
         unknowns=structure.unknowns,
         iterations=path.factorisations,
         setup_seconds=ready - begin,
         solve_seconds=done - ready,
         sample=sample,
-        reactions=supports.reactions(residual),
+        reactions=structure.supports.reactions(residual),
         energies=structure.energies(path.state),
-        mesh=field_mesh(nodes, element_nodes, displacement, turn + np.array([0.0, 0.0, 1.0])),
+        mesh=field_mesh(nodes, structure.element_nodes, displacement, turn + np.array([0.0, 0.0, 1.0])),
         history=tuple(path.history),
         load_factor=path.load_factor,
         message=path.message,
     )
 
 
-def node_grid(mesh: MeshQuad) -> tuple[np.ndarray, np.ndarray]:
-    """Plan positions (n, 2) [m] of the biquadratic nodes and those of every element (m, 9)."""
+def discretise(mesh: MeshQuad, scene: Scene) -> tuple[ShellStructure, np.ndarray]:
+    """The discrete shell of a scene on a mesh, and its nodes' plan positions (n, 2) [m]."""
     basis = Basis(mesh, ElementQuad2())
-    return basis.doflocs.T, basis.element_dofs.T
+    nodes, element_nodes = basis.doflocs.T, basis.element_dofs.T
+    element = Element.build(nodes[element_nodes], scene.material, scene.sheet.thickness)
+    on_edge = {str(edge): basis.get_dofs(edge).flatten() for edge in (s.edge for s in scene.supports)}
+    supports = shell_supports.of_scene(scene, nodes, on_edge)
+    dead, followers = shell_loads.of_scene(scene, mesh, element_nodes, nodes, element.areas)
+    return ShellStructure(element, element_nodes, supports, dead, followers), nodes
 
 
 def interpolate(

@@ -33,7 +33,8 @@ _LINE_SLOPE = np.array([_THREE - 0.5, -2 * _THREE, _THREE + 0.5]).T
 class Follower(Protocol):
     """A load that depends on the shape. elements: (k,) the elements it acts on."""
 
-    elements: np.ndarray
+    @property
+    def elements(self) -> np.ndarray: ...
 
     def force(self, vectors: np.ndarray) -> np.ndarray:
         """Nodal force (k, 18, 3) at nodal vectors Q (k, 18, 3)."""

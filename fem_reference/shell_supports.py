@@ -40,11 +40,11 @@ class Rod:
 
 @dataclass(frozen=True)
 class Supports:
-    """What is held: position (n, 3) by component, director (n,); edges: name → (nodes, held axes)."""
+    """What is held: position (n, 3) by component, director (n,); edges: name → nodes and held axes."""
 
     position: np.ndarray
     director: np.ndarray
-    edges: dict[str, tuple[np.ndarray, tuple[int, ...]]]
+    edges: dict[str, tuple[np.ndarray, np.ndarray]]
     rods: tuple[Rod, ...]
 
     def change(self, load_factor: float) -> np.ndarray:
@@ -63,23 +63,22 @@ class Supports:
         for name, (nodes, axes) in self.edges.items():
             out[name] = np.zeros(3)
             held = np.ix_(nodes, axes)
-            out[name][list(axes)] = np.sum(nodal[held] / holders[held], axis=0)
+            out[name][axes] = np.sum(nodal[held] / holders[held], axis=0)
         return out
 
 
-def of_scene(scene: Scene, nodes: np.ndarray) -> Supports:
-    """The supports of a scene on nodes with plan positions (n, 2) [m]."""
+def of_scene(scene: Scene, nodes: np.ndarray, on_edge: dict[str, np.ndarray]) -> Supports:
+    """The supports of a scene on nodes with plan positions (n, 2) [m]; on_edge: the nodes of every edge."""
     position, director = np.zeros((len(nodes), 3), dtype=bool), np.zeros(len(nodes), dtype=bool)
-    edges, rods = {}, []
+    edges: dict[str, tuple[np.ndarray, np.ndarray]] = {}
+    rods = []
     for support in scene.supports:
-        edge = EDGES[support.edge]
-        end = scene.sheet.lengths[edge.normal_axis] * edge.far_end
-        on = np.nonzero(np.isclose(nodes[:, edge.normal_axis], end, rtol=1e-9, atol=1e-12))[0]
-        axes = held_axes(support)
+        on, axes = on_edge[support.edge], np.array(held_axes(support))
         position[np.ix_(on, axes)] = True
         director[on] |= holds_director(support)
         edges[support.edge] = (on, axes)
         if isinstance(support, Curved) and support.curvature != 0.0:
-            arc = nodes[on, edge.along_axis] - scene.sheet.lengths[edge.along_axis] / 2.0
-            rods.append(Rod(on, arc, edge.along_axis, support.curvature))
+            axis = EDGES[support.edge].along_axis
+            along = nodes[on, axis]
+            rods.append(Rod(on, along - (along.min() + along.max()) / 2.0, axis, support.curvature))
     return Supports(position, director, edges, tuple(rods))

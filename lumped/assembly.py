@@ -1,4 +1,4 @@
-"""A lattice with its springs, ready to compute: energy, internal force and tangent over a fixed block pattern.
+"""A lattice with its springs, ready to compute: energy, internal force, tangent over a fixed block pattern.
 
 Only what the scene has is assembled: families of zero stiffness are left out. Links of the seed's
 per-direction law (unequal x, y, z stiffness) are kept apart: they have no energy, and their tangent is
@@ -44,6 +44,12 @@ class Cells:
     stiffness: np.ndarray
     slots: np.ndarray
 
+    def energies(self, stress: np.ndarray) -> np.ndarray:
+        """Energy ½ τ²/k · a0 of each area spring under its stress τ [N/m], (c,) [J]."""
+        rest_area = 0.5 * np.linalg.norm(np.cross(self.diagonals[:, 0], self.diagonals[:, 1]), axis=1)
+        energy: np.ndarray = 0.5 * stress**2 / self.stiffness * rest_area
+        return energy
+
 
 @dataclass(frozen=True)
 class Stresses:
@@ -54,11 +60,10 @@ class Stresses:
 
 
 class Pattern:
-    """Block sparsity: sorted pairs (row, column) of masses that act on each other. indptr, indices as in BSR."""
+    """Block sparsity: sorted pairs (row, column) of masses that act on each other, stored as in BSR."""
 
-    def __init__(self, size: int, pairs: list[np.ndarray]):
-        diagonal = np.arange(size, dtype=np.int64) * (size + 1)
-        keys = np.unique(np.concatenate([diagonal, *(p[0].ravel() * size + p[1].ravel() for p in pairs)]))
+    def __init__(self, size: int, rows: np.ndarray, columns: np.ndarray):
+        keys = np.unique(rows.astype(np.int64) * size + columns)
         self.size, self._keys = size, keys
         self.rows, self.indices = keys // size, (keys % size).astype(np.int32)
         self.indptr = np.searchsorted(self.rows, np.arange(size + 1)).astype(np.int32)
@@ -94,9 +99,7 @@ class Assembly:
             if k != 0.0:
                 areas.append((cell.name, cell.nodes, k))
 
-        columns = self.lattice.columns()
-        neighbours = [_couples(nodes) for nodes in _neighbourhoods(columns)]
-        self.pattern = Pattern(self.lattice.mass_count, neighbours)
+        self.pattern = Pattern(self.lattice.mass_count, *_neighbours(self.lattice.columns()))
         self.links = self._links(central, 1)
         self.directional = self._links(directional, 3)
         self.cells = tuple(self._cells(*area) for area in areas)
@@ -106,12 +109,21 @@ class Assembly:
         """Whether the springs have an energy (and so a symmetric tangent)."""
         return len(self.directional) == 0
 
+    def require_energy(self) -> None:
+        """Raise ValueError when the springs have no energy."""
+        if not self.conservative:
+            raise ValueError(
+                "per-direction springs have no energy: descent and energy-based methods do not apply"
+            )
+
     def _links(self, rows: list, width: int) -> Links:
         if not rows:
             none = np.empty(0)
             stiffness = none if width == 1 else np.empty((0, 3))
             whole = np.empty((0, 2), np.int64)
-            return Links(whole, np.empty((0, 3)), none, stiffness, np.empty(0, int), np.empty((0, 4), np.int32))
+            return Links(
+                whole, np.empty((0, 3)), none, stiffness, np.empty(0, int), np.empty((0, 4), np.int32)
+            )
         nodes, offset, rest, stiffness, family = (np.concatenate(part) for part in zip(*rows, strict=True))
         a, b = nodes.T
         pairs = ((a, a), (a, b), (b, a), (b, b))
@@ -137,6 +149,16 @@ class Assembly:
             springs.add_directional_forces(u, d.nodes, d.offset, d.rest_length, d.stiffness, force)
         return energy, force
 
+    def energies(self, u: np.ndarray) -> dict[str, float]:
+        """Elastic energy of each spring family and of the area springs [J]."""
+        stresses = self.stresses(u)
+        stored = 0.5 * stresses.links**2 / self.links.stiffness
+        per_family = np.bincount(self.links.family, stored, minlength=len(self.families))
+        energies = {name: float(value) for name, value in zip(self.families, per_family, strict=True)}
+        for c, stress in zip(self.cells, stresses.cells, strict=True):
+            energies[c.name] = float(c.energies(stress).sum())
+        return energies
+
     def stresses(self, u: np.ndarray) -> Stresses:
         """Tensions and area stresses at u."""
         links = self.links
@@ -152,7 +174,9 @@ class Assembly:
             springs.extrapolated_tensions(
                 u, step, links.nodes, links.offset, links.rest_length, links.stiffness
             ),
-            tuple(cells.extrapolated_stresses(u, step, c.nodes, c.diagonals, c.stiffness) for c in self.cells),
+            tuple(
+                cells.extrapolated_stresses(u, step, c.nodes, c.diagonals, c.stiffness) for c in self.cells
+            ),
         )
 
     def tangent(self, u: np.ndarray, stresses: Stresses | None = None) -> np.ndarray:
@@ -161,25 +185,26 @@ class Assembly:
         blocks = np.zeros((self.pattern.blocks, 3, 3))
         links = self.links
         springs.add_tangent(
-            u, links.nodes, links.offset, links.rest_length, links.stiffness, stresses.links, links.slots, blocks
+            u,
+            links.nodes,
+            links.offset,
+            links.rest_length,
+            links.stiffness,
+            stresses.links,
+            links.slots,
+            blocks,
         )
         for c, stress in zip(self.cells, stresses.cells, strict=True):
             cells.add_tangent(u, c.nodes, c.diagonals, c.stiffness, stress, c.slots, blocks)
         d = self.directional
         if len(d):
-            springs.add_directional_tangent(
-                u, d.nodes, d.offset, d.rest_length, d.stiffness, d.slots, blocks
-            )
+            springs.add_directional_tangent(u, d.nodes, d.offset, d.rest_length, d.stiffness, d.slots, blocks)
         return blocks
 
 
-def _neighbourhoods(columns: np.ndarray) -> list[np.ndarray]:
-    """Groups of masses that may act on each other: all the layers of each cell's four columns, (c, 4 layers)."""
+def _neighbours(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Ordered pairs of masses that may act on each other: any two in the four columns of one cell."""
     around = np.stack([columns[:-1, :-1], columns[:-1, 1:], columns[1:, 1:], columns[1:, :-1]], axis=2)
-    return [around.reshape(-1, 4 * columns.shape[2])]
-
-
-def _couples(nodes: np.ndarray) -> np.ndarray:
-    """All ordered pairs within each group, (2, c · p · p)."""
+    nodes = around.reshape(-1, 4 * columns.shape[2])
     p = nodes.shape[1]
-    return np.stack([np.repeat(nodes, p, axis=1).ravel(), np.tile(nodes, (1, p)).ravel()])
+    return np.repeat(nodes, p, axis=1).ravel(), np.tile(nodes, (1, p)).ravel()

@@ -150,7 +150,9 @@ def add_tangent(u, nodes, diagonals, stiffness, stress, slots, blocks) -> None:
                             turn += spin[d, s, q] * spin[e, s, r]
                         # spin[d]ᵀ n = 2 gradient[d], since ∂a/∂d = ½ spin[d]ᵀ n
                         turn -= 4.0 * gradient[d, q] * gradient[e, r]
-                        hessian[d, q, e, r] = material * gradient[d, q] * gradient[e, r] + geometric * turn / size
+                        hessian[d, q, e, r] = (
+                            material * gradient[d, q] * gradient[e, r] + geometric * turn / size
+                        )
         # n·(δd1 × δd2) couples the diagonals by −[n]×
         hessian[0, 0, 1, 1] += geometric * normal[2]
         hessian[0, 1, 1, 0] -= geometric * normal[2]

@@ -124,7 +124,7 @@ def build(sheet: Sheet, grid: Grid, layer_distance: float, weights: Weights = "t
 
     families = []
     for name, direction, (di, dj, dk) in STEPS:
-        inside = (0 <= i + di) & (i + di < nx) & (0 <= j + dj) & (j + dj < ny) & (k + dk < layers)
+        inside = (i + di >= 0) & (i + di < nx) & (j + dj >= 0) & (j + dj < ny) & (k + dk < layers)
         first = np.flatnonzero(inside)
         second = first + (dj * nx + di) * layers + dk
         weight = np.ones(len(first))

@@ -21,11 +21,11 @@ from scipy.sparse.linalg import splu
 
 from lumped.assembly import Pattern
 
+rslab: Any
 try:
-    import rslab as _rslab
-except ImportError:  # the wheel is optional; SciPy always works
-    _rslab = None
-rslab: Any = _rslab
+    import rslab
+except ImportError:  # SciPy always works
+    rslab = None
 
 BANDED_LIMIT = 2.0e7  # n × bandwidth² below which the banded Cholesky is quicker than the sparse one
 RESIDUAL_LIMIT = 1e-6  # relative residual of a refined solution beyond which the matrix counts as singular
@@ -49,8 +49,14 @@ class Factor:
         size = np.linalg.norm(b)
         miss = np.linalg.norm(b - self._matrix @ x)
         if not miss <= RESIDUAL_LIMIT * size:
-            raise SingularMatrixError(f"relative residual {miss / size if size else miss:.1e} after refinement")
+            raise SingularMatrixError(
+                f"relative residual {miss / size if size else miss:.1e} after refinement"
+            )
         return x
+
+    def negative_of_symmetric_part(self) -> int | None:
+        """Number of negative eigenvalues of (A + Aᵀ)/2."""
+        return _symmetric(sp.csc_array((self._matrix + self._matrix.T) / 2.0)).negative
 
 
 class ReducedSystem:
@@ -68,9 +74,7 @@ class ReducedSystem:
         columns = (3 * pattern.indices[:, None, None] + np.arange(3)[None, None, :]).repeat(3, axis=1).ravel()
         source, r, c, weight = _expand(transform, rows, columns)
         keys, target = np.unique(c.astype(np.int64) * self.unknowns + r, return_inverse=True)
-        self._map = sp.csr_array(
-            sp.coo_array((weight, (target, source)), shape=(len(keys), len(rows)))
-        )
+        self._map = sp.csr_array(sp.coo_array((weight, (target, source)), shape=(len(keys), len(rows))))
         self._indices = (keys % self.unknowns).astype(np.int32)
         column_of = (keys // self.unknowns).astype(np.int32)
         self._indptr = np.searchsorted(column_of, np.arange(self.unknowns + 1)).astype(np.int32)
@@ -78,7 +82,7 @@ class ReducedSystem:
         self._band = _Band(self._indices, column_of, self._indptr) if symmetric else None
 
     def matrix(self, blocks: np.ndarray) -> sp.csc_array:
-        """The reduced matrix (m, m) of blocks (b, 3, 3)."""
+        """The reduced matrix (m, m) of blocks (b, 3, 3), both triangles."""
         data = self._map @ blocks.ravel()
         return sp.csc_array((data, self._indices, self._indptr), shape=(self.unknowns, self.unknowns))
 
@@ -139,6 +143,14 @@ class _Band:
             return x
 
         return solve
+
+
+def _symmetric(matrix: sp.csc_array) -> Factor:
+    """Factors of a symmetric matrix without an analysis to reuse."""
+    if rslab is None:
+        return _superlu(matrix, symmetric=True)
+    factors = rslab.ldlt(matrix)
+    return Factor(matrix, factors.solve, factors.inertia[1])
 
 
 def _superlu(matrix: sp.csc_array, symmetric: bool) -> Factor:

@@ -131,9 +131,13 @@ class Loads:
         return top, bottom, couple, tangent, length, director, square, before, after
 
     def _add_couple_tangent(self, x, edge, moment, turn, blocks) -> None:
-        top, bottom, couple, tangent, length, director, square, before, after = self._couple(x, edge, moment, turn)
+        top, bottom, couple, tangent, length, director, square, before, after = self._couple(
+            x, edge, moment, turn
+        )
         scale = (moment / square)[:, None, None]
-        by_director = scale * _spin(tangent) - 2.0 * couple[:, :, None] * (director / square[:, None])[:, None, :]
+        by_director = (
+            scale * _spin(tangent) - 2.0 * couple[:, :, None] * (director / square[:, None])[:, None, :]
+        )
         projector = (np.eye(3) - tangent[:, :, None] * tangent[:, None, :]) * (turn / length)[:, None, None]
         by_chord = -scale * _spin(director) @ projector / edge.shape[1]
         slots = self._assembly.pattern.slots

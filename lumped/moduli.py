@@ -33,7 +33,7 @@ SHEAR_CORRECTION = 5.0 / 6.0
 
 @dataclass(frozen=True)
 class Moduli:
-    """In-plane forms A [N/m] and D [N·m], (3, 3) over (x, y, xy); shear stiffness S (2,) [N/m] along x and y."""
+    """In-plane forms A [N/m] and D [N·m], (3, 3) over (x, y, xy); shear stiffness S (2,) [N/m]."""
 
     membrane: np.ndarray
     bending: np.ndarray
@@ -42,7 +42,14 @@ class Moduli:
     def named(self, square: bool) -> dict[str, float]:
         """The moduli by name; on square cells the x and y values are one."""
         a, d = self.membrane, self.bending
-        names = {"D11": d[0, 0], "D12": d[0, 1], "D66": d[2, 2], "A11": a[0, 0], "A12": a[0, 1], "A66": a[2, 2]}
+        names = {
+            "D11": d[0, 0],
+            "D12": d[0, 1],
+            "D66": d[2, 2],
+            "A11": a[0, 0],
+            "A12": a[0, 1],
+            "A66": a[2, 2],
+        }
         if square:
             return {**names, "S": self.shear[0]}
         return {**names, "D22": d[1, 1], "A22": a[1, 1], "Sx": self.shear[0], "Sy": self.shear[1]}
@@ -57,7 +64,9 @@ def family_stiffness(springs: SpringSet, family: str, direction: str) -> float |
     if value.z is not None:
         return (value.x, value.y, value.z)
     if direction not in ("x", "y"):
-        raise ValueError(f"springs.{family} = {{x, y}}: only axial and cross links run along x or y; give one number")
+        raise ValueError(
+            f"springs.{family} = {{x, y}}: only axial and cross links run along x or y; give one number"
+        )
     return value.x if direction == "x" else value.y
 
 

@@ -45,7 +45,9 @@ def extrapolated_tensions(u, step, nodes, offset, rest_length, stiffness) -> np.
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
         e, _, nx, ny, nz = _stretch(u, nodes, offset, rest_length, m)
-        along = nx * (step[b, 0] - step[a, 0]) + ny * (step[b, 1] - step[a, 1]) + nz * (step[b, 2] - step[a, 2])
+        along = (
+            nx * (step[b, 0] - step[a, 0]) + ny * (step[b, 1] - step[a, 1]) + nz * (step[b, 2] - step[a, 2])
+        )
         out[m] = stiffness[m] * (e + along)
     return out
 
@@ -90,7 +92,7 @@ def add_tangent(u, nodes, offset, rest_length, stiffness, tension, slots, blocks
 
 @njit(cache=True)
 def add_directional_forces(u, nodes, offset, rest_length, stiffness, force) -> None:
-    """The seed's per-direction law F_q = k_q Δ_q (1 − L/r), stiffness (m, 3) [N/m]: not central, no energy."""
+    """The seed's per-direction law F_q = k_q Δ_q (1 − L/r), stiffness (m, 3) [N/m]; it has no energy."""
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
         e, _, nx, ny, nz = _stretch(u, nodes, offset, rest_length, m)
@@ -102,7 +104,7 @@ def add_directional_forces(u, nodes, offset, rest_length, stiffness, force) -> N
 
 @njit(cache=True)
 def add_directional_tangent(u, nodes, offset, rest_length, stiffness, slots, blocks) -> None:
-    """Tangent of the per-direction law, diag(k) [n nᵀ + (e/r)(I − n nᵀ)]: unsymmetric when k_x, k_y, k_z differ."""
+    """Tangent of the per-direction law, diag(k) [n nᵀ + (e/r)(I − n nᵀ)]: unsymmetric for unequal k."""
     n = np.empty(3)
     for m in range(len(nodes)):
         e, length, n[0], n[1], n[2] = _stretch(u, nodes, offset, rest_length, m)

@@ -33,15 +33,15 @@ class Constraints:
 
     def reactions(self, residual: np.ndarray) -> tuple[dict[str, np.ndarray], np.ndarray]:
         """Force [N] of each support on the sheet, (3,) by edge, and of all supports on each mass, (n, 3),
-        from internal minus external force (n, 3). A mass that several supports hold counts equally to each."""
+        from internal minus external force (n, 3). A mass held by several counts equally to each."""
         on_masses = np.where(self.held, residual, 0.0)
         holders = np.zeros_like(residual)
         for masses, axes in self.holders.values():
-            holders[np.ix_(masses.ravel(), axes)] += 1.0
+            holders[masses.reshape(-1, 1), list(axes)] += 1.0
         per_edge = {}
         for edge, (masses, axes) in self.holders.items():
             share = np.zeros(3)
-            block = np.ix_(masses.ravel(), axes)
+            block = (masses.reshape(-1, 1), list(axes))
             share[list(axes)] = (on_masses[block] / holders[block]).sum(axis=0)
             per_edge[edge] = share
         return per_edge, on_masses
@@ -52,7 +52,7 @@ def constrain(scene: Scene, lattice: Lattice) -> Constraints:
     n = lattice.mass_count
     fixed = np.zeros((n, 3), dtype=bool)
     mean_held: dict[tuple[int, int], np.ndarray] = {}  # (last mass of a column, axis) → the column
-    holders = {}
+    holders: dict[str, tuple[np.ndarray, tuple[int, ...]]] = {}
     for support in scene.supports:
         masses = lattice.edge_columns(support.edge)
         axes = held_axes(support)

@@ -1,4 +1,4 @@
-"""What is asked: sheet, material, supports, loads, probes; the catalogue; published figures. Knows no solver."""
+"""What is asked: sheet, material, supports, loads, probes, the catalogue, published figures; no solver."""
 
 from scenes.loads import EdgeLoad, Load, PointLoad, Pressure
 from scenes.scene import Scene, SceneError, catalogue, free_rigid_motions, load, require_static

@@ -47,8 +47,8 @@ class Scene(Frozen):
                 sheet = Sheet.model_validate(data["sheet"])
             except ValidationError:
                 return data  # the sheet's own fault is the one to report
-            supports = data.get("support", data.get("supports", ()))
-            edges = [s.get("edge") if isinstance(s, dict) else s.edge for s in supports]
+            supports = data.get("support") or data.get("supports") or ()
+            edges = [s.get("edge") if isinstance(s, dict) else getattr(s, "edge", None) for s in supports]
             data = {**data, "probes": default_probes(sheet, [e for e in edges if e in EDGES])}
         return data
 
@@ -121,7 +121,7 @@ def require_static(scene: Scene) -> None:
     if free:
         raise SceneError(
             f"scene '{scene.name}': support: nothing stops {', '.join(free)}; a static answer needs supports "
-            "that stop every rigid motion (for instance kind = \"clamped\" on one edge)"
+            'that stop every rigid motion (for instance kind = "clamped" on one edge)'
         )
 
 
@@ -145,7 +145,8 @@ def load(scene: str | Path) -> Scene:
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
-        raise SceneError(f"{scene}: no such file, and no catalogue scene of that name ({', '.join(known)})") from None
+        names = ", ".join(known)
+        raise SceneError(f"{scene}: no such file, and no catalogue scene of that name ({names})") from None
     except (OSError, UnicodeDecodeError) as error:
         raise SceneError(f"{scene}: cannot be read as text: {error}") from None
     except tomllib.TOMLDecodeError as error:

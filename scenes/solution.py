@@ -1,4 +1,4 @@
-"""What every model answers with: status, displacement anywhere on the sheet, reactions, energies, history, timings.
+"""What every model answers with: status, displacement anywhere on the sheet, reactions, energies, timings.
 
 Part of the question's language: it holds no mechanics, so both solvers and any plug-in can use it.
 """
@@ -34,20 +34,20 @@ class Status(StrEnum):
 
 _ADVICE = {
     Status.CONVERGED: "a stable equilibrium",
-    Status.UNSTABLE: "an equilibrium, but not a stable one: disturb the sheet or follow the path past the limit point",
-    Status.SINGULAR: "the tangent is singular: a limit or bifurcation point, or a motion that nothing resists",
-    Status.STEP_LIMIT: "iteration limit reached: use more load steps; the last converged load is kept",
+    Status.UNSTABLE: "an equilibrium, but not a stable one: a disturbed sheet moves on to another",
+    Status.SINGULAR: "the tangent is singular: a limit point, a bifurcation or an unresisted motion",
+    Status.STEP_LIMIT: "step limit reached: use more load steps; the last converged load is kept",
     Status.DIVERGED: "no equilibrium found: use smaller load steps; the last converged load is kept",
     Status.NON_FINITE: "a number overflowed: check the magnitudes of loads and stiffnesses",
     Status.INVERTED: "a cell turned inside out: refine the grid or use smaller load steps",
-    Status.STRAIN_OUTSIDE_MODEL: "strains exceed what linear springs or a linear material mean: the answer is not physical",
+    Status.STRAIN_OUTSIDE_MODEL: "strains beyond what a linear spring or material means: not physical",
     Status.REFUSED: "the model does not support what the scene asks",
 }
 
 
 @dataclass(frozen=True)
 class Iteration:
-    """One equilibrium iteration: load factor reached for, residual norm relative to the forces, step length."""
+    """One equilibrium iteration: load factor, residual relative to the forces, step length [m]."""
 
     load_factor: float
     residual: float

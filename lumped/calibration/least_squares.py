@@ -1,8 +1,9 @@
 """Springs that meet the moduli as nearly as they can: bounded least squares on A, D and S.
 
 For cells that are not square, more than two layers, or a layer distance that is given, where the closed
-form does not apply. Links are kept nonnegative; area springs are free. Residuals are relative to the sheet's own moduli (off-diagonal
-terms to D11 and A11). Bending and shear weigh more than stretching, since a soft sheet bends first.
+form does not apply. Links are kept nonnegative; area springs are free. Residuals are relative to the
+sheet's own moduli (off-diagonal terms to D11 and A11). Bending and shear weigh more than stretching,
+since a soft sheet bends first.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ def bounded_least_squares(
     def springs_of(unknowns: np.ndarray) -> SpringSet:
         distance = layer_distance if layer_distance is not None else thickness_scale * np.exp(unknowns[8])
         stiffness = asked.bending[0, 0] / ((heights**2).sum() * distance**2)
-        x_axial, y_axial, diagonal, x_cross, y_cross, cross_diagonal, area, mid_area = stiffness * unknowns[:8]
+        x_axial, y_axial, diagonal, x_cross, y_cross, cross_diagonal, area, mid_area = (
+            stiffness * unknowns[:8]
+        )
         return SpringSet(
             axial=PerDirection(x=x_axial, y=y_axial),
             diagonal=diagonal,
@@ -63,7 +66,9 @@ def bounded_least_squares(
         rows.append(SHEAR_WEIGHT * (got.shear - asked.shear) / asked.shear)
         return np.concatenate(rows)
 
-    start = np.array([0.5, 0.5, 0.25, 0.5, 0.5, 0.25, 0.1, 0.1] + ([] if layer_distance is not None else [0.0]))
+    start = np.array(
+        [0.5, 0.5, 0.25, 0.5, 0.5, 0.25, 0.1, 0.1] + ([] if layer_distance is not None else [0.0])
+    )
     low = np.array([0.0] * 6 + [-np.inf] * 2 + ([] if layer_distance is not None else [-2.0]))
     high = np.array([np.inf] * 8 + ([] if layer_distance is not None else [2.0]))
     best = least_squares(misses, start, bounds=(low, high), xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=2000)

@@ -27,12 +27,16 @@ def uniform(
     if k is None:
         unit = moduli.of_springs(_all(1.0, distance), (lx, ly, distance), grid[2])
         k = float(moduli.of_sheet(sheet, material, (lx, ly)).bending[0, 0] / unit.bending[0, 0])
-    note = "one k for all families: Poisson's ratio and D66 are the lattice's own (Cauchy's relation C12 = C66)"
+    note = (
+        "one k for all families: Poisson's ratio and D66 are the lattice's own (Cauchy's relation C12 = C66)"
+    )
     return report("uniform", sheet, material, grid, _all(k, distance), (note,))
 
 
 def _all(k: float, layer_distance: float) -> SpringSet:
-    return SpringSet(axial=k, diagonal=k, vertical=k, cross=k, cross_diagonal=k, layer_distance=layer_distance)
+    return SpringSet(
+        axial=k, diagonal=k, vertical=k, cross=k, cross_diagonal=k, layer_distance=layer_distance
+    )
 
 
 def _require_positive(name: str, value: float | None, unit: str) -> None:

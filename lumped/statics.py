@@ -1,0 +1,187 @@
+"""Statics of a lattice: a scene and springs in, a `scenes.Solution` out."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from lumped.assembly import Assembly
+from lumped.calibration import Calibration, calibrate, given
+from lumped.descent import descend, disturbed
+from lumped.equilibrium import Problem, State, StepFailed, at_rest, follow
+from lumped.fields import field_mesh
+from lumped.lattice import Weights
+from lumped.linear import SingularMatrixError
+from lumped.loads import Loads, locate
+from lumped.supports import constrain
+from scenes import Iteration, Scene, Solution, Status, require_static
+
+STRAIN_LIMIT = 0.05  # ρ g a/E beyond which a linear spring means nothing
+LINK_STRAIN_LIMIT = 0.5  # relative elongation of a link beyond which it does not either
+
+Branch = Literal["path", "stable"]
+
+
+@dataclass(frozen=True)
+class _Outcome:
+    status: Status
+    state: State
+    message: str
+
+
+def solve(
+    scene: Scene,
+    springs: Calibration | None = None,
+    *,
+    branch: Branch = "path",
+    weights: Weights = "tributary",
+    progress: Callable[[Iteration], None] | None = None,
+) -> Solution:
+    """Static equilibrium of the scene on a lattice with these springs, from flat to full load.
+
+    springs: from `calibrate`; without them the scene's own [springs], or else `consistent` on 9 × 9 × 2.
+    branch: "path" reports the equilibrium on the load path, stable or not; "stable" leaves an unstable one
+    along a direction of negative curvature and descends to a stable equilibrium. weights: "full" gives
+    boundary links and masses full shares, as the seed has them. progress: called once an iteration.
+
+    Raises scenes.SceneError when nothing stops a rigid motion. Every other outcome is a status; where the
+    full load was not reached, the last converged load is kept and `load_factor` says which.
+    """
+    require_static(scene)
+    began = time.perf_counter()
+    if springs is None:
+        springs = given(scene) if scene.springs is not None else calibrate(scene.sheet, scene.material)
+    problem = pose(scene, springs, weights)
+    problem.progress = progress
+    ready = time.perf_counter()
+    outcome = _equilibrium(scene, problem, branch)
+    done = time.perf_counter()
+    return _solution(scene, springs, problem, outcome, (ready - began, done - ready), branch, weights)
+
+
+def pose(scene: Scene, springs: Calibration, weights: Weights = "tributary") -> Problem:
+    """The lattice of a scene under its supports and loads."""
+    assembly = Assembly(scene.sheet, springs, weights)
+    loads = Loads(scene, assembly)
+    return Problem(assembly, constrain(scene, assembly.lattice), loads, max(scene.sheet.lengths))
+
+
+def _equilibrium(scene: Scene, problem: Problem, branch: Branch) -> _Outcome:
+    try:
+        start = at_rest(problem)
+    except SingularMatrixError as error:
+        rest = State(np.zeros_like(problem.loads.dead), 0.0, *_nothing(problem))
+        return _Outcome(Status.SINGULAR, rest, f"the flat sheet's tangent is singular: {error}")
+    state, why = follow(problem, start)
+    notes = []
+    if why and problem.conservative:
+        try:
+            state, why = descend(problem, state.u, 1.0), ""
+            notes.append(
+                "the load path ended before the full load; this equilibrium was reached by descent in energy"
+            )
+        except (StepFailed, SingularMatrixError) as error:
+            why = f"{why}; then {error}"
+    if not why and branch == "stable" and state.negative and problem.conservative:
+        try:
+            state = descend(problem, disturbed(problem, state), 1.0)
+            notes.append("left an unstable equilibrium by descent in energy")
+        except (StepFailed, SingularMatrixError) as error:
+            notes.append(f"no stable equilibrium found nearby: {error}")
+    if why:
+        return _Outcome(Status.DIVERGED, state, f"load factor {state.load_factor:.4g} of 1 reached: {why}")
+    return _Outcome(*_judge(scene, problem, state, notes))
+
+
+def _judge(scene: Scene, problem: Problem, state: State, notes: list[str]) -> tuple[Status, State, str]:
+    """Whether the springs mean anything at this strain, and whether the equilibrium is stable."""
+    strain = link_strain(problem.assembly, state.u)
+    weight_strain = weight_number(scene)
+    status = Status.CONVERGED
+    if weight_strain > STRAIN_LIMIT or strain > LINK_STRAIN_LIMIT:
+        status = Status.STRAIN_OUTSIDE_MODEL
+        notes.append(f"ρ g a/E = {weight_strain:.3g}, largest in-plane link strain {strain:.3g}")
+    elif state.negative:
+        status = Status.UNSTABLE
+        notes.append(f"{state.negative} directions of negative curvature")
+    if not problem.assembly.conservative:
+        notes.append("per-direction springs: not central, no energy; solved with an unsymmetric tangent")
+    elif not problem.conservative:
+        notes.append(
+            "follower loads: solved with an unsymmetric tangent; stability is that of its symmetric part"
+        )
+    return status, state, "; ".join(notes)
+
+
+def weight_number(scene: Scene) -> float:
+    """ρ g a/E, the strain at which a sheet of side a hangs under its own weight."""
+    if scene.gravity is None:
+        return 0.0
+    acceleration = float(np.linalg.norm(scene.gravity.acceleration))
+    return scene.material.density * acceleration * max(scene.sheet.lengths) / scene.material.young
+
+
+def link_strain(assembly: Assembly, u: np.ndarray) -> float:
+    """Largest relative elongation of the in-plane central links."""
+    links = assembly.links
+    in_plane = np.abs(links.offset[:, 2]) == 0.0
+    if not in_plane.any():
+        return 0.0
+    tension = assembly.stresses(u).links[in_plane]
+    return float(np.max(np.abs(tension / links.stiffness[in_plane] / links.rest_length[in_plane])))
+
+
+def _nothing(problem: Problem) -> tuple[Any, ...]:
+    blocks = np.zeros((problem.assembly.pattern.blocks, 3, 3))
+    return problem.assembly.stresses(np.zeros_like(problem.loads.dead)), blocks, None, None
+
+
+def _solution(
+    scene: Scene,
+    springs: Calibration,
+    problem: Problem,
+    outcome: _Outcome,
+    seconds: tuple[float, float],
+    branch: Branch,
+    weights: Weights,
+) -> Solution:
+    state, lattice = outcome.state, problem.assembly.lattice
+    unbalanced, _ = problem.residual(state.u, state.load_factor)
+    reactions, on_masses = problem.constraints.reactions(-unbalanced)
+    columns = lattice.columns().reshape(-1, lattice.grid[2])
+    mid_surface = state.u[columns].mean(axis=1)
+
+    def sample(points: np.ndarray) -> np.ndarray:
+        at, share = locate(lattice, points)
+        displacement: np.ndarray = np.einsum("pc,pcq->pq", share, mid_surface[at])
+        return displacement
+
+    nx, ny, layers = lattice.grid
+    settings: dict[str, Any] = {"grid": [nx, ny, layers], "calibration": springs.method}
+    settings["layer_distance"] = springs.layer_distance
+    if branch != "path":
+        settings["branch"] = branch
+    if weights != "tributary":
+        settings["weights"] = weights
+    energies = problem.assembly.energies(state.u)
+    return Solution(
+        model="lumped",
+        label=f"lumped {nx}×{ny}×{layers} {springs.method}",
+        settings=settings,
+        status=outcome.status,
+        unknowns=problem.system.unknowns,
+        iterations=problem.factorisations,
+        setup_seconds=seconds[0],
+        solve_seconds=seconds[1],
+        sample=sample,
+        reactions=reactions,
+        energies=energies,
+        mesh=field_mesh(problem, state.u, on_masses),
+        history=tuple(problem.history),
+        load_factor=state.load_factor,
+        message=outcome.message,
+    )

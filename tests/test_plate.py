@@ -1,0 +1,256 @@
+"""The linear plate: patch tests, zero modes, convergence, published and closed-form answers, no locking."""
+
+from __future__ import annotations
+
+from math import cosh, pi, tanh
+
+import numpy as np
+import pytest
+from skfem import Functional, MeshQuad
+
+import scenes
+from fem_reference import plate
+from fem_reference.linear import DirectSolver
+from fem_reference.plate_element import TILT_X, TILT_Y, UX, UY, W
+from scenes import EDGES, Material, Scene, Sheet, Status
+
+MATERIAL = Material(young=1.0e7, poisson=0.3, density=1000.0)
+
+
+def square(thickness: float, kind: str | None = None, loads=(), edges=EDGES, **more) -> Scene:
+    return Scene(
+        name="square",
+        sheet=Sheet(length_x=1.0, length_y=1.0, thickness=thickness),
+        material=MATERIAL,
+        supports=[{"edge": edge, "kind": kind} for edge in edges] if kind else (),
+        loads=loads,
+        **more,
+    )
+
+
+def distorted(divisions: int = 3, amount: float = 0.25) -> MeshQuad:
+    """The unit square with its inner vertices moved at random (but always alike)."""
+    mesh = MeshQuad.init_tensor(*2 * [np.linspace(0.0, 1.0, divisions + 1)])
+    inner = mesh.interior_nodes()
+    moved = mesh.p.copy()
+    moved[:, inner] += amount / divisions * np.random.default_rng(1).uniform(-1.0, 1.0, (2, len(inner)))
+    return MeshQuad(moved, mesh.t)
+
+
+CONSTANT_STRAINS = {
+    "stretch": lambda x, y: {UX: 2.0 * x + 0.5 * y, UY: -x + 3.0 * y},
+    "curvature": lambda x, y: {W: -(x**2 + 3.0 * x * y - y**2) / 2, TILT_X: x + 1.5 * y, TILT_Y: 1.5 * x - y},
+}
+
+
+@pytest.mark.parametrize("state", CONSTANT_STRAINS)
+def test_patch(state):
+    """A field of constant strain prescribed on the boundary of a distorted mesh is found inside."""
+    model = plate.Plate.on(distorted())
+    exact = np.zeros((model.basis.N, 5))
+    for field, values in CONSTANT_STRAINS[state](*model.nodes.T).items():
+        exact[:, field] = values
+    boundary = model.basis.get_dofs().flatten()
+    free = np.setdiff1d(np.arange(5 * model.basis.N), (5 * boundary[:, None] + np.arange(5)).ravel())
+    stiffness = plate.stiffness_matrix(square(0.01), model)
+    u = exact.ravel().copy()
+    u[free] = 0.0
+    u[free] = DirectSolver().factor(stiffness[free][:, free]).solve(-(stiffness @ u)[free])
+    np.testing.assert_allclose(u, exact.ravel(), atol=1e-8 * np.abs(exact).max())
+
+
+def test_constant_shear_strain():
+    """Constant shear (in equilibrium only under couples) is read exactly in distorted elements."""
+    model = plate.Plate.on(distorted())
+    x, y = model.nodes.T
+    u = np.column_stack([0 * x, 0 * x, 2.0 * x - y, 0 * x + 0.5, 0 * x + 0.3]).ravel()
+    shear = np.einsum("mqic,mc->mqi", model.elements.shear, u[model.elements.unknowns])
+    np.testing.assert_allclose(shear - [2.5, -0.7], 0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("mesh", [MeshQuad.init_tensor([0, 1.0], [0, 1.0]), distorted()], ids=["one", "nine"])
+@pytest.mark.parametrize("thickness", [0.2, 1e-3])
+def test_zero_modes_of_the_free_plate(mesh, thickness):
+    """Three rigid motions of (w, tilt), three in the plane, and no others."""
+    model = plate.Plate.on(mesh)
+    stiffness = plate.stiffness_matrix(square(thickness), model).toarray().reshape(2 * (model.basis.N, 5))
+    for part, fields in (("bending", slice(2, 5)), ("membrane", slice(0, 2))):
+        block = stiffness[:, fields][:, :, :, fields]
+        size = block.shape[0] * block.shape[1]
+        scale = plate.section_stiffness(square(thickness))[part][0, 0]
+        values = np.linalg.eigvalsh(block.reshape(size, size)) / scale
+        assert np.sum(np.abs(values) < 1e-6) == 3
+        assert values[3] > 1e-3
+
+
+@pytest.mark.parametrize(
+    ("ratio", "hard_simple", "clamped"),
+    [(0.001, 0.00406, 0.0012653), (0.1, 0.00427, 0.001505), (0.2, 0.00490, 0.002172)],
+)
+def test_published_uniform_load(ratio, hard_simple, clamped):
+    """w_centre D/(q L⁴) of the Mindlin square plate, ν 0.3, κ 5/6: ../published table, within 0.3 %."""
+    pressure = [{"kind": "pressure", "value": 1.0}]
+    for published, kind, hard in ((hard_simple, "hinged", tuple(EDGES)), (clamped, "clamped", ())):
+        scene = square(ratio, kind, pressure)
+        deflection = plate.solve(scene, 16, hard_edges=hard).displacement([[0.5, 0.5]])[0, 2]
+        bending = plate.section_stiffness(scene)["bending"][0, 0]
+        assert deflection * bending == pytest.approx(published, rel=3e-3)
+
+
+def hard_simple_series(ratio: float) -> float:
+    """Centre deflection D/(q L⁴): Kirchhoff's single series plus the shear of a membrane, exact for Mindlin.
+
+    Wang, Reddy & Lee, Shear Deformable Beams and Plates (2000): with hard simple supports
+    w = w_K + M_K/(κ_s G h), M the moment sum, and M_K solves ∇²M = −q.
+    """
+    bending = membrane = 0.0
+    for n in range(1, 60, 2):
+        sign = (-1.0) ** ((n - 1) // 2)
+        a = n * pi / 2
+        bending += 4 / pi**5 * sign / n**5 * (1 - (a * tanh(a) + 2) / (2 * cosh(a)))
+        membrane += 4 / pi**3 * sign / n**3 * (1 - 1 / cosh(a))
+    shear_over_bending = (5 / 6) * 6 * (1 - MATERIAL.poisson) / ratio**2
+    return bending + membrane / shear_over_bending
+
+
+@pytest.mark.parametrize("ratio", [1e-5, 1e-4, 1e-3, 1e-2, 0.05, 0.1, 0.2])
+def test_no_locking_from_1e5_to_02(ratio):
+    """8×8 elements: within 2 % of the converged value at every thickness, clamped and hard simple."""
+    pressure = [{"kind": "pressure", "value": 1.0}]
+    bending = plate.section_stiffness(square(ratio))["bending"][0, 0]
+    simple = plate.solve(square(ratio, "hinged", pressure), 8, hard_edges=tuple(EDGES))
+    deflection = simple.displacement([[0.5, 0.5]])[0, 2] * bending
+    assert deflection == pytest.approx(hard_simple_series(ratio), rel=2e-3)
+    coarse, fine = (
+        plate.solve(square(ratio, "clamped", pressure), n).displacement([[0.5, 0.5]])[0, 2] for n in (8, 24)
+    )
+    assert coarse == pytest.approx(fine, rel=2e-3)
+
+
+@pytest.mark.parametrize("ratio", [1e-3, 0.1])
+def test_order_of_convergence(ratio):
+    """Clamped unit square with a polynomial solution (Chinosi & Lovadina 1995): deflection and tilt in L²."""
+    nu = MATERIAL.poisson
+
+    def quadratic(t):
+        return 5 * t**2 - 5 * t + 1
+
+    def bubble(t, power):
+        return t**power * (t - 1) ** power
+
+    def deflection(x, y):
+        shear = bubble(y, 3) * bubble(x, 1) * quadratic(x) + bubble(x, 3) * bubble(y, 1) * quadratic(y)
+        return bubble(x, 3) * bubble(y, 3) / 3 - 2 * ratio**2 / (5 * (1 - nu)) * shear
+
+    def tilt(x, y):
+        return -bubble(y, 3) * bubble(x, 2) * (2 * x - 1)
+
+    def half_pressure(x, y):
+        return 12 * bubble(y, 1) * quadratic(x) * (2 * bubble(y, 2) + bubble(x, 1) * quadratic(y))
+
+    def pressure(x, y):
+        return MATERIAL.young * ratio**3 / (12 * (1 - nu**2)) * (half_pressure(x, y) + half_pressure(y, x))
+
+    errors = []
+    for divisions in (4, 8, 16):
+        model = plate.Plate.on(MeshQuad.init_tensor(*2 * [np.linspace(0, 1, divisions + 1)]))
+        force = np.zeros((model.basis.N, 5))
+        force[:, W] = plate.share(model.basis, pressure)
+        held = (5 * model.basis.get_dofs().flatten()[:, None] + np.arange(5)).ravel()
+        free = np.setdiff1d(np.arange(5 * model.basis.N), held)
+        stiffness = plate.stiffness_matrix(square(ratio), model)
+        u = np.zeros(5 * model.basis.N)
+        u[free] = DirectSolver().factor(stiffness[free][:, free]).solve(force.ravel()[free])
+        row = []
+        for field, exact in ((W, deflection), (TILT_X, tilt)):
+            difference = Functional(lambda w, exact=exact: (w.u - exact(*w.x)) ** 2)
+            size = Functional(lambda w, exact=exact: exact(*w.x) ** 2).assemble(model.basis)
+            square_error = difference.assemble(model.basis, u=model.basis.interpolate(u[field::5]))
+            row.append(np.sqrt(square_error / size))
+        errors.append(row)
+    slopes = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert np.all(np.array(errors[-1]) < [5e-4, 1.2e-3]), errors
+    np.testing.assert_allclose(slopes[-1], 3.0, atol=0.15)
+
+
+def test_strip_with_edge_moment_and_forces():
+    """A cantilever strip with ν = 0 is a Timoshenko beam: closed form at the tip."""
+    length, width, thickness, young = 2.0, 0.5, 0.05, 1.0e6
+    moment, (fx, fy, fz) = 0.02, (3.0, 0.0, 0.01)
+    scene = Scene(
+        name="strip",
+        sheet=Sheet(length_x=length, length_y=width, thickness=thickness),
+        material=Material(young=young, poisson=0.0, density=1.0),
+        supports=[{"edge": "x0", "kind": "clamped"}],
+        loads=[{"kind": "edge", "edge": "x1", "force_per_length": (fx, fy, fz), "moment_per_length": moment}],
+    )
+    answer = plate.solve(scene, 2)
+    bending, shear = young * thickness**3 / 12, 5 / 6 * young / 2 * thickness
+    tip = moment * length**2 / (2 * bending) + fz * (length**3 / (3 * bending) + length / shear)
+    exact = [fx * length / (young * thickness), 0.0, tip]
+    np.testing.assert_allclose(answer.displacement([[length, 0.2]])[0], exact, rtol=1e-4, atol=1e-12)
+    np.testing.assert_allclose(answer.reactions["x0"], -width * np.array([fx, fy, fz]), rtol=1e-8, atol=1e-10)
+
+
+@pytest.mark.parametrize("name", ["two-edges-clamped", "one-edge-clamped", "curved-edge", "curved-edge-down"])
+def test_reactions_and_energies(name):
+    """Reactions balance the weight to 1e-8; at rest supports, energy is half the loads' work."""
+    scene = scenes.load(name)
+    answer = plate.solve(scene, 8)
+    weight = 0.188**2 * 0.003 * 1678.0 * 9.81
+    assert answer.status is Status.CONVERGED
+    np.testing.assert_allclose(sum(answer.reactions.values()), [0, 0, weight], atol=1e-8 * weight)
+    if "curved" not in name:
+        x = np.polynomial.legendre.leggauss(24)
+        points, shares = 0.094 * (x[0] + 1.0), x[1] / 2.0
+        grid = np.array([(a, b) for a in points for b in points])
+        work = -weight * np.outer(shares, shares).ravel() @ answer.displacement(grid)[:, 2]
+        assert sum(answer.energies.values()) == pytest.approx(work / 2, rel=1e-4)
+
+
+def test_in_plane_loads_and_a_corner_shared_by_two_supports():
+    """Uniaxial stretch between rollers, ν = 0.3: exact; a corner obeys both of its supports."""
+    rollers = (
+        scenes.Held(edge="x0", components=("x", "z")),
+        scenes.Held(edge="y0", components=("y", "z")),
+    )
+    pull = [{"kind": "edge", "edge": "x1", "force_per_length": (50.0, 0.0, 0.0)}]
+    scene = square(0.01, loads=pull).model_copy(update={"supports": rollers})
+    answer = plate.solve(scene, 2)
+    strain = 50.0 / (MATERIAL.young * 0.01)
+    np.testing.assert_allclose(
+        answer.displacement([[1.0, 1.0], [0.3, 0.7]]),
+        [[strain, -0.3 * strain, 0.0], [0.3 * strain, -0.21 * strain, 0.0]],
+        atol=1e-9 * strain,
+    )
+    np.testing.assert_allclose(answer.reactions["x0"], [-50.0, 0.0, 0.0], atol=1e-6)
+
+
+def test_symmetry_and_reciprocity():
+    """Test 1 is symmetric in x and y; a force at A moves B as the force at B moves A."""
+    answer = plate.solve(scenes.load("two-edges-clamped"), 8)
+    a, b = answer.displacement([[0.05, 0.14], [0.14, 0.05]])
+    np.testing.assert_allclose(a, b[[1, 0, 2]], rtol=1e-8)
+    points, force = [(0.3, 0.41), (0.77, 0.9)], (1.0, 0.0, 2.0)
+    moved = [
+        plate.solve(
+            square(0.02, "clamped", [{"kind": "point", "at": here, "force": force}], ["x0"]), 5
+        ).displacement([there])[0]
+        @ force
+        for here, there in (points, points[::-1])
+    ]
+    assert moved[0] == pytest.approx(moved[1], rel=1e-9)
+
+
+def test_curved_edge_follows_the_linearised_rod():
+    scene = scenes.load("curved-edge")
+    answer = plate.solve(scene, 8)
+    y = np.linspace(0, 0.188, 17)
+    edge = answer.displacement(np.column_stack([np.zeros(17), y]))
+    expected = np.column_stack([np.zeros((17, 2)), 4.0 * (y - 0.094) ** 2 / 2])
+    np.testing.assert_allclose(edge, expected, atol=1e-12)
+
+
+def test_refuses_a_sheet_that_nothing_holds():
+    with pytest.raises(scenes.SceneError, match="nothing stops"):
+        plate.solve(square(0.01))

@@ -44,7 +44,7 @@ def moduli(calibration: dict[str, Any]) -> Table:
         Column("unit"),
         Column("asked", form=".6g"),
         Column("got", form=".6g"),
-        Column("off by", "", "%", 100.0, ".2f"),
+        Column("off by", "", "%", 100.0, "z.2f"),
     )
     return Table("Moduli of the sheet and of the lattice", columns, tuple(rows))
 

@@ -18,9 +18,9 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.errors import BadInput, require_choice
+from comparisons.errors import require_choice
 from comparisons.grids import Grid
-from comparisons.models import REFERENCES, solve
+from comparisons.models import REFERENCES, has_own_springs, solve
 from scenes import Scene, SceneError, Solution, Status, load, require_static
 
 COMPANION = "lumped-uniform"
@@ -150,7 +150,8 @@ def compare(
 
     grid: masses along x and y, and layers; by default nine along the shorter side. calibration: by default
     `consistent`, and then the uniform calibration is solved too and shown alongside as `lumped-uniform`;
-    where `k` [N/m] is given the default is `uniform`. layer_distance [m]. elements: along the shorter side.
+    where `k` [N/m] is given the default is `uniform`, and where the scene brings its own [springs] they are
+    used alone. layer_distance [m]. elements: along the shorter side.
     `starting` and `finished` are called before and after each model, so that a caller can show progress
     and keep what is done.
 
@@ -161,9 +162,8 @@ def compare(
         scene = load_static(scene)
     require_static(scene)
     require_choice("reference", reference, REFERENCES)
-    chosen = calibration or ("consistent" if k is None else "uniform")
-    if k is not None and chosen != "uniform":
-        raise BadInput(f"k = {k:g} N/m with calibration = '{chosen}': only the uniform calibration takes k")
+    asked: dict[str, Any] = {"grid": grid, "layer_distance": layer_distance, "k": k}
+    asked["calibration"] = "uniform" if calibration is None and k is not None else calibration
 
     def run(model: str, name: str, **settings: Any) -> Solution:
         starting(name)
@@ -172,13 +172,9 @@ def compare(
         finished(solution)
         return solution
 
-    lattice = {"grid": grid, "layer_distance": layer_distance}
-    solutions = [
-        run("lumped", "lumped", calibration=chosen, k=k, **lattice),
-        run(reference, reference, elements=elements),
-    ]
-    if calibration is None and chosen != "uniform":
-        solutions.append(run("lumped", COMPANION, calibration="uniform", **lattice))
+    solutions = [run("lumped", "lumped", **asked), run(reference, reference, elements=elements)]
+    if asked["calibration"] is None and not has_own_springs(scene, **asked):
+        solutions.append(run("lumped", COMPANION, **{**asked, "calibration": "uniform"}))
     return Comparison(scene, tuple(solutions))
 
 

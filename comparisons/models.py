@@ -26,34 +26,41 @@ def calibrate(
     material: Material,
     *,
     grid: Grid | None = None,
-    calibration: str = "consistent",
+    calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,
 ) -> Calibration:
-    """Springs of a lattice; by default nine masses along the shorter side.
+    """Springs of a lattice; by default consistent ones for nine masses along the shorter side.
 
     k [N/m] and layer_distance [m] are the calibration's own options. Raises BadInput for a name that is
     not a calibration, and ValueError for settings that it cannot use.
     """
     import lumped
 
-    require_choice("calibration", calibration, lumped.CALIBRATIONS)
-    return lumped.calibrate(
-        sheet,
-        material,
-        grid=grid or default_grid(sheet),
-        method=calibration,
-        k=k,
-        layer_distance=layer_distance,
-    )
+    method = calibration or "consistent"
+    require_choice("calibration", method, lumped.CALIBRATIONS)
+    grid = grid or default_grid(sheet)
+    return lumped.calibrate(sheet, material, grid=grid, method=method, k=k, layer_distance=layer_distance)
+
+
+def has_own_springs(scene: Scene, **settings: Any) -> bool:
+    """Whether the scene's own [springs] are to be used: it has them and nothing else is asked for."""
+    chosen = (settings.get(name) for name in ("calibration", "k", "layer_distance"))
+    return scene.springs is not None and all(choice is None for choice in chosen)
 
 
 def solve_lumped(scene: Scene, **settings: Any) -> Solution:
-    """The lattice's static answer with the settings of `calibrate`, which count as set-up."""
+    """The lattice's static answer with the settings of `calibrate`, which counts as set-up.
+
+    Where no calibration, k or layer distance is given, a scene's own [springs] are used if it has them.
+    """
     import lumped
 
     started = perf_counter()
-    springs = calibrate(scene.sheet, scene.material, **settings)
+    if has_own_springs(scene, **settings):
+        springs = lumped.given(scene, settings.get("grid") or default_grid(scene.sheet))
+    else:
+        springs = calibrate(scene.sheet, scene.material, **settings)
     calibrating = perf_counter() - started
     solution = lumped.solve(scene, springs)
     return replace(solution, setup_seconds=solution.setup_seconds + calibrating)

@@ -35,11 +35,13 @@ class Output:
 
     def picture(self, comparison: Comparison) -> str | None:
         """comparison.png; where it cannot be drawn, the reason in a sentence."""
-        from comparisons import figures, rendering
+        from comparisons.rendering import why_not
 
-        impossible = rendering.why_not()
+        impossible = why_not()
         if impossible is None:
-            figures.picture(self._name("comparison.png"), comparison)
+            from comparisons.figures import picture
+
+            picture(self._name("comparison.png"), comparison)
         return impossible
 
     def _name(self, name: str) -> Path:

@@ -10,7 +10,7 @@ _MODEL = Column("model")
 
 
 def _millimetres(name: str) -> Column:
-    return Column(name, "m", "mm", 1e3, ".3f")
+    return Column(name, "m", "mm", 1e3, "z.3f")
 
 
 def displacements(comparison: Comparison) -> Table:
@@ -31,7 +31,7 @@ def displacements(comparison: Comparison) -> Table:
         _millimetres("ux"),
         _millimetres("uy"),
         _millimetres("uz"),
-        Column("off by", "", "%", 100.0, ".2f"),
+        Column("off by", "", "%", 100.0, "z.2f"),
     )
     return Table("Displacement of the mid-surface", columns, tuple(rows))
 
@@ -56,9 +56,9 @@ def costs(comparison: Comparison) -> Table:
         Column("what it is", prose=True),
         Column("unknowns", form="d"),
         Column("factorisations", form="d"),
-        Column("set-up", "s", "s", 1.0, ".2f"),
-        Column("solve", "s", "ms", 1e3, ".3g"),
-        Column("error", "", "%", 100.0, ".2f"),
+        Column("set-up", "s", "s", 1.0, "z.2f"),
+        Column("solve", "s", "ms", 1e3, ".1f"),
+        Column("error", "", "%", 100.0, "z.2f"),
         Column("status"),
     )
     return Table("Cost and error of each model", columns, tuple(rows))
@@ -71,7 +71,7 @@ def reactions(comparison: Comparison) -> Table:
         for s in comparison.solutions
         for edge, force in s.reactions.items()
     ]
-    forces = tuple(Column(name, "N", "N", 1.0, ".4f") for name in ("Fx", "Fy", "Fz"))
+    forces = tuple(Column(name, "N", "N", 1.0, "z.4f") for name in ("Fx", "Fy", "Fz"))
     return Table("Force of each support on the sheet", (Column("edge"), _MODEL, *forces), tuple(sorted(rows)))
 
 

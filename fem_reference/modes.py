@@ -1,0 +1,158 @@
+"""Natural frequencies and mode shapes of a sheet about its flat, stress-free state.
+
+    K φ = ω² M φ,    f = ω/2π,    φᵀ M φ = 1
+
+K is the model's stiffness at rest and M its consistent mass, rotary inertia included. Loads, weight and
+damping have no part in it; a curved support counts as a clamp. Lanczos iterations (ARPACK) on (K − σM)⁻¹
+with the shift σ < 0 below the spectrum, so that a free sheet's singular K needs no special care.
+
+The rigid motions that the supports leave free are counted exactly (the null space of their values at
+the held unknowns); so many lowest modes, whose frequency is zero, are left out and their number is reported.
+
+The shell's mass is the plate's: ρh on the displacements, ρh³/12 on the director's rotations. SI units.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.sparse import csr_matrix
+from scipy.sparse.linalg import LinearOperator, eigsh
+
+from fem_reference import plate, shell
+from fem_reference.linear import DirectSolver
+from fem_reference.mesh import Elements, divisions, rectangle
+from scenes import Scene
+
+
+class RestState(NamedTuple):
+    """A model about its undeformed state; n nodes with k unknowns each.
+
+    stiffness, mass: (n k, n k); held: (n, k) unknowns that supports hold; rigid: (n k, 6) the sheet's
+    rigid motions; sample: unknowns (n, k), plan points (p, 2) [m] → mid-surface displacement (p, 3).
+    """
+
+    stiffness: csr_matrix
+    mass: csr_matrix
+    held: np.ndarray
+    rigid: np.ndarray
+    sample: Callable[[np.ndarray, np.ndarray], np.ndarray]
+
+
+@dataclass(frozen=True)
+class Modes:
+    """The lowest modes, rigid motions left out; rigid_modes is the number of those.
+
+    frequencies: (count,) [Hz], rising; shapes: (count, n, k), nodal unknowns scaled to φᵀ M φ = 1.
+    """
+
+    model: str
+    label: str
+    settings: dict[str, Any]
+    frequencies: np.ndarray
+    shapes: np.ndarray
+    rigid_modes: int
+    unknowns: int
+    setup_seconds: float
+    solve_seconds: float
+    sample: Callable[[np.ndarray, np.ndarray], np.ndarray]
+
+    def displacement(self, mode: int, points: np.ndarray) -> np.ndarray:
+        """Mid-surface displacement (n, 3) of one mode, counted from 0, at plan points (n, 2) [m]."""
+        return self.sample(self.shapes[mode], np.asarray(points, dtype=float).reshape(-1, 2))
+
+
+def modes(
+    scene: Scene, model: str = "shell", elements: Elements = 16, count: int = 10, **options: Any
+) -> Modes:
+    """The `count` lowest elastic modes; a scene without supports is a free sheet.
+
+    Raises ValueError for an unknown model or a count that the mesh cannot give.
+    """
+    if model not in REST_STATES:
+        raise ValueError(f"model = {model!r}: known are {', '.join(REST_STATES)}")
+    begin = perf_counter()
+    along_x, along_y = divisions(scene.sheet.lengths, elements)
+    rest = REST_STATES[model](scene, (along_x, along_y), **options)
+    ready = perf_counter()
+    free = np.flatnonzero(~rest.held)
+    rigid = _free_rigid_motions(rest)
+    if not 1 <= count < len(free) - rigid:
+        raise ValueError(f"count = {count}: 1 to {len(free) - rigid - 1} on this mesh")
+    values, vectors = _lowest(rest.stiffness[free][:, free], rest.mass[free][:, free], count + rigid, scene)
+    done = perf_counter()
+    shapes = np.zeros((count, rest.held.size))
+    shapes[:, free] = vectors[:, rigid:].T
+    return Modes(
+        model=model,
+        label=f"{model} {along_x} × {along_y}",
+        settings={"elements": [along_x, along_y], **options},
+        frequencies=np.sqrt(np.maximum(values[rigid:], 0.0)) / (2.0 * np.pi),
+        shapes=shapes.reshape(count, *rest.held.shape),
+        rigid_modes=rigid,
+        unknowns=len(free),
+        setup_seconds=ready - begin,
+        solve_seconds=done - ready,
+        sample=rest.sample,
+    )
+
+
+def _lowest(
+    stiffness: csr_matrix, mass: csr_matrix, count: int, scene: Scene
+) -> tuple[np.ndarray, np.ndarray]:
+    """The lowest eigenvalues ω² (count,) and vectors (n, count), rising."""
+    shift = -(_slow(scene) ** 2)
+    factor = DirectSolver().factor(stiffness - shift * mass)
+    inverse = LinearOperator(stiffness.shape, matvec=factor.solve, dtype=float)
+    start = np.random.default_rng(0).uniform(-1.0, 1.0, stiffness.shape[0])
+    values, vectors = eigsh(stiffness, count, mass, sigma=shift, OPinv=inverse, v0=start)
+    order = np.argsort(values)
+    return values[order], vectors[:, order]
+
+
+def _slow(scene: Scene) -> float:
+    """An angular frequency [rad/s] of the order of the sheet's lowest: √(E h²/12ρ)/a², a the longer side."""
+    material, sheet = scene.material, scene.sheet
+    return np.sqrt(material.young / (12.0 * material.density)) * sheet.thickness / max(sheet.lengths) ** 2
+
+
+def _free_rigid_motions(rest: RestState) -> int:
+    """How many independent rigid motions vanish at every held unknown."""
+    size = np.linalg.norm(rest.rigid, axis=0)
+    singular = np.linalg.svd(rest.rigid[rest.held.ravel()] / size, compute_uv=False)
+    return 6 - int(np.sum(singular > 1e-9))
+
+
+def _plate_at_rest(scene: Scene, elements: tuple[int, int]) -> RestState:
+    model = plate.Plate.on(rectangle(scene.sheet, elements))
+    _, held, _ = plate.constrain(scene, model)
+    x, y = (model.nodes - model.nodes.mean(axis=0)).T
+    rigid = np.zeros((6, len(x), 5))
+    for axis in range(3):
+        rigid[axis, :, axis] = 1.0
+    rigid[3, :, 2], rigid[3, :, 4] = y, -1.0
+    rigid[4, :, 2], rigid[4, :, 3] = -x, 1.0
+    rigid[5, :, 0], rigid[5, :, 1] = -y, x
+    return RestState(
+        stiffness=plate.stiffness_matrix(scene, model),
+        mass=plate.mass_matrix(scene, model),
+        held=held,
+        rigid=rigid.reshape(6, -1).T,
+        sample=lambda fields, points: model.sample(fields[:, :3], points),
+    )
+
+
+def _shell_at_rest(scene: Scene, elements: tuple[int, int]) -> RestState:
+    """The tangent of the shell that nothing holds or loads; the last two fields turn the director."""
+    bare = scene.model_copy(update={"supports": (), "loads": (), "gravity": None})
+    structure, _ = shell.discretise(rectangle(scene.sheet, elements), bare)
+    rest = structure.rest()
+    stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
+    return _plate_at_rest(scene, elements)._replace(stiffness=stiffness)
+
+
+REST_STATES: dict[str, Callable[..., RestState]] = {"plate": _plate_at_rest, "shell": _shell_at_rest}

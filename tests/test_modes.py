@@ -1,0 +1,128 @@
+"""Natural frequencies: published and closed-form values; rigid motions of free and half-held sheets."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import scenes
+from fem_reference.modes import modes
+from scenes import Material, Scene, Sheet
+
+STEEL = Material(young=200e9, poisson=0.3, density=8000.0)
+NAFEMS = Sheet(length_x=10.0, length_y=10.0, thickness=0.05)
+THIN = Sheet(length_x=1.0, length_y=1.0, thickness=1e-3)
+
+
+def clamped(sheet: Sheet, *edges: str, material: Material = STEEL) -> Scene:
+    supports = [{"edge": edge, "kind": "clamped"} for edge in edges]
+    return Scene(name="modes", sheet=sheet, material=material, supports=supports)
+
+
+def factor(scene: Scene) -> float:
+    """Turns Hz into ω a² √(ρh/D)."""
+    sheet, material = scene.sheet, scene.material
+    bending = material.young * sheet.thickness**3 / (12 * (1 - material.poisson**2))
+    return 2 * np.pi * sheet.length_x**2 * np.sqrt(material.density * sheet.thickness / bending)
+
+
+@pytest.mark.parametrize("model", ["plate", "shell"])
+def test_nafems_fv16(model):
+    """One edge clamped: converged Mindlin values within 0.3 %, the old targets within 1.5 %."""
+    got = modes(clamped(NAFEMS, "x0"), model=model, elements=16, count=6)
+    assert got.rigid_modes == 0
+    converged = [0.4179, 1.0227, 2.5618, 3.272, 3.7214, 6.5105]
+    np.testing.assert_allclose(got.frequencies, converged, rtol=3e-3)
+    np.testing.assert_allclose(got.frequencies, [0.421, 1.029, 2.582, 3.306, 3.753, 6.555], rtol=1.5e-2)
+
+
+@pytest.mark.parametrize("model", ["plate", "shell"])
+def test_nafems_fv12(model):
+    """The free plate: six rigid motions left out, then the targets; modes 4 and 5 converge to 4.182."""
+    got = modes(clamped(NAFEMS), model=model, elements=16, count=6)
+    assert got.rigid_modes == 6
+    np.testing.assert_allclose(got.frequencies[:5], [1.622, 2.360, 2.922, 4.182, 4.182], rtol=3e-3)
+    np.testing.assert_allclose(got.frequencies, [1.622, 2.360, 2.922, 4.233, 4.233, 7.416], rtol=1.5e-2)
+
+
+@pytest.mark.parametrize("model", ["plate", "shell"])
+@pytest.mark.parametrize(
+    ("edges", "published"),
+    [
+        (["x0"], [3.471, 8.507, 21.28, 27.20, 30.95, 54.18]),
+        (["x0", "y0"], [6.919, 23.90, 26.58, 47.64, 62.70, 65.53]),
+    ],
+)
+def test_leissa_thin_plates(edges, published, model):
+    scene = clamped(THIN, *edges)
+    got = modes(scene, model=model, elements=16, count=6)
+    np.testing.assert_allclose(got.frequencies * factor(scene), published, rtol=1e-3)
+
+
+def test_convergence_from_above():
+    """One edge clamped: errors fall like h² (the corners of clamp and free edge) or faster, to 1e-4."""
+    scene = clamped(THIN, "x0")
+    coefficients = [modes(scene, "plate", n, count=6).frequencies * factor(scene) for n in (4, 8, 16, 24)]
+    steps = np.abs(np.diff(coefficients, axis=0)) / coefficients[-1]
+    slopes = np.log2(steps[0] / steps[1])
+    assert np.all(slopes > 1.85), slopes
+    assert np.all(steps[-1] < 1e-4), steps
+
+
+def test_free_strip_is_a_beam():
+    """ν = 0, slender: free–free Euler beam, (βL)² = 22.373, 61.673; transverse shear is 0.1 % there."""
+    strip = Sheet(length_x=1.0, length_y=0.05, thickness=2e-3)
+    material = Material(young=1e7, poisson=0.0, density=1000.0)
+    got = modes(clamped(strip, material=material), "plate", (24, 2), count=6)
+    bending = np.sqrt(1e7 * strip.thickness**2 / (12 * 1000.0)) / (2 * np.pi)
+    np.testing.assert_allclose(got.frequencies[:2], bending * np.array([22.3733, 61.6728]), rtol=1e-3)
+
+
+def test_in_plane_rod():
+    """A wide bar between rollers, ν = 0: axial modes (2i − 1)/4 c/L appear with the bending modes."""
+    bar = Sheet(length_x=1.0, length_y=0.2, thickness=0.2)
+    material = Material(young=1e7, poisson=0.0, density=1000.0)
+    got = modes(clamped(bar, "x0", material=material), "plate", (8, 2), count=8)
+    points = np.array([[1.0, 0.05], [1.0, 0.15]])
+    moves = [np.abs(got.displacement(i, points)) for i in range(8)]
+    axial = [f for f, u in zip(got.frequencies, moves, strict=True) if u[:, 0].min() > 10 * u[:, 1:].max()]
+    assert axial[0] == pytest.approx(np.sqrt(1e7 / 1000.0) / 4, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("supports", "expected"),
+    [
+        ([], 6),
+        ([{"edge": "x0", "kind": "hinged"}], 1),
+        ([{"edge": "x0", "kind": "held", "components": ["z"]}], 4),
+        ([{"edge": "x0", "kind": "held", "components": ["x"]}, {"edge": "y0", "kind": "clamped"}], 0),
+    ],
+)
+@pytest.mark.parametrize("model", ["plate", "shell"])
+def test_rigid_motions_left_out(supports, expected, model):
+    """As many zero frequencies as rigid motions, no more: the first elastic one is far from zero."""
+    scene = Scene(name="s", sheet=THIN, material=STEEL, supports=supports)
+    got = modes(scene, model, 4, count=4)
+    assert got.rigid_modes == expected
+    assert got.frequencies[0] * factor(scene) > 1.0
+
+
+def test_shapes_are_orthonormal_and_sampled():
+    """Mirror-symmetric supports give symmetric or antisymmetric shapes; modal masses are 1."""
+    got = modes(scenes.load("one-edge-clamped"), "plate", 8, count=4)
+    points = np.array([[0.188, 0.188], [0.188, 0.0], [0.0, 0.05]])
+    for mode in range(4):
+        tip, mirrored, root = got.displacement(mode, points)[:, 2]
+        assert abs(tip) == pytest.approx(abs(mirrored), rel=1e-6)
+        assert root == 0.0
+    w = got.shapes[0, :, 2]
+    mass = 1678.0 * 0.003 * 0.188**2
+    assert 0.1 / mass < np.mean(w**2) < 1.0 / mass * 4
+
+
+def test_misuse():
+    scene = scenes.load("one-edge-clamped")
+    with pytest.raises(ValueError, match="beam"):
+        modes(scene, "beam")
+    with pytest.raises(ValueError, match="count = 0"):
+        modes(scene, "plate", 2, count=0)

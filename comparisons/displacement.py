@@ -18,9 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.errors import require_choice
 from comparisons.grids import Grid
-from comparisons.models import REFERENCES, has_own_springs, solve
+from comparisons.models import check_lattice, check_reference, has_own_springs, solve
 from scenes import Scene, SceneError, Solution, Status, load, require_static
 
 COMPANION = "lumped-uniform"
@@ -161,7 +160,8 @@ def compare(
     if not isinstance(scene, Scene):
         scene = load_static(scene)
     require_static(scene)
-    require_choice("reference", reference, REFERENCES)
+    check_lattice(calibration, k, layer_distance)
+    check_reference(reference, elements)
     asked: dict[str, Any] = {"grid": grid, "layer_distance": layer_distance, "k": k}
     asked["calibration"] = "uniform" if calibration is None and k is not None else calibration
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from math import isfinite
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
@@ -33,14 +34,34 @@ def calibrate(
     """Springs of a lattice; by default consistent ones for nine masses along the shorter side.
 
     k [N/m] and layer_distance [m] are the calibration's own options. Raises BadInput for a name that is
-    not a calibration, and ValueError for settings that it cannot use.
+    not a calibration or lengths that are not above zero, and ValueError for options it does not take.
     """
     import lumped
 
+    check_lattice(calibration, k, layer_distance)
     method = calibration or "consistent"
-    require_choice("calibration", method, lumped.CALIBRATIONS)
     grid = grid or default_grid(sheet)
     return lumped.calibrate(sheet, material, grid=grid, method=method, k=k, layer_distance=layer_distance)
+
+
+def check_lattice(calibration: str | None, k: float | None, layer_distance: float | None) -> None:
+    """Raise BadInput for a calibration that does not exist, or k or layer_distance not above zero."""
+    import lumped
+
+    if calibration is not None:
+        require_choice("calibration", calibration, lumped.CALIBRATIONS)
+    for name, value, unit in (("k", k, "N/m"), ("layer-distance", layer_distance, "m")):
+        if value is not None and not (value > 0 and isfinite(value)):
+            raise BadInput(f"{name} = {value:g} {unit}: must be greater than 0 and finite")
+
+
+def check_reference(model: str, elements: int) -> None:
+    """Raise BadInput for a reference model or a number of elements that does not exist."""
+    import fem_reference
+
+    require_choice("reference", model, fem_reference.MODELS)
+    if elements < 1:
+        raise BadInput(f"elements = {elements}: at least 1")
 
 
 def has_own_springs(scene: Scene, **settings: Any) -> bool:
@@ -73,9 +94,7 @@ def solve_reference(scene: Scene, *, model: str = "shell", elements: int = 16) -
     """
     import fem_reference
 
-    require_choice("reference", model, fem_reference.MODELS)
-    if elements < 1:
-        raise BadInput(f"elements = {elements}: at least 1")
+    check_reference(model, elements)
     return fem_reference.solve(scene, model=model, elements=elements)
 
 

@@ -59,7 +59,7 @@ def costs(comparison: Comparison) -> Table:
         Column("set-up", "s", "s", 1.0, "z.2f"),
         Column("solve", "s", "ms", 1e3, ".1f"),
         Column("error", "", "%", 100.0, "z.2f"),
-        Column("status"),
+        Column("status", prose=True),
     )
     return Table("Cost and error of each model", columns, tuple(rows))
 

@@ -1,0 +1,218 @@
+"""The command line: exit statuses, one line for bad input, one JSON document, and quick help."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import fake_solutions
+import pytest
+from test_scenes import BAD, LOOSE, written
+
+import scenes
+from comparisons import displacement
+from comparisons.cli import main
+from scenes import Scene, Solution, Status
+
+HEAVY = ("numpy", "scipy", "pydantic", "matplotlib", "pyvista", "vtkmodules", "numba", "skfem", "meshio")
+
+
+def run(*arguments: str) -> int:
+    with pytest.raises(SystemExit) as caught:
+        main(list(arguments))
+    return int(caught.value.code or 0)
+
+
+def one_line(capsys: pytest.CaptureFixture[str]) -> str:
+    """What was said on standard error: one line and no traceback, and nothing on standard output."""
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.count("\n") == 1 and printed.err.endswith("\n")
+    assert "Traceback" not in printed.err
+    return printed.err
+
+
+@pytest.fixture
+def quick(monkeypatch: pytest.MonkeyPatch) -> dict[str, Solution]:
+    """Answers without a solver; a test may put its own in."""
+    answers: dict[str, Solution] = {}
+
+    def solve(scene: Scene, model: str, **settings: object) -> Solution:
+        return answers.get(model) or fake_solutions.solution(
+            scene, model, -0.01 if model == "lumped" else -0.0101
+        )
+
+    monkeypatch.setattr(displacement, "solve", solve)
+    return answers
+
+
+def test_importing_the_command_line_imports_nothing_heavy() -> None:
+    code = "import sys, comparisons.cli; print([m for m in sys.argv[1:] if m in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code, *HEAVY], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_help_lists_the_verbs(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("--help") == 0
+    printed = capsys.readouterr().out
+    assert all(verb in printed for verb in ("scenes", "compare", "calibrate"))
+
+
+@pytest.mark.parametrize("fault", BAD)
+def test_bad_scene_leaves_with_2_and_one_line(
+    tmp_path: Path, fault: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text, named = BAD[fault]
+    path = written(tmp_path, text)
+    assert run("compare", str(path)) == 2
+    said = one_line(capsys)
+    assert str(path) in said
+    assert all(part in said for part in named)
+
+
+@pytest.mark.parametrize("case", LOOSE)
+def test_scene_that_floats_leaves_with_2_and_names_the_file(
+    tmp_path: Path, case: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = written(tmp_path, LOOSE[case])
+    assert run("compare", str(path)) == 2
+    said = one_line(capsys)
+    assert str(path) in said and "support" in said
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        (("compare", "no-such-scene"), ["no-such-scene", "two-edges-clamped"]),
+        (("compare", "two-edges-clamped", "--lumped", "9y"), ["--lumped", "9y"]),
+        (("compare", "two-edges-clamped", "--calibration", "guess"), ["guess", "consistent", "uniform"]),
+        (("compare", "two-edges-clamped", "--reference", "beam"), ["beam", "shell"]),
+        (("compare", "two-edges-clamped", "--elements", "0"), ["elements", "0"]),
+        (("compare", "two-edges-clamped", "--k", "-5"), ["k", "-5"]),
+        (("compare", "two-edges-clamped", "--layer-distance", "0"), ["layer-distance", "0"]),
+        (("calibrate",), ["--young", "--poisson", "--thickness", "--side"]),
+        (("calibrate", "two-edges-clamped", "--poisson", "0.5"), ["--poisson", "0.5"]),
+        (("calibrate", "two-edges-clamped", "--side", "18cm"), ["--side", "18cm"]),
+        (("calibrate", "two-edges-clamped", "--side", "0.001"), ["thickness", "0.001"]),
+        (("calibrate", "two-edges-clamped", "--method", "guess"), ["guess", "consistent"]),
+        (("calibrate", "two-edges-clamped", "--k", "550"), ["k", "550"]),
+        (("calibrate", "two-edges-clamped", "--toml", "--json"), ["--toml", "--json"]),
+    ],
+)
+def test_bad_option_leaves_with_2_and_one_line(
+    arguments: tuple[str, ...], named: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(*arguments) == 2
+    said = one_line(capsys)
+    assert all(part in said for part in named)
+
+
+def test_out_that_is_a_file_leaves_with_2(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    taken = tmp_path / "taken"
+    taken.write_text("")
+    assert run("compare", "two-edges-clamped", "--out", str(taken)) == 2
+    assert str(taken) in one_line(capsys)
+
+
+@pytest.mark.parametrize("arguments", [("compare",), ("weigh",), ("compare", "x", "--elements", "many")])
+def test_usage_errors_leave_with_2(arguments: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(*arguments) == 2
+    assert "Traceback" not in capsys.readouterr().err
+
+
+def test_a_fault_of_ours_is_not_passed_off_as_bad_input(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(displacement, "solve", lambda *_, **__: int("not a number"))
+    main_fails = pytest.raises((ValueError, SystemExit))
+    with main_fails as caught:
+        main(["compare", "two-edges-clamped"])
+    assert not isinstance(caught.value, SystemExit) or caught.value.code not in (0, 2, 3)
+
+
+@pytest.mark.usefixtures("quick")
+def test_json_is_all_that_standard_output_holds(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("compare", "two-edges-clamped", "--json") == 0
+    printed = capsys.readouterr()
+    document = json.loads(printed.out)
+    assert [s["model"] for s in document["solutions"]] == ["lumped", "shell", "lumped-uniform"]
+    assert "solving shell" in printed.err
+
+
+@pytest.mark.usefixtures("quick")
+def test_printed_table_has_units_error_time_and_status(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("compare", "two-edges-clamped") == 0
+    printed = capsys.readouterr().out
+    for part in ("[mm]", "[ms]", "−10.100", "0.99", "converged", "factorisations", "54.5 MPa"):
+        assert part in printed
+    assert max(len(line.rstrip()) for line in printed.splitlines()) <= 80
+
+
+def test_a_solver_that_does_not_converge_leaves_with_3_and_keeps_its_answer(
+    quick: dict[str, Solution], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = scenes.load("two-edges-clamped")
+    quick["lumped"] = fake_solutions.solution(scene, status=Status.DIVERGED, load_factor=0.4)
+    assert run("compare", "two-edges-clamped", "--calibration", "uniform", "--out", str(tmp_path)) == 3
+    printed = capsys.readouterr()
+    assert "diverged" in printed.out
+    assert "diverged at 40 % of the load" in printed.err
+    assert Status.DIVERGED.advice in " ".join(printed.err.split())
+    document = json.loads((tmp_path / "comparison.json").read_text(encoding="utf-8"))
+    assert document["solutions"][0]["status"] == "diverged"
+    assert document["solutions"][0]["load_factor"] == 0.4
+    assert (tmp_path / "lumped.vtu").exists()
+
+
+def test_what_is_finished_is_kept_when_a_later_model_fails(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def solve(scene: Scene, model: str, **settings: object) -> Solution:
+        if model == "shell":
+            raise KeyboardInterrupt
+        return fake_solutions.solution(scene, model)
+
+    monkeypatch.setattr(displacement, "solve", solve)
+    assert run("compare", "two-edges-clamped", "--out", str(tmp_path)) != 0
+    assert [path.name for path in tmp_path.iterdir()] == ["lumped.vtu"]
+
+
+def test_scenes_lists_the_catalogue_whole(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("scenes") == 0
+    printed = capsys.readouterr().out
+    assert all(name in printed for name in scenes.catalogue())
+    assert run("scenes", "--json", "--out", str(tmp_path)) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert {row["name"] for row in document["scenes"]} == set(scenes.catalogue())
+    assert scenes.load(tmp_path / "one-edge-clamped.toml") == scenes.load("one-edge-clamped")
+
+
+def test_calibrate_from_options_and_from_a_scene_agree(capsys: pytest.CaptureFixture[str]) -> None:
+    options = ("--young", "54.5e6", "--poisson", "0.48", "--thickness", "0.003", "--side", "0.188")
+    assert run("calibrate", *options, "--grid", "9", "--json") == 0
+    by_options = json.loads(capsys.readouterr().out)
+    assert run("calibrate", "two-edges-clamped", "--json") == 0
+    assert json.loads(capsys.readouterr().out) == by_options
+    assert by_options["method"] == "consistent"
+    assert set(by_options["springs"]) == {
+        "axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area"
+    }  # fmt: skip
+    assert {"D11", "D12", "D66", "A11", "A12", "A66", "S"} <= {row["name"] for row in by_options["moduli"]}
+
+
+def test_calibrate_as_toml_makes_a_scene_that_uses_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("calibrate", "one-edge-clamped", "--grid", "5x7", "--toml", "--out", str(tmp_path)) == 0
+    pasted = capsys.readouterr().out
+    assert (tmp_path / "springs.toml").read_text(encoding="utf-8") == pasted
+    scene = scenes.catalogue()["one-edge-clamped"].read_text(encoding="utf-8") + pasted
+    assert set(tomllib.loads(pasted)) == {"springs"}
+    assert scenes.load(written(tmp_path, scene)).springs is not None
+
+
+def test_calibrate_prints_springs_and_moduli(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("calibrate", "two-edges-clamped", "--method", "uniform", "--k", "550") == 0
+    printed = capsys.readouterr().out
+    assert "550" in printed and "[N/m]" in printed and "D66" in printed

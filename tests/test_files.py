@@ -1,0 +1,147 @@
+"""Files that a comparison leaves: VTU that opens elsewhere, tables with units, manifest, picture."""
+
+from __future__ import annotations
+
+import csv
+import json
+import tomllib
+from pathlib import Path
+
+import fake_solutions
+import meshio
+import numpy as np
+import pytest
+import pyvista
+
+import scenes
+from comparisons import calibration, files, rendering, vtk
+from comparisons.displacement import Comparison, compare
+from comparisons.output import Output
+from scenes import Scene
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    return scenes.load("two-edges-clamped")
+
+
+@pytest.fixture(scope="module")
+def comparison(scene: Scene) -> Comparison:
+    return compare(scene, grid=(5, 5, 2), elements=4)
+
+
+@pytest.fixture(scope="module")
+def folder(comparison: Comparison, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    output = Output(tmp_path_factory.mktemp("out"), ["sheetbench", "compare"])
+    for solution in comparison.solutions:
+        output.solution(solution)
+    output.comparison(comparison)
+    assert sorted(output.written) == sorted(path.name for path in output.folder.iterdir())
+    return output.folder
+
+
+@pytest.mark.parametrize("name", ["lumped", "shell", "lumped-uniform", "comparison"])
+def test_vtu_opens_in_meshio_and_pyvista_with_finite_displacements(folder: Path, name: str) -> None:
+    path = folder / f"{name}.vtu"
+    by_meshio = meshio.read(path)
+    displacement = by_meshio.point_data["displacement"]
+    assert displacement.shape == (len(by_meshio.points), 3)
+    assert np.all(np.isfinite(displacement))
+    assert np.abs(displacement).max() > 0.01
+    by_vtk = pyvista.read(path)
+    assert by_vtk.n_cells > 0
+    assert np.allclose(by_vtk.point_data["displacement"], displacement)
+
+
+def test_common_plan_grid_holds_all_solutions_and_their_difference(
+    folder: Path, comparison: Comparison
+) -> None:
+    fields = meshio.read(folder / "comparison.vtu").point_data
+    points = meshio.read(folder / "comparison.vtu").points[:, :2]
+    lumped, shell, uniform = (solution.displacement(points) for solution in comparison.solutions)
+    assert np.allclose(fields["displacement"], shell)
+    assert np.allclose(fields["displacement_lumped"], lumped)
+    assert np.allclose(fields["displacement_shell"], shell)
+    assert np.allclose(fields["difference"], lumped - shell)
+    assert np.allclose(fields["difference_lumped-uniform"], uniform - shell)
+
+
+def test_plan_grid_covers_the_sheet_with_cells_facing_up() -> None:
+    mesh = vtk.plan_mesh(scenes.Sheet(length_x=0.2, length_y=0.1, thickness=0.001), 4)
+    quads = mesh.points[mesh.cells[0][1]]
+    area = 0.5 * np.cross(quads[:, 2] - quads[:, 0], quads[:, 3] - quads[:, 1])[:, 2]
+    assert np.all(area > 0)
+    assert area.sum() == pytest.approx(0.02)
+
+
+def test_tables_carry_units_and_si_values(folder: Path, comparison: Comparison) -> None:
+    with (folder / "table.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 4 * 3
+    last = next(row for row in rows if (row["probe"], row["model"]) == ("P4", "lumped"))
+    assert float(last["uz [m]"]) == comparison.probes(comparison.solutions[0])["P4"][2]
+    page = (folder / "table.md").read_text(encoding="utf-8")
+    assert "uz [mm]" in page and "solve [ms]" in page and "Fz [N]" in page
+
+
+def test_json_file_is_the_printed_document(folder: Path, comparison: Comparison) -> None:
+    assert (folder / "comparison.json").read_text(encoding="utf-8") == files.to_json(comparison.as_dict())
+
+
+def test_manifest_tells_versions_machine_scene_and_settings(folder: Path, scene: Scene) -> None:
+    record = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
+    assert {"numpy", "scipy", "numba", "scikit-fem", "pyvista", "meshio"} <= set(record["versions"])
+    assert record["machine"]["python"] and record["machine"]["cpu_count"] >= 1
+    assert record["settings"]["lumped"]["grid"] == [5, 5, 2]
+    assert Scene.model_validate(record["scene"]) == scene
+    assert record["command"] == ["sheetbench", "compare"]
+    assert record["date"]
+
+
+def test_a_file_is_whole_or_absent(tmp_path: Path) -> None:
+    files.write_text(tmp_path / "a.txt", "first")
+    with pytest.raises(RuntimeError), files.whole(tmp_path / "a.txt") as partial:
+        partial.write_text("half")
+        raise RuntimeError
+    assert [path.name for path in tmp_path.iterdir()] == ["a.txt"]
+    assert (tmp_path / "a.txt").read_text(encoding="utf-8") == "first"
+
+
+def test_springs_as_toml_are_the_same_springs(scene: Scene) -> None:
+    import lumped
+
+    found = lumped.calibrate(scene.sheet, scene.material, grid=(9, 13)).as_dict()
+    table = tomllib.loads(calibration.to_toml(found))["springs"]
+    distance = table.pop("layer_distance")
+    assert (table, distance) == (found["springs"], found["layer_distance"])
+    assert scenes.SpringSet(**table, layer_distance=distance)
+
+
+def test_picture_is_drawn_or_the_missing_packages_are_named(comparison: Comparison, tmp_path: Path) -> None:
+    output = Output(tmp_path, [])
+    impossible = output.picture(comparison)
+    if impossible is not None:
+        assert rendering.PACKAGES in impossible
+        pytest.skip(impossible)
+    image = pyvista.read(tmp_path / "comparison.png")
+    assert image.dimensions[0] > 1000
+    assert len(np.unique(image.active_scalars, axis=0)) > 1000
+
+
+def test_without_a_way_to_draw_there_is_a_sentence_and_no_picture(
+    scene: Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(rendering, "_draws", lambda environment: False)
+    rendering.why_not.cache_clear()
+    both = Comparison(
+        scene, (fake_solutions.solution(scene), fake_solutions.solution(scene, "shell", -0.011))
+    )
+    said = Output(tmp_path, []).picture(both)
+    rendering.why_not.cache_clear()
+    assert said is not None and "libegl1" in said
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_child_process_that_dies_means_no_drawing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(rendering, "_TRIAL", "import os, signal; os.kill(os.getpid(), signal.SIGSEGV)")
+    assert not rendering._draws({})

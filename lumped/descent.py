@@ -13,8 +13,9 @@ import numpy as np
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
 from lumped.assembly import Stresses
-from lumped.equilibrium import COARSE, Problem, State, StepFailed, polish
+from lumped.equilibrium import COARSE, State, StepFailed, polish
 from lumped.linear import Factor, SingularMatrixError
+from lumped.problem import Problem
 
 STEPS = 300
 PROJECTED_RUN = 4  # steps with the projected tangent before the true one is tried again
@@ -26,7 +27,7 @@ def descend(problem: Problem, u: np.ndarray, load_factor: float) -> State:
     Raises StepFailed when there is none within the step limit.
     """
     problem.assembly.require_energy()
-    u = problem.expand(_unknowns(problem, u)) + problem.constraints.prescribed(load_factor)
+    u = problem.expand(_unknowns(problem, u)) + problem.prescribed(load_factor)
     wait = 0
     for _ in range(STEPS):
         unbalanced, residual = problem.residual(u, load_factor)
@@ -41,9 +42,9 @@ def descend(problem: Problem, u: np.ndarray, load_factor: float) -> State:
         slope = float(gradient @ direction)
         move = problem.expand(direction)
         share = min(1.0, 0.25 * problem.size / float(np.abs(move).max()))
-        start = _potential(problem, u, load_factor)
+        start = problem.potential(u, load_factor)
         while share > 1e-10:
-            if _potential(problem, u + share * move, load_factor) <= start + 1e-4 * share * slope:
+            if problem.potential(u + share * move, load_factor) <= start + 1e-4 * share * slope:
                 break
             share /= 2.0
         else:
@@ -59,7 +60,7 @@ def disturbed(problem: Problem, state: State) -> np.ndarray:
     The move is a tenth of the layer distance; of its two signs the one of lower energy (the first if even).
     """
     n = problem.system.unknowns
-    inverse = LinearOperator((n, n), matvec=state.factor.solve)
+    inverse = LinearOperator((n, n), matvec=state.factor.solve, dtype=float)
     start = np.random.default_rng(0).standard_normal(n)
     try:
         _, vectors = eigsh(
@@ -69,7 +70,7 @@ def disturbed(problem: Problem, state: State) -> np.ndarray:
         raise StepFailed("no direction of negative curvature found") from error
     move = problem.expand(vectors[:, 0])
     move *= 0.1 * problem.assembly.lattice.spacing[2] / np.abs(move).max()
-    return min((state.u + move, state.u - move), key=lambda u: _potential(problem, u, state.load_factor))
+    return min((state.u + move, state.u - move), key=lambda u: problem.potential(u, state.load_factor))
 
 
 def _definite_factor(problem: Problem, u: np.ndarray, load_factor: float, wait: int) -> tuple[Factor, int]:
@@ -87,11 +88,6 @@ def _definite_factor(problem: Problem, u: np.ndarray, load_factor: float, wait: 
         np.maximum(stresses.links, 0.0), tuple(np.maximum(stress, 0.0) for stress in stresses.cells)
     )
     return problem.factor(problem.tangent(u, load_factor, tensile)), wait - 1
-
-
-def _potential(problem: Problem, u: np.ndarray, load_factor: float) -> float:
-    energy, _ = problem.assembly.force(u)
-    return energy - load_factor * float(np.sum(problem.loads.dead * u))
 
 
 def _unknowns(problem: Problem, u: np.ndarray) -> np.ndarray:

@@ -14,87 +14,19 @@ state there.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
-from lumped.assembly import Assembly, Stresses
-from lumped.linear import Factor, ReducedSystem, SingularMatrixError
-from lumped.loads import Loads
-from lumped.supports import Constraints
-from scenes import Iteration
+from lumped.assembly import Stresses
+from lumped.linear import Factor, SingularMatrixError
+from lumped.problem import Problem
 
 COARSE = 1e-5  # residual, relative to the forces, at which corrections turn to the true tangent
 FINE = 1e-11  # residual, relative to the forces, that counts as equilibrium
 FIRST_REACH = 1.3  # farthest predicted displacement of a first step, in sides of the sheet
 SHORTEST_STEP = 2.0**-12
 CORRECTIONS = 14  # of one load step
-
-Progress = Callable[[Iteration], None]
-
-
-@dataclass
-class Problem:
-    """A lattice under its supports and loads. Displacements and forces are (n, 3) [m], [N]."""
-
-    assembly: Assembly
-    constraints: Constraints
-    loads: Loads
-    size: float
-    factorisations: int = 0
-    history: list[Iteration] = field(default_factory=list)
-    progress: Progress | None = None
-
-    def __post_init__(self) -> None:
-        self.conservative = self.assembly.conservative and self.loads.conservative
-        self.system = ReducedSystem(self.assembly.pattern, self.constraints.transform, self.conservative)
-
-    def reduce(self, force: np.ndarray) -> np.ndarray:
-        """Tᵀ f, the force on the free unknowns."""
-        reduced: np.ndarray = self.constraints.transform.T @ force.ravel()
-        return reduced
-
-    def expand(self, unknowns: np.ndarray) -> np.ndarray:
-        """T q as a displacement."""
-        return (self.constraints.transform @ unknowns).reshape(-1, 3)
-
-    def tangent(self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None) -> np.ndarray:
-        """Blocks of the tangent of the residual, loads included."""
-        blocks = self.assembly.tangent(u, stresses)
-        self.loads.add_tangent(u, load_factor, blocks)
-        return blocks
-
-    def factor(self, blocks: np.ndarray) -> Factor:
-        """Factors of the reduced tangent; every call counts."""
-        self.factorisations += 1
-        return self.system.factor(blocks)
-
-    def negative(self, factor: Factor) -> int | None:
-        """Eigenvalues below zero of the factored tangent; of its symmetric part when it is unsymmetric
-        (none is then enough for stability, some need not mean instability)."""
-        if self.conservative:
-            return factor.negative
-        self.factorisations += 1
-        return factor.negative_of_symmetric_part()
-
-    def residual(self, u: np.ndarray, load_factor: float) -> tuple[np.ndarray, float]:
-        """Unbalanced force λ f − f_int (n, 3) [N] and its size on the free ones, relative."""
-        _, internal = self.assembly.force(u)
-        external = load_factor * self.loads.force(u)
-        unbalanced = external - internal
-        held = np.where(self.constraints.held, internal, 0.0)
-        scale = float(np.linalg.norm(external) + np.linalg.norm(held))
-        with np.errstate(over="ignore", invalid="ignore"):
-            size = float(np.linalg.norm(self.reduce(unbalanced)))
-        return unbalanced, size / scale if scale > 0.0 else size
-
-    def note(self, load_factor: float, residual: float, step: float) -> None:
-        """Keep one line of history and tell whoever watches."""
-        line = Iteration(load_factor, residual, step)
-        self.history.append(line)
-        if self.progress:
-            self.progress(line)
 
 
 @dataclass
@@ -155,8 +87,7 @@ def follow(problem: Problem, start: State, target: float = 1.0) -> tuple[State, 
 
 def _predictor(problem: Problem, state: State, step: float) -> np.ndarray:
     """Displacement (n, 3) of a load step, linear at the state."""
-    moved = problem.constraints.prescribed(state.load_factor + step)
-    moved = moved - problem.constraints.prescribed(state.load_factor)
+    moved = problem.prescribed(state.load_factor + step) - problem.prescribed(state.load_factor)
     unbalanced = step * problem.loads.force(state.u) - problem.system.apply(state.blocks, moved)
     return problem.expand(state.factor.solve(problem.reduce(unbalanced))) + moved
 
@@ -218,7 +149,5 @@ def rounding_floor(problem: Problem, u: np.ndarray, load_factor: float) -> float
     # relative displacements are differences of u: their rounding, times the stiffness
     rounded = assembly.links.stiffness * np.abs(u).max()
     np.add.at(carried, assembly.links.nodes.ravel(), np.repeat(rounded, 2))
-    _, internal = assembly.force(u)
-    scale = np.linalg.norm(load_factor * problem.loads.force(u))
-    scale += np.linalg.norm(np.where(problem.constraints.held, internal, 0.0))
+    scale = problem.force_scale(u, load_factor)
     return float(np.finfo(float).eps * np.linalg.norm(carried) / scale) if scale > 0.0 else np.inf

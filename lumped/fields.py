@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lumped.equilibrium import Problem
+from lumped.problem import Problem
 from scenes import FieldMesh
 
 

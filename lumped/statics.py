@@ -12,11 +12,12 @@ import numpy as np
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration, calibrate, given
 from lumped.descent import descend, disturbed
-from lumped.equilibrium import Problem, State, StepFailed, at_rest, follow
+from lumped.equilibrium import State, StepFailed, at_rest, follow
 from lumped.fields import field_mesh
 from lumped.lattice import Weights
 from lumped.linear import SingularMatrixError
 from lumped.loads import Loads, locate
+from lumped.problem import Problem
 from lumped.supports import constrain
 from scenes import Iteration, Scene, Solution, Status, require_static
 
@@ -27,7 +28,9 @@ Branch = Literal["path", "stable"]
 
 
 @dataclass(frozen=True)
-class _Outcome:
+class Outcome:
+    """How a solve ended: status, the last equilibrium, and what there is to say about it."""
+
     status: Status
     state: State
     message: str
@@ -58,7 +61,7 @@ def solve(
     problem = pose(scene, springs, weights)
     problem.progress = progress
     ready = time.perf_counter()
-    outcome = _equilibrium(scene, problem, branch)
+    outcome = settle(scene, problem, branch)
     done = time.perf_counter()
     return _solution(scene, springs, problem, outcome, (ready - began, done - ready), branch, weights)
 
@@ -70,12 +73,13 @@ def pose(scene: Scene, springs: Calibration, weights: Weights = "tributary") -> 
     return Problem(assembly, constrain(scene, assembly.lattice), loads, max(scene.sheet.lengths))
 
 
-def _equilibrium(scene: Scene, problem: Problem, branch: Branch) -> _Outcome:
+def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
+    """The equilibrium at full load, or how far the load path went and why."""
     try:
         start = at_rest(problem)
     except SingularMatrixError as error:
         rest = State(np.zeros_like(problem.loads.dead), 0.0, *_nothing(problem))
-        return _Outcome(Status.SINGULAR, rest, f"the flat sheet's tangent is singular: {error}")
+        return Outcome(Status.SINGULAR, rest, f"the flat sheet's tangent is singular: {error}")
     state, why = follow(problem, start)
     notes = []
     if why and problem.conservative:
@@ -93,8 +97,8 @@ def _equilibrium(scene: Scene, problem: Problem, branch: Branch) -> _Outcome:
         except (StepFailed, SingularMatrixError) as error:
             notes.append(f"no stable equilibrium found nearby: {error}")
     if why:
-        return _Outcome(Status.DIVERGED, state, f"load factor {state.load_factor:.4g} of 1 reached: {why}")
-    return _Outcome(*_judge(scene, problem, state, notes))
+        return Outcome(Status.DIVERGED, state, f"load factor {state.load_factor:.4g} of 1 reached: {why}")
+    return Outcome(*_judge(scene, problem, state, notes))
 
 
 def _judge(scene: Scene, problem: Problem, state: State, notes: list[str]) -> tuple[Status, State, str]:
@@ -144,7 +148,7 @@ def _solution(
     scene: Scene,
     springs: Calibration,
     problem: Problem,
-    outcome: _Outcome,
+    outcome: Outcome,
     seconds: tuple[float, float],
     branch: Branch,
     weights: Weights,

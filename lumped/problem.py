@@ -1,0 +1,112 @@
+"""A lattice under its supports and loads: residual, tangent and factors on the free unknowns.
+
+With u = T q + g(λ), equilibrium is Tᵀ (λ f(u) − f_int(u)) = 0. Displacements and forces are (n, 3) [m], [N].
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from lumped.assembly import Assembly, Stresses
+from lumped.linear import Factor, ReducedSystem
+from lumped.loads import Loads
+from lumped.supports import Constraints
+from scenes import Iteration
+
+Progress = Callable[[Iteration], None]
+
+
+@dataclass
+class Problem:
+    """A lattice under its supports and loads, which grow with the load factor λ.
+
+    size: the sheet's longer side [m]. base: loads that act in full at every λ; the supports are then in
+    their places from the start and only `loads` grow. factorisations counts every tangent factorised.
+    """
+
+    assembly: Assembly
+    constraints: Constraints
+    loads: Loads
+    size: float
+    base: Loads | None = None
+    factorisations: int = 0
+    history: list[Iteration] = field(default_factory=list)
+    progress: Progress | None = None
+
+    def __post_init__(self) -> None:
+        dead = self.loads.conservative and (self.base is None or self.base.conservative)
+        self.conservative = self.assembly.conservative and dead
+        self.system = ReducedSystem(self.assembly.pattern, self.constraints.transform, self.conservative)
+
+    def reduce(self, force: np.ndarray) -> np.ndarray:
+        """Tᵀ f, the force on the free unknowns."""
+        reduced: np.ndarray = self.constraints.transform.T @ force.ravel()
+        return reduced
+
+    def expand(self, unknowns: np.ndarray) -> np.ndarray:
+        """T q as a displacement."""
+        return (self.constraints.transform @ unknowns).reshape(-1, 3)
+
+    def tangent(self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None) -> np.ndarray:
+        """Blocks of the tangent of the residual, loads included."""
+        blocks = self.assembly.tangent(u, stresses)
+        self.loads.add_tangent(u, load_factor, blocks)
+        if self.base is not None:
+            self.base.add_tangent(u, 1.0, blocks)
+        return blocks
+
+    def factor(self, blocks: np.ndarray) -> Factor:
+        """Factors of the reduced tangent; every call counts."""
+        self.factorisations += 1
+        return self.system.factor(blocks)
+
+    def negative(self, factor: Factor) -> int | None:
+        """Eigenvalues below zero of the factored tangent; of its symmetric part when it is unsymmetric
+        (none is then enough for stability, some need not mean instability)."""
+        if self.conservative:
+            return factor.negative
+        self.factorisations += 1
+        return factor.negative_of_symmetric_part()
+
+    def prescribed(self, load_factor: float) -> np.ndarray:
+        """Displacement of the masses that the supports put in place."""
+        return self.constraints.prescribed(load_factor if self.base is None else 1.0)
+
+    def external(self, u: np.ndarray, load_factor: float) -> np.ndarray:
+        """External force λ f(u), plus the base loads."""
+        force = load_factor * self.loads.force(u)
+        return force if self.base is None else force + self.base.force(u)
+
+    def potential(self, u: np.ndarray, load_factor: float) -> float:
+        """Elastic energy less the work of dead loads [J]; only conservative problems have one."""
+        energy, _ = self.assembly.force(u)
+        return energy - float(np.sum(self.external(u, load_factor) * u))
+
+    def force_scale(self, u: np.ndarray, load_factor: float) -> float:
+        """Norm of the external forces plus that of the supports' [N]: what residuals are relative to."""
+        _, internal = self.assembly.force(u)
+        return self._scale(internal, self.external(u, load_factor))
+
+    def residual(self, u: np.ndarray, load_factor: float) -> tuple[np.ndarray, float]:
+        """Unbalanced force (n, 3) [N] and its norm on the free unknowns relative to the forces."""
+        _, internal = self.assembly.force(u)
+        external = self.external(u, load_factor)
+        unbalanced = external - internal
+        scale = self._scale(internal, external)
+        with np.errstate(over="ignore", invalid="ignore"):
+            size = float(np.linalg.norm(self.reduce(unbalanced)))
+        return unbalanced, size / scale if scale > 0.0 else size
+
+    def _scale(self, internal: np.ndarray, external: np.ndarray) -> float:
+        held = np.where(self.constraints.held, internal, 0.0)
+        return float(np.linalg.norm(external) + np.linalg.norm(held))
+
+    def note(self, load_factor: float, residual: float, step: float) -> None:
+        """Keep one line of history and tell whoever watches."""
+        line = Iteration(load_factor, residual, step)
+        self.history.append(line)
+        if self.progress:
+            self.progress(line)

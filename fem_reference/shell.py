@@ -25,16 +25,17 @@ from scenes import FieldMesh, Scene, Solution
 from scenes.scene import require_static
 
 
-def solve(scene: Scene, elements: Elements = 16) -> Solution:
+def solve(scene: Scene, elements: Elements = 16, graded: bool = True) -> Solution:
     """The static equilibrium of a scene; elements along the shorter side (near-square), or (nx, ny).
 
+    graded: finer towards the edges, uniform otherwise (see `mesh.rectangle`).
     Raises scenes.SceneError if the supports leave a rigid motion free.
     """
     require_static(scene)
     along_x, along_y = divisions(scene.sheet.lengths, elements)
     begin = perf_counter()
-    mesh = rectangle(scene.sheet, (along_x, along_y))
-    settings = {"elements": [along_x, along_y]}
+    mesh = rectangle(scene.sheet, (along_x, along_y), graded)
+    settings = {"elements": [along_x, along_y], "graded": graded}
     return solve_on(mesh, scene, f"shell {along_x} × {along_y}", settings, begin)
 
 

@@ -7,12 +7,15 @@ Position φ + ζ d, both biquadratic; with covariant components along the elemen
     shear     g_α  = φ,α · d
 
 A biquadratic element locks if these are integrated as they stand. They are sampled where the locked
-parts vanish and interpolated (Bucalem & Bathe 1993): rr and r-shear at r = ±1/√3, s = 0, ±√(3/5); ss and
-s-shear at the transposed points; rs at the 2 × 2 Gauss points. An element has 44 sampled strains
+parts vanish and interpolated (MITC9, Bucalem & Bathe 1993): rr and r-shear at r = ±1/√3, s = 0, ±√(3/5); ss
+and s-shear at the transposed points; rs at the 2 × 2 Gauss points, taken from the 3 × 3 ones by
+biquadratic interpolation, which makes it the mean-square projection on bilinear functions. On a
+distorted element that projection does not keep the mean of the Cartesian strain, on which the patch test
+hangs: the difference is added back as a constant. An element has 54 sampled strains
 
     e_k = ½ Qᵀ H_k Q − ½ Q₀ᵀ H_k Q₀,     Q = (φ_1 … φ_9, d_1 … d_9),
 
-with H_k the same for every element, and the energy ½ eᵀ D e, with D (44, 44) the integral over the
+with H_k the same for every element, and the energy ½ eᵀ D e, with D (54, 54) the integral over the
 element at 3 × 3 Gauss points. So δe = B δQ with B = H Q, the force is Bᵀ s with s = D e, and its tangent
 Bᵀ D B + Σ s_k H_k. Strains are formed from the displacement, e = (Q₀ + ½ q)ᵀ H q, which keeps their
 digits in a sheet of any thinness. No penalty, no stabilisation, no spurious mode.
@@ -62,16 +65,18 @@ GAUSS = _grid(_THREE, _THREE)
 GAUSS_WEIGHTS = np.outer(_THREE_WEIGHTS, _THREE_WEIGHTS).ravel()
 
 # Sampling grids of the covariant components and their interpolation to the Gauss points.
-_GRIDS = {"rr": (_TWO, _THREE), "ss": (_THREE, _TWO), "rs": (_TWO, _TWO)}
-_TO_GAUSS = {name: _interpolation(*grid, GAUSS) for name, grid in _GRIDS.items()}
+_GRIDS = {"rr": (_TWO, _THREE), "ss": (_THREE, _TWO), "rs": (_THREE, _THREE)}
+_TO_GAUSS = {name: _interpolation(*_GRIDS[name], GAUSS) for name in ("rr", "ss")}
+_TO_GAUSS["rs"] = _interpolation(_TWO, _TWO, GAUSS) @ _interpolation(_THREE, _THREE, _grid(_TWO, _TWO))
 
-MEMBRANE = slice(0, 16)
-BENDING = slice(16, 32)
-SHEAR = slice(32, 44)
+MEMBRANE = slice(0, 21)
+BENDING = slice(21, 42)
+SHEAR = slice(42, 54)
+STRAINS = 54
 
 
 def _strain_forms() -> np.ndarray:
-    """H (44, 18, 18) with e = ½ Qᵀ H Q; Q holds nine positions, then nine directors."""
+    """H (54, 18, 18) with e = ½ Qᵀ H Q; Q holds nine positions, then nine directors."""
     membrane, bending, shear = [], [], []
     phi, director = slice(0, 9), slice(9, 18)
     for name, (a, b) in {"rr": (0, 0), "ss": (1, 1), "rs": (0, 1)}.items():
@@ -98,7 +103,7 @@ FORMS = _strain_forms()
 
 @dataclass(frozen=True)
 class Element:
-    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 44, 44), areas w |det J| (m, 9) [m²]."""
+    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 44), areas w |det J| (m, 9) [m²]."""
 
     reference: np.ndarray
     stiffness: np.ndarray
@@ -116,8 +121,8 @@ class Element:
             raise ValueError(f"element {worst} of the mesh is inverted or degenerate")
         inverse = np.linalg.inv(jacobian)  # ∂ξ_a/∂x_b
         areas = GAUSS_WEIGHTS * np.abs(area)
-        in_plane, transverse = _cartesian_in_plane(inverse), _cartesian_shear(inverse)
-        stiffness = np.zeros((len(nodes), 44, 44))
+        in_plane, transverse = _cartesian_in_plane(inverse, areas), _cartesian_shear(inverse)
+        stiffness = np.zeros((len(nodes), STRAINS, STRAINS))
         stiffness[:, MEMBRANE, MEMBRANE] = _integrate(
             in_plane, membrane_stiffness(material, thickness), areas
         )
@@ -131,48 +136,51 @@ class Element:
         return cls(reference, stiffness, areas)
 
     def gradient(self, change: np.ndarray) -> np.ndarray:
-        """B = H Q (m, 44, 18, 3): the strains' derivatives at Q₀ + change; change q: (m, 18, 3)."""
+        """B = H Q (m, 54, 18, 3): the strains' derivatives at Q₀ + change; change q: (m, 18, 3)."""
         return _apply_forms(self.reference + change)
 
     def strain(self, change: np.ndarray) -> np.ndarray:
-        """Sampled strains e (m, 44) of the change q (m, 18, 3) of positions and directors."""
+        """Sampled strains e (m, 54) of the change q (m, 18, 3) of positions and directors."""
         return np.einsum("ekic,eic->ek", _apply_forms(self.reference + 0.5 * change), change)
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
-        """s = D e (m, 44), conjugate to the sampled strains."""
+        """s = D e (m, 54), conjugate to the sampled strains."""
         return (self.stiffness @ strain[:, :, None])[:, :, 0]
 
 
 def geometric(stress: np.ndarray) -> np.ndarray:
     """Σ s_k H_k (m, 18, 18), the same for each of the three components."""
-    return (stress @ FORMS.reshape(44, -1)).reshape(-1, 18, 18)
+    return (stress @ FORMS.reshape(STRAINS, -1)).reshape(-1, 18, 18)
 
 
 def _apply_forms(vectors: np.ndarray) -> np.ndarray:
-    return (FORMS.reshape(-1, 18) @ vectors).reshape(len(vectors), 44, 18, 3)
+    return (FORMS.reshape(-1, 18) @ vectors).reshape(len(vectors), STRAINS, 18, 3)
 
 
 def _integrate(to_cartesian: np.ndarray, moduli: np.ndarray, areas: np.ndarray) -> np.ndarray:
     return np.einsum("egak,ab,egbl,eg->ekl", to_cartesian, moduli, to_cartesian, areas, optimize=True)
 
 
-def _cartesian_in_plane(inverse: np.ndarray) -> np.ndarray:
-    """[xx, yy, 2xy] at the Gauss points from the 16 sampled rr, ss, rs: (m, 9, 3, 16). E = J⁻ᵀ e J⁻¹."""
+def _cartesian_in_plane(inverse: np.ndarray, areas: np.ndarray) -> np.ndarray:
+    """[xx, yy, 2xy] at the Gauss points from the 21 sampled rr, ss, rs: (m, 9, 3, 21). E = J⁻ᵀ e J⁻¹."""
     r, s = inverse[..., 0, :], inverse[..., 1, :]
     rows = [(0, 0, 1.0), (1, 1, 1.0), (0, 1, 2.0)]
     weights = {
-        "rr": [f * r[..., a] * r[..., b] for a, b, f in rows],
-        "ss": [f * s[..., a] * s[..., b] for a, b, f in rows],
-        "rs": [f * (r[..., a] * s[..., b] + s[..., a] * r[..., b]) for a, b, f in rows],
+        "rr": np.array([f * r[..., a] * r[..., b] for a, b, f in rows]),
+        "ss": np.array([f * s[..., a] * s[..., b] for a, b, f in rows]),
+        "rs": np.array([f * (r[..., a] * s[..., b] + s[..., a] * r[..., b]) for a, b, f in rows]),
     }
-    return np.concatenate([_spread(weights[name], name) for name in ("rr", "ss", "rs")], axis=-1)
+    spread = {name: _spread(weight, name) for name, weight in weights.items()}
+    share = areas / areas.sum(axis=1, keepdims=True)
+    mean_lost = np.einsum("eg,aeg,gk->eak", share, weights["rs"], np.eye(9) - _TO_GAUSS["rs"])
+    return np.concatenate([spread["rr"], spread["ss"], spread["rs"] + mean_lost[:, None]], axis=-1)
 
 
 def _cartesian_shear(inverse: np.ndarray) -> np.ndarray:
     """[xz, yz] at the Gauss points from the 12 sampled r- and s-shears: (m, 9, 2, 12). γ = J⁻ᵀ g."""
     parts = [(inverse[..., 0, :], "rr"), (inverse[..., 1, :], "ss")]
-    return np.concatenate([_spread([d[..., 0], d[..., 1]], name) for d, name in parts], axis=-1)
+    return np.concatenate([_spread(np.moveaxis(d, -1, 0), name) for d, name in parts], axis=-1)
 
 
-def _spread(weights: list[np.ndarray], name: str) -> np.ndarray:
-    return np.einsum("aeg,gk->egak", np.array(weights), _TO_GAUSS[name])
+def _spread(weights: np.ndarray, name: str) -> np.ndarray:
+    return np.einsum("aeg,gk->egak", weights, _TO_GAUSS[name])

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from fem_reference.shell_element import BENDING, MEMBRANE, SHEAR, Element, geometric
+from fem_reference.shell_element import BENDING, MEMBRANE, SHEAR, STRAINS, Element, geometric
 from fem_reference.shell_loads import Follower
 from fem_reference.shell_supports import Supports
 from fem_reference.sparsity import Pattern
@@ -26,7 +26,7 @@ from fem_reference.sparsity import Pattern
 
 @dataclass(frozen=True)
 class State:
-    """change: q (2, n, 3); stress: extrapolated s (m, 44), the element's own where None."""
+    """change: q (2, n, 3); stress: extrapolated s (m, 54), the element's own where None."""
 
     change: np.ndarray
     stress: np.ndarray | None = None
@@ -34,7 +34,7 @@ class State:
 
 @dataclass(frozen=True)
 class Forces:
-    """At a state: B (m, 44, 18, 3), s (m, 44), residual R (2, n, 3), size of the forces that balance [N]."""
+    """At a state: B (m, 54, 18, 3), s (m, 54), residual R (2, n, 3), size of the forces that balance [N]."""
 
     gradient: np.ndarray
     stress: np.ndarray
@@ -109,7 +109,7 @@ class ShellStructure:
         stress = forces.stress if state.stress is None or not mixed else state.stress
         frames = self._frames(state.change)
         vectors = self.element.reference + self._gather(state.change)
-        reduced = self._reduce(forces.gradient, frames)  # (m, 44, 45)
+        reduced = self._reduce(forces.gradient, frames)  # (m, 54, 45)
         stiffness = reduced.swapaxes(1, 2) @ (self.element.stiffness @ reduced)
         form = geometric(stress)
         self._add_geometric(stiffness, form, frames)
@@ -197,11 +197,12 @@ class ShellStructure:
         return rows[self.number >= 0]
 
     def _reduce(self, gradient: np.ndarray, frames: np.ndarray) -> np.ndarray:
-        """B on the unknowns of an element: (m, 44, 45), nine positions then nine pairs of rotations."""
+        """B on the unknowns of an element: (m, 54, 45), nine positions then nine pairs of rotations."""
         m = len(gradient)
-        turning = gradient[:, :, 9:].swapaxes(1, 2) @ frames[self.element_nodes]  # (m, 9, 44, 2)
+        turning = gradient[:, :, 9:].swapaxes(1, 2) @ frames[self.element_nodes]  # (m, 9, 54, 2)
         return np.concatenate(
-            [gradient[:, :, :9].reshape(m, 44, 27), turning.swapaxes(1, 2).reshape(m, 44, 18)], axis=2
+            [gradient[:, :, :9].reshape(m, STRAINS, 27), turning.swapaxes(1, 2).reshape(m, STRAINS, 18)],
+            axis=2,
         )
 
     def _add_geometric(self, stiffness: np.ndarray, form: np.ndarray, frames: np.ndarray) -> None:
@@ -232,10 +233,10 @@ class ShellStructure:
 def _forces_of(gradient: np.ndarray, stress: np.ndarray) -> np.ndarray:
     """Bᵀ s: (m, 18, 3)."""
     m = len(stress)
-    return (stress[:, None, :] @ gradient.reshape(m, 44, 54)).reshape(m, 18, 3)
+    return (stress[:, None, :] @ gradient.reshape(m, STRAINS, 54)).reshape(m, 18, 3)
 
 
 def _strain_of(gradient: np.ndarray, step: np.ndarray) -> np.ndarray:
-    """B δq: (m, 44)."""
+    """B δq: (m, 54)."""
     m = len(step)
-    return (gradient.reshape(m, 44, 54) @ step.reshape(m, 54, 1))[:, :, 0]
+    return (gradient.reshape(m, STRAINS, 54) @ step.reshape(m, 54, 1))[:, :, 0]

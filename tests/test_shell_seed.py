@@ -1,0 +1,222 @@
+"""The shell on the seed's sheet: converged values, convergence, symmetry, balance, statuses, sampling."""
+
+import numpy as np
+import pytest
+from analytical_shell import SEED
+
+import fem_reference
+import scenes
+from fem_reference.mesh import rectangle
+from scenes import (
+    Clamped,
+    Curved,
+    EdgeLoad,
+    Gravity,
+    Held,
+    Hinged,
+    Material,
+    PointLoad,
+    Pressure,
+    Scene,
+    SceneError,
+    Sheet,
+    Status,
+)
+
+SHEET = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
+RUBBER = Material(young=54.5e6, poisson=0.48, density=1678.0)
+GRAVITY = Gravity(acceleration=(0.0, 0.0, -9.81))
+WEIGHT = 1678.0 * 0.003 * 0.188**2 * 9.81
+
+
+def solve(scene, elements=16, **options):
+    return fem_reference.solve(scene, model="shell", elements=elements, **options)
+
+
+def probes(scene, elements=16, **options):
+    return solve(scene, elements, **options).displacement(scene.probe_points())
+
+
+def softer(name):
+    return scenes.load(name).model_copy(
+        update={"material": Material(young=5.45e6, poisson=0.48, density=1678.0)}
+    )
+
+
+@pytest.fixture(scope="module")
+def converged():
+    """Probes of the one-edge scene on a fine graded mesh: 0.001 % from the limit."""
+    return probes(scenes.load("one-edge-clamped"), 40)
+
+
+@pytest.mark.parametrize("name", SEED)
+def test_seed_scenes_at_the_default_mesh(name):
+    scene = scenes.load(name)
+    solution = fem_reference.solve(scene, model="shell")
+    assert solution.status is Status.CONVERGED and solution.load_factor == 1.0
+    at = dict(zip(scene.probes, solution.displacement(scene.probe_points()) * 1e3, strict=True))
+    for (probe, axis), value in SEED[name].items():
+        assert at[probe][axis] == pytest.approx(value, rel=3e-3), (probe, axis)
+
+
+@pytest.mark.parametrize(
+    "graded, caps, slope",
+    [(False, {4: 7e-3, 8: 1.5e-3, 16: 5e-4}, 1.8), (True, {4: 2e-3, 8: 4e-4, 16: 5e-5}, 3.2)],
+    ids=["uniform", "graded"],
+)
+def test_convergence_on_the_one_edge_scene(converged, graded, caps, slope):
+    """The corners of the clamp limit the order on uniform meshes; grading restores most of it."""
+    scene = scenes.load("one-edge-clamped")
+    errors = [
+        np.abs(probes(scene, n, graded=graded) - converged).max() / np.abs(converged).max() for n in caps
+    ]
+    assert all(error < cap for error, cap in zip(errors, caps.values(), strict=True)), errors
+    assert np.log2(errors[0] / errors[-1]) / 2 == pytest.approx(slope, abs=0.15)
+
+
+def test_ten_times_softer_sheet():
+    one, two = softer("one-edge-clamped"), softer("two-edges-clamped")
+    assert probes(one)[2, 2] == pytest.approx(-157.3e-3, rel=3e-3)
+    assert probes(two)[3, 2] == pytest.approx(-60.1e-3, rel=3e-3)
+
+
+def test_symmetry_and_balance_of_test_1():
+    solution = solve(scenes.load("two-edges-clamped"), 8)
+    rng = np.random.default_rng(0)
+    points = rng.uniform(0, 0.188, (200, 2))
+    here, mirrored = solution.displacement(points), solution.displacement(points[:, ::-1])
+    assert np.abs(here - mirrored[:, [1, 0, 2]]).max() < 1e-8 * np.abs(here).max()
+    assert np.abs(sum(solution.reactions.values()) - [0, 0, WEIGHT]).max() < 1e-8 * WEIGHT
+    np.testing.assert_allclose(solution.reactions["x0"], solution.reactions["y0"][[1, 0, 2]], atol=1e-8)
+
+
+@pytest.mark.parametrize("name", ["curved-edge", "curved-edge-down"])
+def test_curved_edge(name):
+    scene = scenes.load(name)
+    solution = solve(scene, 8)
+    assert solution.status is Status.CONVERGED
+    kappa = scene.supports[0].curvature
+    on = np.isclose(solution.mesh.points[:, 0], 0.0)
+    s = solution.mesh.points[on, 1] - 0.094
+    arc = np.column_stack([0 * s, np.sin(kappa * s) / kappa - s, (1 - np.cos(kappa * s)) / kappa])
+    np.testing.assert_allclose(solution.mesh.point_data["displacement"][on], arc, atol=1e-14)
+    points = np.random.default_rng(1).uniform(0, 0.188, (50, 2))
+    mirrored = solution.displacement(points * [1, -1] + [0, 0.188])
+    np.testing.assert_allclose(solution.displacement(points), mirrored * [1, -1, 1], atol=1e-10)
+    assert np.abs(solution.reactions["x0"] - [0, 0, WEIGHT]).max() < 1e-8 * WEIGHT
+
+
+def test_the_directors_follow_the_rod():
+    solution = solve(scenes.load("curved-edge"), 4)
+    on = np.isclose(solution.mesh.points[:, 0], 0)
+    s = solution.mesh.points[on, 1] - 0.094
+    expected = np.column_stack([0 * s, -np.sin(4 * s), np.cos(4 * s)])
+    np.testing.assert_allclose(solution.mesh.point_data["director"][on], expected, atol=1e-12)
+    np.testing.assert_allclose(np.linalg.norm(solution.mesh.point_data["director"], axis=1), 1.0, atol=1e-12)
+
+
+def test_every_load_balances_and_pushes_the_right_way():
+    """Reactions oppose the dead loads; a positive pressure lifts; a positive moment lifts the outside."""
+    base = {"name": "t", "sheet": SHEET, "material": RUBBER, "supports": (Clamped(edge="x0"),)}
+    loads = (
+        PointLoad(at=(0.15, 0.03), force=(0.02, -0.01, 0.05)),
+        EdgeLoad(edge="y1", force_per_length=(0.1, 0.2, -0.3)),
+    )
+    reaction = solve(Scene(**base, loads=loads), 4).reactions["x0"]
+    np.testing.assert_allclose(reaction, [-0.02 - 0.0188, 0.01 - 0.0376, -0.05 + 0.0564], atol=1e-9)
+    pressed = Scene(**base, loads=(Pressure(value=10.0),))
+    assert probes(pressed, 4)[3, 2] > 0
+    for edge in ("x1", "y0", "y1"):
+        solution = solve(Scene(**base, loads=(EdgeLoad(edge=edge, moment_per_length=0.05),)), 4)
+        assert solution.status is Status.CONVERGED
+        ends = np.array(SHEET.edge_ends(edge)).mean(axis=0)
+        inward = ends - 0.01 * np.array(scenes.EDGES[edge].outward[:2])
+        at_edge, inside = solution.displacement([ends, inward])
+        assert at_edge[2] > inside[2]
+
+
+def test_a_corner_of_two_supports_obeys_both_and_is_shared():
+    scene = Scene(
+        name="t", sheet=SHEET, material=RUBBER, gravity=GRAVITY,
+        supports=(Hinged(edge="x0"), Held(edge="y0", components=("z",)), Clamped(edge="x1")),
+    )  # fmt: skip
+    solution = solve(scene, 6)
+    assert solution.status is Status.CONVERGED
+    assert np.abs(solution.displacement([[0, 0], [0.188, 0]])).max() < 1e-15
+    assert np.abs(solution.displacement([[0.05, 0], [0.1, 0]])[:, 2]).max() < 1e-15
+    np.testing.assert_allclose(sum(solution.reactions.values()), [0, 0, WEIGHT], atol=1e-8 * WEIGHT)
+    assert solution.reactions["y0"][0] == solution.reactions["y0"][1] == 0.0
+
+
+def test_sampling_is_exact_everywhere_on_the_sheet():
+    solution = solve(scenes.load("one-edge-clamped"), 3)
+    nodes, field = solution.mesh.points[:, :2], solution.mesh.point_data["displacement"]
+    np.testing.assert_allclose(solution.displacement(nodes), field, atol=1e-15)
+    assert solution.displacement([[0.188, 0.188], [0, 0]]).shape == (2, 3)
+    for point in ([0.189, 0.1], [-1e-6, 0.1], [np.nan, 0.1]):
+        with pytest.raises(ValueError, match="off the sheet"):
+            solution.displacement([point])
+
+
+def test_a_free_sheet_is_refused():
+    with pytest.raises(SceneError, match="nothing stops"):
+        solve(Scene(name="t", sheet=SHEET, material=RUBBER, gravity=GRAVITY))
+
+
+def test_no_load_no_motion():
+    solution = solve(Scene(name="t", sheet=SHEET, material=RUBBER, supports=(Clamped(edge="x0"),)), 3)
+    assert solution.status is Status.CONVERGED
+    assert np.abs(solution.mesh.point_data["displacement"]).max() == 0.0
+
+
+def test_a_standing_sheet_that_is_too_soft_is_unstable():
+    """Weight along a sheet that stands on its clamp: upright is an equilibrium, if a stable one."""
+    standing = {
+        "sheet": SHEET,
+        "supports": (Clamped(edge="x0"),),
+        "gravity": Gravity(acceleration=(-9.81, 0, 0)),
+    }
+    soft = Scene(name="t", material=Material(young=5e5, poisson=0.48, density=1678.0), **standing)
+    stiff = Scene(name="t", material=Material(young=5e8, poisson=0.48, density=1678.0), **standing)
+    assert solve(soft, 4).status is Status.UNSTABLE
+    assert solve(stiff, 4).status is Status.CONVERGED
+
+
+def test_an_absurd_load_ends_with_a_status():
+    scene = Scene(
+        name="t", sheet=SHEET, material=RUBBER, supports=(Clamped(edge="x0"),), loads=(Pressure(value=1e12),)
+    )
+    solution = solve(scene, 3)
+    assert solution.status is not Status.CONVERGED and solution.load_factor < 1.0 and solution.message
+    assert np.all(np.isfinite(solution.mesh.point_data["displacement"]))
+
+
+@pytest.mark.parametrize("kappa", [0.0, 30.0])
+def test_rods_straight_and_strongly_bent(kappa):
+    scene = Scene(
+        name="t",
+        sheet=SHEET,
+        material=RUBBER,
+        supports=(Curved(edge="y1", curvature=kappa),),
+        gravity=GRAVITY,
+    )
+    solution = solve(scene, 8)
+    assert solution.load_factor == 1.0
+    ends = solution.displacement([[0, 0.188], [0.188, 0.188], [0.094, 0.188]])
+    lift = (1 - np.cos(kappa * 0.094)) / kappa if kappa else 0.0
+    np.testing.assert_allclose(ends[:, 2], [lift, lift, 0.0], atol=1e-12)
+
+
+def test_meshes_are_near_square_and_graded_ones_are_finer_at_the_edges():
+    sheet = Sheet(length_x=0.4, length_y=0.1, thickness=0.001)
+    for graded in (False, True):
+        mesh = rectangle(sheet, 4, graded)
+        assert mesh.nelements == 64
+        assert {name: len(facets) for name, facets in mesh.boundaries.items()} == {
+            "x0": 4,
+            "x1": 4,
+            "y0": 16,
+            "y1": 16,
+        }
+    x = np.unique(mesh.p[0])
+    assert x[1] < 0.5 * (x[9] - x[8]) and x[-1] - x[-2] == pytest.approx(x[1])

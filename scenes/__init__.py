@@ -1,5 +1,7 @@
 """What is asked: sheet, material, supports, loads, probes, the catalogue, published figures; no solver."""
 
+from scenes.actuators import Actuator, Chain, CurvatureTable, EdgeMotion
+from scenes.history import History
 from scenes.loads import EdgeLoad, Load, PointLoad, Pressure
 from scenes.scene import Scene, SceneError, catalogue, free_rigid_motions, load, require_static
 from scenes.sheet import EDGES, Edge, Gravity, Material, Sheet
@@ -9,15 +11,20 @@ from scenes.supports import Clamped, Curved, Held, Hinged, Motion, Support, held
 
 __all__ = [
     "EDGES",
+    "Actuator",
+    "Chain",
     "Clamped",
+    "CurvatureTable",
     "Curved",
     "DamperSet",
     "Edge",
     "EdgeLoad",
+    "EdgeMotion",
     "FieldMesh",
     "Gravity",
     "Held",
     "Hinged",
+    "History",
     "Iteration",
     "Load",
     "Material",

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from pydantic import Field, ValidationError, model_validator
 
+from scenes.actuators import Actuator, Chain, disagreement
 from scenes.loads import Load, PointLoad
 from scenes.quantities import Frozen, PlanPoint
 from scenes.sheet import EDGES, Gravity, Material, Sheet
@@ -26,7 +27,10 @@ class SceneError(ValueError):
 
 
 class Scene(Frozen):
-    """A sheet with supports, loads and probes. Lists are tuples; in TOML they are [[support]], [[load]]."""
+    """A sheet with supports, loads, actuators and probes.
+
+    Lists are tuples; in TOML they are [[support]], [[load]], [[actuator]].
+    """
 
     name: str = Field(min_length=1)
     title: str = ""
@@ -35,6 +39,7 @@ class Scene(Frozen):
     gravity: Gravity | None = None
     supports: tuple[Support, ...] = Field(default=(), alias="support")
     loads: tuple[Load, ...] = Field(default=(), alias="load")
+    actuators: tuple[Actuator, ...] = Field(default=(), alias="actuator")
     springs: SpringSet | None = None
     dampers: DamperSet | None = None
     probes: dict[str, PlanPoint] = Field(default_factory=dict)
@@ -62,6 +67,8 @@ class Scene(Frozen):
                 raise ValueError(f"load.{i}.at = {list(load.at)} is off the sheet, {self._extent()}")
         if said := contradiction(self.supports):
             raise ValueError(f"support: {said}")
+        if said := disagreement(self.actuators, {support.edge for support in self.supports}):
+            raise ValueError(f"actuator: {said}")
         return self
 
     def _on_sheet(self, point: PlanPoint) -> bool:
@@ -93,11 +100,14 @@ def default_probes(sheet: Sheet, supported_edges: list[str]) -> dict[str, PlanPo
 
 
 def free_rigid_motions(scene: Scene) -> list[str]:
-    """Names of the rigid motions that the supports leave free (empty: a static answer can exist).
+    """Names of the rigid motions that supports and actuators leave free (empty: a static answer can exist).
 
+    An actuator whose base is held, or that prescribes the edge's motion, leaves none.
     A support fixes rows of the rigid velocity t + θ × X at both ends of its edge and, if it holds
     the director, θ × e_z; what the stacked rows leave in their null space is free.
     """
+    if any(not isinstance(actuator, Chain) or actuator.base != "free" for actuator in scene.actuators):
+        return []
     centre = np.array([scene.sheet.length_x / 2, scene.sheet.length_y / 2, 0.0])
     scale = max(scene.sheet.lengths)
     rows = [np.zeros(6)]
@@ -175,4 +185,7 @@ def _in_one_line(error: ValidationError) -> str:
     return "; ".join(said)
 
 
-_UNION_TAGS = {"clamped", "hinged", "held", "curved", "point", "edge", "pressure"}
+_UNION_TAGS = (
+    {"clamped", "hinged", "held", "curved", "point", "edge", "pressure", "chain", "motion"}
+    | {"constant", "each joint", "over time"}  # forms of an actuator's curvature
+)

@@ -22,7 +22,7 @@ from comparisons.stage import DARK, GREY, Stage
 from comparisons.vtk import plan_mesh
 from scenes import Scene, Solution
 
-WIDTH, DPI = 7.2, 220  # inches: the text width of a two-column paper
+WIDTH, DPI = 7.2, 170  # inches: the text width of a two-column paper
 VISIBLE, DRAWN = 0.02, 0.08  # of the longer side: what moves less than the first is drawn as the second
 HEIGHTS, DIFFERENCES = "viridis", "magma_r"
 FONT: Any = {"font.family": "DejaVu Sans", "font.size": 7.5, "text.color": DARK, "axes.labelcolor": DARK}

@@ -1,0 +1,79 @@
+"""The README: its Python runs, its scene loads, its commands parse, its pictures exist and are small."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+import scenes
+from comparisons.cli.app import VERBS
+from comparisons.displacement import compare
+
+ROOT = Path(__file__).parent.parent
+TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def blocks(language: str) -> list[str]:
+    """The fenced blocks of a language. There must be some: a test that collects nothing proves nothing."""
+    found = re.findall(rf"^```{language}\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)
+    assert found, f"no {language} block in the README"
+    return found
+
+
+def test_python_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    namespace: dict[str, object] = {}
+    for block in blocks("python"):
+        exec(compile(block, "README.md", "exec"), namespace)
+    assert "%" in capsys.readouterr().out
+
+
+def test_scene_loads(tmp_path: Path) -> None:
+    for block in blocks("toml"):
+        path = tmp_path / "scene.toml"
+        path.write_text(block, encoding="utf-8")
+        scenes.require_static(scenes.load(path))
+
+
+def test_commands_name_verbs_and_scenes_that_exist(tmp_path: Path) -> None:
+    commands = re.findall(r"sheetbench (\w[^\n`]*)", "\n".join(blocks("sh")))
+    assert commands
+    for command in commands:
+        verb, *arguments = shlex.split(command, comments=True)
+        assert verb in VERBS
+        if verb == "compare":
+            assert arguments[0] in scenes.catalogue() or arguments[0].endswith(".toml")
+
+
+def test_make_targets_exist() -> None:
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    targets = re.findall(r"make (\w+)", "\n".join(blocks("sh")))
+    assert {"demo", "test"} <= set(targets)
+    for target in targets:
+        assert re.search(rf"^{target}:", makefile, re.MULTILINE)
+
+
+def test_pictures_exist_and_are_small() -> None:
+    pictures = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", TEXT)
+    assert pictures
+    for picture in pictures:
+        assert (ROOT / picture).stat().st_size < 300_000
+
+
+def test_displacements_in_the_table_are_those_that_compare_gives() -> None:
+    printed = {
+        (cells[0], cells[1]): cells[2:5]
+        for line in TEXT.split("<!-- table -->")[1].split("<!-- end of table -->")[0].splitlines()
+        if (cells := [cell.strip() for cell in line.strip("|").split("|")])[0].startswith("P")
+    }
+    both = compare("two-edges-clamped")
+    assert len(printed) == len(both.solutions) * len(both.scene.probes)
+    for solution in both.solutions:
+        for probe, displacement in both.probes(solution).items():
+            shown = [float(cell.replace("−", "-")) for cell in printed[probe, solution.model]]
+            assert shown == pytest.approx([1e3 * float(u) for u in displacement], abs=1.1e-3), (
+                probe,
+                solution.model,
+            )

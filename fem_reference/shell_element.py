@@ -31,9 +31,9 @@ from skfem import ElementQuad2
 from fem_reference.materials import bending_stiffness, membrane_stiffness, transverse_shear_stiffness
 from scenes import Material
 
-_TWO = np.array([-1.0, 1.0]) / np.sqrt(3.0)
-_THREE = np.array([-1.0, 0.0, 1.0]) * np.sqrt(0.6)
-_THREE_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 9.0
+TWO = np.array([-1.0, 1.0]) / np.sqrt(3.0)
+THREE = np.array([-1.0, 0.0, 1.0]) * np.sqrt(0.6)
+THREE_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 9.0
 
 
 def shape(r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -61,13 +61,13 @@ def _interpolation(r: np.ndarray, s: np.ndarray, at: tuple[np.ndarray, np.ndarra
     return np.einsum("na,nb->nab", _lagrange(r, at[0]), _lagrange(s, at[1])).reshape(len(at[0]), -1)
 
 
-GAUSS = _grid(_THREE, _THREE)
-GAUSS_WEIGHTS = np.outer(_THREE_WEIGHTS, _THREE_WEIGHTS).ravel()
+GAUSS = _grid(THREE, THREE)
+GAUSS_WEIGHTS = np.outer(THREE_WEIGHTS, THREE_WEIGHTS).ravel()
 
 # Sampling grids of the covariant components and their interpolation to the Gauss points.
-_GRIDS = {"rr": (_TWO, _THREE), "ss": (_THREE, _TWO), "rs": (_THREE, _THREE)}
+_GRIDS = {"rr": (TWO, THREE), "ss": (THREE, TWO), "rs": (THREE, THREE)}
 _TO_GAUSS = {name: _interpolation(*_GRIDS[name], GAUSS) for name in ("rr", "ss")}
-_TO_GAUSS["rs"] = _interpolation(_TWO, _TWO, GAUSS) @ _interpolation(_THREE, _THREE, _grid(_TWO, _TWO))
+_TO_GAUSS["rs"] = _interpolation(TWO, TWO, GAUSS) @ _interpolation(THREE, THREE, _grid(TWO, TWO))
 
 MEMBRANE = slice(0, 21)
 BENDING = slice(21, 42)

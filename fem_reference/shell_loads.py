@@ -19,15 +19,13 @@ import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.location import locate
-from fem_reference.shell_element import _THREE, _THREE_WEIGHTS, GAUSS, GAUSS_WEIGHTS, shape
+from fem_reference.shell_element import GAUSS, GAUSS_WEIGHTS, THREE, THREE_WEIGHTS, shape
 from scenes import EdgeLoad, PointLoad, Pressure, Scene
 
 # Local nodes of the four sides, in scikit-fem's order of facets: corner, mid-side, corner.
 _SIDES = np.array([[0, 4, 1], [1, 5, 2], [2, 6, 3], [0, 7, 3]])
-_LINE = np.array(
-    [_THREE * (_THREE - 1) / 2, 1 - _THREE**2, _THREE * (_THREE + 1) / 2]
-).T  # (3 points, 3 nodes)
-_LINE_SLOPE = np.array([_THREE - 0.5, -2 * _THREE, _THREE + 0.5]).T
+_LINE = np.array([THREE * (THREE - 1) / 2, 1 - THREE**2, THREE * (THREE + 1) / 2]).T  # (3 points, 3 nodes)
+_LINE_SLOPE = np.array([THREE - 0.5, -2 * THREE, THREE + 0.5]).T
 
 
 class Follower(Protocol):
@@ -114,7 +112,7 @@ class Line:
     @property
     def shares(self) -> np.ndarray:
         """∫ N dL (k, 3) [m] of the three nodes."""
-        return np.einsum("g,eg,gi->ei", _THREE_WEIGHTS, self.speed, _LINE)
+        return np.einsum("g,eg,gi->ei", THREE_WEIGHTS, self.speed, _LINE)
 
 
 @dataclass(frozen=True)
@@ -156,7 +154,7 @@ class FollowerMoment:
 
     @property
     def _weight(self) -> np.ndarray:
-        return self.value * _THREE_WEIGHTS * self.line.speed
+        return self.value * THREE_WEIGHTS * self.line.speed
 
     def _frame(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Unit tangent (k, 3, 3), |φ,ξ| (k, 3, 1) and director (k, 3, 3) at the points of the sides."""

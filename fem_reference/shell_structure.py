@@ -87,15 +87,15 @@ class ShellStructure:
         stress = self.element.stress(self.element.strain(change))
         internal = self._scatter(_forces_of(gradient, stress))
         external = load_factor * self._external(change)
-        size = np.linalg.norm(external[0]) + np.linalg.norm(internal[0][self.supports.position])
-        size += np.linalg.norm(external[1]) / self._lever
+        size = np.abs(external[0]).sum() + np.abs(internal[0][self.supports.position]).sum()
+        size += np.abs(external[1]).sum() / self._lever
         return Forces(gradient, stress, internal - external, float(size))
 
     def imbalance(self, state: State, forces: Forces) -> float:
-        """Norm of the residual of the free unknowns [N], directors' moments over the sheet's size."""
+        """Sum of the free unknowns' residuals [N], directors' moments over the sheet's size."""
         residual = forces.residual
         moment = np.einsum("nc,nck->nk", residual[1], self._frames(state.change)) / self._lever
-        return float(np.linalg.norm(np.concatenate([residual[0], moment], axis=1)[self.number >= 0]))
+        return float(np.abs(np.concatenate([residual[0], moment], axis=1)[self.number >= 0]).sum())
 
     def gap(self, state: State, load_factor: float) -> float:
         """Largest distance from the prescribed values and from |d| = 1, relative to the sheet's size."""

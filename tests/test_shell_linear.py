@@ -9,7 +9,7 @@ from scipy.sparse import csr_matrix, random_array
 import fem_reference.linear
 import fem_reference.shell
 import scenes
-from fem_reference.equilibrium import trace
+from fem_reference.equilibrium import nearest_to_zero, trace
 from fem_reference.linear import DirectSolver, SingularMatrix
 from scenes import Status
 
@@ -122,3 +122,16 @@ def test_the_end_is_checked_for_stability(slope, status):
     path = trace(Spring(lambda u: slope * u, lambda u: slope), DirectSolver())
     assert path.status is status
     assert path.factorisations == 2
+
+
+@pytest.mark.parametrize("slope, status", [(-1.0, Status.UNSTABLE), (1.0, Status.CONVERGED)])
+def test_the_end_is_checked_under_follower_loads_too(slope, status):
+    path = trace(Spring(lambda u: slope * u, lambda u: slope, symmetric=False), DirectSolver(symmetric=False))
+    assert path.status is status
+
+
+def test_the_eigenvalues_nearest_to_zero_of_an_unsymmetric_matrix():
+    noise = np.triu(np.random.default_rng(2).uniform(-1, 1, (60, 60)), 1)
+    values = np.concatenate([[-0.5, 1.0, 2.0, 3.0, 4.0, 5.0], np.arange(50.0, 104.0)])
+    lowest = nearest_to_zero(csr_matrix(noise + np.diag(values)), DirectSolver(symmetric=False))
+    np.testing.assert_allclose(np.sort(lowest.real), values[:6], rtol=1e-8)

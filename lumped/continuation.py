@@ -149,8 +149,7 @@ def _arc_step(
     move = change * tangent
     load_factor = start.load_factor + change
     stresses = problem.assembly.extrapolated(start.u, move)
-    u = start.u + move
-    blocks = start.blocks
+    u = np.where(problem.constraints.fixed, problem.prescribed(load_factor), start.u + move)
     for count in range(CORRECTIONS):
         unbalanced, residual = problem.residual(u, load_factor)
         problem.note(load_factor, residual, float(np.abs(move).max()))
@@ -171,13 +170,14 @@ def _arc_step(
         move = free + correction * loaded
         stresses = problem.assembly.extrapolated(u, move)
         u, load_factor = u + move, load_factor + correction
+        u = np.where(problem.constraints.fixed, problem.prescribed(load_factor), u)
         if count == CORRECTIONS - 1:
             break
     raise StepFailed(f"no equilibrium in {CORRECTIONS} corrections")
 
 
 def _bends(problem: Problem, start: State, end: State, predicted: float, highest: float) -> bool:
-    """Whether a step cuts a corner: its load misses the predicted one, or its direction the path's at its end."""
+    """Whether a step cuts a corner: it misses the load predicted, or the path's direction at its end."""
     miss = abs(end.load_factor - predicted)
     if miss > max(BENT * abs(predicted - start.load_factor), 0.05 * highest):
         return True

@@ -33,7 +33,7 @@ CORRECTIONS = 14  # of one load step
 class State:
     """An equilibrium: displacement, load factor, stresses and the factors of the true tangent there.
 
-    negative: eigenvalues below zero of the (symmetric part of the) tangent, None when not known.
+    negative: eigenvalues of the tangent below zero (real parts), None when not known.
     """
 
     u: np.ndarray

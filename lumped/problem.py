@@ -64,12 +64,11 @@ class Problem:
         return self.system.factor(blocks)
 
     def negative(self, factor: Factor) -> int | None:
-        """Eigenvalues below zero of the factored tangent; of its symmetric part when it is unsymmetric
-        (none is then enough for stability, some need not mean instability)."""
+        """Eigenvalues below zero of the factored tangent (real parts, when it is unsymmetric)."""
         if self.conservative:
             return factor.negative
         self.factorisations += 1
-        return factor.negative_of_symmetric_part()
+        return factor.negative_real_parts()
 
     def prescribed(self, load_factor: float) -> np.ndarray:
         """Displacement of the masses that the supports put in place."""

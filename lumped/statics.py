@@ -23,6 +23,8 @@ from scenes import Iteration, Scene, Solution, Status, require_static
 
 STRAIN_LIMIT = 0.05  # ρ g a/E beyond which a linear spring means nothing
 LINK_STRAIN_LIMIT = 0.5  # relative elongation of a link beyond which it does not either
+SNAPS = 12  # of one load path
+SNAP_STEP = 0.02  # in load factor, past the point where the path ended
 
 Branch = Literal["path", "stable"]
 
@@ -82,14 +84,15 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
         return Outcome(Status.SINGULAR, rest, f"the flat sheet's tangent is singular: {error}")
     state, why = follow(problem, start)
     notes = []
-    if why and problem.conservative:
+    while why and problem.conservative and len(notes) < SNAPS:
+        beyond = min(1.0, state.load_factor + SNAP_STEP)
         try:
-            state, why = descend(problem, state.u, 1.0), ""
-            notes.append(
-                "the load path ended before the full load; this equilibrium was reached by descent in energy"
-            )
+            landed = descend(problem, state.u, beyond)
         except (StepFailed, SingularMatrixError) as error:
             why = f"{why}; then {error}"
+            break
+        notes.append(f"snapped at load factor {state.load_factor:.4g}")
+        state, why = follow(problem, landed)
     if not why and branch == "stable" and state.negative and problem.conservative:
         try:
             state = descend(problem, disturbed(problem, state), 1.0)
@@ -115,9 +118,7 @@ def _judge(scene: Scene, problem: Problem, state: State, notes: list[str]) -> tu
     if not problem.assembly.conservative:
         notes.append("per-direction springs: not central, no energy; solved with an unsymmetric tangent")
     elif not problem.conservative:
-        notes.append(
-            "follower loads: solved with an unsymmetric tangent; stability is that of its symmetric part"
-        )
+        notes.append("follower loads: solved with an unsymmetric tangent")
     return status, state, "; ".join(notes)
 
 

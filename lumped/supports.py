@@ -24,12 +24,14 @@ from scenes import EDGES, Curved, Scene, held_axes, holds_director
 @dataclass(frozen=True)
 class Constraints:
     """transform: (3n, m) sparse, q → u; prescribed: λ → g (n, 3) [m]; holders: edge → (mass rows of the
-    edge (m, layers), axes held); held: (n, 3) bool, components that some support acts on."""
+    edge (m, layers), axes held); held: (n, 3) bool, components that some support acts on; fixed: (n, 3)
+    bool, those of them that are in place whatever q is."""
 
     transform: sp.csr_array
     prescribed: Callable[[float], np.ndarray]
     holders: dict[str, tuple[np.ndarray, tuple[int, ...]]]
     held: np.ndarray
+    fixed: np.ndarray
 
     def reactions(self, residual: np.ndarray) -> tuple[dict[str, np.ndarray], np.ndarray]:
         """Force [N] of each support on the sheet, (3,) by edge, and of all supports on each mass, (n, 3),
@@ -90,7 +92,7 @@ def constrain(scene: Scene, lattice: Lattice) -> Constraints:
             g[masses] = _arc(lattice, support.edge, masses, load_factor * support.curvature)
         return g
 
-    return Constraints(transform, prescribed, holders, held)
+    return Constraints(transform, prescribed, holders, held, fixed)
 
 
 def _arc(lattice: Lattice, edge: str, masses: np.ndarray, curvature: float) -> np.ndarray:

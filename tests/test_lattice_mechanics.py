@@ -1,4 +1,4 @@
-"""Energy → force → tangent of every spring family, area spring and load, by finite differences; invariants."""
+"""Energy → force → tangent of every spring family, area spring and load, by differences; invariants."""
 
 import numpy as np
 import pytest
@@ -68,7 +68,9 @@ def test_extrapolated_stresses_are_the_linearisation():
         return np.concatenate([stresses.links, *stresses.cells])
 
     h = 1e-6
-    slope = (flat(assembly.stresses(u + h * direction)) - flat(assembly.stresses(u - h * direction))) / (2 * h)
+    slope = (flat(assembly.stresses(u + h * direction)) - flat(assembly.stresses(u - h * direction))) / (
+        2 * h
+    )
     change = flat(assembly.extrapolated(u, direction)) - flat(assembly.stresses(u))
     assert np.allclose(change, slope, atol=1e-6 * np.abs(slope).max())
 
@@ -136,7 +138,12 @@ def test_energy_and_force_turn_with_the_sheet(seed, turn):
 
 
 @pytest.mark.parametrize(
-    "load", [Pressure(value=30.0), EdgeLoad(edge="x1", moment_per_length=2.0), EdgeLoad(edge="y0", moment_per_length=-2.0)]
+    "load",
+    [
+        Pressure(value=30.0),
+        EdgeLoad(edge="x1", moment_per_length=2.0),
+        EdgeLoad(edge="y0", moment_per_length=-2.0),
+    ],
 )
 @pytest.mark.parametrize("grid", [(3, 4, 2), (3, 3, 3)])
 def test_follower_load_tangents(load, grid):
@@ -159,7 +166,9 @@ def test_pressure_pushes_up_and_moment_turns_the_far_edge_up():
         scene = Scene(name="s", sheet=SHEET, material=MATERIAL, supports=(Clamped(edge="x0"),), loads=(load,))
         return Loads(scene, assembly).force(rest)
 
-    assert force_of(Pressure(value=30.0)).sum(axis=0) == pytest.approx([0.0, 0.0, 30.0 * 0.2 * 0.3], abs=1e-14)
+    assert force_of(Pressure(value=30.0)).sum(axis=0) == pytest.approx(
+        [0.0, 0.0, 30.0 * 0.2 * 0.3], abs=1e-14
+    )
     for edge, axis in (("x1", -1), ("x0", 1)):  # rotation vector about y
         force = force_of(EdgeLoad(edge=edge, moment_per_length=2.0))
         moment = np.cross(assembly.lattice.positions, force).sum(axis=0)

@@ -1,0 +1,164 @@
+"""Calibrations: closed form against homogenisation, numerical and by imposed strains; the moduli reports."""
+
+import numpy as np
+import pytest
+
+import lumped
+import scenes
+from lumped import moduli
+from lumped.assembly import Assembly
+from lumped.calibration.calibration import report
+from lumped.calibration.least_squares import bounded_least_squares
+from scenes import Material, PerDirection, Sheet, SpringSet
+
+SEED = scenes.load("two-edges-clamped")
+RIGIDITY = 54.5e6 * 0.003**3 / 12 / (1 - 0.48**2)
+
+
+def imposed_energy(assembly, strain, curvature, shear):
+    """Energy per area [J/m²] of the lattice under a uniform plate strain state, thickness relaxed.
+
+    u = ε x − z κ-rotation field: in-plane ε + z κ with γ_xy engineering, transverse shear γ, and the layer
+    gap free; every mass is placed, the vertical displacement of the outer layers is minimised over.
+    """
+    x, y, z = assembly.lattice.positions.T
+    e = np.array([[strain[0], strain[2] / 2], [strain[2] / 2, strain[1]]])
+    k = np.array([[curvature[0], curvature[2] / 2], [curvature[2] / 2, curvature[1]]])
+    plan = np.stack([x, y])
+    u = np.zeros((len(x), 3))
+    u[:, :2] = (e @ plan).T + z[:, None] * ((k @ plan).T + np.array(shear))
+    u[:, 2] = -0.5 * np.einsum("ip,ij,jp->p", plan, k, plan)
+    stretch = np.zeros_like(u)
+    stretch[:, 2] = z
+
+    def energy(v):
+        return assembly.force(v)[0]
+
+    # quadratic in the stretch: exact minimum from three values
+    h = 1e-9
+    scale = 1e-6
+    a, b, c = (energy(scale * u + s * stretch) for s in (-h, 0.0, h))
+    best = 0.5 * h * (a - c) / (a - 2 * b + c) if a - 2 * b + c > 0 else 0.0
+    return energy(scale * u + best * stretch) / scale**2 / 0.188**2
+
+
+def small_assembly(calibration):
+    return Assembly(SEED.sheet, calibration)
+
+
+@pytest.mark.parametrize("grid", [(5, 5, 2), (9, 9, 2), (33, 33, 2), (65, 65, 3)])
+def test_consistent_meets_every_modulus(grid):
+    calibration = lumped.calibrate(SEED.sheet, SEED.material, grid)
+    for row in calibration.moduli:
+        assert row["got"] == pytest.approx(row["asked"], rel=1e-10), row["name"]
+
+
+def test_consistent_is_the_printed_closed_form():
+    calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9))
+    nu, spacing = 0.48, 0.188 / 8
+    shear = 1 / (1 / (5 / 6 * 54.5e6 / 2 / 1.48 * 0.003) + spacing**2 / (12 * RIGIDITY))
+    stretching = 12 * RIGIDITY / 0.003**2
+    lz2 = (4 * RIGIDITY + 2 / 3 * shear * spacing**2 / (1 - nu)) / stretching
+    c, t = 2 * RIGIDITY / lz2, shear * spacing**2 / (2 * lz2)
+    springs = calibration.springs
+    assert calibration.layer_distance == pytest.approx(np.sqrt(lz2), rel=1e-12)
+    assert springs.axial == pytest.approx(c * (1 - nu), rel=1e-12)
+    assert springs.diagonal == pytest.approx(c * (1 - nu) / 2, rel=1e-12)
+    assert springs.area == pytest.approx(c * (3 * nu - 1) / 2, rel=1e-12)
+    assert springs.cross == pytest.approx(2 * t / 3 * (spacing**2 + lz2) / spacing**2, rel=1e-12)
+    assert springs.cross_diagonal == pytest.approx(t / 6 * (2 * spacing**2 + lz2) / spacing**2, rel=1e-12)
+    assert springs.vertical == pytest.approx(4 * c, rel=1e-12)
+
+
+def test_uniform_lattice_of_the_theory():
+    calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), "uniform")
+    k = calibration.springs.axial
+    assert k * calibration.layer_distance**2 == pytest.approx(RIGIDITY, rel=1e-12)  # D11 = k lz²
+    row = {r["name"]: r["got"] for r in calibration.moduli}
+    assert row["D12"] / row["D11"] == pytest.approx(0.5) and row["D66"] / row["D11"] == pytest.approx(0.5)
+    miss = {r["name"]: r["miss"] for r in calibration.moduli}
+    assert miss["D66"] == pytest.approx(0.923, abs=1e-3)  # 1.92 times what ν = 0.48 asks for
+
+
+def test_uniform_takes_k_and_layer_distance():
+    calibration = lumped.calibrate(
+        SEED.sheet, SEED.material, (9, 9), "uniform", k=550.0, layer_distance=0.017
+    )
+    springs = calibration.springs
+    assert springs.axial == springs.cross_diagonal == 550.0 and springs.layer_distance == 0.017
+
+
+UNEQUAL = SpringSet(
+    axial=PerDirection(x=900.0, y=500.0),
+    diagonal=300.0,
+    vertical=2000.0,
+    cross=PerDirection(x=700.0, y=400.0),
+    cross_diagonal=150.0,
+    area=200.0,
+    mid_area=-60.0,
+    layer_distance=0.004,
+)
+
+
+@pytest.mark.parametrize("grid", [(9, 9, 2), (7, 11, 2)])
+def test_homogenisation_agrees_with_imposed_strains(grid):
+    springs = UNEQUAL
+    assembly = small_assembly(report("test", SEED.sheet, SEED.material, grid, springs))
+    spacing = (0.188 / (grid[0] - 1), 0.188 / (grid[1] - 1), 0.004)
+    got = moduli.of_springs(springs, spacing, 2)
+    zero = (0.0, 0.0, 0.0)
+    for strain in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 1.0, 0.0), (1.0, -0.4, 0.3)):
+        membrane = imposed_energy(assembly, strain, zero, (0.0, 0.0))
+        assert membrane == pytest.approx(0.5 * np.array(strain) @ got.membrane @ strain, rel=1e-4)
+        bending = imposed_energy(assembly, zero, strain, (0.0, 0.0))
+        assert bending == pytest.approx(0.5 * np.array(strain) @ got.bending @ strain, rel=1e-4)
+    for shear, expected in (((1.0, 0.0), got.shear[0]), ((0.0, 1.0), got.shear[1])):
+        assert imposed_energy(assembly, zero, zero, shear) == pytest.approx(0.5 * expected, rel=1e-4)
+
+
+def test_least_squares_finds_the_closed_form_on_square_cells():
+    springs, notes = bounded_least_squares(SEED.sheet, SEED.material, (9, 9, 2))
+    got = moduli.of_springs(springs, (0.0235, 0.0235, springs.layer_distance), 2).named(square=True)
+    asked = moduli.of_sheet(SEED.sheet, SEED.material, (0.0235, 0.0235)).named(square=True)
+    assert notes == ()
+    for name, value in asked.items():
+        assert got[name] == pytest.approx(value, rel=1e-6), name
+
+
+def test_unequal_spacings_are_met_up_to_an_aspect_of_root_three():
+    sheet = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
+    near = lumped.calibrate(sheet, SEED.material, (9, 13))
+    assert isinstance(near.springs.axial, PerDirection)
+    assert all(abs(row["miss"]) < 0.01 for row in near.moduli if row["name"][0] in "DS")
+    far = lumped.calibrate(sheet, SEED.material, (9, 25))  # aspect 3: central links cannot, and say so
+    assert any("D66 is missed" in note for note in far.notes)
+
+
+def test_negative_area_springs_are_said():
+    rubbery = Material(young=54.5e6, poisson=0.2, density=1678.0)
+    calibration = lumped.calibrate(SEED.sheet, rubbery, (9, 9))
+    assert calibration.springs.area < 0.0
+    assert "energy is positive" in " ".join(calibration.notes)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"method": "magic"}, "choose from"),
+        ({"grid": (1, 9)}, "1x9x2"),
+        ({"method": "uniform", "k": -1.0}, "k = -1"),
+        ({"method": "uniform", "layer_distance": 0.0}, "layer_distance = 0"),
+        ({"method": "consistent", "k": 550.0}, "k goes with 'uniform'"),
+    ],
+)
+def test_misuse_is_refused(arguments, said):
+    with pytest.raises(ValueError, match=said):
+        lumped.calibrate(SEED.sheet, SEED.material, **arguments)
+
+
+def test_json_document():
+    document = lumped.calibrate(SEED.sheet, SEED.material, (9, 9)).as_dict()
+    assert set(document["springs"]) == {
+        "axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area",
+    }  # fmt: skip
+    assert [row["name"] for row in document["moduli"]] == ["D11", "D12", "D66", "A11", "A12", "A66", "S"]

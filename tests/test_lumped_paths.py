@@ -1,0 +1,88 @@
+"""Buckling, stable branches and paths through limit points."""
+
+import numpy as np
+import pytest
+
+import lumped
+from scenes import EdgeLoad, Held, Material, PointLoad, Scene, Sheet, Status
+
+SIDE, THICKNESS, YOUNG, POISSON = 0.2, 0.001, 1e7, 0.3
+RIGIDITY = YOUNG * THICKNESS**3 / 12 / (1 - POISSON**2)
+CRITICAL = 4 * np.pi**2 * RIGIDITY / SIDE**2  # simply supported square plate, Timoshenko & Gere 9.2 [N/m]
+CENTRE = [[SIDE / 2, SIDE / 2]]
+
+
+def compressed(times_critical):
+    return Scene(
+        name="compressed",
+        sheet=Sheet(length_x=SIDE, length_y=SIDE, thickness=THICKNESS),
+        material=Material(young=YOUNG, poisson=POISSON, density=1000.0),
+        supports=(
+            Held(edge="x0", components=("x", "z")),
+            Held(edge="x1", components=("z",)),
+            Held(edge="y0", components=("y", "z")),
+            Held(edge="y1", components=("z",)),
+        ),
+        loads=(EdgeLoad(edge="x1", force_per_length=(-times_critical * CRITICAL, 0, 0)),),
+    )
+
+
+def springs(masses):
+    scene = compressed(1.0)
+    return lumped.calibrate(scene.sheet, scene.material, (masses, masses))
+
+
+def test_buckling_load_of_plate_theory():
+    assert lumped.buckling_loads(compressed(1.0), springs(33))[0] == pytest.approx(1.0, rel=0.02)
+    second = (1 / 2 + 2) ** 2 / 4  # (m/1 + 1/m)² with m = 2
+    assert lumped.buckling_loads(compressed(1.0), springs(33), 2)[1] == pytest.approx(second, rel=0.02)
+
+
+def test_flat_is_stable_below_and_unstable_above_the_buckling_load():
+    flat = lumped.solve(compressed(0.95), springs(17))
+    assert flat.status is Status.CONVERGED
+    unstable = lumped.solve(compressed(1.3), springs(17))
+    assert unstable.status is Status.UNSTABLE and abs(unstable.displacement(CENTRE)[0, 2]) < 1e-9
+
+
+def test_the_buckled_state_is_stable():
+    buckled = lumped.solve(compressed(1.3), springs(17), branch="stable")
+    assert buckled.status is Status.CONVERGED
+    assert abs(buckled.displacement(CENTRE)[0, 2]) > THICKNESS
+
+
+def test_a_buckled_sheet_snaps_through_between_opposite_limit_points():
+    scene, lattice = compressed(1.5), springs(17)
+    start = lumped.solve(scene, lattice, branch="stable").displacement(CENTRE)[0, 2]
+    push = PointLoad(
+        at=(SIDE / 2, SIDE / 2), force=(0, 0, -np.sign(start) * 50 * RIGIDITY * abs(start) / SIDE**2)
+    )
+    path = lumped.trace(
+        scene,
+        lattice,
+        vary=[push],
+        branch="stable",
+        load_limit=10.0,
+        until=lambda _, probes: probes["P1"][2] * np.sign(start) < -abs(start),
+    )
+    assert path.status is Status.CONVERGED
+    height = path.displacements["P1"][:, 2] * np.sign(start)
+    assert height[0] == pytest.approx(abs(start), rel=1e-9) and height[-1] < -abs(start)
+    top = path.load_factors[height > 0].max()
+    bottom = path.load_factors[height < 0].min()
+    assert bottom == pytest.approx(-top, rel=0.05)  # the two limit points mirror each other
+    falling = np.diff(path.load_factors) < 0
+    assert falling.any() and not path.stable[1:][falling & (np.abs(height[1:]) < 0.4 * abs(start))].any()
+    assert path.stable[0] and path.stable[-1]
+
+
+def test_a_path_that_loads_from_flat_ends_where_the_solver_does():
+    import scenes
+
+    scene = scenes.load("curved-edge")
+    lattice = lumped.calibrate(scene.sheet, scene.material, (9, 9))
+    path = lumped.trace(scene, lattice)
+    assert path.status is Status.CONVERGED and path.load_factors[-1] == pytest.approx(1.0)
+    answer = lumped.solve(scene, lattice).displacement(scene.probe_points())
+    for k, name in enumerate(scene.probes):
+        assert path.displacements[name][-1] == pytest.approx(answer[k], abs=1e-7)

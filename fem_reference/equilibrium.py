@@ -60,10 +60,10 @@ class Path:
     message: str = ""
 
 
-def trace(structure: Structure, solver: DirectSolver, first_step: float = 1.0) -> Path:
+def trace(structure: Structure, solver: DirectSolver) -> Path:
     """The equilibrium at load factor 1, or the last one on the way with the reason it is the last."""
     path = Path(structure.rest())
-    size = first_step
+    size = 1.0
     while path.load_factor < 1.0:
         target = min(1.0, path.load_factor + size)
         before = path.factorisations

@@ -83,7 +83,7 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
         rest = State(np.zeros_like(problem.loads.dead), 0.0, *_nothing(problem))
         return Outcome(Status.SINGULAR, rest, f"the flat sheet's tangent is singular: {error}")
     state, why = follow(problem, start)
-    notes = []
+    notes: list[str] = []
     while why and problem.conservative and len(notes) < SNAPS:
         beyond = min(1.0, state.load_factor + SNAP_STEP)
         try:

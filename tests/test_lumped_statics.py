@@ -174,8 +174,8 @@ def test_held_components_only_hold_those():
     )
     held = solve(strip(EdgeLoad(edge="x1", force_per_length=(1.0, 0, 0)), supports=rollers), (33, 9))
     along = held.displacement([[1.0, 0.125]])[0]
-    assert along[0] == pytest.approx(1.0 / (1e7 * 0.02), rel=1e-6)
-    assert held.displacement([[0.5, 0.0]])[0, 0] == pytest.approx(along[0] / 2, rel=1e-6)
+    assert along[0] == pytest.approx(1.0 / (1e7 * 0.02), rel=1e-4)
+    assert held.displacement([[0.5, 0.0]])[0, 0] == pytest.approx(along[0] / 2, rel=1e-4)
 
 
 def test_oblong_sheets_and_cells():

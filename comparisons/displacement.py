@@ -5,8 +5,8 @@ With u the displacement of a model and u_ref that of the reference at the same p
     error     largest |component of (u − u_ref)| over the probes / largest |component of u_ref| over them
     relative  |u − u_ref| / |u_ref| at one probe
 
-Both are fractions, and None where they have no meaning: the reference does not move, a number is not
-finite, or one of the two models did not reach the full load.
+Both are fractions, and None where they have no meaning: the reference does not move there by more than
+round-off, a number is not finite, or one of the two models did not reach the full load.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from comparisons.models import check_lattice, check_reference, has_own_springs, 
 from scenes import Scene, SceneError, Solution, Status, load, require_static
 
 COMPANION = "lumped-uniform"
+ROUND_OFF = 1e-9  # of the largest displacement at a probe
 
 
 def error(displacement: np.ndarray, reference: np.ndarray) -> float | None:
@@ -30,9 +31,10 @@ def error(displacement: np.ndarray, reference: np.ndarray) -> float | None:
     return _ratio(float(np.max(np.abs(displacement - reference))), float(np.max(np.abs(reference))))
 
 
-def relative(displacement: np.ndarray, reference: np.ndarray) -> float | None:
-    """The relative difference of one displacement (3,) from the reference's (3,)."""
-    return _ratio(float(np.linalg.norm(displacement - reference)), float(np.linalg.norm(reference)))
+def relative(displacement: np.ndarray, reference: np.ndarray, least: float = 0.0) -> float | None:
+    """The relative difference of a displacement (3,) from the reference's (3,), if that exceeds `least`."""
+    size = float(np.linalg.norm(reference))
+    return _ratio(float(np.linalg.norm(displacement - reference)), size) if size > least else None
 
 
 def _ratio(difference: float, size: float) -> float | None:
@@ -91,13 +93,14 @@ class Comparison:
     def differences(self) -> tuple[Difference, ...]:
         """The relative difference of every other model from the reference at every probe."""
         truth = self.probes(self.reference)
+        least = ROUND_OFF * max(float(np.linalg.norm(u)) for u in truth.values())
         found = []
         for solution in self.solutions:
             if solution is self.reference:
                 continue
             both = comparable(solution) and comparable(self.reference)
             for name, value in self.probes(solution).items():
-                off = relative(value, truth[name]) if both else None
+                off = relative(value, truth[name], least) if both else None
                 found.append(Difference(name, solution.model, self.reference.model, off))
         return tuple(found)
 

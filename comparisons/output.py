@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from comparisons import manifest, summary, vtk
 from comparisons.displacement import Comparison
 from comparisons.files import to_json, write_text
@@ -37,6 +39,9 @@ class Output:
         """comparison.png; where it cannot be drawn, the reason in a sentence."""
         from comparisons.rendering import why_not
 
+        drawn = comparison.solutions[:2]
+        if not all(np.all(np.isfinite(s.mesh.point_data["displacement"])) for s in drawn):
+            return "a displacement is not a finite number"
         impossible = why_not()
         if impossible is None:
             from comparisons.figures import picture

@@ -96,7 +96,7 @@ class Stage:
     def _axes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Unit vectors towards the eye, to its right and up: from the free side, above and a little aside."""
         free = sum((-np.array(EDGES[s.edge].outward[:2]) for s in self.scene.supports), np.zeros(2))
-        heading = np.degrees(np.arctan2(free[1], free[0])) if np.any(free) else -60.0
+        heading = np.degrees(np.arctan2(free[1], free[0])) if np.any(free) else -40.0
         azimuth, raised = np.radians(heading - TURN), np.radians(ELEVATION)
         ahead = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
         upright = np.array([0.0, 0.0, 1.0])

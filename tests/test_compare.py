@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import fake_solutions
 import numpy as np
@@ -67,6 +68,18 @@ def test_numbers_that_are_not_finite_become_null_in_json(scene: Scene) -> None:
     both = Comparison(scene, (broken, fake_solutions.solution(scene, "shell")))
     document = json.loads(to_json(both.as_dict()), parse_constant=pytest.fail)
     assert document["solutions"][0]["probes"]["P4"] == [None, None, None]
+
+
+def test_a_probe_on_a_clamped_edge_has_no_relative_difference(scene: Scene) -> None:
+    held = scene.model_copy(update={"probes": {"held": (0.0, 0.1), "free": (0.188, 0.188)}})
+
+    def round_off(points: np.ndarray) -> np.ndarray:
+        return truth.sample(points) + 1e-18
+
+    truth = fake_solutions.solution(held, "shell")
+    lattice = fake_solutions.solution(held, "lumped", sample=round_off)
+    first, second = Comparison(held, (lattice, replace(truth, sample=round_off))).differences
+    assert (first.relative, second.relative) == (None, 0.0)
 
 
 def test_a_companion_that_fails_does_not_make_the_comparison_fail(scene: Scene) -> None:

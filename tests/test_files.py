@@ -142,6 +142,12 @@ def test_without_a_way_to_draw_there_is_a_sentence_and_no_picture(
     assert not list(tmp_path.iterdir())
 
 
+def test_what_is_not_finite_is_not_drawn(scene: Scene, tmp_path: Path) -> None:
+    pair = (fake_solutions.solution(scene, size=np.nan), fake_solutions.solution(scene, "shell"))
+    said = Output(tmp_path, []).picture(Comparison(scene, pair))
+    assert said is not None and "finite" in said
+
+
 def test_a_child_process_that_dies_means_no_drawing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rendering, "_TRIAL", "import os, signal; os.kill(os.getpid(), signal.SIGSEGV)")
     assert not rendering._draws({})

@@ -30,7 +30,7 @@ def progress() -> Iterator[Callable[[str], None]]:
 
 def heading(name: str, title: str) -> None:
     """What the output is about."""
-    out.print(Text.assemble((name, "bold"), "  ", title))
+    out.print(Text.assemble((name, "bold"), f"  {title}" if title else ""))
 
 
 def show(table: Table, group_by: int | None = None, leave_out: tuple[str, ...] = ()) -> None:
@@ -72,5 +72,5 @@ def note(text: str) -> None:
 
 
 def warn(text: str) -> None:
-    """A warning, on standard error."""
-    err.print(Text(text, style="yellow"))
+    """A warning in one line, on standard error."""
+    err.print(Text(text, style="yellow"), soft_wrap=True)

@@ -19,6 +19,7 @@ from lumped.linear import SingularMatrixError
 from lumped.loads import Loads, locate
 from lumped.problem import Problem
 from lumped.supports import constrain
+from lumped.threads import one_blas_thread
 from scenes import Iteration, Scene, Solution, Status, require_static
 
 STRAIN_LIMIT = 0.05  # ρ g a/E beyond which a linear spring means nothing
@@ -63,7 +64,8 @@ def solve(
     problem = pose(scene, springs, weights)
     problem.progress = progress
     ready = time.perf_counter()
-    outcome = settle(scene, problem, branch)
+    with one_blas_thread():
+        outcome = settle(scene, problem, branch)
     done = time.perf_counter()
     return _solution(scene, springs, problem, outcome, (ready - began, done - ready), branch, weights)
 

@@ -104,6 +104,5 @@ def _show(comparison: Comparison) -> None:
     console.note(summary.sheet(scene.sheet, scene.material))
     console.show(summary.displacements(comparison), group_by=0, leave_out=("x", "y"))
     console.show(summary.costs(comparison), leave_out=("what it is",))
-    for solution in comparison.solutions:
-        console.note(f"{solution.model}: {solution.label}")
+    console.note(" · ".join(solution.label for solution in comparison.solutions))
     console.note(summary.explanation(comparison))

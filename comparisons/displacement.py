@@ -43,8 +43,9 @@ def _ratio(difference: float, size: float) -> float | None:
 
 
 def comparable(solution: Solution) -> bool:
-    """Whether the solution is an equilibrium under the whole load."""
-    return solution.status in (Status.CONVERGED, Status.UNSTABLE) and solution.load_factor == 1.0
+    """Whether the solution is an equilibrium under the whole load, stable and physical or not."""
+    equilibria = (Status.CONVERGED, Status.UNSTABLE, Status.STRAIN_OUTSIDE_MODEL)
+    return solution.status in equilibria and solution.load_factor == 1.0
 
 
 @dataclass(frozen=True)

@@ -121,10 +121,14 @@ def _layout(aspect: float) -> tuple[Figure, list[Axes], list[Axes]]:
 def _panel(axis: Axes, image: np.ndarray, title: str, subtitle: str) -> None:
     axis.imshow(image, interpolation="lanczos")
     axis.set_axis_off()
-    axis.set_title(title, fontsize=8.5, fontweight="bold", pad=11)
-    axis.text(
-        0.5, 1.02, subtitle, transform=axis.transAxes, ha="center", va="bottom", fontsize=6.5, color=GREY
-    )
+    axis.set_title(title, fontsize=8.5, fontweight="bold", pad=12)
+    below: dict[str, Any] = {
+        "xycoords": "axes fraction",
+        "textcoords": "offset points",
+        "ha": "center",
+        "va": "bottom",
+    }
+    axis.annotate(subtitle, (0.5, 1.0), (0.0, 2.5), fontsize=6.5, color=GREY, **below)
 
 
 def _name_probes(axis: Axes, pixels: np.ndarray, names: list[str]) -> None:

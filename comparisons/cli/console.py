@@ -51,7 +51,9 @@ def show(table: Table, group_by: int | None = None, leave_out: tuple[str, ...] =
     for column in (table.columns[i] for i in kept):
         lines = (column.name, f"[{column.shown_unit}]") if column.shown_unit else ("", column.name)
         header = Text("\n".join(lines) if any_unit else column.name)
-        printed.add_column(header, justify="right" if column.numeric else "left", no_wrap=not column.prose)
+        printed.add_column(
+            header, justify="right" if column.numeric else "left", no_wrap=not column.prose, overflow="fold"
+        )
     previous = None
     for row in table.shown_rows():
         key = row[group_by] if group_by is not None else None

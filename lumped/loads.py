@@ -16,13 +16,8 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
+from lumped.masses import masses
 from scenes import EDGES, EdgeLoad, PointLoad, Pressure, Scene
-
-
-def masses(scene: Scene, lattice: Lattice) -> np.ndarray:
-    """Mass of every lumped mass, (n,) [kg]: the sheet's mass by tributary share."""
-    lx, ly, _ = lattice.spacing
-    return scene.material.density * scene.sheet.thickness * lx * ly / lattice.grid[2] * lattice.share
 
 
 def locate(lattice: Lattice, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -53,11 +48,14 @@ class Loads:
         self._assembly = assembly
         lattice = assembly.lattice
         columns = lattice.columns().reshape(-1, lattice.grid[2])
-        self.dead = np.zeros((lattice.mass_count, 3))
+        self.dead = np.zeros((assembly.pattern.size, 3))
         self._moments: list[tuple[np.ndarray, np.ndarray, float]] = []
         self._pressure = 0.0
         if scene.gravity is not None:
-            self.dead += masses(scene, lattice)[:, None] * np.array(scene.gravity.acceleration)
+            acceleration = np.array(scene.gravity.acceleration)
+            self.dead[: lattice.mass_count] += masses(scene, lattice)[:, None] * acceleration
+            if assembly.coupling is not None:
+                self.dead[lattice.mass_count :] += assembly.coupling.weight(acceleration)
         for load in scene.loads:
             if isinstance(load, PointLoad):
                 at, weights = locate(lattice, np.array([load.at]))
@@ -82,7 +80,7 @@ class Loads:
         if self.conservative:
             return self.dead
         force = self.dead.copy()
-        x = self._assembly.lattice.positions + u
+        x = self._assembly.lattice.positions + u[: self._assembly.lattice.mass_count]
         for edge, moment, turn in self._moments:
             top, bottom, couple = self._couple(x, edge, moment, turn)[:3]
             force[top] += couple
@@ -97,7 +95,7 @@ class Loads:
         """Subtract the derivative of load_factor × force from the tangent's blocks (b, 3, 3)."""
         if self.conservative:
             return
-        x = self._assembly.lattice.positions + u
+        x = self._assembly.lattice.positions + u[: self._assembly.lattice.mass_count]
         for edge, moment, turn in self._moments:
             self._add_couple_tangent(x, edge, load_factor * moment, turn, blocks)
         if self._pressure:

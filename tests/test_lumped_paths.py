@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import lumped
+import scenes
 from scenes import EdgeLoad, Held, Material, PointLoad, Scene, Sheet, Status
 
 SIDE, THICKNESS, YOUNG, POISSON = 0.2, 0.001, 1e7, 0.3
@@ -77,8 +78,6 @@ def test_a_buckled_sheet_snaps_through_between_opposite_limit_points():
 
 
 def test_a_path_that_loads_from_flat_ends_where_the_solver_does():
-    import scenes
-
     scene = scenes.load("curved-edge")
     lattice = lumped.calibrate(scene.sheet, scene.material, (9, 9))
     path = lumped.trace(scene, lattice)
@@ -86,3 +85,22 @@ def test_a_path_that_loads_from_flat_ends_where_the_solver_does():
     answer = lumped.solve(scene, lattice).displacement(scene.probe_points())
     for k, name in enumerate(scene.probes):
         assert path.displacements[name][-1] == pytest.approx(answer[k], abs=1e-7)
+
+
+def test_a_sheet_on_a_curved_rod_snaps_like_a_tape_measure():
+    """Pushed down at its free edge, a weightless 1 mm sheet on a rod bent upwards buckles: the load peaks,
+    falls past a limit point while the sheet is unstable, and rises again on the bent-over branch."""
+    seed = scenes.load("curved-edge")
+    sheet = Sheet(length_x=0.188, length_y=0.188, thickness=0.001)
+    scene = seed.model_copy(update={"sheet": sheet, "gravity": None})
+    lattice = lumped.calibrate(sheet, scene.material, (17, 17))
+    push = EdgeLoad(edge="x1", force_per_length=(0, 0, -1.0))
+    path = lumped.trace(
+        scene, lattice, vary=[push], load_limit=5.0, until=lambda _, probes: probes["P3"][2] < -0.05
+    )
+    assert path.status is Status.CONVERGED
+    down = -path.displacements["P3"][:, 2]
+    peak = path.load_factors[down < 0.005].max()
+    valley = path.load_factors[(down > 0.005) & (down < 0.03)].min()
+    assert valley < 0.6 * peak
+    assert path.stable[0] and path.stable[-1] and not path.stable.all()

@@ -1,0 +1,81 @@
+"""Natural frequencies of a lattice about the flat, stress-free state: K φ = ω² M φ.
+
+K is the tangent at rest, M the diagonal matrix of the lumped masses. A lattice whose supports leave rigid
+motions free has zero frequencies: they are found with a small shift, counted, and left out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse as sp
+from scipy.sparse.linalg import LinearOperator, eigsh
+
+from lumped.calibration import Calibration
+from lumped.masses import Distribution, masses
+from lumped.statics import pose
+from lumped.threads import one_blas_thread
+from scenes import Scene, free_rigid_motions
+
+DENSE = 600  # unknowns below which all eigenvalues are computed
+
+
+@dataclass(frozen=True)
+class Modes:
+    """frequencies: (count,) [Hz], ascending; shapes: (count, n, 3), largest component 1; rigid: rigid motions
+    left out; unknowns of the eigenproblem."""
+
+    frequencies: np.ndarray
+    shapes: np.ndarray
+    rigid: int
+    unknowns: int
+
+
+def modes(
+    scene: Scene, springs: Calibration, count: int = 10, distribution: Distribution = "tributary"
+) -> Modes:
+    """The `count` lowest natural modes of the scene's sheet on a lattice; loads do not matter.
+
+    distribution: how the masses are shared out, see `lumped.masses`.
+
+    Raises ValueError when the lattice has fewer modes than asked.
+    """
+    problem = pose(scene, springs)
+    transform = problem.constraints.transform
+    rigid = len(free_rigid_motions(scene))
+    if count + rigid > problem.system.unknowns - 1:
+        raise ValueError(f"count = {count}: the lattice has only {problem.system.unknowns - rigid} modes")
+    weight = np.repeat(masses(scene, problem.assembly.lattice, distribution), 3)
+    mass = sp.csc_array(transform.T @ sp.diags_array(weight) @ transform)
+    rest = np.zeros_like(problem.loads.dead)
+    blocks = problem.assembly.tangent(rest)
+    stiffness = problem.system.matrix(blocks)
+    wanted = count + rigid
+    with one_blas_thread():
+        if problem.system.unknowns <= DENSE:
+            values, vectors = scipy.linalg.eigh(
+                stiffness.toarray(), mass.toarray(), subset_by_index=[0, wanted - 1]
+            )
+        else:
+            values, vectors = _shift_invert(problem, blocks, stiffness, mass, weight, wanted)
+    order = np.argsort(values)[rigid:]
+    shapes = np.stack([problem.expand(vectors[:, k]) for k in order])
+    shapes /= np.abs(shapes).max(axis=(1, 2), keepdims=True)
+    frequencies = np.sqrt(np.maximum(values[order], 0.0)) / (2.0 * np.pi)
+    return Modes(frequencies, shapes, rigid, problem.system.unknowns)
+
+
+def _shift_invert(problem, blocks, stiffness, mass, weight, wanted):
+    """Lanczos on (K − σM)⁻¹ with a small negative σ, which keeps free sheets factorisable."""
+    shift = -1e-9 * float(stiffness.diagonal().max() / weight.max())
+    n = np.arange(len(problem.loads.dead))
+    shifted = blocks.copy()
+    diagonal = problem.assembly.pattern.slots(n, n)
+    shifted[diagonal] -= shift * weight.reshape(-1, 3)[:, :, None] * np.eye(3)
+    factor = problem.factor(shifted)
+    size = problem.system.unknowns
+    inverse = LinearOperator((size, size), matvec=factor.solve, dtype=float)
+    start = np.random.default_rng(0).standard_normal(size)
+    return eigsh(stiffness, k=wanted, M=mass, sigma=shift, OPinv=inverse, which="LM", v0=start)

@@ -1,8 +1,8 @@
 """Dampers collocated with the area springs: dissipation potential, force and tangents, as compiled loops.
 
 A damper of coefficient c [N·s/m] on a cell of area a (a0 at rest) resists the rate ȧ = ∇a·v: potential
-½ c (ȧ/a0)² a0, force (c/a0) ȧ ∇a, power taken (c/a0) ȧ². Tangents: (c/a0) ∇a ∇aᵀ with respect to the velocity,
-(c/a0) [∇a (∇²a v)ᵀ + ȧ ∇²a] with respect to the displacement. In the two diagonals, with n = c/|c|,
+½ c (ȧ/a0)² a0, force (c/a0) ȧ ∇a, power taken (c/a0) ȧ². Tangents: (c/a0) ∇a ∇aᵀ with respect to the
+velocity, (c/a0) [∇a (∇²a v)ᵀ + ȧ ∇²a] with respect to the displacement. In the two diagonals, with n = c/|c|,
 c = d1 × d2 and ċ = v1 × d2 + d1 × v2 (see `lumped.cells`),
 
     ∇²a v = ½ (v2 × n + d2 × ṅ,  ṅ × d1 + n × v1),   ṅ = (ċ − n (n·ċ))/|c|.
@@ -49,7 +49,7 @@ def rates(u: np.ndarray, v: np.ndarray, nodes, diagonals, damping) -> np.ndarray
 
 @njit(cache=True)
 def add_forces(u, v, nodes, diagonals, damping, force) -> float:
-    """Add the damping force (with the sign of an internal force) to `force` (n, 3) [N]; the power taken [W]."""
+    """Add the damping force, signed as an internal one, to `force` (n, 3) [N]; the power taken [W]."""
     change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     normal, work = np.empty(3), np.empty(3)
     power = 0.0

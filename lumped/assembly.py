@@ -7,11 +7,13 @@ unsymmetric.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from lumped import cells, springs
+from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.moduli import family_stiffness
@@ -79,9 +81,18 @@ class Pattern:
 
 
 class Assembly:
-    """Energy, force and tangent of a calibrated lattice. Displacements and forces are (n, 3) [m], [N]."""
+    """Energy, force and tangent of a calibrated lattice. Displacements and forces are (n, 3) [m], [N].
 
-    def __init__(self, sheet: Sheet, calibration: Calibration, weights: Weights = "tributary"):
+    couple: makes the actuators bound to the lattice; their rows follow those of the masses in every array.
+    """
+
+    def __init__(
+        self,
+        sheet: Sheet,
+        calibration: Calibration,
+        weights: Weights = "tributary",
+        couple: Callable[[Lattice], Coupling] | None = None,
+    ):
         self.lattice: Lattice = build(sheet, calibration.grid, calibration.layer_distance, weights)
         self.families = tuple(dict.fromkeys(family.name for family in self.lattice.links))
         central, directional = [], []
@@ -99,7 +110,15 @@ class Assembly:
             if k != 0.0:
                 areas.append((cell.name, cell.nodes, k))
 
-        self.pattern = Pattern(self.lattice.mass_count, *_neighbours(self.lattice.columns()))
+        pairs = _neighbours(self.lattice.columns())
+        self.coupling = couple(self.lattice) if couple is not None else None
+        if self.coupling is None:
+            self.pattern = Pattern(self.lattice.mass_count, *pairs)
+        else:
+            own = self.coupling.pairs()
+            both = (np.concatenate(part) for part in zip(pairs, own, strict=True))
+            self.pattern = Pattern(self.coupling.size, *both)
+            self.coupling_slots = self.pattern.slots(*own)
         self.links = self._links(central, 1)
         self.directional = self._links(directional, 3)
         self.cells = tuple(self._cells(*area) for area in areas)

@@ -164,7 +164,7 @@ def _arc_step(
             )
             return state, start.load_factor + change
         free = problem.expand(factor.solve(problem.reduce(unbalanced)))
-        loaded = problem.expand(factor.solve(problem.reduce(problem.loads.force(u))))
+        loaded = problem.expand(factor.solve(problem.reduce(problem.growing(u))))
         loaded = loaded + _prescribed_rate(problem, load_factor, factor, blocks)
         correction = -float(np.sum(tangent * free)) / float(np.sum(tangent * loaded))
         move = free + correction * loaded
@@ -187,7 +187,7 @@ def _bends(problem: Problem, start: State, end: State, predicted: float, highest
 
 def _per_load(problem: Problem, state: State, blocks: np.ndarray) -> np.ndarray:
     """Displacement per unit of load factor at an equilibrium, (n, 3) [m]."""
-    loaded = problem.expand(state.factor.solve(problem.reduce(problem.loads.force(state.u))))
+    loaded = problem.expand(state.factor.solve(problem.reduce(problem.growing(state.u))))
     return loaded + _prescribed_rate(problem, state.load_factor, state.factor, blocks)
 
 

@@ -17,7 +17,7 @@ from lumped.springs import _stretch
 
 @njit(cache=True)
 def add_forces(u: np.ndarray, v: np.ndarray, nodes, offset, rest_length, damping, force) -> float:
-    """Add the damping force (with the sign of an internal force) to `force` (n, 3) [N]; the power taken [W]."""
+    """Add the damping force, signed as an internal one, to `force` (n, 3) [N]; the power taken [W]."""
     power = 0.0
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]

@@ -88,7 +88,7 @@ def follow(problem: Problem, start: State, target: float = 1.0) -> tuple[State, 
 def _predictor(problem: Problem, state: State, step: float) -> np.ndarray:
     """Displacement (n, 3) of a load step, linear at the state."""
     moved = problem.prescribed(state.load_factor + step) - problem.prescribed(state.load_factor)
-    unbalanced = step * problem.loads.force(state.u) - problem.system.apply(state.blocks, moved)
+    unbalanced = step * problem.growing(state.u) - problem.system.apply(state.blocks, moved)
     return problem.expand(state.factor.solve(problem.reduce(unbalanced))) + moved
 
 
@@ -145,9 +145,11 @@ def polish(problem: Problem, u: np.ndarray, load_factor: float, tolerance: float
 def rounding_floor(problem: Problem, u: np.ndarray, load_factor: float) -> float:
     """Residual, relative to the forces as in `Problem.residual`, that rounding of the link forces leaves."""
     assembly = problem.assembly
-    carried = np.zeros(assembly.lattice.mass_count)
+    carried = np.zeros(len(u))
     # relative displacements are differences of u: their rounding, times the stiffness
     rounded = assembly.links.stiffness * np.abs(u).max()
     np.add.at(carried, assembly.links.nodes.ravel(), np.repeat(rounded, 2))
+    if assembly.coupling is not None:
+        carried += assembly.coupling.carried()
     scale = problem.force_scale(u, load_factor)
     return float(np.finfo(float).eps * np.linalg.norm(carried) / scale) if scale > 0.0 else np.inf

@@ -14,12 +14,13 @@ from scenes import FieldMesh
 
 
 def field_mesh(problem: Problem, u: np.ndarray, reactions: np.ndarray) -> FieldMesh:
-    """Mesh and fields at displacement u (n, 3) [m] with the supports' forces on the masses (n, 3) [N]."""
+    """Mesh and fields at displacement u (n, 3) [m] with the supports' forces on the masses (n, 3) [N];
+    rows of actuators after those of the masses are left out."""
     assembly = problem.assembly
     links, lattice = assembly.links, assembly.lattice
     stresses = assembly.stresses(u)
     (layer_cells,) = (c.nodes[:, :, 0] for c in lattice.cells if c.name == "area")
-    quads = len(layer_cells)
+    quads, masses = len(layer_cells), lattice.mass_count
     cell_energy = np.zeros(quads)
     for cell, stress in zip(assembly.cells, stresses.cells, strict=True):
         energy = cell.energies(stress)
@@ -28,7 +29,11 @@ def field_mesh(problem: Problem, u: np.ndarray, reactions: np.ndarray) -> FieldM
     return FieldMesh(
         points=lattice.positions,
         cells=[("line", links.nodes), ("quad", layer_cells)],
-        point_data={"displacement": u, "reaction": reactions, "mass_share": lattice.share},
+        point_data={
+            "displacement": u[:masses],
+            "reaction": reactions[:masses],
+            "mass_share": lattice.share,
+        },
         cell_data={
             "tension": [stresses.links, np.zeros(quads)],
             "strain": [stresses.links / links.stiffness / links.rest_length, np.zeros(quads)],

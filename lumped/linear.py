@@ -20,6 +20,7 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import LinearOperator, eigs, splu
 
 from lumped.assembly import Pattern
+from lumped.constrained import Saddle
 
 rslab: Any
 try:
@@ -31,22 +32,34 @@ BANDED_LIMIT = 2.0e7  # n × bandwidth² below which the banded Cholesky is quic
 BACKWARD_ERROR = 1e-10  # ‖A x − b‖ relative to ‖A‖‖x‖ + ‖b‖ beyond which the matrix counts as singular
 NEAREST = 12  # eigenvalues sought when the tangent is unsymmetric
 
+SADDLE_REFINEMENTS = 4
+
 
 class SingularMatrixError(ArithmeticError):
     """The matrix has no usable factors."""
 
 
 class Factor:
-    """One factorisation: solve(b) and the number of negative eigenvalues (None when it is not known)."""
+    """One factorisation: solve(b) and the number of negative eigenvalues (None when it is not known).
 
-    def __init__(self, matrix: sp.csc_array, solve: Callable[[np.ndarray], np.ndarray], negative: int | None):
+    solve: of the matrix or of one close by; then with as many refinements as that takes.
+    """
+
+    def __init__(
+        self,
+        matrix: sp.csc_array,
+        solve: Callable[[np.ndarray], np.ndarray],
+        negative: int | None,
+        refinements: int = 1,
+    ):
         self._matrix, self._solve, self.negative = matrix, solve, negative
+        self._refinements = refinements
 
     def solve(self, b: np.ndarray) -> np.ndarray:
-        """x with A x = b, refined once. Raises SingularMatrixError when the residual stays large."""
+        """x with A x = b, refined. Raises SingularMatrixError when the residual stays large."""
         x = self._solve(b)
-        residual = b - self._matrix @ x
-        x = x + self._solve(residual)
+        for _ in range(self._refinements):
+            x = x + self._solve(b - self._matrix @ x)
         size = np.abs(self._matrix.data).max() * np.abs(x).max(initial=0.0) + np.abs(b).max(initial=0.0)
         miss = np.abs(b - self._matrix @ x).max(initial=0.0)
         if not miss <= BACKWARD_ERROR * size:  # also catches nan
@@ -73,10 +86,17 @@ class Factor:
 class ReducedSystem:
     """Tᵀ K T over a fixed pattern, from the blocks of K to factors.
 
-    transform: (3n, m) sparse; symmetric: factors as L D Lᵀ and tells the inertia.
+    transform: (3n, m) sparse; symmetric: factors as L D Lᵀ and tells the inertia; multipliers: (m,) bool, the
+    unknowns that are constraints' multipliers (see `lumped.constrained`).
     """
 
-    def __init__(self, pattern: Pattern, transform: sp.csr_array, symmetric: bool):
+    def __init__(
+        self,
+        pattern: Pattern,
+        transform: sp.csr_array,
+        symmetric: bool,
+        multipliers: np.ndarray | None = None,
+    ):
         self.symmetric = symmetric
         self.unknowns = transform.shape[1]
         self._transform = transform
@@ -90,7 +110,11 @@ class ReducedSystem:
         column_of = (keys // self.unknowns).astype(np.int32)
         self._indptr = np.searchsorted(column_of, np.arange(self.unknowns + 1)).astype(np.int32)
         self._analysis: Any = None
+        self._saddle: Saddle | None = None
         self._band = _Band(self._indices, column_of, self._indptr) if symmetric else None
+        if multipliers is not None and multipliers.any():
+            self._band = None
+            self._saddle = Saddle(self._indices, column_of, multipliers)
 
     def matrix(self, blocks: np.ndarray) -> sp.csc_array:
         """The reduced matrix (m, m) of blocks (b, 3, 3), both triangles."""
@@ -112,15 +136,28 @@ class ReducedSystem:
             banded = self._band.factor(matrix)
             if banded is not None:
                 return Factor(matrix, banded, 0)
+        if self._saddle is not None and self.symmetric and rslab is not None:
+            return self._quasi_definite(self._saddle, matrix)
         try:
             if rslab is None:
-                return _superlu(matrix, self.symmetric)
+                return _superlu(matrix, self.symmetric and self._saddle is None)
             if self._analysis is None:
                 self._analysis = rslab.analyze(matrix, path="ldlt" if self.symmetric else "lu")
             factors = self._analysis.factor(matrix)
             return Factor(matrix, factors.solve, factors.inertia[1] if self.symmetric else None)
         except RuntimeError as error:
             raise SingularMatrixError(str(error)) from None
+
+    def _quasi_definite(self, saddle: Saddle, matrix: sp.csc_array) -> Factor:
+        close_by, augmented = saddle.quasi_definite(matrix)
+        try:
+            if self._analysis is None:
+                self._analysis = rslab.analyze(close_by, path="ldlt")
+            factors = self._analysis.factor(close_by)
+        except RuntimeError as error:
+            raise SingularMatrixError(str(error)) from None
+        negative = factors.inertia[1]
+        return Factor(matrix, lambda b: factors.solve(augmented(b)), negative, SADDLE_REFINEMENTS)
 
 
 class _Band:

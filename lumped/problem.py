@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from lumped.actuators import Drive
 from lumped.assembly import Assembly, Stresses
 from lumped.linear import Factor, ReducedSystem
 from lumped.loads import Loads
@@ -39,7 +40,23 @@ class Problem:
     def __post_init__(self) -> None:
         dead = self.loads.conservative and (self.base is None or self.base.conservative)
         self.conservative = self.assembly.conservative and dead
-        self.system = ReducedSystem(self.assembly.pattern, self.constraints.transform, self.conservative)
+        coupling = self.assembly.coupling
+        self.multipliers = coupling.multipliers if coupling is not None else 0
+        self.system = ReducedSystem(
+            self.assembly.pattern, self.constraints.transform, self.conservative, self._multiplier_unknowns()
+        )
+
+    def _multiplier_unknowns(self) -> np.ndarray | None:
+        """Which unknowns are multipliers of the actuators' constraints, (m,) bool."""
+        if self.assembly.coupling is None:
+            return None
+        of_unknowns: np.ndarray = abs(self.constraints.transform).T @ self.assembly.coupling.algebraic.ravel()
+        return of_unknowns > 0.0
+
+    @property
+    def descends(self) -> bool:
+        """Whether stable equilibria are minima of an energy of the free unknowns."""
+        return self.conservative and self.multipliers == 0
 
     def reduce(self, force: np.ndarray) -> np.ndarray:
         """Tᵀ f, the force on the free unknowns."""
@@ -56,6 +73,9 @@ class Problem:
         self.loads.add_tangent(u, load_factor, blocks)
         if self.base is not None:
             self.base.add_tangent(u, 1.0, blocks)
+        if self.assembly.coupling is not None:
+            slots = self.assembly.coupling_slots
+            self.assembly.coupling.add_tangent(u, self._commands(load_factor), slots, blocks)
         return blocks
 
     def factor(self, blocks: np.ndarray) -> Factor:
@@ -64,15 +84,38 @@ class Problem:
         return self.system.factor(blocks)
 
     def negative(self, factor: Factor) -> int | None:
-        """Eigenvalues below zero of the factored tangent (real parts, when it is unsymmetric)."""
+        """Eigenvalues below zero of the factored tangent (real parts, when it is unsymmetric), on motions
+        that the actuators' constraints allow: each multiplier brings one more."""
         if self.conservative:
-            return factor.negative
+            return None if factor.negative is None else factor.negative - self.multipliers
+        if self.multipliers:
+            return None
         self.factorisations += 1
         return factor.negative_real_parts()
 
     def prescribed(self, load_factor: float) -> np.ndarray:
-        """Displacement of the masses that the supports put in place."""
-        return self.constraints.prescribed(load_factor if self.base is None else 1.0)
+        """Displacement of the masses that supports and actuators put in place."""
+        placed = self.constraints.prescribed(load_factor if self.base is None else 1.0)
+        if self.assembly.coupling is not None:
+            placed = placed + self.assembly.coupling.driven(self._commands(load_factor))
+        return placed
+
+    def internal(self, u: np.ndarray, load_factor: float) -> tuple[float, np.ndarray]:
+        """Elastic energy [J] and internal force, actuators included."""
+        energy, force = self.assembly.force(u)
+        if self.assembly.coupling is not None:
+            energy += self.assembly.coupling.add_force(u, self._commands(load_factor), force)
+        return energy, force
+
+    def growing(self, u: np.ndarray) -> np.ndarray:
+        """Derivative of the unbalanced force by the load factor at fixed u: loads and commands."""
+        force = self.loads.force(u)
+        if self.assembly.coupling is None or self.base is not None:
+            return force
+        return force - self.assembly.coupling.command_force(u, Drive(1.0))
+
+    def _commands(self, load_factor: float) -> Drive:
+        return Drive(load_factor if self.base is None else 1.0)
 
     def external(self, u: np.ndarray, load_factor: float) -> np.ndarray:
         """External force λ f(u), plus the base loads."""
@@ -81,17 +124,17 @@ class Problem:
 
     def potential(self, u: np.ndarray, load_factor: float) -> float:
         """Elastic energy less the work of dead loads [J]; only conservative problems have one."""
-        energy, _ = self.assembly.force(u)
+        energy, _ = self.internal(u, load_factor)
         return energy - float(np.sum(self.external(u, load_factor) * u))
 
     def force_scale(self, u: np.ndarray, load_factor: float) -> float:
         """Norm of the external forces plus that of the supports' [N]: what residuals are relative to."""
-        _, internal = self.assembly.force(u)
+        _, internal = self.internal(u, load_factor)
         return self._scale(internal, self.external(u, load_factor))
 
     def residual(self, u: np.ndarray, load_factor: float) -> tuple[np.ndarray, float]:
         """Unbalanced force (n, 3) [N] and its norm on the free unknowns relative to the forces."""
-        _, internal = self.assembly.force(u)
+        _, internal = self.internal(u, load_factor)
         external = self.external(u, load_factor)
         unbalanced = external - internal
         scale = self._scale(internal, external)

@@ -5,10 +5,12 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
 
+from lumped.actuators import Coupling
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration, calibrate, given
 from lumped.descent import descend, disturbed
@@ -72,9 +74,10 @@ def solve(
 
 def pose(scene: Scene, springs: Calibration, weights: Weights = "tributary") -> Problem:
     """The lattice of a scene under its supports and loads."""
-    assembly = Assembly(scene.sheet, springs, weights)
-    loads = Loads(scene, assembly)
-    return Problem(assembly, constrain(scene, assembly.lattice), loads, max(scene.sheet.lengths))
+    couple = partial(Coupling, scene) if scene.actuators else None
+    assembly = Assembly(scene.sheet, springs, weights, couple)
+    constraints = constrain(scene, assembly.lattice, assembly.coupling)
+    return Problem(assembly, constraints, Loads(scene, assembly), max(scene.sheet.lengths))
 
 
 def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
@@ -86,7 +89,7 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
         return Outcome(Status.SINGULAR, rest, f"the flat sheet's tangent is singular: {error}")
     state, why = follow(problem, start)
     notes: list[str] = []
-    while why and problem.conservative and len(notes) < SNAPS:
+    while why and problem.descends and len(notes) < SNAPS:
         beyond = min(1.0, state.load_factor + SNAP_STEP)
         try:
             landed = descend(problem, state.u, beyond)
@@ -95,7 +98,7 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
             break
         notes.append(f"snapped at load factor {state.load_factor:.4g}")
         state, why = follow(problem, landed)
-    if not why and branch == "stable" and state.negative and problem.conservative:
+    if not why and branch == "stable" and state.negative and problem.descends:
         try:
             state = descend(problem, disturbed(problem, state), 1.0)
             notes.append("left an unstable equilibrium by descent in energy")
@@ -159,6 +162,8 @@ def _solution(
     state, lattice = outcome.state, problem.assembly.lattice
     unbalanced, _ = problem.residual(state.u, state.load_factor)
     reactions, on_masses = problem.constraints.reactions(-unbalanced)
+    coupling = problem.assembly.coupling
+    wrenches = coupling.wrenches(state.u, -unbalanced) if coupling is not None else {}
     columns = lattice.columns().reshape(-1, lattice.grid[2])
     mid_surface = state.u[columns].mean(axis=1)
 
@@ -191,4 +196,5 @@ def _solution(
         history=tuple(problem.history),
         load_factor=state.load_factor,
         message=outcome.message,
+        actuators=wrenches,
     )

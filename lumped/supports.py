@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from lumped.actuators import Coupling
 from lumped.lattice import Lattice
 from scenes import EDGES, Curved, Scene, held_axes, holds_director
 
@@ -49,9 +50,10 @@ class Constraints:
         return per_edge, on_masses
 
 
-def constrain(scene: Scene, lattice: Lattice) -> Constraints:
-    """The constraints of a scene's supports on a lattice."""
-    n = lattice.mass_count
+def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) -> Constraints:
+    """The constraints of a scene's supports on a lattice, and of its actuators: u of a bound mass is a linear
+    map of the actuator's rows."""
+    n = lattice.mass_count if coupling is None else coupling.size
     fixed = np.zeros((n, 3), dtype=bool)
     mean_held: dict[tuple[int, int], np.ndarray] = {}  # (last mass of a column, axis) → the column
     holders: dict[str, tuple[np.ndarray, tuple[int, ...]]] = {}
@@ -71,6 +73,11 @@ def constrain(scene: Scene, lattice: Lattice) -> Constraints:
         dependent[last, axis] = True
         held[column, axis] = True
 
+    bindings = coupling.bindings() if coupling is not None else []
+    for masses, _, _ in bindings:
+        dependent[masses] = True
+    if coupling is not None:
+        fixed[lattice.mass_count :] = held[lattice.mass_count :] = ~coupling.free
     free = ~(fixed | dependent)
     number = np.full((n, 3), -1)
     number[free] = np.arange(free.sum())
@@ -81,6 +88,13 @@ def constrain(scene: Scene, lattice: Lattice) -> Constraints:
         rows.append(np.full(len(column) - 1, 3 * last + axis))
         columns.append(number[column[:-1], axis])
         values.append(np.full(len(column) - 1, -1.0))
+    for masses, binding, first in bindings:
+        at, row = np.nonzero(binding)
+        for axis in range(3):
+            moved = number[first + row, axis] >= 0
+            rows.append(3 * masses[at[moved]] + axis)
+            columns.append(number[first + row[moved], axis])
+            values.append(binding[at[moved], row[moved]])
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
     transform = sp.csr_array(sp.coo_array(entries, shape=(3 * n, int(free.sum()))))
     bent = [s for s in scene.supports if isinstance(s, Curved)]

@@ -17,6 +17,7 @@ slide along its axis, since two inextensible rods on opposite faces could not be
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
@@ -110,7 +111,7 @@ class EdgeMotion(Frozen):
 def _same_length(name: str, time: tuple, values: tuple) -> None:
     if len(time) != len(values):
         raise ValueError(f"{len(time)} times but {len(values)} in {name}")
-    if any(b <= a for a, b in zip(time, time[1:], strict=False)):
+    if any(b <= a for a, b in pairwise(time)):
         raise ValueError("times must increase")
 
 

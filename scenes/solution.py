@@ -74,7 +74,8 @@ class Solution:
 
     sample: plan points (n, 2) [m] → mid-surface displacement (n, 3) [m]; reactions: edge → force [N] that
     the support exerts on the sheet, (3,); energies: name → [J]; iterations: tangent factorisations, all
-    of them; load_factor: 1 where the full load was reached, else the last converged load.
+    of them; load_factor: 1 where the full load was reached, else the last converged load; actuators: name →
+    force and moment of each segment on the sheet, (segments, 6) [N, N·m].
     """
 
     model: str
@@ -92,6 +93,7 @@ class Solution:
     history: tuple[Iteration, ...] = ()
     load_factor: float = 1.0
     message: str = ""
+    actuators: dict[str, np.ndarray] = field(default_factory=dict)
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
         """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m] of the undeformed sheet."""

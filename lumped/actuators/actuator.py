@@ -1,0 +1,96 @@
+"""What an actuator model must offer to be bound to an edge: the interface between it and the sheet.
+
+An actuator brings rows of its own to the displacement, (rows, 3) [m], which only it understands, and binds
+masses of the edge to them: the displacement of bound mass i is binding[i] @ rows + driven[i]. The sheet's
+equations never see more; equal and opposite forces follow, because one transpose of `binding` carries the
+masses' forces to the actuator. Its forces derive from a Lagrangian: multiplier rows, if it has constraints,
+enter like any other row, with the constraint's residual as their force.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Drive:
+    """How far commands are: a share of their last value (statics), or, with a time [s], their value then."""
+
+    load_factor: float = 1.0
+    time: float | None = None
+
+    def value(self, time: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """A table's value: time (n,), values (n, …); linear between samples, constant outside."""
+        if self.time is None:
+            last: np.ndarray = self.load_factor * values[-1]
+            return last
+        flat = values.reshape(len(values), -1)
+        columns = [np.interp(self.time, time, column) for column in flat.T]
+        return self.load_factor * np.array(columns).reshape(values.shape[1:])
+
+
+class Actuator(Protocol):
+    """One actuator model on one edge.
+
+    names: of the scene's actuators that it stands for, one or several; edge: where.
+    rows: number of its own rows; free: (rows, 3) bool, those that can move; multipliers: number of
+    constraints; pairs: (rows, rows) bool, rows that appear together in tangent, damping or mass.
+    masses: (m,) bound masses; binding: (m, rows); share: (segments, m) part of each mass's force that
+    counts to each segment; mass: (rows, rows) [kg], for each of the three axes; carried: force [N] whose
+    rounding the residual cannot fall below.
+    """
+
+    names: tuple[str, ...]
+    edge: str
+    rows: int
+    free: np.ndarray
+    multipliers: int
+    pairs: np.ndarray
+    masses: np.ndarray
+    binding: np.ndarray
+    share: np.ndarray
+    mass: np.ndarray
+    carried: float
+
+    def weight(self, acceleration: np.ndarray) -> np.ndarray:
+        """Dead force (rows, 3) [N] of a uniform acceleration on the rows."""
+        ...
+
+    def driven(self, drive: Drive) -> np.ndarray:
+        """Prescribed displacement (m, 3) [m] of the bound masses."""
+        ...
+
+    def force(self, y: np.ndarray, drive: Drive) -> tuple[float, np.ndarray]:
+        """Energy [J] and gradient of the Lagrangian (rows, 3) [N]."""
+        ...
+
+    def average_force(self, start: np.ndarray, end: np.ndarray, drive: Drive) -> np.ndarray:
+        """Force (rows, 3) whose product with (end − start) is the change of energy at a fixed command."""
+        ...
+
+    def tangent(self, y: np.ndarray, drive: Drive) -> np.ndarray:
+        """Second derivatives of the Lagrangian, (rows, 3, rows, 3) [N/m]."""
+        ...
+
+    def command_force(self, y: np.ndarray, drive: Drive) -> np.ndarray:
+        """Derivative (rows, 3) [N] of the force by the load factor, at the drive's load factor."""
+        ...
+
+    def command_power(self, y: np.ndarray, drive: Drive, later: Drive) -> float:
+        """Work [J] done on the actuator when its command goes from one drive to the next at fixed rows."""
+        ...
+
+    def damping_force(self, y: np.ndarray, v: np.ndarray) -> tuple[float, np.ndarray]:
+        """Power taken [W] and damping force (rows, 3) [N]."""
+        ...
+
+    def damping_tangent(self, y: np.ndarray) -> np.ndarray:
+        """Derivative of the damping force by the velocity, (rows, 3, rows, 3) [N·s/m]."""
+        ...
+
+    def wrenches(self, positions: np.ndarray, on_masses: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Force and moment (names, segments, 6) [N, N·m] on the sheet from the forces `on_masses` (m, 3)."""
+        ...

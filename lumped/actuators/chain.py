@@ -1,0 +1,277 @@
+"""The seed's actuator: a chain of rigid segments with mass and rotary inertia, torsional springs and dampers.
+
+Lagrangian of the rows y (see `lumped.actuators.frames`), with multipliers λ [m] and the scale σ [N/m]:
+
+    L = ½ ẏ·M ẏ − Σ_joints ½ k |φ(y) − κ ds|² + g·M y − σ ds Σ λ Φ(y),     k = EI/ds  (2 EI/ds at a held base)
+
+A segment is a cylinder of the given radius: M holds its mass as that of a uniform rod, and its rotary inertia
+about the axis as m a²/4 of each director. Joints are damped with damping_time × k.
+
+Masses of the edge lie on the segment whose share of the edge holds their plan position, at a fixed place
+along it, and at their height along the rod's normal: linear between the middles of segments, where it is
+n_i, and beyond the outermost. (The nearest n_i alone would tilt masses at segments' ends by half a joint's angle, an
+error of first order.) A mass at a joint belongs to both neighbours, a segment without masses is bound to
+nothing. Chains of a pair are one kinematic chain on the mean of their axes, each with its own joints, mass
+and offset.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from lumped.actuators import joints
+from lumped.actuators.actuator import Drive
+from lumped.actuators.frames import B, Frames, N
+from lumped.lattice import Lattice
+from scenes import EDGES, Sheet
+from scenes import Chain as ChainData
+from scenes.actuators import CurvatureTable
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+class Chain:
+    """One or several chains on one edge, as an `Actuator`. scale: σ [N/m], like the sheet's E h."""
+
+    def __init__(
+        self,
+        chains: Sequence[ChainData],
+        names: tuple[str, ...],
+        sheet: Sheet,
+        lattice: Lattice,
+        masses: np.ndarray,
+        scale: float,
+    ):
+        first = chains[0]
+        self.edge: str = first.edge
+        self.names, self._chains, self._scale = names, tuple(chains), scale
+        edge = EDGES[first.edge]
+        along = np.eye(3)[edge.along_axis]
+        offsets = np.array([axis_offset(chain, sheet) for chain in chains])
+        self.offset = float(offsets.mean())
+        self._beside = offsets - self.offset
+        start = np.append(np.array(sheet.edge_ends(first.edge)[0]), self.offset)
+        axes = np.array([along, UP, edge.outward])
+        self.frames = frames = Frames(first, start, sheet.lengths[edge.along_axis], axes)
+        self.multipliers = frames.constraints
+        self.rows = frames.coordinates + frames.multiplier_rows
+        multipliers = np.arange(3 * frames.multiplier_rows).reshape(-1, 3) < self.multipliers
+        self.free = np.concatenate([frames.free, multipliers])
+        self.pairs = frames.pairs()
+        self.masses = masses
+        rest = lattice.positions[masses]
+        self.binding, self.share = self._bind(rest @ along - start @ along, rest[:, 2])
+        self.mass = self._mass()
+        self._stiffness = np.array([c.bending_stiffness / frames.length / frames.share for c in chains])
+        self.carried = float(self._stiffness.sum(axis=0).max(initial=0.0) / frames.length)
+        self._damping = np.array([c.damping_time for c in chains]) @ self._stiffness
+
+    def weight(self, acceleration: np.ndarray) -> np.ndarray:
+        """Weight of the segments on their points."""
+        weight = np.zeros((self.rows, 3))
+        weight[: self.frames.coordinates] = (
+            self._mass_of_points.sum(axis=1)[: self.frames.coordinates, None] * acceleration
+        )
+        return weight
+
+    def driven(self, drive: Drive) -> np.ndarray:
+        """A chain prescribes nothing."""
+        return np.zeros((len(self.masses), 3))
+
+    def force(self, y: np.ndarray, drive: Drive) -> tuple[float, np.ndarray]:
+        """Joint energy and the gradient of energy + σ ds λ·Φ."""
+        v = self.frames.vectors(y)
+        values = self.frames.products(v)
+        measures = self._measures(values)
+        stiffness, rest, offset = self._joint_springs(drive)
+        by_measure, _ = joints.derivatives(measures, stiffness, rest)
+        stored = float(joints.energy(measures, stiffness, rest).sum()) + offset
+        return stored, self._gradient(y, v, values, by_measure)
+
+    def average_force(self, start: np.ndarray, end: np.ndarray, drive: Drive) -> np.ndarray:
+        """Discrete gradient: constraint gradients at the mean, where their differences are exact.
+
+        The multiplier rows hold the constraints at the end; their multipliers are the end's.
+        """
+        mean = 0.5 * (start + end)
+        mean[self.frames.coordinates :] = end[self.frames.coordinates :]
+        stiffness, rest, _ = self._joint_springs(drive)
+        values = self.frames.products(self.frames.vectors(end))
+        before = self._measures(self.frames.products(self.frames.vectors(start)))
+        by_measure = joints.average_gradient(before, self._measures(values), stiffness, rest)
+        return self._gradient(mean, self.frames.vectors(mean), values, by_measure)
+
+    def tangent(self, y: np.ndarray, drive: Drive) -> np.ndarray:
+        """Joint stiffness, constraint gradients and the curvature of both."""
+        frames, count = self.frames, self.frames.coordinates
+        v = frames.vectors(y)
+        stiffness, rest, _ = self._joint_springs(drive)
+        by_measure, hessian = joints.derivatives(self._measures(frames.products(v)), stiffness, rest)
+        gradient = frames.gradient(v)
+        by_constraint = self._scale * frames.length * gradient[: self.multipliers]
+        of_joints = gradient[self.multipliers :].reshape(-1, 3, 3 * count)
+        weights = np.concatenate([self._forces_of(y), by_measure.ravel()])
+        out = np.zeros((self.rows, 3, self.rows, 3))
+        bent = np.einsum("jak,jab,jbl->kl", of_joints, hessian, of_joints, optimize=True)
+        out[:count, :, :count, :] = bent.reshape(count, 3, count, 3)
+        geometric = frames.curvature_of(weights)
+        for axis in range(3):
+            out[:count, axis, :count, axis] += geometric
+        flat = out.reshape(3 * self.rows, 3 * self.rows)
+        place = 3 * count + np.arange(self.multipliers)
+        flat[place, : 3 * count] = by_constraint.reshape(self.multipliers, -1)
+        flat[: 3 * count, place] = by_constraint.reshape(self.multipliers, -1).T
+        return out
+
+    def command_force(self, y: np.ndarray, drive: Drive) -> np.ndarray:
+        """−k dφ0/d(load factor) on every joint's angle."""
+        frames = self.frames
+        v = frames.vectors(y)
+        _, first, _ = joints.angles(self._measures(frames.products(v)))
+        stiffness, rest, _ = self._joint_springs(Drive(1.0, drive.time))
+        by_measure = np.einsum("ji,jia->ja", -stiffness[:, None] * rest, first)
+        return self._spread(frames.gradient(v)[self.multipliers :], by_measure)
+
+    def command_power(self, y: np.ndarray, drive: Drive, later: Drive) -> float:
+        """Energy gained by the joints when their rest angles move under them."""
+        measures = self._measures(self.frames.products(self.frames.vectors(y)))
+        energies = []
+        for moment in (drive, later):
+            stiffness, rest, offset = self._joint_springs(moment)
+            energies.append(float(joints.energy(measures, stiffness, rest).sum()) + offset)
+        return energies[1] - energies[0]
+
+    def damping_force(self, y: np.ndarray, v: np.ndarray) -> tuple[float, np.ndarray]:
+        """c φ̇ on every joint's angles."""
+        if not self._damping.any():
+            return 0.0, np.zeros_like(y)
+        gradient, first = self._angle_gradient(y)
+        rate = np.einsum("jakq,kq->ja", gradient, v[: self.frames.coordinates])
+        rate = np.einsum("jia,ja->ji", first, rate)
+        torque = self._damping[:, None] * rate
+        by_measure = np.einsum("ji,jia->ja", torque, first)
+        force = self._spread(gradient.reshape(-1, *gradient.shape[2:]), by_measure)
+        return float((torque * rate).sum()), force
+
+    def damping_tangent(self, y: np.ndarray) -> np.ndarray:
+        """Σ c ∇φ ∇φᵀ."""
+        count = self.frames.coordinates
+        gradient, first = self._angle_gradient(y)
+        of_angles = np.einsum("jia,jak->jik", first, gradient.reshape(len(first), 3, -1))
+        out = np.zeros((self.rows, 3, self.rows, 3))
+        damped = np.einsum("j,jik,jil->kl", self._damping, of_angles, of_angles, optimize=True)
+        out[:count, :, :count, :] = damped.reshape(count, 3, count, 3)
+        return out
+
+    def wrenches(self, positions: np.ndarray, on_masses: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Force and moment about the middle of each segment's axis; chains of a pair share the force evenly,
+        and the moment as their joints' torques ask."""
+        frames = self.frames
+        points = frames.rest[: frames.points] + y[: frames.points]
+        middle = 0.5 * (points[1:] + points[:-1])
+        arm = positions[None, :, :] - middle[:, None, :]
+        force = self.share @ on_masses
+        moment = np.einsum("sm,smq->sq", self.share, np.cross(arm, on_masses[None, :, :]))
+        total = np.concatenate([force, moment], axis=1)
+        return np.tile(total / len(self.names), (len(self.names), 1, 1))
+
+    def curvature(self, member: int, drive: Drive) -> np.ndarray:
+        """Commanded intrinsic curvature at every joint of one chain, (j,) [1/m]."""
+        command = self._chains[member].curvature
+        if isinstance(command, CurvatureTable):
+            value = drive.value(np.array(command.time), np.array(command.value))
+            return np.full(len(self.frames.joints), float(value))
+        return drive.load_factor * np.broadcast_to(np.array(command, float), (len(self.frames.joints),))
+
+    def _bind(self, along: np.ndarray, height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Binding of masses at arc length and height (m,), and their share in each segment."""
+        frames = self.frames
+        binding = np.zeros((len(along), self.rows))
+        share = np.zeros((frames.segments, len(along)))
+        place = along / frames.length
+        for i, (p, z) in enumerate(zip(place, height, strict=True)):
+            nearest = round(p)
+            tie = abs(p - nearest) < 1e-9 and 0 < nearest < frames.segments
+            owners = (nearest - 1, nearest) if tie else (min(max(int(p), 0), frames.segments - 1),)
+            for segment in owners:
+                weight = 1.0 / len(owners)
+                share[segment, i] = weight
+                binding[i, segment] += weight * (1.0 - (p - segment))
+                binding[i, segment + 1] += weight * (p - segment)
+            before = min(max(int(np.floor(p - 0.5)), 0), max(frames.segments - 2, 0))
+            after = min(before + 1, frames.segments - 1)
+            lever = (z - self.offset) / frames.length
+            binding[i, frames.points + before] += lever * (1.5 - (p - before))
+            binding[i, frames.points + after] += lever * (p - before - 0.5)
+        return binding, share
+
+    def _mass(self) -> np.ndarray:
+        """Mass matrix of the rows; also keeps the part that weighs."""
+        frames = self.frames
+        points, whole = np.zeros((self.rows, self.rows)), np.zeros((self.rows, self.rows))
+        for chain, beside in zip(self._chains, self._beside, strict=True):
+            m = chain.line_density * frames.length
+            for i in range(frames.segments):
+                axis = np.zeros((2, self.rows))  # the ends of this chain's axis from the common rows
+                axis[0, i] = axis[1, i + 1] = 1.0
+                axis[:, frames.points + i] = beside / frames.length
+                points += axis.T @ (m / 6.0 * np.array([[2.0, 1.0], [1.0, 2.0]])) @ axis
+                for kind in (N, B):
+                    row = frames.points + (kind - 1) * frames.segments + i
+                    whole[row, row] += m * chain.radius**2 / 4.0 / frames.length**2
+        self._mass_of_points = points
+        return points + whole
+
+    def _joint_springs(self, drive: Drive) -> tuple[np.ndarray, np.ndarray, float]:
+        """Stiffness (j,), rest angles (j, 2) of all chains together, and the energy that their rest angles
+        hold against each other [J]."""
+        frames = self.frames
+        component = 1 if self._chains[0].plane == "inplane" else 0
+        wanted = np.array(
+            [self.curvature(m, drive) * frames.length * frames.share for m in range(len(self._chains))]
+        )
+        stiffness = self._stiffness.sum(axis=0)
+        mean = (self._stiffness * wanted).sum(axis=0) / stiffness
+        rest = np.zeros((len(mean), 2))
+        rest[:, component] = mean
+        held = 0.5 * float((self._stiffness * wanted**2).sum() - (stiffness * mean**2).sum())
+        return stiffness, rest, held
+
+    def _measures(self, values: np.ndarray) -> np.ndarray:
+        return values[self.multipliers :].reshape(-1, 3)
+
+    def _forces_of(self, y: np.ndarray) -> np.ndarray:
+        """σ ds λ of every constraint."""
+        forces: np.ndarray = (
+            self._scale * self.frames.length * y[self.frames.coordinates :].ravel()[: self.multipliers]
+        )
+        return forces
+
+    def _gradient(
+        self, y: np.ndarray, v: np.ndarray, values: np.ndarray, by_measure: np.ndarray
+    ) -> np.ndarray:
+        weights = np.concatenate([self._forces_of(y), by_measure.ravel()])
+        out = self._spread(self.frames.gradient(v), weights)
+        residual = np.zeros(3 * self.frames.multiplier_rows)
+        residual[: self.multipliers] = self._scale * self.frames.length * values[: self.multipliers]
+        out[self.frames.coordinates :] = residual.reshape(-1, 3)
+        return out
+
+    def _spread(self, gradient: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        out = np.zeros((self.rows, 3))
+        out[: self.frames.coordinates] = np.tensordot(weights.ravel(), gradient, axes=1)
+        return out
+
+    def _angle_gradient(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        v = self.frames.vectors(y)
+        _, first, _ = joints.angles(self._measures(self.frames.products(v)))
+        gradient = self.frames.gradient(v)[self.multipliers :]
+        return gradient.reshape(-1, 3, *gradient.shape[1:]), first
+
+
+def axis_offset(chain: ChainData, sheet: Sheet) -> float:
+    """Height [m] of a chain's axis above the mid-surface."""
+    side = {"mid": 0.0, "top": 1.0, "bottom": -1.0}[chain.face]
+    return side * (sheet.thickness / 2.0 + chain.radius)

@@ -1,0 +1,165 @@
+"""All actuators of a scene, bound to a lattice: their rows follow those of the masses in the displacement.
+
+A mass that a support holds, in whichever component, stays with its support; one that two actuators on
+neighbouring edges could bind stays with the first. Chains on one edge are one actuator model.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from lumped.actuators.actuator import Actuator, Drive
+from lumped.actuators.chain import Chain
+from lumped.actuators.edge_motion import RigidMotion
+from lumped.lattice import Lattice
+from scenes import EdgeMotion, Scene
+
+
+class Coupling:
+    """The actuators with the place of each one's rows; all arrays over masses and rows together."""
+
+    def __init__(self, scene: Scene, lattice: Lattice):
+        self.masses = lattice.mass_count
+        self._positions = lattice.positions
+        self.actuators: tuple[Actuator, ...] = _actuators(scene, lattice)
+        ends = np.cumsum([lattice.mass_count, *(a.rows for a in self.actuators)])
+        self._places = [slice(int(a), int(b)) for a, b in pairwise(ends)]
+        self.size = int(ends[-1])
+        self.multipliers = sum(a.multipliers for a in self.actuators)
+        self.algebraic = np.zeros((self.size, 3), dtype=bool)  # components that are multipliers
+        for actuator, place in self._each():
+            first = actuator.rows - -(-actuator.multipliers // 3)
+            self.algebraic[place][first:] = actuator.free[first:]
+
+    def __len__(self) -> int:
+        return len(self.actuators)
+
+    def _each(self) -> list[tuple[Actuator, slice]]:
+        return list(zip(self.actuators, self._places, strict=True))
+
+    @property
+    def free(self) -> np.ndarray:
+        """Components of the actuators' rows that can move, (rows, 3) bool."""
+        return np.concatenate([np.empty((0, 3), bool), *(a.free for a in self.actuators)])
+
+    def pairs(self) -> tuple[np.ndarray, np.ndarray]:
+        """Rows that act on each other, as ordered pairs of numbers after the masses."""
+        found = [np.argwhere(a.pairs) + place.start for a, place in self._each()]
+        rows, columns = np.concatenate([np.empty((0, 2), int), *found]).T
+        return rows, columns
+
+    def bindings(self) -> list[tuple[np.ndarray, np.ndarray, int]]:
+        """For every actuator: bound masses (m,), binding (m, rows), number of its first row."""
+        return [(a.masses, a.binding, place.start) for a, place in self._each()]
+
+    def carried(self) -> np.ndarray:
+        """Forces (size,) [N] on the actuators' rows whose rounding the residual cannot fall below."""
+        forces = np.zeros(self.size)
+        for actuator, place in self._each():
+            forces[place] = actuator.carried
+        return forces
+
+    def weight(self, acceleration: np.ndarray) -> np.ndarray:
+        """Dead forces (rows, 3) [N] of a uniform acceleration on the actuators' rows."""
+        return np.concatenate([np.empty((0, 3)), *(a.weight(acceleration) for a in self.actuators)])
+
+    def driven(self, drive: Drive) -> np.ndarray:
+        """Prescribed displacement (size, 3) [m] of the bound masses."""
+        moved = np.zeros((self.size, 3))
+        for actuator, _ in self._each():
+            moved[actuator.masses] = actuator.driven(drive)
+        return moved
+
+    def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray) -> float:
+        """Add the actuators' internal force to `force` (size, 3) [N]; their energy [J]."""
+        energy = 0.0
+        for actuator, place in self._each():
+            stored, gradient = actuator.force(u[place], drive)
+            energy += stored
+            force[place] += gradient
+        return energy
+
+    def add_average_force(self, start: np.ndarray, end: np.ndarray, drive: Drive, force: np.ndarray) -> None:
+        """Add the energy-conserving average of the internal force between two displacements."""
+        for actuator, place in self._each():
+            force[place] += actuator.average_force(start[place], end[place], drive)
+
+    def add_tangent(self, u: np.ndarray, drive: Drive, slots: np.ndarray, blocks: np.ndarray) -> None:
+        """Add the tangent to the 3×3 blocks at `slots`, one for every pair of `pairs`."""
+        parts = [_at_pairs(a, a.tangent(u[place], drive)) for a, place in self._each()]
+        if parts:
+            np.add.at(blocks, slots, np.concatenate(parts))
+
+    def add_damping_tangent(self, u: np.ndarray, scale: float, slots: np.ndarray, blocks: np.ndarray) -> None:
+        """Add scale × the derivative of the damping force by the velocity."""
+        parts = [_at_pairs(a, scale * a.damping_tangent(u[place])) for a, place in self._each()]
+        if parts:
+            np.add.at(blocks, slots, np.concatenate(parts))
+
+    def mass_blocks(self) -> np.ndarray:
+        """Mass of every pair of `pairs` [kg]."""
+        return np.concatenate([np.empty(0), *(a.mass[a.pairs] for a in self.actuators)])
+
+    def command_force(self, u: np.ndarray, drive: Drive) -> np.ndarray:
+        """Derivative (size, 3) [N] of the internal force by the load factor."""
+        force = np.zeros((self.size, 3))
+        for actuator, place in self._each():
+            force[place] = actuator.command_force(u[place], drive)
+        return force
+
+    def command_work(self, u: np.ndarray, drive: Drive, later: Drive) -> float:
+        """Work [J] of the commands going from one drive to the next at displacement u."""
+        return sum(actuator.command_power(u[place], drive, later) for actuator, place in self._each())
+
+    def add_damping_force(self, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
+        """Add the damping force to `force` (size, 3) [N]; the power taken [W]."""
+        power = 0.0
+        for actuator, place in self._each():
+            taken, resisting = actuator.damping_force(u[place], v[place])
+            power += taken
+            force[place] += resisting
+        return power
+
+    def wrenches(self, u: np.ndarray, on_masses: np.ndarray) -> dict[str, np.ndarray]:
+        """Force and moment of each segment on the sheet, (segments, 6) [N, N·m] by actuator, from the forces
+        that the actuators exert on the masses, (size, 3) [N]."""
+        found: dict[str, np.ndarray] = {}
+        for actuator, place in self._each():
+            positions = self._positions[actuator.masses] + u[actuator.masses]
+            wrenches = actuator.wrenches(positions, on_masses[actuator.masses], u[place])
+            found.update(zip(actuator.names, wrenches, strict=True))
+        return found
+
+
+def _at_pairs(actuator: Actuator, dense: np.ndarray) -> np.ndarray:
+    rows, columns = np.nonzero(actuator.pairs)
+    return dense[rows, :, columns, :]
+
+
+def _actuators(scene: Scene, lattice: Lattice) -> tuple[Actuator, ...]:
+    taken = np.zeros(lattice.mass_count, dtype=bool)
+    for support in scene.supports:
+        taken[lattice.edge_columns(support.edge).ravel()] = True
+    count = {edge: sum(a.edge == edge for a in scene.actuators) for edge in ("x0", "x1", "y0", "y1")}
+    names = [
+        a.edge if count[a.edge] == 1 else f"{a.edge}.{getattr(a, 'face', i)}"
+        for i, a in enumerate(scene.actuators)
+    ]
+    if len(set(names)) < len(names):
+        names = [f"{a.edge}.{i + 1}" for i, a in enumerate(scene.actuators)]
+    found: list[Actuator] = []
+    for edge in dict.fromkeys(a.edge for a in scene.actuators):
+        here = [(name, a) for name, a in zip(names, scene.actuators, strict=True) if a.edge == edge]
+        masses = lattice.edge_columns(edge).ravel()
+        masses = masses[~taken[masses]]
+        taken[masses] = True
+        name, only = here[0]
+        if isinstance(only, EdgeMotion):
+            found.append(RigidMotion(only, name, scene.sheet, lattice, masses))
+            continue
+        chains = [a for _, a in here if not isinstance(a, EdgeMotion)]
+        scale = scene.material.young * scene.sheet.thickness
+        found.append(Chain(chains, tuple(n for n, _ in here), scene.sheet, lattice, masses, scale))
+    return tuple(found)

@@ -1,0 +1,79 @@
+"""A prescribed motion of an edge as an actuator: every bound mass moves as on a rigid bar.
+
+The bar's middle is displaced by d(t) and the bar turned about it by the rotation vector θ(t):
+u = d + (R(θ) − I) X, with X from the edge's middle to the mass and Rodrigues' formula for R. It has no rows
+of its own, hence no energy, mass or constraint; what it exerts on the sheet is what holding the motion takes.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from lumped.actuators.actuator import Drive
+from lumped.lattice import Lattice
+from scenes import EdgeMotion, Sheet
+
+
+class RigidMotion:
+    """One prescribed edge motion, as an `Actuator` with a single segment."""
+
+    rows, multipliers, carried = 0, 0, 0.0
+
+    def __init__(self, motion: EdgeMotion, name: str, sheet: Sheet, lattice: Lattice, masses: np.ndarray):
+        self.names: tuple[str, ...] = (name,)
+        self.edge: str = motion.edge
+        self.masses = masses
+        ends = np.array(sheet.edge_ends(motion.edge))
+        self._middle = np.append(ends.mean(axis=0), 0.0)
+        self._arms = lattice.positions[masses] - self._middle
+        self._time = np.array(motion.time)
+        still = np.zeros((len(motion.time), 3))
+        self._displacement = np.array(motion.displacement) if motion.displacement else still
+        self._rotation = np.array(motion.rotation) if motion.rotation else still
+        self.free, self.pairs, self.mass = np.ones((0, 3), bool), np.ones((0, 0), bool), np.zeros((0, 0))
+        self.binding, self.share = np.zeros((len(masses), 0)), np.ones((1, len(masses)))
+
+    def weight(self, acceleration: np.ndarray) -> np.ndarray:
+        """None."""
+        return np.zeros((0, 3))
+
+    def driven(self, drive: Drive) -> np.ndarray:
+        """The rigid motion at the drive's moment."""
+        turn = Rotation.from_rotvec(drive.value(self._time, self._rotation))
+        moved: np.ndarray = drive.value(self._time, self._displacement) + turn.apply(self._arms) - self._arms
+        return moved
+
+    def force(self, y: np.ndarray, drive: Drive) -> tuple[float, np.ndarray]:
+        """None."""
+        return 0.0, np.zeros((0, 3))
+
+    def average_force(self, start: np.ndarray, end: np.ndarray, drive: Drive) -> np.ndarray:
+        """None."""
+        return np.zeros((0, 3))
+
+    def tangent(self, y: np.ndarray, drive: Drive) -> np.ndarray:
+        """None."""
+        return np.zeros((0, 3, 0, 3))
+
+    def command_force(self, y: np.ndarray, drive: Drive) -> np.ndarray:
+        """None: the command moves masses."""
+        return np.zeros((0, 3))
+
+    def command_power(self, y: np.ndarray, drive: Drive, later: Drive) -> float:
+        """None: the work is the bound masses'."""
+        return 0.0
+
+    def damping_force(self, y: np.ndarray, v: np.ndarray) -> tuple[float, np.ndarray]:
+        """None."""
+        return 0.0, np.zeros((0, 3))
+
+    def damping_tangent(self, y: np.ndarray) -> np.ndarray:
+        """None."""
+        return np.zeros((0, 3, 0, 3))
+
+    def wrenches(self, positions: np.ndarray, on_masses: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Force and moment about the rest place of the edge's middle."""
+        moment = np.cross(positions - self._middle, on_masses).sum(axis=0)
+        wrench: np.ndarray = np.concatenate([on_masses.sum(axis=0), moment]).reshape(1, 1, 6)
+        return wrench

@@ -1,0 +1,164 @@
+"""Rigid segments in natural coordinates: joint points, two directors a segment, and quadratic constraints.
+
+Segment i of length ds between the points x_i and x_{i+1} has the frame t_i = (x_{i+1} − x_i)/ds, n_i, b_i.
+Rows of the chain's displacement y, (rows, 3) [m]: the points, the n_i and the b_i (times ds, so that all are
+lengths), then the multipliers, three a row. Everything the chain needs is then bilinear in the rows:
+
+    rigidity    t·t = n·n = b·b = 1,  t·n = t·b = n·b = 0            of each segment that is not held
+    joints      plane "normal": b·t' = b·n' = 0;  "inplane": n·t' = n·b' = 0;  "spatial": n·b' = b·n'
+    measures    n·t', b·t', t·t' of each joint (the one a plane joint holds at zero is left out)
+
+The mass matrix is constant, a mass offset from a segment is a constant linear map of its rows, and mean
+values give differences exactly, which the conserving integrator needs. A held base is a frame that does not
+move. Source: Betsch and Steinmann (2001), García de Jalón's natural coordinates.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from scenes import Chain
+
+T, N, B = range(3)
+
+
+class Frames:
+    """Geometry of one chain. axes: the undeformed t, n, b as rows of a (3, 3) matrix; start: (3,) [m].
+
+    quantities: the constraints (first `constraints` of them), then three measures a joint.
+    gradient and products below are with respect to the coordinate rows only, (coordinates, 3).
+    """
+
+    def __init__(self, chain: Chain, start: np.ndarray, length: float, axes: np.ndarray):
+        count = chain.segments
+        self.segments, self.length, self.axes, self.base = count, length / count, axes, chain.base
+        self.points = count + 1
+        self.coordinates = self.points + 2 * count
+        points = start + self.length * np.arange(self.points)[:, None] * axes[T]
+        directors = [np.tile(self.length * axes[kind], (count, 1)) for kind in (N, B)]
+        self.rest = np.concatenate([points, *directors])
+        self.free = np.ones((self.coordinates, 3), dtype=bool)
+        self.joints, held = self._joints(chain)
+        self.free[held] = False
+        rigid = [i for i in range(count) if not self._held(i)]
+        terms: list[tuple[int, int, int, float]] = []
+        target: list[float] = []
+
+        def quantity(value: float, *products: tuple[int, int, float]) -> None:
+            terms.extend((len(target), *product) for product in products)
+            target.append(value)
+
+        for i in rigid:
+            for first, second in ((T, T), (N, N), (B, B), (T, N), (T, B), (N, B)):
+                same = first == second
+                quantity(0.5 * same, (self._vector(i, first), self._vector(i, second), 0.5 if same else 1.0))
+        for before, after, _ in self.joints:
+            for products in _JOINT_CONSTRAINTS[chain.plane]:
+                quantity(0.0, *((self._vector(before, p), self._vector(after, q), w) for p, q, w in products))
+        self.constraints = len(target)
+        for before, after, _ in self.joints:
+            for first in (N, B):
+                weight = float(first in _MEASURED[chain.plane])
+                quantity(0.0, (self._vector(before, first), self._vector(after, T), weight))
+            quantity(0.0, (self._vector(before, T), self._vector(after, T), 1.0))
+        self.target = np.array(target)
+        index = np.array([term[:3] for term in terms])
+        self._quantity, self._first, self._second = index.T
+        self._weight = np.array([term[3] for term in terms])
+        self._map = self._linear_map()
+        ground = np.zeros((3 * count + 3, 3))
+        ground[3 * count :] = axes
+        self._constant = ground + self._map @ self.rest
+        self.share = np.array([share for _, _, share in self.joints])
+
+    @property
+    def multiplier_rows(self) -> int:
+        """Rows of three that hold the multipliers."""
+        return -(-self.constraints // 3)
+
+    def vectors(self, y: np.ndarray) -> np.ndarray:
+        """t, n, b of the segments and the ground, (3 segments + 3, 3), at coordinate displacements y."""
+        v: np.ndarray = self._constant + self._map @ y[: self.coordinates]
+        return v
+
+    def products(self, v: np.ndarray) -> np.ndarray:
+        """The quantities, (k,): constraints as residuals, then measures."""
+        values = self._weight * (v[self._first] * v[self._second]).sum(axis=1)
+        return np.bincount(self._quantity, values, minlength=len(self.target)) - self.target
+
+    def gradient(self, v: np.ndarray) -> np.ndarray:
+        """Derivatives (k, coordinates, 3) of the quantities by the coordinate rows."""
+        by_vector = np.zeros((len(self.target), len(v), 3))
+        np.add.at(by_vector, (self._quantity, self._first), self._weight[:, None] * v[self._second])
+        np.add.at(by_vector, (self._quantity, self._second), self._weight[:, None] * v[self._first])
+        by_row: np.ndarray = np.matmul(self._map.T, by_vector)
+        return by_row
+
+    def curvature_of(self, multipliers: np.ndarray) -> np.ndarray:
+        """Σ multiplier × second derivative of its quantity, (coordinates, coordinates), for each axis."""
+        coupled = np.zeros((len(self._constant), len(self._constant)))
+        np.add.at(coupled, (self._first, self._second), self._weight * multipliers[self._quantity])
+        form: np.ndarray = self._map.T @ (coupled + coupled.T) @ self._map
+        return form
+
+    def pairs(self) -> np.ndarray:
+        """Rows, multipliers included, that appear together in the tangent or the mass matrix, (r, r) bool."""
+        touched = np.zeros((len(self.target), len(self._constant)), dtype=bool)
+        touched[self._quantity, self._first] = touched[self._quantity, self._second] = True
+        by_row = touched @ (self._map != 0.0)
+        joints = by_row[self.constraints :].reshape(-1, 3, self.coordinates).any(axis=1)
+        together = np.eye(self.coordinates, dtype=bool)
+        for group in np.concatenate([by_row[: self.constraints], joints]):
+            together |= np.outer(group, group)
+        for i in range(self.segments):
+            body = [i, i + 1, self.points + i]
+            together[np.ix_(body, body)] = True
+        rows = self.coordinates + self.multiplier_rows
+        whole = np.eye(rows, dtype=bool)
+        whole[: self.coordinates, : self.coordinates] = together
+        for c in range(self.constraints):
+            row = self.coordinates + c // 3
+            whole[row, : self.coordinates] |= by_row[c]
+            whole[: self.coordinates, row] |= by_row[c]
+        return whole
+
+    def _vector(self, frame: int, kind: int) -> int:
+        return 3 * self.segments + kind if frame == self.segments else kind * self.segments + frame
+
+    def _held(self, segment: int) -> bool:
+        return self.base == "middle" and self.segments % 2 == 1 and segment == self.segments // 2
+
+    def _joints(self, chain: Chain) -> tuple[list[tuple[int, int, float]], list[int]]:
+        """(frame before, frame after, length in ds) of every joint in order, and the rows held still."""
+        count, ground = self.segments, self.segments
+        inner = [(i, i + 1, 1.0) for i in range(count - 1)]
+        middle = count // 2
+        if chain.base == "start":
+            return [(ground, 0, 0.5), *inner], [0]
+        if chain.base == "end":
+            return [*inner, (count - 1, ground, 0.5)], [count]
+        if chain.base == "middle" and count % 2 == 0:
+            halves = [(middle - 1, ground, 0.5), (ground, middle, 0.5)]
+            return [*inner[: middle - 1], *halves, *inner[middle:]], [middle]
+        if chain.base == "middle":
+            points = self.points
+            return inner, [middle, middle + 1, points + middle, points + count + middle]
+        return inner, []
+
+    def _linear_map(self) -> np.ndarray:
+        """(3 segments + 3, coordinates): frames from rows, a unit a row of length ds."""
+        count = self.segments
+        out = np.zeros((3 * count + 3, self.coordinates))
+        i = np.arange(count)
+        out[i, i + 1], out[i, i] = 1.0 / self.length, -1.0 / self.length
+        for kind in (N, B):
+            out[kind * count + i, self.points + (kind - 1) * count + i] = 1.0 / self.length
+        return out
+
+
+_JOINT_CONSTRAINTS = {
+    "normal": (((B, T, 1.0),), ((B, N, 1.0),)),
+    "inplane": (((N, T, 1.0),), ((N, B, 1.0),)),
+    "spatial": (((N, B, 1.0), (B, N, -1.0)),),
+}
+_MEASURED = {"normal": (N,), "inplane": (B,), "spatial": (N, B)}

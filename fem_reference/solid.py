@@ -1,0 +1,131 @@
+"""Geometrically nonlinear three-dimensional solid: the sheet without a plate theory's assumptions.
+
+    ∫ S(E) : δE dV = δ(loads),    E = ½ (Fᵀ F − 1)
+
+total Lagrangian, St Venant–Kirchhoff (default) or neo-Hooke (`solid_materials`), on 27-node bricks that lock
+neither in a thin sheet nor as ν → ½ (`solid_element`), in one layer or more. Displacements are the
+mid-surface's.
+
+At every edge the solid has a layer as wide as the sheet is thick: at a free one the twisting stress turns
+round, at a clamp the Poisson contraction is stopped. On a uniform mesh much coarser than that, answers
+converge like 1/n (a full clamp's stress is singular besides): the mesh is graded towards the edges. The
+default clamp is a shell's (`solid_supports`). Hinged and held edges hold the mid-line, and a line support
+dents a solid: nothing where bending carries the load, 0.6 % of the deflection where a square sheet with
+h/a = 1/63, hinged all round, carries it by stretching. SI units.
+"""
+
+from __future__ import annotations
+
+from time import perf_counter
+
+import numpy as np
+from skfem import MeshQuad
+
+from fem_reference import shell_loads, solid_supports
+from fem_reference.equilibrium import trace
+from fem_reference.linear import DirectSolver
+from fem_reference.location import locate
+from fem_reference.mesh import Elements, divisions, rectangle
+from fem_reference.plate_element import shape_values
+from fem_reference.shell_element import GAUSS, GAUSS_WEIGHTS
+from fem_reference.solid_element import Bricks
+from fem_reference.solid_materials import LAWS, lame
+from fem_reference.solid_mesh import Columns, graded_rectangle
+from fem_reference.solid_structure import SolidStructure
+from scenes import Scene, Solution, Status
+from scenes.scene import require_static
+
+MESHES = {"edges": graded_rectangle, "uniform": rectangle}
+
+
+def solve(
+    scene: Scene,
+    elements: Elements = 16,
+    layers: int = 1,
+    law: str = "st-venant-kirchhoff",
+    clamp: str = "shell-like",
+    grading: str = "edges",
+) -> Solution:
+    """The static equilibrium of a scene; elements along the shorter side (near-square), or (nx, ny).
+
+    layers: bricks through the thickness; law: a key of `LAWS`; clamp: one of `solid_supports.CLAMPS`;
+    grading: a key of `MESHES`.
+    Raises scenes.SceneError if the supports leave a rigid motion free, ValueError for an unknown option.
+    """
+    require_static(scene)
+    begin = perf_counter()
+    along_x, along_y = divisions(scene.sheet.lengths, elements)
+    structure = discretise(mesh_of(scene, (along_x, along_y), grading), scene, layers, law, clamp)
+    solver = DirectSolver(structure.symmetric)
+    ready = perf_counter()
+    path = trace(structure, solver)
+    done = perf_counter()
+
+    columns, displacement = structure.columns, path.state.displacement
+    status, message = path.status, path.message
+    if status is Status.CONVERGED and structure.inside_out(path.state):
+        status, message = Status.INVERTED, "a brick has turned inside out"
+    residual = structure.forces(path.state, path.load_factor).residual
+    return Solution(
+        model="solid",
+        label=f"solid {along_x} × {along_y} × {layers}",
+        settings={
+            "elements": [along_x, along_y],
+            "layers": layers,
+            "law": law,
+            "clamp": clamp,
+            "grading": grading,
+        },
+        status=status,
+        unknowns=structure.unknowns,
+        iterations=path.factorisations,
+        setup_seconds=ready - begin,
+        solve_seconds=done - ready,
+        sample=lambda points: sample(columns, displacement, points),
+        reactions=structure.supports.reactions(residual, path.load_factor),
+        energies=structure.energies(path.state),
+        mesh=columns.field_mesh(displacement),
+        history=tuple(path.history),
+        load_factor=path.load_factor,
+        message=message,
+    )
+
+
+def mesh_of(scene: Scene, elements: tuple[int, int], grading: str) -> MeshQuad:
+    """The plan mesh. Raises ValueError for an unknown grading."""
+    if grading not in MESHES:
+        raise ValueError(f"grading = {grading!r}: known are {', '.join(MESHES)}")
+    return MESHES[grading](scene.sheet, elements)
+
+
+def discretise(
+    mesh: MeshQuad,
+    scene: Scene,
+    layers: int = 1,
+    law: str = "st-venant-kirchhoff",
+    clamp: str = "shell-like",
+) -> SolidStructure:
+    """The discrete solid of a scene on a plan mesh of straight-sided quadrilaterals.
+
+    Supports and loads act on the mesh's boundaries of their edges' names; of the scene's sheet only the
+    thickness is used. Raises ValueError for an unknown law or clamp or no layers.
+    """
+    if law not in LAWS:
+        raise ValueError(f"law = {law!r}: known are {', '.join(LAWS)}")
+    if layers < 1:
+        raise ValueError(f"layers = {layers}: at least one through the thickness")
+    columns = Columns.on(mesh, scene.sheet.thickness, layers)
+    stacks = columns.positions.reshape(-1, 3)[columns.stacks]
+    positions = np.concatenate([stacks[:, place] for place in columns.places])
+    bricks = Bricks.build(positions, LAWS[law], lame(scene.material))
+    areas = np.abs(mesh.mapping().detDF((np.array(GAUSS) + 1.0) / 2.0)) * GAUSS_WEIGHTS / 4.0
+    supports = solid_supports.of_scene(scene, columns, clamp)
+    dead, followers = shell_loads.of_scene(scene, mesh, columns.plan_elements, columns.plan_nodes, areas)
+    return SolidStructure(columns, bricks, supports, dead, followers)
+
+
+def sample(columns: Columns, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m] of nodal ones (n, levels, 3)."""
+    element, local = locate(columns.plan.mesh, points)
+    nodal = displacement[columns.plan_elements[element], columns.layers]
+    return np.einsum("ip,pic->pc", shape_values(local), nodal)

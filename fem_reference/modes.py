@@ -9,7 +9,7 @@ with the shift σ < 0 below the spectrum, so that a free sheet's singular K need
 The rigid motions that the supports leave free are counted exactly (the null space of their values at
 the held unknowns); so many lowest modes, whose frequency is zero, are left out and their number is reported.
 
-The shell's mass is the plate's: ρh on the displacements, ρh³/12 on the director's rotations. SI units.
+Masses: plate and shell, ρh on the displacements and ρh³/12 on the director's rotations; solid, ρ. SI units.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import LinearOperator, eigsh
 
-from fem_reference import plate, shell
+from fem_reference import plate, shell, solid, solid_supports
 from fem_reference.linear import DirectSolver
 from fem_reference.mesh import Elements, divisions, rectangle
 from scenes import Scene
@@ -155,4 +155,35 @@ def _shell_at_rest(scene: Scene, elements: tuple[int, int]) -> RestState:
     return _plate_at_rest(scene, elements)._replace(stiffness=stiffness)
 
 
-REST_STATES: dict[str, Callable[..., RestState]] = {"plate": _plate_at_rest, "shell": _shell_at_rest}
+def _solid_at_rest(
+    scene: Scene,
+    elements: tuple[int, int],
+    layers: int = 1,
+    clamp: str = "shell-like",
+    grading: str = "edges",
+) -> RestState:
+    """The tangent of the solid that nothing holds or loads; both laws have the same."""
+    bare = scene.model_copy(update={"supports": (), "loads": (), "gravity": None})
+    mesh = solid.mesh_of(scene, elements, grading)
+    structure = solid.discretise(mesh, bare, layers)
+    rest = structure.rest()
+    stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
+    columns = structure.columns
+    shape = (len(columns.plan_nodes), 3 * columns.levels)
+    arms = (columns.positions - columns.positions.mean(axis=(0, 1))).reshape(-1, 3)
+    moves = [np.broadcast_to(axis, arms.shape) for axis in np.eye(3)]
+    turns = [np.cross(axis, arms) for axis in np.eye(3)]
+    return RestState(
+        stiffness=stiffness,
+        mass=structure.mass(scene.material.density),
+        held=solid_supports.of_scene(scene, columns, clamp).held.reshape(shape),
+        rigid=np.array(moves + turns).reshape(6, -1).T,
+        sample=lambda fields, points: solid.sample(columns, fields.reshape(columns.positions.shape), points),
+    )
+
+
+REST_STATES: dict[str, Callable[..., RestState]] = {
+    "plate": _plate_at_rest,
+    "shell": _shell_at_rest,
+    "solid": _solid_at_rest,
+}

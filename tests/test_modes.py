@@ -26,7 +26,7 @@ def factor(scene: Scene) -> float:
     return 2 * np.pi * sheet.length_x**2 * np.sqrt(material.density * sheet.thickness / bending)
 
 
-@pytest.mark.parametrize("model", ["plate", "shell"])
+@pytest.mark.parametrize("model", ["plate", "shell", "solid"])
 def test_nafems_fv16(model):
     """One edge clamped: converged Mindlin values within 0.3 %, the old targets within 1.5 %."""
     got = modes(clamped(NAFEMS, "x0"), model=model, elements=16, count=6)
@@ -36,7 +36,7 @@ def test_nafems_fv16(model):
     np.testing.assert_allclose(got.frequencies, [0.421, 1.029, 2.582, 3.306, 3.753, 6.555], rtol=1.5e-2)
 
 
-@pytest.mark.parametrize("model", ["plate", "shell"])
+@pytest.mark.parametrize("model", ["plate", "shell", "solid"])
 def test_nafems_fv12(model):
     """The free plate: six rigid motions left out, then the targets; modes 4 and 5 converge to 4.182."""
     got = modes(clamped(NAFEMS), model=model, elements=16, count=6)
@@ -45,7 +45,7 @@ def test_nafems_fv12(model):
     np.testing.assert_allclose(got.frequencies, [1.622, 2.360, 2.922, 4.233, 4.233, 7.416], rtol=1.5e-2)
 
 
-@pytest.mark.parametrize("model", ["plate", "shell"])
+@pytest.mark.parametrize("model", ["plate", "shell", "solid"])
 @pytest.mark.parametrize(
     ("edges", "published"),
     [
@@ -98,13 +98,22 @@ def test_in_plane_rod():
         ([{"edge": "x0", "kind": "held", "components": ["x"]}, {"edge": "y0", "kind": "clamped"}], 0),
     ],
 )
-@pytest.mark.parametrize("model", ["plate", "shell"])
+@pytest.mark.parametrize("model", ["plate", "shell", "solid"])
 def test_rigid_motions_left_out(supports, expected, model):
     """As many zero frequencies as rigid motions, no more: the first elastic one is far from zero."""
     scene = Scene(name="s", sheet=THIN, material=STEEL, supports=supports)
     got = modes(scene, model, 4, count=4)
     assert got.rigid_modes == expected
     assert got.frequencies[0] * factor(scene) > 1.0
+
+
+def test_solid_near_incompressible():
+    """ν = 0.4999, 8×8: within 0.5 % of the plate with the same ν, which does not know of volumes."""
+    rubber = Material(young=1e6, poisson=0.4999, density=1000.0)
+    sheet = Sheet(length_x=1.0, length_y=1.0, thickness=0.01)
+    scene = clamped(sheet, "x0", material=rubber)
+    solid, plate = (modes(scene, model, 8, count=4).frequencies for model in ("solid", "plate"))
+    np.testing.assert_allclose(solid, plate, rtol=5e-3)
 
 
 def test_shapes_are_orthonormal_and_sampled():

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lumped import cells, springs
+from lumped import cells, springs, strains
 from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
-from lumped.moduli import family_stiffness
+from lumped.moduli import family_stiffness, strain_stiffness
 from scenes import Sheet
 
 
@@ -38,7 +38,8 @@ class Links:
 
 @dataclass(frozen=True)
 class Cells:
-    """Area springs of one kind: nodes (c, 4, p), rest diagonals (c, 2, 3) [m], stiffness (c,) [N/m]."""
+    """Area or strain springs of one kind: nodes (c, 4, p), rest diagonals (c, 2, 3) [m], stiffness (c,) or,
+    of the three strains, (c, 3) [N/m]."""
 
     name: str
     nodes: np.ndarray
@@ -49,16 +50,20 @@ class Cells:
     def energies(self, stress: np.ndarray) -> np.ndarray:
         """Energy ½ τ²/k · a0 of each area spring under its stress τ [N/m], (c,) [J]."""
         rest_area = 0.5 * np.linalg.norm(np.cross(self.diagonals[:, 0], self.diagonals[:, 1]), axis=1)
-        energy: np.ndarray = 0.5 * stress**2 / self.stiffness * rest_area
+        k = self.stiffness
+        density = 0.5 * np.divide(stress**2, k, out=np.zeros_like(k), where=k != 0.0)
+        energy: np.ndarray = rest_area * (density if density.ndim == 1 else density.sum(axis=1))
         return energy
 
 
 @dataclass(frozen=True)
 class Stresses:
-    """The tension of every central link, (m,) [N], and the stress of every area spring, [N/m]."""
+    """The tension of every central link, (m,) [N], the stress of every area spring, (c,), and the stresses of
+    every strain spring, (c, 3) [N/m]."""
 
     links: np.ndarray
     cells: tuple[np.ndarray, ...]
+    strains: tuple[np.ndarray, ...]
 
 
 class Pattern:
@@ -104,11 +109,15 @@ class Assembly:
                 directional.append((*row, family.weight[:, None] * np.array(k), number))
             elif np.max(k) > 0.0:
                 central.append((*row, family.weight * float(np.max(k)), number))
-        areas = []
+        spring_set = calibration.springs
+        areas, stretchy = [], []
         for cell in self.lattice.cells:
-            k = getattr(calibration.springs, cell.name)
+            k = getattr(spring_set, cell.name)
             if k != 0.0:
-                areas.append((cell.name, cell.nodes, k))
+                areas.append((cell.name, cell.nodes, np.array(k)))
+            name, three = strain_stiffness(spring_set, cell.name)
+            if any(three):
+                stretchy.append((name, cell.nodes, np.array(three)))
 
         pairs = _neighbours(self.lattice.columns())
         self.coupling = couple(self.lattice) if couple is not None else None
@@ -122,6 +131,7 @@ class Assembly:
         self.links = self._links(central, 1)
         self.directional = self._links(directional, 3)
         self.cells = tuple(self._cells(*area) for area in areas)
+        self.strains = tuple(self._cells(*row) for row in stretchy)
 
     @property
     def conservative(self) -> bool:
@@ -149,12 +159,12 @@ class Assembly:
         slots = np.stack([self.pattern.slots(*pair) for pair in pairs], axis=1)
         return Links(nodes, offset, rest, stiffness, family, slots)
 
-    def _cells(self, name: str, nodes: np.ndarray, k: float) -> Cells:
+    def _cells(self, name: str, nodes: np.ndarray, k: np.ndarray) -> Cells:
         corners = self.lattice.positions[nodes].mean(axis=2)
         diagonals = np.stack([corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]], axis=1)
         flat = nodes.reshape(len(nodes), -1)
         slots = self.pattern.slots(flat[:, :, None], flat[:, None, :])
-        return Cells(name, nodes, diagonals, np.full(len(nodes), k), slots)
+        return Cells(name, nodes, diagonals, np.full((len(nodes), *k.shape), k), slots)
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Elastic energy [J] and its gradient, the internal force, (n, 3) [N]."""
@@ -163,31 +173,38 @@ class Assembly:
         energy = springs.add_forces(u, links.nodes, links.offset, links.rest_length, links.stiffness, force)
         for c in self.cells:
             energy += cells.add_forces(u, c.nodes, c.diagonals, c.stiffness, force)
+        for c in self.strains:
+            energy += strains.add_forces(u, c.nodes, c.diagonals, c.stiffness, force)
         d = self.directional
         if len(d):
             springs.add_directional_forces(u, d.nodes, d.offset, d.rest_length, d.stiffness, force)
         return energy, force
 
     def energies(self, u: np.ndarray) -> dict[str, float]:
-        """Elastic energy of each spring family and of the area springs [J]."""
+        """Elastic energy of each spring family and of the area and strain springs [J]."""
         stresses = self.stresses(u)
         stored = 0.5 * stresses.links**2 / self.links.stiffness
         per_family = np.bincount(self.links.family, stored, minlength=len(self.families))
         energies = {name: float(value) for name, value in zip(self.families, per_family, strict=True)}
-        for c, stress in zip(self.cells, stresses.cells, strict=True):
+        for c, stress in self.cell_stresses(stresses):
             energies[c.name] = float(c.energies(stress).sum())
         return energies
 
+    def cell_stresses(self, stresses: Stresses) -> list[tuple[Cells, np.ndarray]]:
+        """Every kind of area and strain spring with its stresses."""
+        return list(zip(self.cells + self.strains, stresses.cells + stresses.strains, strict=True))
+
     def stresses(self, u: np.ndarray) -> Stresses:
-        """Tensions and area stresses at u."""
+        """Tensions, area stresses and strain stresses at u."""
         links = self.links
         return Stresses(
             springs.tensions(u, links.nodes, links.offset, links.rest_length, links.stiffness),
             tuple(cells.stresses(u, c.nodes, c.diagonals, c.stiffness) for c in self.cells),
+            tuple(strains.stresses(u, c.nodes, c.diagonals, c.stiffness) for c in self.strains),
         )
 
     def extrapolated(self, u: np.ndarray, step: np.ndarray) -> Stresses:
-        """Tensions and area stresses that the linearisation at u predicts after `step`."""
+        """Tensions and stresses that the linearisation at u predicts after `step`."""
         links = self.links
         return Stresses(
             springs.extrapolated_tensions(
@@ -195,6 +212,10 @@ class Assembly:
             ),
             tuple(
                 cells.extrapolated_stresses(u, step, c.nodes, c.diagonals, c.stiffness) for c in self.cells
+            ),
+            tuple(
+                strains.extrapolated_stresses(u, step, c.nodes, c.diagonals, c.stiffness)
+                for c in self.strains
             ),
         )
 
@@ -215,6 +236,8 @@ class Assembly:
         )
         for c, stress in zip(self.cells, stresses.cells, strict=True):
             cells.add_tangent(u, c.nodes, c.diagonals, c.stiffness, stress, c.slots, blocks)
+        for c, stress in zip(self.strains, stresses.strains, strict=True):
+            strains.add_tangent(u, c.nodes, c.diagonals, c.stiffness, stress, c.slots, blocks)
         d = self.directional
         if len(d):
             springs.add_directional_tangent(u, d.nodes, d.offset, d.rest_length, d.stiffness, d.slots, blocks)

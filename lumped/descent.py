@@ -85,7 +85,9 @@ def _definite_factor(problem: Problem, u: np.ndarray, load_factor: float, wait: 
         wait = PROJECTED_RUN
     stresses = problem.assembly.stresses(u)
     tensile = Stresses(
-        np.maximum(stresses.links, 0.0), tuple(np.maximum(stress, 0.0) for stress in stresses.cells)
+        np.maximum(stresses.links, 0.0),
+        tuple(np.maximum(stress, 0.0) for stress in stresses.cells),
+        tuple(np.zeros_like(stress) for stress in stresses.strains),
     )
     return problem.factor(problem.tangent(u, load_factor, tensile)), wait - 1
 

@@ -22,7 +22,7 @@ def field_mesh(problem: Problem, u: np.ndarray, reactions: np.ndarray) -> FieldM
     (layer_cells,) = (c.nodes[:, :, 0] for c in lattice.cells if c.name == "area")
     quads, masses = len(layer_cells), lattice.mass_count
     cell_energy = np.zeros(quads)
-    for cell, stress in zip(assembly.cells, stresses.cells, strict=True):
+    for cell, stress in assembly.cell_stresses(stresses):
         energy = cell.energies(stress)
         layers = quads // len(energy)
         cell_energy += np.tile(energy / layers, layers)

@@ -70,6 +70,16 @@ def family_stiffness(springs: SpringSet, family: str, direction: str) -> float |
     return value.x if direction == "x" else value.y
 
 
+def strain_stiffness(springs: SpringSet, cells: str) -> tuple[str, tuple[float, float, float]]:
+    """Name and stiffness [N/m], of ε1, ε2 and γ, of the strain springs on the cells called "area"
+    (each layer) or "mid_area" (the mid-surface)."""
+    if cells == "area":
+        return "shear", (0.0, 0.0, springs.shear)
+    stretch = springs.mid_stretch
+    x, y = (stretch.x, stretch.y) if isinstance(stretch, PerDirection) else (stretch, stretch)
+    return "mid_strain", (x, y, springs.mid_shear)
+
+
 def link_forms(spacing: tuple[float, float, float]) -> dict[tuple[str, str], np.ndarray]:
     """Energy form per unit stiffness and area of each family and direction: (6, 6) over
     (ε_x, ε_y, γ_xy, ε_z, γ_x, γ_y), energy density ½ ε·Q ε [1: m/m² · m]."""
@@ -81,6 +91,14 @@ def link_forms(spacing: tuple[float, float, float]) -> dict[tuple[str, str], np.
         form = np.outer(row, row) / ((dx * dx + dy * dy + dz * dz) * lx * ly)
         forms[family, direction] = forms.get((family, direction), np.zeros((6, 6))) + form
     return forms
+
+
+def gap_shear_per_stiffness(spacing: tuple[float, float, float]) -> tuple[float, float, np.ndarray]:
+    """Shear stiffness of one gap per unit stiffness of cross links along x, along y, and (2,) of the furthest
+    diagonals along x and y [1]."""
+    forms = link_forms(spacing)
+    diagonals = forms["cross_diagonal", ""]
+    return forms["cross", "x"][4, 4], forms["cross", "y"][5, 5], np.array([diagonals[4, 4], diagonals[5, 5]])
 
 
 def shear_gaps(layers: int) -> float:
@@ -102,6 +120,8 @@ def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: 
     dilation = np.zeros((3, 3))
     dilation[:2, :2] = 1.0
     in_layer = layer[:3, :3] + springs.area * dilation
+    in_layer += np.diag(strain_stiffness(springs, "area")[1])
+    mid_surface = springs.mid_area * dilation + np.diag(strain_stiffness(springs, "mid_area")[1])
     in_gap = gap[:3, :3].copy()
     if gap[3, 3] > 0.0:
         in_gap -= np.outer(gap[:3, 3], gap[:3, 3]) / gap[3, 3]
@@ -109,7 +129,7 @@ def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: 
     heights = (np.arange(layers) - (layers - 1) / 2) * lz
     gap_heights = (heights[1:] + heights[:-1]) / 2
     return Moduli(
-        membrane=layers * in_layer + (layers - 1) * in_gap + springs.mid_area * dilation,
+        membrane=layers * in_layer + (layers - 1) * in_gap + mid_surface,
         bending=(heights**2).sum() * in_layer + (gap_heights**2).sum() * in_gap,
         shear=shear_gaps(layers) * np.array([gap[4, 4], gap[5, 5]]),
     )

@@ -2,7 +2,9 @@
 
 Only the lumped model reads them. Axial, diagonal, vertical, cross and cross_diagonal are link
 stiffnesses [N/m] (the seed's ka, kd, kz, kdT, kddT); area and mid_area are area-spring stiffnesses
-[N/m], energy ½ k (a/a0 − 1)² a0 per cell of a layer and of the mid-surface.
+[N/m], energy ½ k (a/a0 − 1)² a0 per cell of a layer and of the mid-surface. Strain springs [N/m], energy
+½ k ε² a0, make up what those cannot on cells longer than wide: shear and mid_shear against the in-plane shear
+of a layer's and of the mid-surface's cells, mid_stretch against the stretching of the mid-surface along x, y.
 """
 
 from __future__ import annotations
@@ -31,6 +33,9 @@ class SpringSet(Frozen):
     cross_diagonal: Stiffness
     area: Number = 0.0
     mid_area: Number = 0.0
+    shear: NonNegative = 0.0
+    mid_shear: Number = 0.0
+    mid_stretch: Stiffness = 0.0
     layer_distance: Positive
 
 

@@ -8,8 +8,7 @@ import scenes
 from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration.calibration import report
-from lumped.calibration.least_squares import bounded_least_squares
-from scenes import Material, PerDirection, Sheet, SpringSet
+from scenes import Material, PerDirection, SpringSet
 
 SEED = scenes.load("two-edges-clamped")
 RIGIDITY = 54.5e6 * 0.003**3 / 12 / (1 - 0.48**2)
@@ -102,7 +101,9 @@ UNEQUAL = SpringSet(
 
 @pytest.mark.parametrize("grid", [(9, 9, 2), (7, 11, 2)])
 def test_homogenisation_agrees_with_imposed_strains(grid):
-    springs = UNEQUAL
+    springs = UNEQUAL.model_copy(
+        update={"shear": 120.0, "mid_shear": 90.0, "mid_stretch": PerDirection(x=50.0, y=80.0)}
+    )
     assembly = small_assembly(report("test", SEED.sheet, SEED.material, grid, springs))
     spacing = (0.188 / (grid[0] - 1), 0.188 / (grid[1] - 1), 0.004)
     got = moduli.of_springs(springs, spacing, 2)
@@ -117,21 +118,60 @@ def test_homogenisation_agrees_with_imposed_strains(grid):
 
 
 def test_least_squares_finds_the_closed_form_on_square_cells():
-    springs, notes = bounded_least_squares(SEED.sheet, SEED.material, (9, 9, 2))
-    got = moduli.of_springs(springs, (0.0235, 0.0235, springs.layer_distance), 2).named(square=True)
-    asked = moduli.of_sheet(SEED.sheet, SEED.material, (0.0235, 0.0235)).named(square=True)
-    assert notes == ()
-    for name, value in asked.items():
-        assert got[name] == pytest.approx(value, rel=1e-6), name
+    closed = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), "consistent").springs.model_dump()
+    fitted = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), "moduli")
+    assert fitted.notes == ()
+    for name, value in fitted.springs.model_dump().items():
+        assert value == pytest.approx(closed[name], rel=1e-5, abs=1e-6), name
 
 
-def test_unequal_spacings_are_met_up_to_an_aspect_of_root_three():
-    sheet = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
-    near = lumped.calibrate(sheet, SEED.material, (9, 13))
-    assert isinstance(near.springs.axial, PerDirection)
-    assert all(abs(row["miss"]) < 0.01 for row in near.moduli if row["name"][0] in "DS")
-    far = lumped.calibrate(sheet, SEED.material, (9, 25))  # aspect 3: central links cannot, and say so
-    assert any("D66 is missed" in note for note in far.notes)
+@pytest.mark.parametrize("method", ["consistent", "moduli"])
+@pytest.mark.parametrize("grid", [(9, 10), (9, 13), (9, 17), (9, 25), (25, 9)])
+def test_every_modulus_is_met_on_long_cells_too(method, grid):
+    calibration = lumped.calibrate(SEED.sheet, SEED.material, grid, method)
+    within = 1e-9 if method == "consistent" else 1e-5
+    assert all(abs(row["miss"]) < within for row in calibration.moduli) and calibration.notes == ()
+    springs = calibration.springs
+    links = (springs.axial, springs.diagonal, springs.vertical, springs.cross, springs.cross_diagonal)
+    assert all(min(k.x, k.y) > 0.0 if isinstance(k, PerDirection) else k > 0.0 for k in links)
+
+
+def test_without_strain_springs_long_cells_cannot_be_met():
+    """Diagonals stiffen a cell along its length by (lx/ly)² C66: beyond √3 axial links would be negative."""
+    calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 25))
+    bare = calibration.springs.model_copy(update={"shear": 0.0, "mid_shear": 0.0, "mid_stretch": 0.0})
+    stripped = report("stripped", SEED.sheet, SEED.material, (9, 25, 2), bare)
+    assert any("D66 is missed" in note for note in stripped.notes)
+
+
+def test_layers_too_many_for_the_grid_are_said():
+    calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9, 3))
+    assert any("is missed by" in note for note in calibration.notes)
+
+
+def test_a_given_layer_distance_is_kept():
+    calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), layer_distance=0.0045)
+    assert calibration.layer_distance == 0.0045
+    assert all(abs(row["miss"]) < 1e-5 for row in calibration.moduli)  # strain springs take up the stretching
+
+
+def test_cauchy_relation_is_named():
+    for method in ("uniform", "cauchy", "axial", "van-gelder", "lloyd"):
+        calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), method)
+        got = {row["name"]: row["got"] for row in calibration.moduli}
+        assert got["D12"] == pytest.approx(got["D66"], rel=1e-12)
+        assert any("Cauchy's relation" in note for note in calibration.notes)
+
+
+def test_textbook_constructions_on_squares():
+    """Published factors: E2 and E2/4 (Van Gelder 1998), 5/16 and 7/16 E2 a cell (Lloyd et al. 2007)."""
+    strip = 54.5e6 * 0.003 / 2
+    gelder = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), "van-gelder").springs
+    assert (gelder.axial, gelder.diagonal) == pytest.approx((strip, strip / 4))
+    lloyd = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), "lloyd").springs
+    assert (lloyd.axial, lloyd.diagonal) == pytest.approx((2 * 5 / 16 * strip, 7 / 16 * strip))
+    bars = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), "axial").springs
+    assert (bars.axial, bars.diagonal) == pytest.approx((strip, strip / 2))
 
 
 def test_negative_area_springs_are_said():
@@ -160,5 +200,6 @@ def test_json_document():
     document = lumped.calibrate(SEED.sheet, SEED.material, (9, 9)).as_dict()
     assert set(document["springs"]) == {
         "axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area",
+        "shear", "mid_shear", "mid_stretch",
     }  # fmt: skip
     assert [row["name"] for row in document["moduli"]] == ["D11", "D12", "D66", "A11", "A12", "A66", "S"]

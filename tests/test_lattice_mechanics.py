@@ -15,8 +15,16 @@ from scenes import Clamped, EdgeLoad, Material, PerDirection, Pressure, Scene, S
 SHEET = Sheet(length_x=0.2, length_y=0.3, thickness=0.01)
 MATERIAL = Material(young=1e6, poisson=0.3, density=1000.0)
 NONE = {"axial": 0.0, "diagonal": 0.0, "vertical": 0.0, "cross": 0.0, "cross_diagonal": 0.0}
-TERMS = ["axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area"]
-ALL = {**dict.fromkeys(NONE, 90.0), "axial": PerDirection(x=100.0, y=70.0), "area": 40.0, "mid_area": -8.0}
+TERMS = [*NONE, "area", "mid_area", "shear", "mid_shear", "mid_stretch"]
+ALL = {
+    **dict.fromkeys(NONE, 90.0),
+    "axial": PerDirection(x=100.0, y=70.0),
+    "area": 40.0,
+    "mid_area": -8.0,
+    "shear": 30.0,
+    "mid_shear": 20.0,
+    "mid_stretch": 25.0,
+}
 
 
 def assembly_of(grid=(3, 4, 2), **springs):
@@ -65,7 +73,7 @@ def test_extrapolated_stresses_are_the_linearisation():
     u, direction = state(assembly), state(assembly, seed=2)
 
     def flat(stresses):
-        return np.concatenate([stresses.links, *stresses.cells])
+        return np.concatenate([stresses.links, *stresses.cells, *(s.ravel() for s in stresses.strains)])
 
     h = 1e-6
     slope = (flat(assembly.stresses(u + h * direction)) - flat(assembly.stresses(u - h * direction))) / (

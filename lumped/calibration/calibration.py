@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from lumped import moduli
 from lumped.lattice import Grid
 from scenes import Material, Sheet, SpringSet
@@ -52,19 +54,39 @@ def plan_spacing(sheet: Sheet, grid: Grid) -> tuple[float, float]:
     return sheet.length_x / (grid[0] - 1), sheet.length_y / (grid[1] - 1)
 
 
-def report(
-    method: str, sheet: Sheet, material: Material, grid: Grid, springs: SpringSet, notes: tuple[str, ...] = ()
-) -> Calibration:
-    """The calibration with its moduli report."""
-    lx, ly = plan_spacing(sheet, grid)
-    square = abs(lx - ly) < 1e-9 * lx
-    asked = moduli.of_sheet(sheet, material, (lx, ly)).named(square)
-    got = moduli.of_springs(springs, (lx, ly, springs.layer_distance), grid[2]).named(square)
+def report(method: str, sheet: Sheet, material: Material, grid: Grid, springs: SpringSet) -> Calibration:
+    """The calibration with its moduli report, and notes on what it misses and why.
+
+    Raises ValueError where area springs leave a cell without positive energy.
+    """
+    spacing = plan_spacing(sheet, grid)
+    square = abs(spacing[0] - spacing[1]) < 1e-9 * spacing[0]
+    whole = moduli.of_springs(springs, (*spacing, springs.layer_distance), grid[2])
+    asked = moduli.of_sheet(sheet, material, spacing).named(square)
+    got = whole.named(square)
+    scale = {name: abs(asked[name.replace("12", "11")]) for name in asked}
     rows: list[dict[str, Any]] = []
     for name, value in asked.items():
         row = {"name": name, "asked": float(value), "got": float(got[name])}
-        row["miss"] = float((got[name] - value) / value) if value else None
+        row["miss"] = float((got[name] - value) / (value or scale[name]))
         if name.startswith("S"):
             row["kappa_G_h"] = moduli.shear_without_grid(sheet, material)
         rows.append(row)
-    return Calibration(method, grid, springs, tuple(rows), notes)
+    notes = [
+        f"{row['name']} is missed by {row['miss']:+.1%}"
+        for row in rows
+        if abs(row["got"] - row["asked"]) > 0.01 * scale[row["name"]]
+    ]
+    if notes and not springs.area and not springs.shear:
+        notes.append("central links alone obey Cauchy's relation C12 = C66: no k meets D12 and D66 both")
+    return Calibration(method, grid, springs, tuple(rows), (*notes, *_admissible(springs, whole)))
+
+
+def _admissible(springs: SpringSet, whole: moduli.Moduli) -> tuple[str, ...]:
+    """A note where area springs are negative (ν < 1/3): admissible while the cell's energy stays positive."""
+    if springs.area >= 0.0 and springs.mid_area >= 0.0:
+        return ()
+    areas = f"area = {springs.area:.4g}, mid_area = {springs.mid_area:.4g} N/m"
+    if min(np.linalg.eigvalsh(form)[0] for form in (whole.membrane, whole.bending)) <= 0.0:
+        raise ValueError(f"{areas}: the cell's energy is not positive")
+    return (f"{areas}: negative area springs are admissible here, the cell's energy is positive",)

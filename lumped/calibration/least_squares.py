@@ -1,81 +1,129 @@
 """Springs that meet the moduli as nearly as they can: bounded least squares on A, D and S.
 
-For cells that are not square, more than two layers, or a layer distance that is given, where the closed
-form does not apply. Links are kept nonnegative; area springs are free. Residuals are relative to the
-sheet's own moduli (off-diagonal terms to D11 and A11). Bending and shear weigh more than stretching,
-since a soft sheet bends first.
+The method for a layer distance that is given, for more layers than the closed form can do with nonnegative
+links, and a check of the closed form where both apply. Links and strain springs are kept nonnegative; area
+springs may have either sign; strain springs come in only where the others leave a miss, and then as weak as
+will do. Residuals are relative to the sheet's own moduli (off-diagonal terms to D11 and
+A11); bending and shear weigh more than stretching by default, since a soft sheet bends first.
 """
 
 from __future__ import annotations
+
+from collections.abc import Mapping
 
 import numpy as np
 from scipy.optimize import least_squares
 
 from lumped import moduli
-from lumped.calibration.calibration import plan_spacing
+from lumped.calibration.calibration import Calibration, plan_spacing, report
+from lumped.calibration.uniform import require_positive
 from lumped.lattice import Grid
 from scenes import Material, PerDirection, Sheet, SpringSet
 
-BENDING_WEIGHT, SHEAR_WEIGHT, MEMBRANE_WEIGHT = 1.0, 1.0, 0.3
+WEIGHTS = {"D": 1.0, "S": 1.0, "A": 0.3}
+PAIRS = ("axial", "cross", "mid_stretch")
+STRAINS = ("mid_stretch_x", "mid_stretch_y", "shear", "mid_shear")
+FREE = ("area", "mid_area")
+MET = 1e-8  # weighted miss that counts as none
+WEAK = 1e-4  # weight of the strain springs themselves, where they are needed
+UNKNOWNS = (
+    *(f"{name}_{direction}" for name in PAIRS for direction in "xy"),
+    "diagonal",
+    "cross_diagonal",
+    "shear",
+    "mid_shear",
+    *FREE,
+)
+
+
+def fit_moduli(
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    k: float | None = None,
+    layer_distance: float | None = None,
+    weights: Mapping[str, float] = WEIGHTS,
+) -> Calibration:
+    """The method `moduli`. weights: of D, S and A, by letter. Raises ValueError when k is given."""
+    if k is not None:
+        raise ValueError(
+            f"k = {k:g}: calibration 'moduli' finds its stiffnesses itself; k goes with 'uniform'"
+        )
+    require_positive("layer_distance", layer_distance, "m")
+    springs = bounded_least_squares(sheet, material, grid, layer_distance, weights)
+    return report("moduli", sheet, material, grid, springs)
 
 
 def bounded_least_squares(
-    sheet: Sheet, material: Material, grid: Grid, layer_distance: float | None = None
-) -> tuple[SpringSet, tuple[str, ...]]:
-    """Springs and notes on every modulus missed by more than 1 % (D12, A12 as shares of D11, A11).
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    layer_distance: float | None = None,
+    weights: Mapping[str, float] = WEIGHTS,
+) -> SpringSet:
+    """The springs of least weighted miss.
 
-    Unknowns: axial and cross along x and y, diagonal, cross_diagonal ≥ 0; area, mid_area of any sign; the
-    layer distance unless given. kz = 4 × the layer's stiffness, as in the closed form.
+    Unknowns: the five link families, axial and cross along x and y apart, and the strain springs, all ≥ 0;
+    area, mid_area of any sign; the layer distance unless given. kz as in the closed form.
     """
-    lx, ly = plan_spacing(sheet, grid)
+    spacing = plan_spacing(sheet, grid)
     layers = grid[2]
-    asked = moduli.of_sheet(sheet, material, (lx, ly))
+    asked = moduli.of_sheet(sheet, material, spacing)
     heights = np.arange(layers) - (layers - 1) / 2
-    thickness_scale = sheet.thickness / (layers - 1)
+    first_distance = layer_distance or sheet.thickness / (layers - 1)
 
     def springs_of(unknowns: np.ndarray) -> SpringSet:
-        distance = layer_distance if layer_distance is not None else thickness_scale * np.exp(unknowns[8])
+        distance = layer_distance or first_distance * float(np.exp(unknowns[-1]))
         stiffness = asked.bending[0, 0] / ((heights**2).sum() * distance**2)
-        x_axial, y_axial, diagonal, x_cross, y_cross, cross_diagonal, area, mid_area = (
-            stiffness * unknowns[:8]
-        )
-        return SpringSet(
-            axial=PerDirection(x=x_axial, y=y_axial),
-            diagonal=diagonal,
-            vertical=4.0 * stiffness,
-            cross=PerDirection(x=x_cross, y=y_cross),
-            cross_diagonal=cross_diagonal,
-            area=area,
-            mid_area=mid_area,
-            layer_distance=distance,
-        )
+        values = {name: float(stiffness * value) for name, value in zip(UNKNOWNS, unknowns, strict=False)}
+        pairs = {name: _by_direction(values.pop(f"{name}_x"), values.pop(f"{name}_y")) for name in PAIRS}
+        return SpringSet(**values, **pairs, vertical=4.0 * float(stiffness), layer_distance=distance)
 
     upper = np.triu_indices(2)
 
     def misses(unknowns: np.ndarray) -> np.ndarray:
         springs = springs_of(unknowns)
-        got = moduli.of_springs(springs, (lx, ly, springs.layer_distance), layers)
-        rows = []
+        got = moduli.of_springs(springs, (*spacing, springs.layer_distance), layers)
+        rows = [weights["S"] * (got.shear - asked.shear) / asked.shear]
         for mine, theirs, weight in (
-            (got.bending, asked.bending, BENDING_WEIGHT),
-            (got.membrane, asked.membrane, MEMBRANE_WEIGHT),
+            (got.bending, asked.bending, weights["D"]),
+            (got.membrane, asked.membrane, weights["A"]),
         ):
             in_plane = (mine - theirs)[:2, :2][upper] / theirs[0, 0]
             twist = (mine[2, 2] - theirs[2, 2]) / theirs[2, 2]
             rows.append(weight * np.append(in_plane, twist))
-        rows.append(SHEAR_WEIGHT * (got.shear - asked.shear) / asked.shear)
         return np.concatenate(rows)
 
-    start = np.array(
-        [0.5, 0.5, 0.25, 0.5, 0.5, 0.25, 0.1, 0.1] + ([] if layer_distance is not None else [0.0])
+    def weak_strains(unknowns: np.ndarray) -> np.ndarray:
+        return np.concatenate([misses(unknowns), WEAK * unknowns[strains]])
+
+    bounded = len(UNKNOWNS) - len(FREE)
+    strains = [UNKNOWNS.index(name) for name in STRAINS]
+    free_distance = 0 if layer_distance else 1
+    start = np.array([0.3] * bounded + [0.1] * len(FREE) + [0.0] * free_distance)
+    low = np.array([0.0] * bounded + [-np.inf] * len(FREE) + [-2.0] * free_distance)
+    high = np.array([np.inf] * len(UNKNOWNS) + [2.0] * free_distance)
+    exact = {"x_scale": "jac", "xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "max_nfev": 3000}
+
+    links = np.setdiff1d(np.arange(len(start)), strains)
+
+    def without_strains(active: np.ndarray) -> np.ndarray:
+        unknowns = np.zeros_like(start)
+        unknowns[links] = active
+        return unknowns
+
+    found = without_strains(
+        least_squares(
+            lambda active: misses(without_strains(active)),
+            start[links],
+            bounds=(low[links], high[links]),
+            **exact,
+        ).x
     )
-    low = np.array([0.0] * 6 + [-np.inf] * 2 + ([] if layer_distance is not None else [-2.0]))
-    high = np.array([np.inf] * 8 + ([] if layer_distance is not None else [2.0]))
-    best = least_squares(misses, start, bounds=(low, high), xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=2000)
-    springs = springs_of(best.x)
-    got = moduli.of_springs(springs, (lx, ly, springs.layer_distance), layers).named(square=False)
-    wanted = asked.named(square=False)
-    scale = {name: wanted[name] if "12" not in name else wanted[name.replace("12", "11")] for name in wanted}
-    missed = {name: (got[name] - wanted[name]) / scale[name] for name in wanted}
-    notes = tuple(f"{name} is missed by {miss:+.1%}" for name, miss in missed.items() if abs(miss) > 0.01)
-    return springs, notes
+    if np.abs(misses(found)).max() > MET:
+        found = least_squares(weak_strains, start, bounds=(low, high), **exact).x
+    return springs_of(found)
+
+
+def _by_direction(x: float, y: float) -> float | PerDirection:
+    return x if abs(x - y) <= 1e-6 * max(x, y) else PerDirection(x=x, y=y)

@@ -6,11 +6,21 @@ from collections.abc import Sequence
 
 from lumped.calibration.calibration import Calibration, Method, report
 from lumped.calibration.consistent import consistent
+from lumped.calibration.least_squares import fit_moduli
+from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
 from lumped.calibration.uniform import uniform
 from lumped.lattice import Grid
 from scenes import Material, Scene, Sheet
 
-CALIBRATIONS: dict[str, Method] = {"consistent": consistent, "uniform": uniform}
+CALIBRATIONS: dict[str, Method] = {
+    "consistent": consistent,
+    "moduli": fit_moduli,
+    "uniform": uniform,
+    "cauchy": cauchy,
+    "axial": axial,
+    "van-gelder": van_gelder,
+    "lloyd": lloyd,
+}
 
 
 def calibrate(

@@ -20,17 +20,14 @@ def uniform(
 
     Raises ValueError for k or layer_distance not above zero.
     """
-    _require_positive("k", k, "N/m")
-    _require_positive("layer_distance", layer_distance, "m")
+    require_positive("k", k, "N/m")
+    require_positive("layer_distance", layer_distance, "m")
     distance = layer_distance if layer_distance is not None else sheet.thickness / (grid[2] - 1)
     lx, ly = plan_spacing(sheet, grid)
     if k is None:
         unit = moduli.of_springs(_all(1.0, distance), (lx, ly, distance), grid[2])
         k = float(moduli.of_sheet(sheet, material, (lx, ly)).bending[0, 0] / unit.bending[0, 0])
-    note = (
-        "one k for all families: Poisson's ratio and D66 are the lattice's own (Cauchy's relation C12 = C66)"
-    )
-    return report("uniform", sheet, material, grid, _all(k, distance), (note,))
+    return report("uniform", sheet, material, grid, _all(k, distance))
 
 
 def _all(k: float, layer_distance: float) -> SpringSet:
@@ -39,6 +36,7 @@ def _all(k: float, layer_distance: float) -> SpringSet:
     )
 
 
-def _require_positive(name: str, value: float | None, unit: str) -> None:
+def require_positive(name: str, value: float | None, unit: str) -> None:
+    """Raise ValueError unless the value is above zero or absent."""
     if value is not None and not value > 0.0:
         raise ValueError(f"{name} = {value:g} {unit}: must be greater than 0")

@@ -1,0 +1,111 @@
+"""Springs that meet D, A and the shear stiffness S* of the grid all together, in closed form.
+
+Square cells of side l, two layers at distance lz (the project's lattice theory, section 3; S* is MacNeal's):
+
+    lz² = [4 D + (2/3) S* l²/(1 − ν)]/A,  kd = D (1 − ν)/lz²,  ka = 2 kd,  kA = D (3ν − 1)/lz²,
+    p = S* l²/(3 lz²),  kdT = p (l² + lz²)/l²,  kddT = p (2 l² + lz²)/(4 l²),
+    m = ν A − 2 (kd + kA) − (p − δ),      kz = 8 D/lz² (free: it sets only δ and the stiffest frequency).
+
+Here for cells of sides lx, ly (r = lx/ly) and L layers. The cross-layer links between two layers have the
+in-plane form G11 = S*x lx²/(s lz²), G22 = S*y ly²/(s lz²), G12 = G66 = P whatever their split, s the shear
+gaps of `lumped.moduli`, and a third of it at most goes to the furthest diagonals. With σ = Σ z_k²/lz² and
+σ' = Σ z_g²/lz² of layers and gaps, a layer's form is
+
+    C = (D − σ' lz² (G − δ))/(σ lz²),
+
+of which diagonals take the share f = min(1, 1/(r² − 1)) of C66 (r ≥ 1; more would ask for negative links
+along the cell, see `lumped.strains`), shear springs the rest, area springs C12 − f C66, axial links what is
+left of C11 and C22. What the sheet's A has beyond L C + (L − 1)(G − δ) goes to the mid-surface: m to A12, the
+rest to strain springs, with lz the least for which none is negative. On square cells all of those vanish.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from lumped.moduli import Moduli, shear_gaps
+from scenes import PerDirection, SpringSet
+
+
+def closed_form(asked: Moduli, spacing: tuple[float, float], layers: int) -> SpringSet | None:
+    """The springs that have the moduli asked; None where a link would be negative (many layers on coarse
+    grids: there the cross-layer links alone bend too stiffly)."""
+    lx, ly = spacing
+    heights = np.arange(layers) - (layers - 1) / 2
+    sigma = float((heights**2).sum())
+    sigma_gap = float((((heights[1:] + heights[:-1]) / 2) ** 2).sum())
+    gap = asked.shear * np.array([lx**2, ly**2]) / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
+    p = float(min(gap.max(), gap[0] * ly**2 / lx**2 * 1.5, gap[1] * lx**2 / ly**2 * 1.5)) / 3.0
+    gap_form = np.array([[gap[0], p, 0.0], [p, gap[1], 0.0], [0.0, 0.0, p]])
+
+    relaxation, lz2 = np.zeros((3, 3)), 0.0
+    for _ in range(50):  # δ is small and depends little on lz: a fixed point
+        relaxed = gap_form - relaxation
+        layer = (asked.bending - sigma_gap * relaxed) / sigma
+        lattice = layers * layer + (layers - 1) * relaxed
+        needed = max(
+            (lattice[0, 0] - lattice[0, 1]) / (asked.membrane[0, 0] - asked.membrane[0, 1]),
+            (lattice[1, 1] - lattice[0, 1]) / (asked.membrane[1, 1] - asked.membrane[0, 1]),
+            lattice[2, 2] / asked.membrane[2, 2],
+        )
+        if needed <= 0.0 or abs(needed - lz2) < 1e-15 * needed:
+            break
+        lz2 = needed
+        relaxation = _relaxation(asked, gap, p, spacing, lz2)
+    if lz2 <= 0.0 or layer[2, 2] <= 0.0:
+        return None
+
+    ratio = max(lx / ly, ly / lx)
+    share = 1.0 if ratio**2 <= 2.0 else 1.0 / (ratio**2 - 1.0)
+    by_diagonals = share * layer[2, 2]
+    area = layer[0, 1] - by_diagonals
+    axial_x = (layer[0, 0] - area - by_diagonals * lx**2 / ly**2) * ly / lx
+    axial_y = (layer[1, 1] - area - by_diagonals * ly**2 / lx**2) * lx / ly
+    if min(axial_x, axial_y) < 0.0:
+        return None
+    l1x, l1y, l2 = lx**2 + lz2, ly**2 + lz2, lx**2 + ly**2 + lz2
+    rest = asked.membrane * lz2 - lattice
+    rest[:2, :2] -= rest[0, 1]
+    rest[np.abs(rest) < 1e-12 * asked.membrane[0, 0] * lz2] = 0.0
+    mid_area = asked.membrane[0, 1] * lz2 - lattice[0, 1]
+    return SpringSet(
+        axial=_by_direction(axial_x / lz2, axial_y / lz2),
+        diagonal=by_diagonals * (lx**2 + ly**2) / (2.0 * lx * ly * lz2),
+        vertical=_vertical(asked, spacing, lz2),
+        cross=_by_direction(
+            (gap[0] - p * lx**2 / ly**2) * l1x * ly / (2.0 * lx**3 * lz2),
+            (gap[1] - p * ly**2 / lx**2) * l1y * lx / (2.0 * ly**3 * lz2),
+        ),
+        cross_diagonal=p * l2 / (4.0 * lx * ly * lz2),
+        area=area / lz2,
+        mid_area=mid_area / lz2,
+        shear=(layer[2, 2] - by_diagonals) / lz2,
+        mid_shear=rest[2, 2] / lz2,
+        mid_stretch=_by_direction(rest[0, 0] / lz2, rest[1, 1] / lz2),
+        layer_distance=math.sqrt(lz2),
+    )
+
+
+def _vertical(asked: Moduli, spacing: tuple[float, float], lz2: float) -> float:
+    """kz [N/m]: 8 D/lz² per square of the shorter spacing, over the cell."""
+    lx, ly = spacing
+    return 8.0 * float(asked.bending[0, 0]) / lz2 * lx * ly / min(lx, ly) ** 2
+
+
+def _relaxation(
+    asked: Moduli, gap: np.ndarray, p: float, spacing: tuple[float, float], lz2: float
+) -> np.ndarray:
+    """δ lz² (3, 3): what a gap's thickness, free to change, takes off its in-plane form."""
+    lx, ly = spacing
+    coupling = np.array([gap[0] / lx**2, gap[1] / ly**2, 0.0])  # the gap's S along x, y [N/m]
+    cross = (gap - p * np.array([lx**2 / ly**2, ly**2 / lx**2])) / np.array([lx**4, ly**4]) * lz2
+    thickness = _vertical(asked, spacing, lz2) * lz2 / (lx * ly) + cross.sum() + p * lz2 / (lx * ly) ** 2
+    relaxation: np.ndarray = np.outer(coupling, coupling) / thickness * lz2
+    return relaxation
+
+
+def _by_direction(x: float, y: float) -> float | PerDirection:
+    x, y = max(x, 0.0), max(y, 0.0)
+    return x if abs(x - y) <= 1e-12 * max(x, y) else PerDirection(x=x, y=y)

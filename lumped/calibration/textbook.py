@@ -1,0 +1,156 @@
+"""Constructions from the literature and from habit, for comparison: axial, van-gelder, lloyd, cauchy.
+
+They fix the springs of a layer; none knows of a bending sheet of two layers, so this module says how each is
+made into one. E is shared out by thickness: a layer stands for h/L of the sheet.
+
+axial       every link is a bar, k = E A/L, of the section it replaces: (h/L) times the spacing across it in
+            the layer and between layers, lx ly for a vertical link. Layer distance h/(L − 1): on the faces.
+van-gelder  Van Gelder (1998): k = E2 Σ area/|edge|², E2 = E h/L, over the triangles at an edge, averaged over
+            the two triangulations of the grid: E2 lx ly/l² on axial links, a quarter E2 · 2 lx ly/|d|² on
+            diagonals.
+lloyd       Lloyd, Székely and Harders (2007): k = −n·K_ij n with the stiffness K of a bilinear element at
+            ν = 1/3 (where the match is possible): 5/16 and 7/16 E2 per cell on squares.
+cauchy      the central-force lattice that is isotropic: ka = 2 kd, no area springs, so ν = 1/3 whatever the
+            sheet's; D11 and A11 met but for the thickness relaxation δ. Square cells only.
+
+Where a construction says nothing of it (van-gelder, lloyd), the layers lie at ± h/√12, which gives the
+bending stiffness of their in-plane stiffness, and the cross-layer links have the shear stiffness S* of
+`lumped.moduli`.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from lumped import moduli
+from lumped.calibration.calibration import Calibration, plan_spacing, report
+from lumped.calibration.closed_form import closed_form
+from lumped.calibration.uniform import require_positive
+from lumped.lattice import Grid
+from scenes import Material, PerDirection, Sheet, SpringSet
+
+CAUCHY_POISSON = 1.0 / 3.0
+
+
+def axial(
+    sheet: Sheet, material: Material, grid: Grid, k: float | None = None, layer_distance: float | None = None
+) -> Calibration:
+    """k = E A/L per link. Raises ValueError when k is given."""
+    _no_k("axial", k)
+    lx, ly = plan_spacing(sheet, grid)
+    distance = _distance(layer_distance, sheet.thickness / (grid[2] - 1))
+    strip = material.young * sheet.thickness / grid[2]  # E times the thickness of a layer [N/m]
+    diagonal = math.hypot(lx, ly)
+    springs = SpringSet(
+        axial=_by_direction(strip * ly / lx, strip * lx / ly),
+        diagonal=strip * (lx * ly / diagonal) / diagonal,
+        vertical=material.young * lx * ly / distance,
+        cross=_by_direction(strip * ly / math.hypot(lx, distance), strip * lx / math.hypot(ly, distance)),
+        cross_diagonal=strip * (lx * ly / diagonal) / math.hypot(diagonal, distance),
+        layer_distance=distance,
+    )
+    return report("axial", sheet, material, grid, springs)
+
+
+def van_gelder(
+    sheet: Sheet, material: Material, grid: Grid, k: float | None = None, layer_distance: float | None = None
+) -> Calibration:
+    """Van Gelder's areas over squared lengths in each layer. Raises ValueError when k is given."""
+    _no_k("van-gelder", k)
+    lx, ly = plan_spacing(sheet, grid)
+    strip = material.young * sheet.thickness / grid[2]
+    in_layer = (strip * ly / lx, strip * lx / ly, strip * lx * ly / (2.0 * (lx * lx + ly * ly)))
+    return _layered("van-gelder", sheet, material, grid, layer_distance, in_layer)
+
+
+def lloyd(
+    sheet: Sheet, material: Material, grid: Grid, k: float | None = None, layer_distance: float | None = None
+) -> Calibration:
+    """−n·K_ij n of the bilinear element at ν = 1/3 in each layer.
+
+    Raises ValueError when k is given and for cells so long that a spring would be negative."""
+    _no_k("lloyd", k)
+    lx, ly = plan_spacing(sheet, grid)
+    strip = material.young * sheet.thickness / grid[2]
+    c = strip / (1.0 - CAUCHY_POISSON**2)
+    c12, c66 = CAUCHY_POISSON * c, (1.0 - CAUCHY_POISSON) / 2.0 * c
+    # blocks of the bilinear rectangle: an edge along x belongs to two cells
+    along_x = 2.0 * (c * ly / (3.0 * lx) - c66 * lx / (6.0 * ly))
+    along_y = 2.0 * (c * lx / (3.0 * ly) - c66 * ly / (6.0 * lx))
+    k_xx = (c * ly / lx + c66 * lx / ly) / 6.0
+    k_yy = (c * lx / ly + c66 * ly / lx) / 6.0
+    k_xy = (c12 + c66) / 4.0
+    diagonal = (lx * lx * k_xx + ly * ly * k_yy + 2.0 * lx * ly * k_xy) / (lx * lx + ly * ly)
+    if min(along_x, along_y) < 0.0:
+        raise ValueError("calibration 'lloyd': cells this much longer than wide ask for negative springs")
+    return _layered("lloyd", sheet, material, grid, layer_distance, (along_x, along_y, diagonal))
+
+
+def cauchy(
+    sheet: Sheet, material: Material, grid: Grid, k: float | None = None, layer_distance: float | None = None
+) -> Calibration:
+    """The isotropic central-force lattice. Raises ValueError when k or a layer distance is given, on cells
+    that are not square, and where a link would be negative."""
+    _no_k("cauchy", k)
+    lx, ly = plan_spacing(sheet, grid)
+    if layer_distance is not None or abs(lx - ly) > 1e-9 * lx:
+        raise ValueError("calibration 'cauchy' finds its layer distance itself, and for square cells only")
+    asked = moduli.of_sheet(sheet, material, (lx, ly))
+    third = np.array([[1.0, CAUCHY_POISSON, 0.0], [CAUCHY_POISSON, 1.0, 0.0], [0.0, 0.0, CAUCHY_POISSON]])
+    isotropic = moduli.Moduli(asked.membrane[0, 0] * third, asked.bending[0, 0] * third, asked.shear)
+    springs = closed_form(isotropic, (lx, ly), grid[2])
+    if springs is None:
+        raise ValueError(f"calibration 'cauchy': {grid[2]} layers need cells as small as the sheet is thick")
+    springs = springs.model_copy(update={"area": 0.0, "mid_area": 0.0})
+    return report("cauchy", sheet, material, grid, springs)
+
+
+def _layered(
+    method: str,
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    layer_distance: float | None,
+    in_layer: tuple[float, float, float],
+) -> Calibration:
+    """Given in-plane springs, layers that bend as they stretch and cross-layer links that shear as S*."""
+    lx, ly = plan_spacing(sheet, grid)
+    layers = grid[2]
+    heights = np.arange(layers) - (layers - 1) / 2.0
+    distance = _distance(
+        layer_distance, sheet.thickness * math.sqrt(layers / (12.0 * float((heights**2).sum())))
+    )
+    asked = moduli.of_sheet(sheet, material, (lx, ly))
+    area = lx * ly
+    cross_x, cross_y, diagonals = moduli.gap_shear_per_stiffness((lx, ly, distance))
+    gap = asked.shear / moduli.shear_gaps(layers)
+    # one third of the shear by the furthest diagonals, two thirds by the cross links, as in the closed form
+    cross_diagonal = float(np.min(gap / 3.0 / diagonals))
+    rest = gap - cross_diagonal * diagonals
+    springs = SpringSet(
+        axial=_by_direction(in_layer[0], in_layer[1]),
+        diagonal=in_layer[2],
+        vertical=8.0 * float(asked.bending[0, 0]) / distance**2 * area / min(lx, ly) ** 2,
+        cross=_by_direction(float(rest[0]) / cross_x, float(rest[1]) / cross_y),
+        cross_diagonal=cross_diagonal,
+        layer_distance=distance,
+    )
+    return report(method, sheet, material, grid, springs)
+
+
+def _by_direction(x: float, y: float) -> float | PerDirection:
+    return x if abs(x - y) < 1e-12 * x else PerDirection(x=x, y=y)
+
+
+def _no_k(method: str, k: float | None) -> None:
+    if k is not None:
+        raise ValueError(
+            f"k = {k:g}: calibration '{method}' finds its stiffnesses itself; k goes with 'uniform'"
+        )
+
+
+def _distance(given: float | None, own: float) -> float:
+    require_positive("layer_distance", given, "m")
+    return own if given is None else given

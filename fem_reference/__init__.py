@@ -32,5 +32,5 @@ def solve(scene: Scene, model: str = "shell", **options: Any) -> Solution:
 
 def __getattr__(name: str) -> Any:
     if name == "modes":
-        return import_module("fem_reference.modes").modes
+        return import_module("fem_reference.vibration").modes
     raise AttributeError(f"module 'fem_reference' has no attribute {name!r}")

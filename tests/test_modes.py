@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import scenes
-from fem_reference.modes import modes
+from fem_reference.vibration import modes
 from scenes import Material, Scene, Sheet
 
 STEEL = Material(young=200e9, poisson=0.3, density=8000.0)

@@ -36,12 +36,14 @@ class Modes:
 def modes(
     scene: Scene, springs: Calibration, count: int = 10, distribution: Distribution = "tributary"
 ) -> Modes:
-    """The `count` lowest natural modes of the scene's sheet on a lattice; loads do not matter.
+    """The `count` lowest natural modes of the scene's sheet on a lattice, without actuators; loads do
+    not matter.
 
     distribution: how the masses are shared out, see `lumped.masses`.
 
     Raises ValueError when the lattice has fewer modes than asked.
     """
+    scene = scene.model_copy(update={"actuators": ()})
     problem = pose(scene, springs)
     transform = problem.constraints.transform
     rigid = len(free_rigid_motions(scene))

@@ -75,6 +75,10 @@ class Actuator(Protocol):
         """Second derivatives of the Lagrangian, (rows, 3, rows, 3) [N/m]."""
         ...
 
+    def constraint_gradient(self, y: np.ndarray) -> np.ndarray:
+        """Derivatives (multipliers, rows, 3) of the multiplier rows' forces."""
+        ...
+
     def command_force(self, y: np.ndarray, drive: Drive) -> np.ndarray:
         """Derivative (rows, 3) [N] of the force by the load factor, at the drive's load factor."""
         ...

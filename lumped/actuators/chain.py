@@ -9,7 +9,7 @@ about the axis as m a²/4 of each director. Joints are damped with damping_time 
 
 Masses of the edge lie on the segment whose share of the edge holds their plan position, at a fixed place
 along it, and at their height along the rod's normal: linear between the middles of segments, where it is
-n_i, and beyond the outermost. (The nearest n_i alone would tilt masses at segments' ends by half a joint's angle, an
+n_i, and beyond the outermost. (The nearest n_i alone would tilt masses at ends by half a joint's angle, an
 error of first order.) A mass at a joint belongs to both neighbours, a segment without masses is bound to
 nothing. Chains of a pair are one kinematic chain on the mean of their axes, each with its own joints, mass
 and offset.
@@ -124,6 +124,13 @@ class Chain:
         flat[place, : 3 * count] = by_constraint.reshape(self.multipliers, -1)
         flat[: 3 * count, place] = by_constraint.reshape(self.multipliers, -1).T
         return out
+
+    def constraint_gradient(self, y: np.ndarray) -> np.ndarray:
+        """σ ds times the gradients of the constraints."""
+        gradient = np.zeros((self.multipliers, self.rows, 3))
+        own = self.frames.gradient(self.frames.vectors(y))[: self.multipliers]
+        gradient[:, : self.frames.coordinates] = self._scale * self.frames.length * own
+        return gradient
 
     def command_force(self, y: np.ndarray, drive: Drive) -> np.ndarray:
         """−k dφ0/d(load factor) on every joint's angle."""

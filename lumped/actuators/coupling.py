@@ -98,6 +98,16 @@ class Coupling:
         if parts:
             np.add.at(blocks, slots, np.concatenate(parts))
 
+    def constraint_gradient(self, u: np.ndarray) -> np.ndarray:
+        """Derivatives (multipliers, rows, 3) of all constraints by the rows after the masses."""
+        out = np.zeros((self.multipliers, self.size - self.masses, 3))
+        first = 0
+        for actuator, place in self._each():
+            rows = slice(place.start - self.masses, place.stop - self.masses)
+            out[first : first + actuator.multipliers, rows] = actuator.constraint_gradient(u[place])
+            first += actuator.multipliers
+        return out
+
     def mass_blocks(self) -> np.ndarray:
         """Mass of every pair of `pairs` [kg]."""
         return np.concatenate([np.empty(0), *(a.mass[a.pairs] for a in self.actuators)])

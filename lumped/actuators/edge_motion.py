@@ -56,6 +56,10 @@ class RigidMotion:
         """None."""
         return np.zeros((0, 3, 0, 3))
 
+    def constraint_gradient(self, y: np.ndarray) -> np.ndarray:
+        """None."""
+        return np.zeros((0, 0, 3))
+
     def command_force(self, y: np.ndarray, drive: Drive) -> np.ndarray:
         """None: the command moves masses."""
         return np.zeros((0, 3))

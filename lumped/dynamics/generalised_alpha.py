@@ -1,0 +1,125 @@
+"""Generalised-α: implicit, second order, with the spectral radius ρ∞ at high frequencies as a parameter.
+
+    M u̇̇₁ + f(u₁, v₁, t₁) = 0                              equilibrium at the step's end, constraints included
+    (1 − αm) a₁ + αm a₀ = (1 − αf) u̇̇₁ + αf u̇̇₀             a: the algorithm's acceleration
+    u₁ = u₀ + h v₀ + h² ((½ − β) a₀ + β a₁),   v₁ = v₀ + h ((1 − γ) a₀ + γ a₁)
+
+    αm = (2ρ∞ − 1)/(ρ∞ + 1),  αf = ρ∞/(ρ∞ + 1),  γ = ½ + αf − αm,  β = ¼ (γ + ½)²
+
+Source: Chung and Hulbert (1993) in the form of Arnold and Brüls (2007), which keeps its order with
+constraints. The step adapts to an estimate of the local error, h² |β − 1/6| |a₁ − a₀| (Zienkiewicz and Xie
+1991), relative to the largest displacement so far.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lumped.dynamics.integrator import Advance, Integrator, Newton, StepFailed
+from lumped.dynamics.system import State, System
+from lumped.linear import SingularMatrixError
+
+ERROR = 1e-6  # of a step, relative to the largest displacement so far
+CLOSE = 1e-11  # last correction relative to the sheet's side
+
+
+class GeneralisedAlpha(Integrator):
+    """Generalised-α with radius ρ∞; adaptive unless the step is `fixed`."""
+
+    name, order = "generalised-alpha", 2
+
+    def __init__(self, system: System, step: float, radius: float = 0.9, fixed: bool = True):
+        super().__init__(system, step)
+        if not 0.0 <= radius <= 1.0:
+            raise ValueError(f"radius = {radius:g}: the spectral radius at high frequencies lies in [0, 1]")
+        self._am, self._af = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
+        self._gamma = 0.5 + self._af - self._am
+        self._beta = 0.25 * (self._gamma + 0.5) ** 2
+        self._fixed = fixed
+        self._newton = Newton(system, CLOSE)
+        self._algorithm: np.ndarray | None = None
+        self._largest = 0.0
+
+    def forget(self) -> None:
+        """Drop the factors."""
+        self._newton.forget()
+
+    def memory(self) -> dict[str, Any]:
+        """The algorithm's acceleration and the step's control."""
+        return {"a": self._algorithm, "step": self.step, "largest": self._largest}
+
+    def recall(self, memory: dict[str, Any]) -> None:
+        """Take up what `memory` gave."""
+        self._algorithm, self.step = memory["a"], float(memory["step"])
+        self._largest = float(memory["largest"])
+
+    def advance(self, state: State, at_most: float) -> Advance:
+        """One step; an adaptive one divides `at_most` evenly and is repeated, shorter, until its error is small."""
+        shortest = 1e-6 * self.step
+        while True:
+            h = at_most if self._fixed else at_most / np.ceil(at_most / self.step - 1e-9)
+            try:
+                after, algorithm = self._step(state, h)
+            except (StepFailed, SingularMatrixError) as failure:
+                if self._fixed or h < shortest:
+                    raise StepFailed(str(failure)) from None
+                self.step = 0.25 * h
+                continue
+            if self._fixed:
+                break
+            start = self._algorithm if self._algorithm is not None else state.a
+            error = h * h * (abs(self._beta - 1.0 / 6.0)) * float(np.abs(algorithm - start).max())
+            largest = max(self._largest, float(np.abs(after.u[: self._masses]).max()))
+            allowed = ERROR * max(largest, 1e-6 * self.system.problem.size)
+            ratio = 0.9 * (allowed / max(error, 1e-30)) ** (1.0 / 3.0)
+            if error > allowed and h > shortest:
+                self.step = h * max(ratio, 0.2)
+                continue
+            if ratio > 1.3 or ratio < 1.0:
+                self.step = h * min(max(ratio, 0.5), 2.0)
+            self._largest = largest
+            break
+        self._algorithm = algorithm
+        before, _ = self.system.damping_force(state.u, state.v)
+        power, _ = self.system.damping_force(after.u, after.v)
+        return Advance(after, 0.5 * h * (before + power), self.system.work(state, after))
+
+    @property
+    def _masses(self) -> int:
+        return len(self.system.lattice_mass)
+
+    def _step(self, state: State, h: float) -> tuple[State, np.ndarray]:
+        system, time = self.system, state.time + h
+        am, af, beta, gamma = self._am, self._af, self._beta, self._gamma
+        old = self._algorithm if self._algorithm is not None else state.a
+        held = system.place(time) - system.place(state.time) - h * system.place_rate(state.time)
+        turn = system.place_rate(time) - system.place_rate(state.time)
+        share = (1.0 - af) / (1.0 - am)
+        start = (af * state.a - am * old) / (1.0 - am)  # a₁ with no acceleration at the end
+        base_u = state.u + h * state.v + h * h * ((0.5 - beta) * old + beta * start) + held
+        base_v = state.v + h * ((1.0 - gamma) * old + gamma * start) + turn
+        by_u, by_v = 1.0 / (h * h * beta * share), gamma / (h * beta)
+
+        def motion(u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            change = np.where(self._algebraic, 0.0, u - base_u)
+            return base_v + by_v * change, by_u * change
+
+        def residual(u: np.ndarray) -> np.ndarray:
+            v, a = motion(u)
+            inertia: np.ndarray = (system.mass @ a.ravel()).reshape(-1, 3)
+            return inertia - system.unbalanced(u, v, time)
+
+        def blocks(u: np.ndarray) -> np.ndarray:
+            return system.matrix(u, motion(u)[0], time, by_u, by_v, 1.0)
+
+        guess = base_u + state.a / by_u
+        u = self._newton.solve(h, residual, blocks, guess, lambda correction: correction)
+        v, a = motion(u)
+        return State(time, u, v, a), start + share * a
+
+    @property
+    def _algebraic(self) -> np.ndarray:
+        coupling = self.system.coupling
+        return coupling.algebraic if coupling is not None else np.zeros((1, 1), dtype=bool)

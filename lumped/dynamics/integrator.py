@@ -1,0 +1,98 @@
+"""What every integrator offers, and the Newton iteration that the implicit ones share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from lumped.dynamics.system import State, System
+from lumped.linear import Factor
+
+CORRECTIONS = 15
+STALE = 0.2  # ratio of successive corrections above which the factors are made anew
+
+
+class StepFailed(ArithmeticError):
+    """A time step found no solution; the text says why."""
+
+
+@dataclass(frozen=True)
+class Advance:
+    """A step taken: the new state, the energy taken by dampers in it [J] and the work done on the sheet [J]."""
+
+    state: State
+    dissipated: float
+    work: float
+
+
+class Integrator:
+    """Takes a system from one state to the next. step: [s]; order: declared, of the displacement."""
+
+    name: ClassVar[str]
+    order: ClassVar[int]
+    adaptive: ClassVar[bool] = False
+
+    def __init__(self, system: System, step: float):
+        self.system, self.step = system, step
+
+    def advance(self, state: State, at_most: float) -> Advance:
+        """One step, no longer than `at_most` [s]. Raises StepFailed."""
+        raise NotImplementedError
+
+    def forget(self) -> None:
+        """Drop what was kept only for speed, so that a resumed run goes on exactly as one never stopped."""
+
+    def memory(self) -> dict[str, Any]:
+        """What a resumed run needs besides the state."""
+        return {}
+
+    def recall(self, memory: dict[str, Any]) -> None:
+        """Take up what `memory` gave."""
+
+
+class Newton:
+    """Newton's iteration with factors kept from step to step while corrections shrink fast enough."""
+
+    def __init__(self, system: System, tolerance: float):
+        self._system, self._tolerance = system, tolerance * system.problem.size
+        self._factor: Factor | None = None
+        self._key: Any = None
+
+    def forget(self) -> None:
+        """Drop the factors."""
+        self._factor = None
+
+    def solve(
+        self,
+        key: Any,
+        residual: Callable[[np.ndarray], np.ndarray],
+        blocks: Callable[[np.ndarray], np.ndarray],
+        guess: np.ndarray,
+        weigh: Callable[[np.ndarray], np.ndarray],
+    ) -> np.ndarray:
+        """u with Tᵀ residual(u) = 0. key: factors of another key do not serve; weigh: the correction (size, 3)
+        from the solution of the linear system. Raises StepFailed."""
+        problem = self._system.problem
+        u, last, fresh = guess, np.inf, False
+        if key != self._key:
+            self._factor, self._key = None, key
+        for _ in range(CORRECTIONS):
+            if self._factor is None:
+                self._factor, fresh = problem.factor(blocks(u)), True
+            correction = weigh(problem.expand(self._factor.solve(-problem.reduce(residual(u)))))
+            u = u + correction
+            length = float(np.abs(correction).max())
+            if not np.isfinite(length):
+                break
+            if length < self._tolerance:
+                return u
+            if length > STALE * last and not fresh:
+                self._factor = None
+            elif length > 2.0 * last:
+                break
+            last, fresh = length, False
+        self._factor = None
+        raise StepFailed("the time step's equations did not converge: use smaller steps")

@@ -1,0 +1,13 @@
+"""The integrators by name, with their declared order of accuracy."""
+
+from __future__ import annotations
+
+from lumped.dynamics.generalised_alpha import GeneralisedAlpha
+from lumped.dynamics.integrator import Integrator
+from lumped.dynamics.midpoint import Midpoint
+from lumped.dynamics.projective import Projective
+from lumped.dynamics.verlet import Verlet
+
+INTEGRATORS: dict[str, type[Integrator]] = {
+    kind.name: kind for kind in (GeneralisedAlpha, Verlet, Midpoint, Projective)
+}

@@ -1,0 +1,57 @@
+"""What a run writes down at a sample: probes, energies, reactions and actuator forces, as one row of numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lumped.dynamics.system import State, System
+from lumped.loads import locate
+from scenes.history import ENERGIES
+
+
+class Sampling:
+    """Rows of samples of a system; names and widths of their parts in `columns`, time first."""
+
+    def __init__(self, system: System):
+        self._system = system
+        scene, lattice = system.scene, system.assembly.lattice
+        self._at, self._share = locate(lattice, scene.probe_points())
+        self._columns = lattice.columns().reshape(-1, lattice.grid[2])
+        self._supports = list(system.problem.constraints.holders)
+        nothing = np.zeros((system.assembly.pattern.size, 3))
+        actuators = system.coupling.wrenches(nothing, nothing) if system.coupling is not None else {}
+        self.columns: list[tuple[str, str, tuple[int, ...]]] = [
+            ("time", "", ()),
+            *(("energy", name, ()) for name in ENERGIES),
+            *(("probe", name, (3,)) for name in scene.probes),
+            *(("reaction", edge, (3,)) for edge in self._supports),
+            *(("actuator", name, wrench.shape) for name, wrench in actuators.items()),
+        ]
+        self.width = sum(int(np.prod(shape)) for _, _, shape in self.columns)
+
+    def row(self, state: State, dissipated: float, work: float) -> np.ndarray:
+        """The sample of a state, (width,)."""
+        system = self._system
+        energies = {**system.energies(state), "dissipated": dissipated, "work": work}
+        mid = state.u[self._columns].mean(axis=1)
+        probes = np.einsum("pc,pcq->pq", self._share, mid[self._at])
+        exerted = system.exerted(state)
+        reactions, _ = system.problem.constraints.reactions(exerted)
+        parts = [
+            np.array([state.time, *(energies[name] for name in ENERGIES)]),
+            probes.ravel(),
+            *(reactions[edge] for edge in self._supports),
+        ]
+        if system.coupling is not None:
+            parts.extend(w.ravel() for w in system.coupling.wrenches(state.u, exerted).values())
+        return np.concatenate(parts)
+
+    def split(self, rows: np.ndarray) -> dict[str, dict[str, np.ndarray]]:
+        """Rows (n, width) as kind → name → (n, …)."""
+        found: dict[str, dict[str, np.ndarray]] = {kind: {} for kind, _, _ in self.columns}
+        first = 0
+        for kind, name, shape in self.columns:
+            width = int(np.prod(shape))
+            found[kind][name] = rows[:, first : first + width].reshape(len(rows), *shape)
+            first += width
+        return found

@@ -1,0 +1,254 @@
+"""Dynamics of a lattice from rest: a scene and springs in, a `scenes.History` out.
+
+Gravity, loads and commands act from t = 0 on. The sheet starts flat and at rest; with a curved support it
+starts in the shape that the support alone gives it. Samples are evenly spaced; steps divide their distance.
+"""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lumped.calibration import Calibration, calibrate, given
+from lumped.dynamics.constraints import Projection
+from lumped.dynamics.generalised_alpha import GeneralisedAlpha
+from lumped.dynamics.integrator import Integrator, StepFailed
+from lumped.dynamics.integrators import INTEGRATORS
+from lumped.dynamics.sampling import Sampling
+from lumped.dynamics.store import FolderStore, MemoryStore
+from lumped.dynamics.system import State, System
+from lumped.dynamics.verlet import Verlet
+from lumped.lattice import Weights
+from lumped.stability import SAFETY, step_limit
+from lumped.statics import pose, settle
+from lumped.threads import one_blas_thread
+from lumped.vibration import modes
+from scenes import Chain, Curved, History, Scene, Status
+
+SAMPLES_PER_PERIOD = 100
+STEPS_PER_PERIOD = 200  # of implicit integrators with a fixed step
+SAMPLES_PER_CHECKPOINT = 50
+GROWN = 1.0  # energy from nowhere, relative to the energy that went round, that counts as divergence
+
+
+@dataclass(frozen=True)
+class _Plan:
+    samples: int
+    every: float
+    steps: int  # between samples; 0 where the integrator adapts
+
+
+def simulate(
+    scene: Scene,
+    springs: Calibration | None = None,
+    duration: float = 1.0,
+    *,
+    step: float | None = None,
+    integrator: str = "generalised-alpha",
+    every: float | None = None,
+    weights: Weights = "tributary",
+    store: Path | None = None,
+    frames: int = 0,
+    progress: Callable[[float], None] | None = None,
+    **options: float,
+) -> History:
+    """Motion of the scene's sheet over `duration` [s].
+
+    step [s]: of the integrator, never exceeded; without it `verlet` takes 0.9 of its limit, `generalised-alpha`
+    adapts to its error, the others take 1/200 of the lowest period. every [s]: distance of samples, 1/100 of
+    the lowest period unless given. store: a folder to stream to; a run that was stopped goes on from there.
+    frames: whole displacements to keep, evenly over the run, in `extra["frames"]`. progress: called with the
+    time reached. options: the integrator's own (`radius`, `iterations`).
+
+    Raises ValueError for an unknown integrator, a step above the limit of `verlet`, or a folder of another run.
+    """
+    if integrator not in INTEGRATORS:
+        raise ValueError(f"integrator = {integrator!r}: unknown; choose from {', '.join(INTEGRATORS)}")
+    for name, value in (("duration", duration), ("step", step), ("every", every)):
+        if value is not None and not (value > 0.0 and np.isfinite(value)):
+            raise ValueError(f"{name} = {value:g} s: must be greater than 0 and finite")
+    began = clock.perf_counter()
+    if springs is None:
+        springs = given(scene) if scene.springs is not None else calibrate(scene.sheet, scene.material)
+    system = System(scene, pose(scene, springs, weights))
+    start = _start(system, springs, weights)
+    method, plan = _prepare(system, springs, start, duration, step, integrator, every, options)
+    sampling = Sampling(system)
+    nx, ny, layers = springs.grid
+    settings: dict[str, Any] = {
+        "grid": [nx, ny, layers],
+        "calibration": springs.method,
+        "layer_distance": springs.layer_distance,
+        "step": "adaptive" if plan.steps == 0 else plan.every / plan.steps,
+        "every": plan.every,
+        **options,
+    }
+    masses = system.assembly.lattice.mass_count
+    asked = {
+        "scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+        "springs": springs.as_dict()["springs"],
+        "integrator": integrator,
+        "settings": settings,
+        "weights": weights,
+        "frames": frames,
+        "columns": [[kind, name, list(shape)] for kind, name, shape in sampling.columns],
+    }
+    kept: FolderStore | MemoryStore = MemoryStore(sampling.width, masses)
+    if store is not None:
+        kept = FolderStore(store, sampling.width, masses, {**asked, "samples": plan.samples})
+    ready = clock.perf_counter()
+    with one_blas_thread():
+        status, message, steps = _run(system, method, plan, sampling, kept, start, frames, progress)
+    done = clock.perf_counter()
+    parts = sampling.split(kept.samples())
+    return History(
+        label=f"lumped {nx}×{ny}×{layers} {springs.method}",
+        integrator=integrator,
+        settings=settings,
+        status=status,
+        message=message,
+        time=parts["time"][""],
+        probes=parts.get("probe", {}),
+        energies=parts["energy"],
+        reactions=parts.get("reaction", {}),
+        actuators=parts.get("actuator", {}),
+        steps=steps,
+        setup_seconds=ready - began,
+        solve_seconds=done - ready,
+        extra={"frames": kept.frames(), "positions": system.assembly.lattice.positions, "system": system},
+    )
+
+
+def _prepare(
+    system: System,
+    springs: Calibration,
+    start: State,
+    duration: float,
+    step: float | None,
+    integrator: str,
+    every: float | None,
+    options: dict[str, float],
+) -> tuple[Integrator, _Plan]:
+    """The integrator and how its steps fit the samples."""
+    kind = INTEGRATORS[integrator]
+    period = 1.0 / float(modes(system.scene, springs, 1).frequencies[0])
+    spacing = every if every is not None else period / SAMPLES_PER_PERIOD
+    if step is not None and every is None:
+        spacing = max(spacing, step)
+    samples = (
+        max(round(duration / spacing), 1) if every is not None else int(np.ceil(duration / spacing - 1e-9))
+    )
+    spacing = duration / samples
+    adapts = kind is GeneralisedAlpha and step is None
+    if kind is Verlet:
+        limit = step_limit(system, start.u)
+        if step is not None and step > limit.step:
+            raise ValueError(f"step = {step:g} s: above the stability limit of verlet, {limit.describe()}")
+        step = step if step is not None else SAFETY * limit.step
+    wanted = step if step is not None else period / STEPS_PER_PERIOD
+    steps = max(int(np.ceil(spacing / wanted - 1e-9)), 1)
+    extra: dict[str, Any] = dict(options)
+    if kind is GeneralisedAlpha:
+        extra["fixed"] = not adapts
+    try:
+        method = kind(system, spacing / steps, **extra)
+    except TypeError:
+        raise ValueError(f"integrator = {integrator!r}: does not take {', '.join(options)}") from None
+    return method, _Plan(samples, spacing, 0 if adapts else steps)
+
+
+def _run(
+    system: System,
+    method: Integrator,
+    plan: _Plan,
+    sampling: Sampling,
+    kept: FolderStore | MemoryStore,
+    state: State,
+    frames: int,
+    progress: Callable[[float], None] | None,
+) -> tuple[Status, str, int]:
+    """Take the run to its end, or from its last checkpoint to its end; status, message and steps taken."""
+    shown = (
+        set(np.unique(np.linspace(0, plan.samples, frames).round().astype(int)).tolist()) if frames else set()
+    )
+    masses = system.assembly.lattice.mass_count
+    done, steps, dissipated, work, round_about, origin = 0, 0, 0.0, 0.0, 0.0, 0.0
+    checkpoint = kept.resume()
+    if checkpoint is not None:
+        state = State(float(checkpoint["time"]), checkpoint["u"], checkpoint["v"], checkpoint["a"])
+        done, steps = int(checkpoint["done"]), int(checkpoint["steps"])
+        dissipated, work, round_about, origin = (float(x) for x in checkpoint["energies"])
+        method.recall(
+            {k.removeprefix("method_"): v for k, v in checkpoint.items() if k.startswith("method_")}
+        )
+    else:
+        row = sampling.row(state, 0.0, 0.0)
+        origin = float(row[1:4].sum())
+        kept.sample(row)
+        if 0 in shown:
+            kept.frame(state.u[:masses])
+    while done < plan.samples:
+        goal = (done + 1) * plan.every
+        try:
+            taken = 0
+            while (taken < plan.steps) if plan.steps else (goal - state.time > 1e-9 * plan.every):
+                advance = method.advance(state, plan.every / plan.steps if plan.steps else goal - state.time)
+                state, taken = advance.state, taken + 1
+                dissipated += advance.dissipated
+                work += advance.work
+        except StepFailed as failure:
+            return Status.DIVERGED, f"at {state.time:.6g} s: {failure}", steps
+        state = replace(state, time=goal)
+        steps += taken
+        row = sampling.row(state, dissipated, work)
+        if not np.isfinite(row).all():
+            return Status.NON_FINITE, f"at {goal:.6g} s a number overflowed", steps
+        round_about = max(round_about, float(np.abs(row[1:6]).max()))
+        if abs(float(row[1:5].sum() - row[5]) - origin) > GROWN * round_about:
+            kept.sample(row)
+            return Status.DIVERGED, f"at {goal:.6g} s the energy no longer balances: use smaller steps", steps
+        kept.sample(row)
+        done += 1
+        if done in shown:
+            kept.frame(state.u[:masses])
+        if done % SAMPLES_PER_CHECKPOINT == 0:
+            method.forget()
+            own = {f"method_{key}": value for key, value in method.memory().items() if value is not None}
+            content = {
+                "time": state.time,
+                "u": state.u,
+                "v": state.v,
+                "a": state.a,
+                "done": done,
+                "steps": steps,
+            }
+            kept.checkpoint({**content, **own, "energies": [dissipated, work, round_about, origin]})
+        if progress is not None:
+            progress(state.time)
+    return Status.CONVERGED, "", steps
+
+
+def _start(system: System, springs: Calibration, weights: Weights) -> State:
+    """At rest: flat, or in the shape that curved supports give an unloaded sheet; with the acceleration that
+    loads and commands give it at once."""
+    u = system.place(0.0)
+    scene = system.scene
+    if any(isinstance(support, Curved) and support.curvature for support in scene.supports):
+        slack = tuple(
+            a.model_copy(update={"curvature": 0.0}) if isinstance(a, Chain) else a for a in scene.actuators
+        )
+        unloaded = scene.model_copy(update={"gravity": None, "loads": (), "actuators": slack})
+        u = settle(unloaded, pose(unloaded, springs, weights), "path").state.u
+    v = system.place_rate(0.0)
+    v = v if system.moving else np.zeros_like(u)
+    a = system.accelerate(system.unbalanced(u, v, 0.0))
+    projection = Projection(system)
+    if projection.active:
+        a, multipliers = projection.tangential(a, projection.jacobian(u))
+        u = u + multipliers
+    return State(0.0, u, v, a)

@@ -1,0 +1,218 @@
+"""The equations of motion of a scene on a lattice, for every integrator:
+
+    M u̇̇ + f_damp(u, u̇) + f_int(u, t) + J(u)ᵀ λ = f_ext(u),   Φ(u) = 0,   u = T q + g(t).
+
+u holds the masses' displacements, then the actuators' rows with their multipliers λ (`lumped.actuators`);
+T and g come from supports and bindings, with Tᵀ M g = const: whole columns move with a support's `motion`.
+M is diagonal on the lattice and constant throughout. Units: m, s, N, kg, J.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.linalg import splu
+
+from lumped import conserving, springs
+from lumped.actuators import Drive
+from lumped.dynamics.damping import Damping
+from lumped.masses import masses
+from lumped.problem import Problem
+from scenes import Scene, held_axes, holds_director
+
+INSTANT = 1e-7  # s, over which velocities of prescribed motions are taken
+
+
+@dataclass(frozen=True)
+class State:
+    """Time [s], displacement, velocity and acceleration (size, 3); multiplier rows of u hold λ."""
+
+    time: float
+    u: np.ndarray
+    v: np.ndarray
+    a: np.ndarray
+
+
+class System:
+    """Forces, mass and constraints of a scene in motion."""
+
+    def __init__(self, scene: Scene, problem: Problem):
+        self.scene, self.problem, self.assembly = scene, problem, problem.assembly
+        self.coupling = problem.assembly.coupling
+        self.transform = problem.constraints.transform
+        size, lattice = self.assembly.pattern.size, self.assembly.lattice
+        self.lattice_mass = masses(scene, lattice)
+        self.damping = Damping(scene, self.assembly, self.lattice_mass)
+        self.mass_blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
+        n = np.arange(lattice.mass_count)
+        self.mass_blocks[self.assembly.pattern.slots(n, n)] = self.lattice_mass[:, None, None] * np.eye(3)
+        if self.coupling is not None:
+            own = self.coupling.mass_blocks()[:, None, None] * np.eye(3)
+            np.add.at(self.mass_blocks, self.assembly.coupling_slots, own)
+        pattern = self.assembly.pattern
+        self.mass = sp.csr_array(sp.bsr_array((self.mass_blocks, pattern.indices, pattern.indptr)))
+        self.mass.eliminate_zeros()
+        algebraic = np.zeros((size, 3), dtype=bool) if self.coupling is None else self.coupling.algebraic
+        self.algebraic = abs(self.transform).T @ algebraic.ravel() > 0.0
+        self.moving_part = sp.csr_array(self.transform[:, np.flatnonzero(~self.algebraic)])
+        # every unknown is a component of u itself; bound and dependent components have several
+        entries = self.moving_part.tocoo()
+        single = np.bincount(entries.row, minlength=3 * size)[entries.row] == 1
+        identity = single & (entries.data == 1.0)
+        self._own = np.empty(self.moving_part.shape[1], dtype=int)
+        self._own[entries.col[identity]] = entries.row[identity]
+        self.reduced_mass = sp.csc_array(self.moving_part.T @ self.mass @ self.moving_part)
+        self.solve_mass = _mass_solver(self.reduced_mass)
+        motions = any(support.motion is not None for support in scene.supports)
+        driven = self.coupling is not None and any(a.rows == 0 for a in self.coupling.actuators)
+        self.moving = motions or driven
+        self._still = problem.constraints.prescribed(1.0)
+
+    @property
+    def followers(self) -> bool:
+        """Whether some loads follow the sheet."""
+        return not self.problem.loads.conservative
+
+    @property
+    def constrained(self) -> bool:
+        """Whether there are multipliers."""
+        return bool(self.algebraic.any())
+
+    def drive(self, time: float) -> Drive:
+        """The actuators' commands at a time."""
+        return Drive(1.0, time)
+
+    def place(self, time: float) -> np.ndarray:
+        """g(t), what supports and prescribed motions put in place, (size, 3) [m]."""
+        if not self.moving:
+            return self._still
+        g = self._still.copy()
+        fixed = self.problem.constraints.fixed
+        for support in self.scene.supports:
+            if support.motion is None:
+                continue
+            now = Drive(1.0, time).value(np.array(support.motion.time), np.array(support.motion.displacement))
+            columns = self.assembly.lattice.edge_columns(support.edge).ravel()
+            for axis in held_axes(support):
+                mine = columns if holds_director(support) else columns[~fixed[columns, axis]]
+                g[mine, axis] += now[axis]
+        if self.coupling is not None:
+            g += self.coupling.driven(self.drive(time))
+        return g
+
+    def place_rate(self, time: float) -> np.ndarray:
+        """Velocity of g from this moment on, (size, 3) [m/s]."""
+        if not self.moving:
+            return np.zeros_like(self._still)
+        return (self.place(time + INSTANT) - self.place(time)) / INSTANT
+
+    def elastic(self, u: np.ndarray, time: float) -> tuple[float, np.ndarray]:
+        """Elastic energy and internal force, actuators with their multipliers included."""
+        energy, force = self.assembly.force(u)
+        if self.coupling is not None:
+            energy += self.coupling.add_force(u, self.drive(time), force)
+        return energy, force
+
+    def damping_force(self, u: np.ndarray, v: np.ndarray) -> tuple[float, np.ndarray]:
+        """Power taken and damping force."""
+        force = np.zeros_like(u)
+        return self.damping.add_force(u, v, force), force
+
+    def external(self, u: np.ndarray) -> np.ndarray:
+        """External force."""
+        return self.problem.loads.force(u)
+
+    def unbalanced(self, u: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
+        """f_ext − f_int − f_damp − Jᵀλ; on multiplier rows −Φ."""
+        _, force = self.elastic(u, time)
+        self.damping.add_force(u, v, force)
+        return self.external(u) - force
+
+    def average_elastic(self, start: np.ndarray, end: np.ndarray, time: float) -> np.ndarray:
+        """Internal force whose work from `start` to `end` is the elastic energy stored, commands as at `time`."""
+        force = np.zeros_like(start)
+        row = self.assembly.links
+        conserving.add_link_forces(start, end, row.nodes, row.offset, row.rest_length, row.stiffness, force)
+        for c in self.assembly.cells:
+            conserving.add_cell_forces(start, end, c.nodes, c.diagonals, c.stiffness, force)
+        d = self.assembly.directional
+        if len(d):
+            middle = 0.5 * (start + end)
+            springs.add_directional_forces(middle, d.nodes, d.offset, d.rest_length, d.stiffness, force)
+        if self.coupling is not None:
+            self.coupling.add_average_force(start, end, self.drive(time), force)
+        return force
+
+    def matrix(
+        self, u: np.ndarray, v: np.ndarray, time: float, mass: float, damping: float, stiffness: float
+    ) -> np.ndarray:
+        """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once."""
+        blocks = self.assembly.tangent(u)
+        self.problem.loads.add_tangent(u, 1.0, blocks)
+        if not self.problem.conservative:
+            self.damping.add_displacement_tangent(u, v, blocks)
+        if self.coupling is not None:
+            self.coupling.add_tangent(u, self.drive(time), self.assembly.coupling_slots, blocks)
+        blocks *= stiffness
+        blocks += mass * self.mass_blocks
+        self.damping.add_velocity_tangent(u, damping, blocks)
+        return blocks
+
+    def reduce(self, force: np.ndarray) -> np.ndarray:
+        """Force on the free unknowns that have mass."""
+        reduced: np.ndarray = self.moving_part.T @ force.ravel()
+        return reduced
+
+    def expand(self, unknowns: np.ndarray) -> np.ndarray:
+        """Displacement (size, 3) of the free unknowns that have mass; multiplier rows zero."""
+        return (self.moving_part @ unknowns).reshape(-1, 3)
+
+    def contract(self, displacement: np.ndarray) -> np.ndarray:
+        """The free unknowns with mass of an admissible displacement (size, 3)."""
+        return displacement.ravel()[self._own]
+
+    def accelerate(self, force: np.ndarray) -> np.ndarray:
+        """T M⁻¹ Tᵀ f, (size, 3) [m/s²]."""
+        return self.expand(self.solve_mass(self.reduce(force)))
+
+    def energies(self, state: State) -> dict[str, float]:
+        """Kinetic, elastic and potential energy [J]; only dead loads have a potential."""
+        elastic, _ = self.elastic(state.u, state.time)
+        v = state.v.ravel()
+        return {
+            "kinetic": 0.5 * float(v @ (self.mass @ v)),
+            "elastic": elastic,
+            "potential": -float(np.sum(self.problem.loads.dead * state.u)),
+        }
+
+    def exerted(self, state: State) -> np.ndarray:
+        """M a + f_int + f_damp − f_ext: what supports exert on their masses and actuators on theirs, (size, 3)."""
+        inertia: np.ndarray = (self.mass @ state.a.ravel()).reshape(-1, 3)
+        return inertia - self.unbalanced(state.u, state.v, state.time)
+
+    def work(self, before: State, after: State) -> float:
+        """Work of moving supports, followers and commands in a step, by the trapezoidal rule [J]."""
+        done = 0.0
+        if self.moving:
+            moved = self.place(after.time) - self.place(before.time)
+            done += 0.5 * float(np.sum((self.exerted(before) + self.exerted(after)) * moved))
+        if self.followers:
+            dead = self.problem.loads.dead
+            mean = 0.5 * (self.external(before.u) + self.external(after.u)) - dead
+            done += float(np.sum(mean * (after.u - before.u)))
+        if self.coupling is not None:
+            then, now = self.drive(before.time), self.drive(after.time)
+            for u in (before.u, after.u):
+                done += 0.5 * self.coupling.command_work(u, then, now)
+        return done
+
+
+def _mass_solver(mass: sp.csc_array) -> Callable[[np.ndarray], np.ndarray]:
+    diagonal = mass.diagonal()
+    if mass.nnz == len(diagonal):
+        return lambda b: b / diagonal
+    factors = splu(mass)
+    return lambda b: factors.solve(b)

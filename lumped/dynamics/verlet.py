@@ -1,0 +1,72 @@
+"""Explicit velocity Verlet (central differences), second order also with dampers.
+
+    u₁ = u₀ + h v₀ + ½ h² a₀,    v₁ = v₀ + ½ h (a₀ + M⁻¹ f(u₁, v₀ + h a₀)),    a₁ = M⁻¹ f(u₁, v₁)
+
+The elastic forces are computed once a step; the damping forces twice, with the predicted and with the final
+velocity, since they at hand from half a step before would leave the scheme of first order. Undamped it is
+stable for ω h ≤ 2, damped for ω h ≤ 2 (√(1+ξ²) − ξ) and a little beyond. Constraints as in RATTLE.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lumped.dynamics.constraints import Projection
+from lumped.dynamics.integrator import Advance, Integrator, StepFailed
+from lumped.dynamics.system import State, System
+
+
+class Verlet(Integrator):
+    """Velocity Verlet."""
+
+    name, order = "verlet", 2
+
+    def __init__(self, system: System, step: float):
+        super().__init__(system, step)
+        self._projection = Projection(system)
+
+    def advance(self, state: State, at_most: float) -> Advance:
+        """One explicit step. Raises StepFailed when a number overflows or constraints find no solution."""
+        system, h, time = self.system, at_most, state.time + at_most
+        moved = state.u + h * state.v + 0.5 * h * h * state.a
+        if system.moving:
+            held = system.place(time) - system.place(state.time) - h * system.place_rate(state.time)
+            moved = moved + held
+        half = state.v + 0.5 * h * state.a
+        projection = self._projection
+        if projection.active:
+            u = self._constrained(state, moved, time)
+            half = half + (u - moved) / h
+        else:
+            u = moved
+        if system.moving:
+            half = half + system.place_rate(time) - system.place_rate(state.time)
+        _, elastic = system.elastic(u, time)
+        force = system.external(u) - elastic
+        damped = system.damping.present
+        acting = force - system.damping_force(u, state.v + h * state.a)[1] if damped else force
+        acceleration = system.accelerate(acting)
+        if not np.isfinite(acceleration).all():
+            raise StepFailed("a number overflowed")
+        v = half + 0.5 * h * acceleration
+        if projection.active:
+            gradient = projection.jacobian(u)
+            v, impulse = projection.tangential(v, gradient)
+            u = u + impulse * (2.0 / h)
+            force = system.external(u) - system.elastic(u, time)[1]
+        taken = 0.0
+        if damped:
+            power, resisting = system.damping_force(u, v)
+            before, _ = system.damping_force(state.u, state.v)
+            taken = 0.5 * h * (before + power)
+            acceleration = system.accelerate(force - resisting)
+        elif projection.active:
+            acceleration = system.accelerate(force)
+        after = State(time, u, v, acceleration)
+        return Advance(after, taken, system.work(state, after))
+
+    def _constrained(self, state: State, moved: np.ndarray, time: float) -> np.ndarray:
+        try:
+            return self._projection.onto_constraints(moved, self._projection.jacobian(state.u), time)
+        except (ArithmeticError, np.linalg.LinAlgError) as error:
+            raise StepFailed(str(error)) from None

@@ -20,8 +20,8 @@ __all__ = [
     "given",
     "gradient",
     "modes",
-    "simulate",
     "sensitivity",
+    "simulate",
     "solve",
     "trace",
 ]

@@ -1,0 +1,138 @@
+"""Sensitivities of the lattice against differences of whole solutions, and the adjoint against them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import lumped
+import scenes
+from lumped.sensitivity import spring_parameters, with_spring
+from scenes import Clamped, EdgeLoad, PointLoad
+
+GRID = (7, 7)
+
+
+def scene_of(name, **changes):
+    return scenes.load(name).model_copy(update=changes)
+
+
+def springs_of(scene, grid=GRID, method="consistent"):
+    return lumped.calibrate(scene.sheet, scene.material, grid, method)
+
+
+def by_differences(scene, springs, change, value, h):
+    """Central difference of the probes' displacement, (n, 3), by change(scene, springs, value)."""
+    sides = []
+    for sign in (1, -1):
+        changed = change(scene, springs, value + sign * h)
+        sides.append(lumped.solve(*changed).displacement(scene.probe_points()))
+    return (sides[0] - sides[1]) / (2 * h)
+
+
+def assert_close(mine, theirs, within=2e-5):
+    assert np.abs(theirs).max() > 0.0
+    assert np.abs(mine - theirs).max() < within * np.abs(theirs).max()
+
+
+@pytest.mark.parametrize("grid", [(7, 7), (5, 9)])
+def test_every_spring_constant(grid):
+    scene = scene_of("two-edges-clamped")
+    springs = springs_of(scene, grid)
+    names = [*spring_parameters(springs.springs), "layer_distance"]
+    assert len(names) >= 8
+    found = lumped.sensitivity(scene, springs, names)
+
+    def change(scene, springs, value, name):
+        return scene, replace(springs, springs=with_spring(springs.springs, name, value))
+
+    for name in names:
+        value = found.values[name]
+        expected = by_differences(
+            scene, springs, lambda s, c, v, name=name: change(s, c, v, name), value, 1e-4 * value
+        )
+        scale = np.abs(found.displacement).max() / value
+        assert np.abs(found.derivatives[name] - expected).max() < 2e-7 * scale, name
+
+
+@pytest.mark.parametrize("name", ["young", "poisson", "density"])
+def test_material(name):
+    scene = scene_of("one-edge-clamped")
+
+    def change(scene, springs, value):
+        material = scene.material.model_copy(update={name: value})
+        changed = scene.model_copy(update={"material": material})
+        return changed, springs_of(changed)
+
+    springs = springs_of(scene)
+    found = lumped.sensitivity(scene, springs, [name])
+    value = found.values[name]
+    assert_close(found.derivatives[name], by_differences(scene, springs, change, value, 1e-4 * value))
+
+
+def test_thickness():
+    scene = scene_of("one-edge-clamped")
+
+    def change(scene, springs, value):
+        changed = scene.model_copy(update={"sheet": scene.sheet.model_copy(update={"thickness": value})})
+        return changed, springs_of(changed)
+
+    springs = springs_of(scene)
+    found = lumped.sensitivity(scene, springs, ["thickness"]).derivatives["thickness"]
+    assert_close(found, by_differences(scene, springs, change, 0.003, 3e-7))
+
+
+def test_curvature_of_a_curved_support():
+    scene = scene_of("curved-edge")
+
+    def change(scene, springs, value):
+        (support,) = scene.supports
+        return scene.model_copy(
+            update={"supports": (support.model_copy(update={"curvature": value}),)}
+        ), springs
+
+    springs = springs_of(scene)
+    found = lumped.sensitivity(scene, springs, ["curvature_x0"]).derivatives["curvature_x0"]
+    assert_close(found, by_differences(scene, springs, change, 4.0, 1e-3))
+
+
+def test_follower_loads_have_sensitivities_too():
+    scene = scene_of("one-edge-clamped", gravity=None, loads=(EdgeLoad(edge="x1", moment_per_length=0.2),))
+    springs = springs_of(scene)
+    found = lumped.sensitivity(scene, springs, ["young"]).derivatives["young"]
+
+    def change(scene, springs, value):
+        changed = scene.model_copy(update={"material": scene.material.model_copy(update={"young": value})})
+        return changed, springs_of(changed)
+
+    assert_close(found, by_differences(scene, springs, change, 54.5e6, 5.45e3))
+
+
+@pytest.mark.parametrize("name", ["two-edges-clamped", "curved-edge"])
+def test_the_adjoint_agrees_with_the_direct_derivatives(name):
+    scene = scene_of(name, loads=(PointLoad(at=(0.1, 0.05), force=(0.0, 0.0, 0.01)),))
+    springs = springs_of(scene)
+    rng = np.random.default_rng(3)
+    points, weights = rng.uniform(0, 0.188, (6, 2)), rng.standard_normal((6, 3))
+    names = ["axial", "diagonal", "cross", "area", "mid_area", "young", "thickness"]
+    if name == "curved-edge":
+        names.append("curvature_x0")
+    direct = lumped.sensitivity(scene, springs, names, points).derivatives
+    adjoint = lumped.gradient(scene, springs, names, points, weights)
+    for parameter in names:
+        assert adjoint[parameter] == pytest.approx(np.sum(weights * direct[parameter]), rel=1e-7)
+
+
+def test_scaling_laws():
+    """Displacements depend on E and ρ through ρ/E only, so that E du/dE = −ρ du/dρ."""
+    scene = scene_of("two-edges-clamped")
+    found = lumped.sensitivity(scene, springs_of(scene), ["young", "density"])
+    e, rho = (found.values[name] * found.derivatives[name] for name in ("young", "density"))
+    assert np.abs(e + rho).max() < 1e-7 * np.abs(e).max()
+
+
+@pytest.mark.parametrize("name", ["magic", "axial_x", "curvature_y1", "shear"])
+def test_unknown_and_absent_parameters_are_refused(name):
+    scene = scene_of("one-edge-clamped", supports=(Clamped(edge="x0"),))
+    with pytest.raises(ValueError, match=name):
+        lumped.sensitivity(scene, springs_of(scene), [name])

@@ -24,6 +24,7 @@ from scenes import Sheet
 
 Grid = tuple[int, int, int]
 Weights = Literal["tributary", "full"]
+Distribution = Literal["tributary", "gregory"]  # of the mass, see `lumped.masses`
 
 
 @dataclass(frozen=True)

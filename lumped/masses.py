@@ -13,14 +13,10 @@ Source: Gregory's quadrature, e.g. Hildebrand, Introduction to Numerical Analysi
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 
-from lumped.lattice import Lattice
+from lumped.lattice import Distribution, Lattice
 from scenes import Scene
-
-Distribution = Literal["tributary", "gregory"]
 
 
 def masses(scene: Scene, lattice: Lattice, distribution: Distribution = "tributary") -> np.ndarray:

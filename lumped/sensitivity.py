@@ -85,7 +85,7 @@ def gradient(
 
 def spring_parameters(springs: SpringSet) -> list[str]:
     """Names of the spring constants that are not zero, one a direction where directions differ."""
-    names = []
+    names: list[str] = []
     for name, value in springs:
         if isinstance(value, PerDirection):
             names.extend(f"{name}_{direction}" for direction in "xy" if getattr(value, direction))

@@ -6,7 +6,8 @@ motions free has zero frequencies: they are found with a small shift, counted, a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.linalg
@@ -14,7 +15,8 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from lumped.calibration import Calibration
-from lumped.masses import Distribution, masses
+from lumped.lattice import Distribution
+from lumped.masses import masses
 from lumped.statics import pose
 from lumped.threads import one_blas_thread
 from scenes import Scene, free_rigid_motions
@@ -34,12 +36,12 @@ class Modes:
 
 
 def modes(
-    scene: Scene, springs: Calibration, count: int = 10, distribution: Distribution = "tributary"
+    scene: Scene, springs: Calibration, count: int = 10, distribution: Distribution | None = None
 ) -> Modes:
     """The `count` lowest natural modes of the scene's sheet on a lattice, without actuators; loads do
     not matter.
 
-    distribution: how the masses are shared out, see `lumped.masses`.
+    distribution: how the masses are shared out (`lumped.masses`), the springs' own unless given.
 
     Raises ValueError when the lattice has fewer modes than asked.
     """
@@ -49,7 +51,7 @@ def modes(
     rigid = len(free_rigid_motions(scene))
     if count + rigid > problem.system.unknowns - 1:
         raise ValueError(f"count = {count}: the lattice has only {problem.system.unknowns - rigid} modes")
-    weight = np.repeat(masses(scene, problem.assembly.lattice, distribution), 3)
+    weight = np.repeat(masses(scene, problem.assembly.lattice, distribution or springs.masses), 3)
     mass = sp.csc_array(transform.T @ sp.diags_array(weight) @ transform)
     rest = np.zeros_like(problem.loads.dead)
     blocks = problem.assembly.tangent(rest)
@@ -67,6 +69,40 @@ def modes(
     shapes /= np.abs(shapes).max(axis=(1, 2), keepdims=True)
     frequencies = np.sqrt(np.maximum(values[order], 0.0)) / (2.0 * np.pi)
     return Modes(frequencies, shapes, rigid, problem.system.unknowns)
+
+
+def frequency_slopes(
+    scene: Scene, springs: Calibration, parameters: Sequence[str], count: int
+) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """The `count` lowest frequencies (count,) [Hz] and their derivatives by spring constants [Hz per N/m].
+
+    dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M φ), with ∂K/∂k the change of the tangent at rest, which is linear in k; for
+    frequencies that stand alone (of equal ones it gives the slope of a mean).
+    """
+    from lumped.sensitivity import spring_value, with_spring
+
+    found = modes(scene, springs, count)
+    problem = pose(scene, springs)
+    rest = np.zeros_like(problem.loads.dead)
+    weight = masses(scene, problem.assembly.lattice, springs.masses)
+    modal = np.einsum("n,knq,knq->k", weight, found.shapes, found.shapes)
+    slopes = {}
+    for name in parameters:
+        step = 1e-3 * abs(spring_value(springs.springs, name))
+        sides = []
+        for sign in (1.0, -1.0):
+            value = spring_value(springs.springs, name) + sign * step
+            changed = pose(scene, replace(springs, springs=with_spring(springs.springs, name, value)))
+            stiffness = [float(np.sum(shape * _product(changed, rest, shape))) for shape in found.shapes]
+            sides.append(np.array(stiffness))
+        squares = (sides[0] - sides[1]) / (2.0 * step) / modal
+        slopes[name] = squares / (2.0 * (2.0 * np.pi) ** 2 * found.frequencies)
+    return found.frequencies, slopes
+
+
+def _product(problem, rest, shape):
+    """K times a shape (n, 3), K the tangent at rest."""
+    return problem.system.apply(problem.assembly.tangent(rest), shape)
 
 
 def _shift_invert(problem, blocks, stiffness, mass, weight, wanted):

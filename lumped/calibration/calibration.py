@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from lumped import moduli
-from lumped.lattice import Grid
+from lumped.lattice import Distribution, Grid
 from scenes import Material, Sheet, SpringSet
 
 
@@ -18,7 +18,8 @@ class Calibration:
     """Springs of a lattice: method, grid (nx, ny, layers), spring constants [N/m] and layer distance [m].
 
     moduli: one row per plate modulus with what the sheet asks and what the lattice's interior gives
-    (A, S [N/m], D [N·m]; S is asked as MacNeal's S* of the grid); notes: what the method could not meet.
+    (A, S [N/m], D [N·m]; S is asked as MacNeal's S* of the grid); notes: what the method could not meet;
+    masses: how the sheet's mass is shared out (`lumped.masses`) when it vibrates or moves.
     """
 
     method: str
@@ -26,6 +27,7 @@ class Calibration:
     springs: SpringSet
     moduli: tuple[dict[str, Any], ...]
     notes: tuple[str, ...] = ()
+    masses: Distribution = "tributary"
 
     @property
     def layer_distance(self) -> float:
@@ -42,6 +44,7 @@ class Calibration:
             "springs": springs,
             "layer_distance": distance,
             "moduli": [dict(row) for row in self.moduli],
+            "masses": self.masses,
             "notes": list(self.notes),
         }
 

@@ -10,6 +10,7 @@ A11); bending and shear weigh more than stretching by default, since a soft shee
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -75,7 +76,9 @@ def bounded_least_squares(
     def springs_of(unknowns: np.ndarray) -> SpringSet:
         distance = layer_distance or first_distance * float(np.exp(unknowns[-1]))
         stiffness = asked.bending[0, 0] / ((heights**2).sum() * distance**2)
-        values = {name: float(stiffness * value) for name, value in zip(UNKNOWNS, unknowns, strict=False)}
+        values: dict[str, Any] = {
+            name: float(stiffness * value) for name, value in zip(UNKNOWNS, unknowns, strict=False)
+        }
         pairs = {name: _by_direction(values.pop(f"{name}_x"), values.pop(f"{name}_y")) for name in PAIRS}
         return SpringSet(**values, **pairs, vertical=4.0 * float(stiffness), layer_distance=distance)
 

@@ -6,7 +6,9 @@ from collections.abc import Sequence
 
 from lumped.calibration.calibration import Calibration, Method, report
 from lumped.calibration.consistent import consistent
+from lumped.calibration.fitted import fit_modal, fit_static
 from lumped.calibration.least_squares import fit_moduli
+from lumped.calibration.targets import Target
 from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
 from lumped.calibration.uniform import uniform
 from lumped.lattice import Grid
@@ -20,7 +22,10 @@ CALIBRATIONS: dict[str, Method] = {
     "axial": axial,
     "van-gelder": van_gelder,
     "lloyd": lloyd,
+    "fit-static": fit_static,
+    "fit-modal": fit_modal,
 }
+FITTED = ("fit-static", "fit-modal")  # these take `targets`
 
 
 def calibrate(
@@ -30,15 +35,21 @@ def calibrate(
     method: str = "consistent",
     k: float | None = None,
     layer_distance: float | None = None,
+    targets: Sequence[Target] = (),
 ) -> Calibration:
     """Springs of a grid (nx, ny) or (nx, ny, layers) for a sheet of this material, by a named method.
 
-    k [N/m] and layer_distance [m] are for the methods that take them.
+    k [N/m] and layer_distance [m] are for the methods that take them; the fitted methods need targets.
     Raises ValueError for an unknown method, a grid too small, or an option the method does not take.
     """
     if method not in CALIBRATIONS:
         raise ValueError(f"calibration = {method!r}: unknown; choose from {', '.join(CALIBRATIONS)}")
-    return CALIBRATIONS[method](sheet, material, checked_grid(grid), k=k, layer_distance=layer_distance)
+    options = {"k": k, "layer_distance": layer_distance}
+    if method in FITTED:
+        return CALIBRATIONS[method](sheet, material, checked_grid(grid), **options, targets=targets)
+    if targets:
+        raise ValueError(f"calibration '{method}' takes no targets; {' and '.join(FITTED)} do")
+    return CALIBRATIONS[method](sheet, material, checked_grid(grid), **options)
 
 
 def given(scene: Scene, grid: Sequence[int] = (9, 9)) -> Calibration:

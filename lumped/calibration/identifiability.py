@@ -1,0 +1,64 @@
+"""What data can tell about the parameters fitted to them: singular values, intervals, and what stays unknown.
+
+With residuals r (m,) at the fit, and their Jacobian J (m, n) with respect to the parameters scaled to order
+one (here logarithms, or values over a scale), the covariance is s² (Jᵀ J)⁻¹, s² = r·r/(m − n), and a 95 %
+interval ± t_{0.975, m − n} times the standard deviation. A singular value of J below THRESHOLD of the largest
+is a combination of parameters that the data do not see; the parameters in it are named.
+Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import stats
+
+THRESHOLD = 1e-3  # of the largest singular value: below it a combination counts as not seen
+CORRELATED = 0.98  # |correlation| of two parameters from which on the data cannot tell them apart
+CONFIDENCE = 0.95
+
+
+@dataclass(frozen=True)
+class Identifiability:
+    """singular_values: (n,) of the scaled Jacobian; half_widths: parameter → half width of its 95 % interval
+    in the scaled parameter (inf where the data do not see it); warnings: sentences."""
+
+    singular_values: np.ndarray
+    half_widths: dict[str, float]
+    warnings: tuple[str, ...]
+
+
+def identifiability(names: list[str], jacobian: np.ndarray, residuals: np.ndarray) -> Identifiability:
+    """Of parameters whose scaled Jacobian (m, n) and residuals (m,) at the fit are given.
+
+    Raises ValueError unless there are more residuals than parameters.
+    """
+    m, n = jacobian.shape
+    if m <= n:
+        raise ValueError(f"{m} residuals cannot give intervals of {n} parameters")
+    _, singular, directions = np.linalg.svd(jacobian, full_matrices=False)
+    seen = singular > THRESHOLD * singular[0]
+    variance = float(residuals @ residuals) / (m - n)
+    spread = (directions[seen] / singular[seen, None]).T  # (n, seen)
+    covariance = variance * spread @ spread.T
+    quantile = float(stats.t.ppf(0.5 + CONFIDENCE / 2.0, m - n))
+
+    warnings, unseen = [], np.zeros(n, dtype=bool)
+    for direction in directions[~seen]:
+        members = np.abs(direction) > 0.1
+        unseen |= members
+        names_in = ", ".join(name for name, member in zip(names, members, strict=True) if member)
+        warnings.append(f"the data do not see a combination of {names_in}")
+    deviation = np.sqrt(np.diag(covariance))
+    for i in range(n):
+        for j in range(i):
+            if unseen[i] or unseen[j] or not deviation[i] * deviation[j] > 0.0:
+                continue
+            correlation = covariance[i, j] / (deviation[i] * deviation[j])
+            if abs(correlation) > CORRELATED:
+                warnings.append(
+                    f"the data cannot tell {names[j]} from {names[i]} (correlation {correlation:+.3f})"
+                )
+    widths = np.where(unseen, np.inf, quantile * deviation)
+    return Identifiability(singular, dict(zip(names, widths.tolist(), strict=True)), tuple(warnings))

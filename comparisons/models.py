@@ -6,13 +6,14 @@ model up first: what a process pays once, to import and compile, counts as set-u
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
 from math import isfinite
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
+from comparisons import plugins
 from comparisons.errors import BadInput, require_choice
 from comparisons.grids import Grid, default_grid
 from scenes import Material, Scene, Sheet, Solution, load
@@ -88,15 +89,22 @@ def solve_lumped(scene: Scene, **settings: Any) -> Solution:
     return replace(solution, setup_seconds=solution.setup_seconds + calibrating)
 
 
-def solve_reference(scene: Scene, *, model: str = "shell", elements: int = 16) -> Solution:
-    """A finite-element reference's static answer; `elements` along the shorter side.
+def solve_reference(
+    scene: Scene, *, model: str = "shell", elements: int | Sequence[int] = 16, **options: Any
+) -> Solution:
+    """A finite-element reference's static answer; `elements` along the shorter side, or along x and y.
 
-    Raises BadInput for a model or a number of elements that do not exist.
+    options: the model's own, as the solid's layers. Raises BadInput for a model, a number of elements or an
+    option that does not exist.
     """
     import fem_reference
 
-    check_reference(model, elements)
-    return fem_reference.solve(scene, model=model, elements=elements)
+    asked = elements if isinstance(elements, int) else tuple(elements)
+    check_reference(model, asked if isinstance(asked, int) else min(asked))
+    try:
+        return fem_reference.solve(scene, model=model, elements=asked, **options)
+    except TypeError as error:
+        raise BadInput(f"{model}: {error}") from None
 
 
 MODELS: dict[str, Callable[..., Solution]] = {
@@ -106,17 +114,39 @@ MODELS: dict[str, Callable[..., Solution]] = {
 
 
 def solve(scene: Scene, model: str, **settings: Any) -> Solution:
-    """The answer of any model by its name, with that model's settings, on warm code."""
-    require_choice("model", model, MODELS)
+    """The answer of any model by its name, with that model's settings, on warm code.
+
+    The name is one of `MODELS` or of an installed plug-in (`comparisons.plugins`). Settings are plain data.
+    """
+    check(model, settings)
     started = perf_counter()
-    _warm(model)
+    warm(model)
     warming = perf_counter() - started
-    solution = MODELS[model](scene, **settings)
+    if model in MODELS:
+        solution = MODELS[model](scene, **settings)
+    else:
+        outside = plugins.plugin(model)
+        solution = outside.solve(scene, plugins.settings_of(outside, settings))
     return replace(solution, setup_seconds=solution.setup_seconds + warming)
 
 
+def check(model: str, settings: Mapping[str, Any]) -> None:
+    """Raise BadInput for a model that does not exist, or settings that it does not know."""
+    if model == "lumped":
+        check_lattice(settings.get("calibration"), settings.get("k"), settings.get("layer_distance"))
+    elif model in MODELS:
+        elements = settings.get("elements", 16)
+        check_reference(model, elements if isinstance(elements, int) else min(elements))
+    else:
+        require_choice("model", model, [*MODELS, *plugins.names()])
+        plugins.settings_of(plugins.plugin(model), settings)
+
+
 @cache
-def _warm(model: str) -> None:
-    """Solve a coarse sheet, once in a process."""
+def warm(model: str) -> None:
+    """Import and compile what a model needs, once in a process: solve a coarse sheet, load a plug-in."""
+    if model not in MODELS:
+        plugins.plugin(model)
+        return
     coarse = {"grid": (3, 3, 2)} if model == "lumped" else {"elements": 2}
     MODELS[model](load("one-edge-clamped"), **coarse)

@@ -1,6 +1,6 @@
 """Tables: columns with units, rows of plain values, and the ways to write them.
 
-Values are kept in SI units. CSV has them as they are, with the unit in the header; Markdown and the
+Values are kept in SI units. CSV has them as they are, with the unit in the header; Markdown, LaTeX and the
 terminal show them scaled and rounded (a displacement in mm, a time in ms).
 """
 
@@ -70,6 +70,43 @@ class Table:
         lines = [headers, rules, *self.shown_rows()]
         return f"{self.caption}\n\n" + "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
+    def to_latex(self) -> str:
+        """A booktabs tabular with shown units, its caption as a comment above it."""
+        headers = [column.header(shown=True) for column in self.columns]
+        kinds = "".join("r" if column.numeric else "l" for column in self.columns)
+        lines = [" & ".join(_latex(cell) for cell in line) + " \\\\" for line in self.shown_rows()]
+        return "\n".join(
+            [
+                f"% {self.caption}",
+                f"\\begin{{tabular}}{{{kinds}}}",
+                "\\toprule",
+                " & ".join(_latex(header) for header in headers) + " \\\\",
+                "\\midrule",
+                *lines,
+                "\\bottomrule",
+                "\\end{tabular}",
+                "",
+            ]
+        )
+
     def shown_rows(self) -> list[list[str]]:
         """The rows as people read them."""
         return [[c.show(value) for c, value in zip(self.columns, row, strict=True)] for row in self.rows]
+
+
+_LATEX = {
+    "\\": r"\textbackslash{}",
+    "−": "$-$",
+    "–": "--",
+    "×": r"$\times$",
+    "ν": r"$\nu$",
+    "≥": r"$\ge$",
+    "^": r"\textasciicircum{}",
+    "~": r"\textasciitilde{}",
+    **{character: f"\\{character}" for character in "&%$#_{}"},
+}
+
+
+def _latex(text: str) -> str:
+    """Text with what LaTeX reads as its own made plain."""
+    return "".join(_LATEX.get(character, character) for character in text)

@@ -12,6 +12,7 @@ from rich.table import Table as RichTable
 from rich.text import Text
 
 if TYPE_CHECKING:
+    from comparisons.campaign import Progress
     from comparisons.tables import Table
 
 out = Console(highlight=False)
@@ -26,6 +27,40 @@ def progress() -> Iterator[Callable[[str], None]]:
         return
     with err.status("") as spinner:
         yield lambda text: spinner.update(Text(text))
+
+
+@contextmanager
+def campaign_progress() -> Iterator[Callable[[Progress], None]]:
+    """A function that shows how far a campaign is: a bar with the time left on a terminal, else lines."""
+    if not err.is_terminal:
+        yield lambda progress: err.print(_progress_line(progress), markup=False, soft_wrap=True)
+        return
+    from rich.progress import BarColumn, TextColumn
+    from rich.progress import Progress as Bar
+
+    columns = (TextColumn("{task.completed:g}/{task.total:g}"), BarColumn(), TextColumn("{task.description}"))
+    with Bar(*columns, console=err, transient=True) as bar:
+        task = bar.add_task("starting …", total=None)
+
+        def show(progress: Progress) -> None:
+            left = "" if progress.seconds_left is None else f"{_duration(progress.seconds_left)} left"
+            bar.update(
+                task, completed=progress.done, total=progress.total, description=f"{left}  {progress.label}"
+            )
+
+        yield show
+
+
+def _progress_line(progress: Progress) -> str:
+    left = "" if progress.seconds_left is None else f", {_duration(progress.seconds_left)} left"
+    return f"{progress.done}/{progress.total} {progress.label}: {progress.status}{left}"
+
+
+def _duration(seconds: float) -> str:
+    """A duration as people say it."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
 
 
 def heading(name: str, title: str) -> None:

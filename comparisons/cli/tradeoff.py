@@ -1,0 +1,142 @@
+"""`sheetbench tradeoff SCENE`: error against time, over models, grids and calibrations."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from comparisons.cli.options import Json, Out, Scene, command_line
+
+if TYPE_CHECKING:
+    from comparisons.tradeoff import Tradeoff
+
+
+def command(
+    scene: Scene,
+    lumped: Annotated[
+        str, typer.Option(metavar="GRIDS", help="Masses along the shorter side, or NxM, NxMxL.")
+    ] = "3,5,9,17,33",
+    calibration: Annotated[str, typer.Option(metavar="NAMES", help="Calibrations of every grid.")] = (
+        "consistent,uniform"
+    ),
+    plate: Annotated[str, typer.Option(metavar="ELEMENTS", help="Linear plate: elements a side.")] = "8",
+    shell: Annotated[str, typer.Option(metavar="ELEMENTS", help="Nonlinear shell: elements a side.")] = (
+        "2,4,8,12,16"
+    ),
+    solid: Annotated[str, typer.Option(metavar="ELEMENTS", help="Nonlinear solid: elements a side.")] = (
+        "2,4,8"
+    ),
+    model: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME:KEY=VALUE,…", help="A plug-in with its settings; may be repeated."),
+    ] = None,
+    elements: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N", help="Elements of the reference shell; twice the finest one's, 32 at least."
+        ),
+    ] = None,
+    repeats: Annotated[
+        int, typer.Option(min=1, metavar="N", help="Timed solves of every row, at least.")
+    ] = 5,
+    workers: Annotated[
+        int | None, typer.Option(min=1, metavar="N", help="Processes for what is not timed; one a core.")
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="A dask scheduler, as tcp://host:8786.")
+    ] = None,
+    json: Json = False,
+    out: Out = None,
+) -> None:
+    """Measure what each model of a scene gets wrong and what it costs; an interrupted run can be resumed.
+
+    Give an empty list to leave a model out (--solid "").
+    """
+    import os
+    from tempfile import TemporaryDirectory
+
+    from comparisons import tradeoff_tables as tables
+    from comparisons.campaign import campaign
+    from comparisons.candidates import Candidate, items, lattices, parse_model, references
+    from comparisons.cli import console
+    from comparisons.cli.app import NOT_CONVERGED
+    from comparisons.displacement import load_static
+    from comparisons.errors import BadInput
+    from comparisons.executors import pool_of
+    from comparisons.files import folder, to_json
+    from comparisons.tradeoff import tradeoff
+
+    asked = load_static(scene)
+    candidates = lattices(asked.sheet, items(lumped), items(calibration))
+    for name, sizes in (("plate", plate), ("shell", shell), ("solid", solid)):
+        candidates += references(name, items(sizes))
+    candidates += [parse_model(text) for text in model or ()]
+    if not candidates:
+        raise BadInput("no model left to measure")
+    if elements is not None and (elements < 2 or elements % 2):
+        raise BadInput(
+            f"--elements = {elements}: an even number, for the reference is solved on half as many too"
+        )
+    reference = Candidate("shell", {"elements": elements}) if elements is not None else None
+    with (
+        TemporaryDirectory() as scratch,
+        campaign(folder(out) if out is not None else Path(scratch)) as store,
+        pool_of(scheduler) as pool,
+        console.campaign_progress() as progress,
+    ):
+        found = tradeoff(
+            asked,
+            candidates,
+            store,
+            reference=reference,
+            repeats=repeats,
+            workers=workers or os.cpu_count() or 1,
+            pool=pool,
+            progress=progress,
+        )
+    written = _write(found, out) if out is not None else []
+    if json:
+        print(to_json(found.as_dict()), end="")
+    else:
+        console.heading(asked.name, asked.title)
+        console.show(tables.rows(found), leave_out=("set-up", "from", "to", "factorisations", "status"))
+        console.show(tables.orders(found))
+        console.note(tables.explanation(found))
+        if written:
+            console.note(f"Files in {out}: {', '.join(written)}")
+    for row in found.rows:
+        if row["status"] != "converged":
+            console.warn(f"{row['label']}: {row['status']}: {row['message']}")
+    if found.uncertainty is None:
+        console.warn(f"no errors: the reference, {found.reference['label']}: {found.reference['status']}")
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def _write(found: Tradeoff, out: Path) -> list[str]:
+    """The trade-off's files; their names."""
+    from comparisons import tradeoff_tables as tables
+    from comparisons.files import to_json, write_text
+    from comparisons.manifest import manifest
+    from comparisons.tradeoff_figure import draw
+
+    shown = [tables.rows(found), tables.orders(found)]
+    settings = {"reference": found.reference["settings"]}
+    title = f"# {found.scene.name}\n\n{found.scene.title}\n"
+    files = {
+        "tradeoff.json": to_json(found.as_dict()),
+        "tradeoff.csv": shown[0].to_csv(),
+        "orders.csv": shown[1].to_csv(),
+        "tradeoff.md": "\n".join(
+            [title, *(t.to_markdown() for t in shown), tables.explanation(found) + "\n"]
+        ),
+        "tradeoff.tex": "\n".join(table.to_latex() for table in shown),
+        "manifest.json": to_json(manifest(found.scene, settings, command_line())),
+    }
+    for name, text in files.items():
+        write_text(out / name, text)
+    pictures = ["tradeoff.png", "tradeoff.pdf"] if any(row["error"] for row in found.rows) else []
+    if pictures:
+        draw(found, [out / name for name in pictures])
+    return [*files, *pictures, "campaign.sqlite"]

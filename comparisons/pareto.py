@@ -1,0 +1,44 @@
+"""Which rows are worth having, and how fast a family of rows converges.
+
+A row is on the Pareto front if no other row is as accurate in less time or more accurate in as much. Errors
+below the reference's uncertainty cannot be told apart and count as that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import groupby
+from math import isfinite
+
+import numpy as np
+
+FLOOR_FACTOR = 3.0  # errors closer to the reference's uncertainty than this say nothing about an order
+
+
+def front(errors: Sequence[float | None], seconds: Sequence[float], floor: float = 0.0) -> list[int]:
+    """Numbers of the rows on the front, the quickest first; rows without an error are not on it."""
+    known = [i for i, error in enumerate(errors) if error is not None and isfinite(error)]
+    kept: list[int] = []
+    best = np.inf
+    for i in sorted(known, key=lambda i: (seconds[i], errors[i])):
+        error = max(errors[i] or 0.0, floor)
+        if error < best:
+            kept.append(i)
+            best = error
+    return kept
+
+
+def order(x: Sequence[float], y: Sequence[float]) -> float | None:
+    """Slope of log y over log x by least squares, from two different positive x at least."""
+    points = [(a, b) for a, b in zip(x, y, strict=True) if a > 0.0 and b > 0.0]
+    if len({a for a, _ in points}) < 2:
+        return None
+    logs = np.log(points)
+    slope: float = np.polyfit(logs[:, 0], logs[:, 1], 1)[0]
+    return float(slope)
+
+
+def grouped(names: Sequence[str]) -> dict[str, list[int]]:
+    """Row numbers by name, in the order of first appearance."""
+    numbered = sorted(range(len(names)), key=lambda i: (names.index(names[i]), i))
+    return {name: list(rows) for name, rows in groupby(numbered, key=lambda i: names[i])}

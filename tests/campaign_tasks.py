@@ -1,0 +1,54 @@
+"""Tasks for the tests of campaigns: what a worker process is to do."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from pathlib import Path
+from typing import Any
+
+
+def square(x: float, seconds: float = 0.0) -> dict[str, Any]:
+    time.sleep(seconds)
+    return {"status": "done", "square": x * x, "process": os.getpid()}
+
+
+def log(x: int, path: str, seconds: float) -> dict[str, Any]:
+    """Writes a line when it starts and one when it ends."""
+    with Path(path).open("a", encoding="utf-8") as file:
+        file.write(f"start {x}\n")
+        file.flush()
+        time.sleep(seconds)
+        file.write(f"end {x}\n")
+    return {"x": x}
+
+
+def mark(x: int, folder: str, seconds: float) -> dict[str, Any]:
+    """Leaves a file with its process when it starts, and another when it ends."""
+    started = Path(folder) / f"{x}.started"
+    started.write_text(str(os.getpid()), encoding="utf-8")
+    time.sleep(seconds)
+    started.with_suffix(".ended").touch()
+    return {"x": x, "process": os.getpid()}
+
+
+def refuse() -> dict[str, Any]:
+    raise ValueError("x = −1: must be positive")
+
+
+def fail() -> dict[str, Any]:
+    raise ZeroDivisionError("by nothing")
+
+
+def not_finite() -> dict[str, Any]:
+    return {"value": float("nan")}
+
+
+def die() -> dict[str, Any]:
+    os.kill(os.getpid(), signal.SIGKILL)
+    return {}
+
+
+def threads() -> dict[str, Any]:
+    return {"threads": os.environ.get("OMP_NUM_THREADS")}

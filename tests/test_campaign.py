@@ -1,0 +1,174 @@
+"""Campaigns: each run carried out once and kept at once, through failures, dead workers and kill -9."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import campaign_tasks
+import pytest
+
+from comparisons.campaign import Progress, Run, campaign, carry_out
+from comparisons.errors import BadInput
+from comparisons.executors import cluster
+from comparisons.store import FILE, Store
+
+TASKS = Path(campaign_tasks.__file__).parent
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Iterator[Store]:
+    with campaign(tmp_path) as opened:
+        yield opened
+
+
+def task(name: str, **arguments: object) -> Run:
+    return Run(f"campaign_tasks:{name}", arguments, name)
+
+
+def wait_for(condition: Callable[[], bool], seconds: float = 60.0) -> None:
+    deadline = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < deadline, "it did not happen in time"
+        time.sleep(0.02)
+
+
+def rows_in(path: Path) -> dict[str, tuple]:
+    """What a campaign's file holds at this moment, read from beside it."""
+    if not path.exists():
+        return {}
+    with sqlite3.connect(path, timeout=10) as database:
+        try:
+            return {row[0]: row for row in database.execute("select * from runs")}
+        except sqlite3.OperationalError:
+            return {}  # the table is not there yet
+        finally:
+            database.commit()
+
+
+def test_outcomes_come_in_the_order_asked_and_are_kept(store: Store) -> None:
+    seen: list[Progress] = []
+    runs = [task("square", x=x) for x in (3.0, 1.0, 2.0, 3.0)]
+    found = carry_out(runs, store, workers=2, progress=seen.append)
+    assert [outcome.row["square"] for outcome in found] == [9.0, 1.0, 4.0, 9.0]
+    assert [(p.done, p.total) for p in seen] == [(1, 3), (2, 3), (3, 3)]
+    assert seen[-1].seconds_left == 0.0
+    seen.clear()
+    assert carry_out(runs, store, pool=pytest.fail, progress=seen.append) == found
+    assert not seen
+
+
+def test_the_key_is_what_is_asked_and_nothing_else() -> None:
+    assert task("square", x=1.0).key == Run("campaign_tasks:square", {"x": 1.0}, "other", timed=True).key
+    assert task("square", x=1.0).key != task("square", x=2.0).key
+    assert task("square", x=(1, 2)).key == task("square", x=[1, 2]).key
+
+
+def test_a_run_that_fails_is_a_row_with_its_status(store: Store) -> None:
+    found = carry_out([task(name) for name in ("refuse", "fail", "not_finite")], store)
+    assert [outcome.status for outcome in found] == ["refused", "failed", "done"]
+    assert found[0].message == "x = −1: must be positive"
+    assert found[1].message == "ZeroDivisionError: by nothing"
+    assert found[2].row == {"value": None}
+
+
+def test_a_run_that_takes_its_process_down_is_the_only_one_lost(store: Store) -> None:
+    runs = [
+        task("square", x=1.0, seconds=0.5),
+        task("die"),
+        *(task("square", x=x, seconds=0.2) for x in (2.0, 3.0)),
+    ]
+    found = carry_out(runs, store, workers=2)
+    assert [outcome.status for outcome in found] == ["done", "lost", "done", "done"]
+    assert "died" in found[1].message
+
+
+def test_timed_runs_go_alone_and_on_one_thread(store: Store, tmp_path: Path) -> None:
+    path, environment = str(tmp_path / "log"), dict(os.environ)
+    timed = [Run("campaign_tasks:log", {"x": x, "path": path, "seconds": 0.05}, timed=True) for x in range(4)]
+    untimed = [task("square", x=1.0, seconds=0.1), task("threads")]
+    found = carry_out([*timed, *untimed], store, workers=2)
+    lines = Path(path).read_text().split("\n")[:-1]
+    assert lines == [line for x in range(4) for line in (f"start {x}", f"end {x}")]
+    assert max(o.finished for o in found[4:]) <= min(o.started for o in found[:4])
+    assert found[-1].row["threads"] == "1"
+    assert dict(os.environ) == environment
+
+
+def test_kill_9_loses_nothing_that_had_finished_and_leaves_no_worker(tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    script = (
+        f"import sys; sys.path.insert(0, {str(TASKS)!r})\n"
+        "from pathlib import Path\n"
+        "from comparisons.campaign import Run, campaign, carry_out\n"
+        "if __name__ == '__main__':\n"
+        f"    runs = [Run('campaign_tasks:log', {{'x': x, 'path': {str(log)!r}, 'seconds': 0.2}})"
+        " for x in range(8)]\n"
+        f"    with campaign(Path({str(tmp_path)!r})) as store:\n"
+        "        carry_out(runs, store, workers=2)\n"
+    )
+    file = tmp_path / "study.py"
+    file.write_text(script, encoding="utf-8")
+    command = [sys.executable, str(file)]
+    first = subprocess.Popen(command)
+    wait_for(lambda: len(rows_in(tmp_path / FILE)) >= 3)
+    os.kill(first.pid, signal.SIGKILL)
+    first.wait()
+    kept = rows_in(tmp_path / FILE)
+    assert 3 <= len(kept) < 8
+    time.sleep(0.5)  # workers follow their parent: none goes on writing
+    quiet = log.read_text(encoding="utf-8")
+    time.sleep(0.5)
+    assert log.read_text(encoding="utf-8") == quiet
+
+    subprocess.run(command, check=True, timeout=120)
+    after = rows_in(tmp_path / FILE)
+    assert len(after) == 8
+    assert {key: after[key] for key in kept} == kept  # time stamps and all
+    lines = log.read_text(encoding="utf-8").split("\n")
+    finished = [row[2] for row in kept.values()]
+    for x in range(8):
+        if any(f'"x": {x},' in arguments for arguments in finished):
+            assert lines.count(f"start {x}") == 1
+
+
+def test_what_is_not_a_campaign_file_is_refused(tmp_path: Path) -> None:
+    (tmp_path / FILE).write_text("not a database, but long enough to look at" * 10)
+    with pytest.raises(BadInput, match="not a campaign's file"):
+        Store(tmp_path / FILE)
+
+
+def test_no_scheduler_is_said_in_a_line() -> None:
+    with pytest.raises(BadInput, match=r"--scheduler = 'tcp://127\.0\.0\.1:9'"):
+        cluster("tcp://127.0.0.1:9").__enter__()
+
+
+def test_dask_cluster_loses_a_worker_mid_run_and_finishes(store: Store, tmp_path: Path) -> None:
+    from distributed import LocalCluster
+
+    task_file = str(TASKS / "campaign_tasks.py")
+    with LocalCluster(
+        n_workers=2, threads_per_worker=1, dashboard_address=None, preload=[task_file]
+    ) as local:
+        runs = [task("mark", x=x, folder=str(tmp_path), seconds=0.4) for x in range(8)]
+        victims, interrupted = list[int](), list[int]()
+
+        def kill_one(progress: Progress) -> None:
+            """The worker of the run that is under way when the first one has finished."""
+            under_way = [p for p in tmp_path.glob("*.started") if not p.with_suffix(".ended").exists()]
+            if not victims and under_way:
+                victims.append(int(under_way[0].read_text(encoding="utf-8")))
+                interrupted.append(int(under_way[0].stem))
+                os.kill(victims[0], signal.SIGKILL)
+
+        with cluster(local.scheduler_address) as pool:
+            found = carry_out(runs, store, workers=2, pool=pool, progress=kill_one)
+    assert victims
+    assert [outcome.row["x"] for outcome in found] == list(range(8))
+    assert found[interrupted[0]].row["process"] != victims[0]

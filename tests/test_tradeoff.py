@@ -1,0 +1,172 @@
+"""Trade-offs: the front, the orders, what is measured against what, and the command from end to end."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from test_campaign import rows_in, wait_for
+from test_cli import one_line, run
+
+import scenes
+from comparisons import candidates, tables, timing
+from comparisons.candidates import Candidate, lattices, parse_model, series
+from comparisons.errors import BadInput
+from comparisons.pareto import front, grouped, order
+from comparisons.store import FILE
+from scenes import Scene, Sheet
+
+SMALL = [
+    *("tradeoff", "two-edges-clamped", "--lumped", "3,5", "--calibration", "consistent,uniform"),
+    *("--plate", "", "--shell", "2,4", "--solid", "", "--elements", "8", "--repeats", "2"),
+]
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    return scenes.load("two-edges-clamped")
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a small trade-off, killed once in the middle, resumed, and asked for once more."""
+    folder = tmp_path_factory.mktemp("tradeoff")
+    code = "from comparisons.cli import main; main()"
+    command = [sys.executable, "-c", code, *SMALL, "--out", str(folder)]
+    first = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+    wait_for(lambda: len(rows_in(folder / FILE)) >= 4)
+    os.kill(first.pid, signal.SIGKILL)
+    first.wait()
+    kept = rows_in(folder / FILE)
+    assert 4 <= len(kept) < 8
+    subprocess.run(command, check=True, timeout=120, capture_output=True)
+    after = rows_in(folder / FILE)
+    assert len(after) == 8
+    assert {key: after[key] for key in kept} == kept  # time stamps and all
+    return folder
+
+
+def test_front_holds_what_nothing_beats() -> None:
+    errors = [0.1, 0.05, 0.2, None, 0.01, float("nan"), 0.04]
+    seconds = [1.0, 2.0, 3.0, 0.1, 4.0, 0.1, 2.0]
+    assert front(errors, seconds) == [0, 6, 4]
+    assert front(errors, seconds, floor=0.04) == [0, 6]  # below the floor nothing can be told apart
+    assert front([None], [1.0]) == []
+
+
+def test_order_is_the_slope_of_the_logarithms() -> None:
+    h = [0.1, 0.05, 0.025]
+    assert order(h, [3.0 * x**2 for x in h]) == pytest.approx(2.0)
+    assert order([0.1, 0.1], [1.0, 2.0]) is None
+    assert grouped(["b", "a", "b"]) == {"b": [0, 2], "a": [1]}
+
+
+def test_lists_of_sizes_become_rows_with_near_square_cells() -> None:
+    sheet = Sheet(length_x=0.1, length_y=0.2, thickness=0.001)
+    found = lattices(sheet, ["5", "3x4x3"], ["consistent", "uniform"])
+    assert [c.settings["grid"] for c in found] == [[5, 9, 2], [3, 4, 3]] * 2
+    assert found[3].series == "lumped uniform 3 layers"
+    assert series("shell", {"elements": 4}) == "shell"
+    assert parse_model("mine:grid=9,soft=true,kind=a") == Candidate(
+        "mine", {"grid": 9, "soft": True, "kind": "a"}
+    )
+    for text in ("mine:grid", "mine:=3,x"):
+        with pytest.raises(BadInput, match="--model"):
+            parse_model(text)
+    with pytest.raises(BadInput, match="--shell = 'x'"):
+        candidates.references("shell", ["x"])
+
+
+def test_a_measured_row_says_what_it_cost(scene: Scene) -> None:
+    asked = timing.run(scene, "lumped", {"grid": [9, 9, 2], "calibration": "consistent"}, repeats=3)
+    row = timing.measure(**asked.arguments)
+    assert row["status"] == "converged" and row["unknowns"] == 384
+    samples = row["solve_seconds"]["samples"]
+    assert len(samples) >= 3 and row["solve_seconds"]["median"] == pytest.approx(np.median(samples))
+    assert row["peak_memory_bytes"] >= 0
+    assert {"python", "processor", "cpu_count"} <= set(row["machine"])
+    assert {"sheetbench", "numpy", "scipy"} <= set(row["versions"])
+    assert row["probes"]["P4"][2] == pytest.approx(-0.01346, rel=1e-2)
+
+
+def test_memory_is_that_of_the_run(scene: Scene) -> None:
+    _, memory = timing._with_peak_memory(lambda: np.ones(8_000_000).sum())  # type: ignore[arg-type, return-value]
+    assert memory == pytest.approx(64e6, rel=0.1)
+
+
+def test_field_points_integrate_over_the_sheet(scene: Scene) -> None:
+    points, weights = timing.field_points(scene.sheet)
+    assert weights.sum() == pytest.approx(1.0)
+    lx, ly = scene.sheet.lengths
+    assert weights @ (points[:, 0] ** 3 * points[:, 1]) == pytest.approx(lx**3 * ly / 8)
+
+
+def test_killed_and_resumed_tradeoff_has_all_its_rows(finished: Path) -> None:
+    document = json.loads((finished / "tradeoff.json").read_text(encoding="utf-8"))
+    rows = document["rows"]
+    assert [row["model"] for row in rows] == ["lumped"] * 4 + ["shell"] * 2
+    assert all(row["status"] == "converged" for row in rows)
+    for row in rows:
+        assert 0.0 < row["error"] < 0.2 and 0.0 < row["field_error"] < 0.3
+        assert row["solve_seconds"]["median"] > 0.0 and len(row["solve_seconds"]["samples"]) >= 2
+        assert row["peak_memory_bytes"] >= 0 and row["machine"] and row["versions"]
+    consistent, uniform = rows[1], rows[3]
+    assert consistent["error"] < uniform["error"]
+    assert 0.0 < document["reference"]["uncertainty"] < 0.01
+    errors = [rows[i]["error"] for i in document["front"]]
+    assert errors == sorted(errors, reverse=True)
+    assert {entry["series"] for entry in document["orders"]} == {
+        "lumped consistent",
+        "lumped uniform",
+        "shell",
+    }
+    with (finished / "tradeoff.csv").open(encoding="utf-8") as file:
+        assert len(list(csv.DictReader(file))) == 6
+    assert (finished / "tradeoff.png").stat().st_size > 20_000
+    assert (finished / "tradeoff.pdf").read_bytes().startswith(b"%PDF")
+    assert "\\toprule" in (finished / "tradeoff.tex").read_text(encoding="utf-8")
+    assert json.loads((finished / "manifest.json").read_text(encoding="utf-8"))["machine"]
+
+
+def test_asked_again_nothing_is_run_and_the_document_is_the_same(
+    finished: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = rows_in(finished / FILE)
+    written = json.loads((finished / "tradeoff.json").read_text(encoding="utf-8"))
+    assert run(*SMALL, "--json", "--out", str(finished)) == 0
+    printed = capsys.readouterr()
+    assert json.loads(printed.out) == written
+    assert printed.err == ""
+    assert rows_in(finished / FILE) == before
+
+
+def test_latex_says_what_the_cells_say() -> None:
+    table = tables.Table(
+        "Rows & more", (tables.Column("a_b"), tables.Column("x", form="z.1f")), (("5 %", -1.0),)
+    )
+    text = table.to_latex()
+    assert r"a\_b & x \\" in text and r"5 \% & $-$1.0 \\" in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("--lumped", "1"), "--lumped = '1'"),
+        (("--calibration", "guess"), "calibration = 'guess'"),
+        (("--elements", "7"), "--elements = 7"),
+        (("--model", "nothing:grid=3"), "model = 'nothing'"),
+        (("--lumped", "", "--plate", "", "--shell", "", "--solid", ""), "no model left"),
+    ],
+)
+def test_bad_input_is_said_in_a_line(
+    arguments: tuple[str, ...], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("tradeoff", "two-edges-clamped", *arguments) == 2
+    assert said in one_line(capsys)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from typing import Any, Literal
 
 import numpy as np
@@ -22,7 +22,7 @@ from lumped.loads import Loads, locate
 from lumped.problem import Problem
 from lumped.supports import constrain
 from lumped.threads import one_blas_thread
-from scenes import Iteration, Scene, Solution, Status, require_static
+from scenes import Clamped, Gravity, Iteration, Material, Scene, Sheet, Solution, Status, require_static
 
 STRAIN_LIMIT = 0.05  # ρ g a/E beyond which a linear spring means nothing
 LINK_STRAIN_LIMIT = 0.5  # relative elongation of a link beyond which it does not either
@@ -61,6 +61,7 @@ def solve(
     """
     require_static(scene)
     began = time.perf_counter()
+    _compile()
     if springs is None:
         springs = given(scene) if scene.springs is not None else calibrate(scene.sheet, scene.material)
     problem = pose(scene, springs, weights)
@@ -70,6 +71,19 @@ def solve(
         outcome = settle(scene, problem, branch)
     done = time.perf_counter()
     return _solution(scene, springs, problem, outcome, (ready - began, done - ready), branch, weights)
+
+
+@cache
+def _compile() -> None:
+    """Solve a small sheet once a process, so that no solve's time holds the loading of compiled kernels."""
+    sheet = Sheet(length_x=1.0, length_y=1.0, thickness=0.05)
+    material = Material(young=1e6, poisson=0.3, density=1e3)
+    gravity = Gravity(acceleration=(0.0, 0.0, -1.0))
+    scene = Scene(
+        name="small", sheet=sheet, material=material, gravity=gravity, supports=(Clamped(edge="x0"),)
+    )
+    with one_blas_thread():
+        settle(scene, pose(scene, calibrate(sheet, material, (3, 7))), "path")
 
 
 def pose(scene: Scene, springs: Calibration, weights: Weights = "tributary") -> Problem:

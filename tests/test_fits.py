@@ -1,4 +1,4 @@
-"""The fitted calibrations: against data a lattice made itself, against the shell, and what data cannot tell."""
+"""The fitted calibrations: against data a lattice made, against the shell, and what data cannot tell."""
 
 from dataclasses import replace
 

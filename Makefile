@@ -4,10 +4,12 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 OUT    ?= demo
 
-.PHONY: help install demo test lint clean
+.PHONY: help install demo test verify locking lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
+	@echo "make verify    the references against published values, every row (about a minute)"
+	@echo "make locking   the locking sweeps and their picture (files in $(OUT)/)"
 	@echo "make install   set up only: $(BIN)/sheetbench"
 	@echo "make clean     remove the environment and the demo's files"
 
@@ -28,6 +30,12 @@ demo: install
 
 test: install lint
 	@$(BIN)/python -m pytest
+
+verify: install
+	@$(BIN)/sheetbench verify
+
+locking: install
+	@$(BIN)/sheetbench verify --locking --out $(OUT)
 
 lint: install
 	@$(BIN)/ruff check .

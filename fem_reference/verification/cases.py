@@ -1,0 +1,69 @@
+"""The table of verification cases, and how they are run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+
+from fem_reference.verification import (
+    elliptic_plate,
+    end_shear,
+    heavy_elastica,
+    large_rotation_order,
+    locking,
+    manufactured_plate,
+    manufactured_solid,
+    mindlin_plates,
+    natural_frequencies,
+    patch,
+    roll_up,
+    slit_annulus,
+)
+from fem_reference.verification.rows import Case, Row
+
+_SZE = "Sze, Liu & Lo 2004"
+_LEISSA = "Leissa 1973"
+_MINDLIN = "Wang, Reddy & Lee 2000"
+CASES: dict[str, Case] = {
+    "end-shear": Case("cantilever under an end shear", f"{_SZE}, 3.1", end_shear.rows),
+    "roll-up": Case("cantilever rolled up to a full circle", f"{_SZE}, 3.2; exact", roll_up.rows),
+    "slit-annulus": Case("slit annular plate, lifted", f"{_SZE}, 3.3", slit_annulus.rows, quick=False),
+    "heavy-elastica": Case("strip under its own weight", "Wang 1986; collocation", heavy_elastica.rows),
+    "mindlin-simple": Case("Mindlin plate, hard simple support", _MINDLIN, mindlin_plates.simply_supported),
+    "mindlin-clamped": Case("Mindlin plate, clamped", _MINDLIN, mindlin_plates.clamped),
+    "nafems-fv16": Case("cantilevered square plate", "NAFEMS 1987, FV16", natural_frequencies.fv16),
+    "nafems-fv12": Case("free square plate", "NAFEMS 1987, FV12", natural_frequencies.fv12),
+    "leissa-one-edge": Case("thin square plate, one edge clamped", _LEISSA, natural_frequencies.one_edge),
+    "leissa-two-edges": Case("thin square plate, two edges clamped", _LEISSA, natural_frequencies.two_edges),
+    "nafems-le10": Case("thick elliptic plate", "NAFEMS 1990, LE10", elliptic_plate.rows, quick=False),
+    "manufactured-plate": Case(
+        "manufactured Mindlin plate: error and order", "Chinosi & Lovadina 1995", manufactured_plate.rows
+    ),
+    "manufactured-solid": Case(
+        "manufactured block: error and order", "closed form", manufactured_solid.rows, quick=False
+    ),
+    "large-rotation-order": Case("order of the shell, rolled up", "exact", large_rotation_order.rows),
+    "locking-plate": Case("plate on 8 × 8, h/a from 1e-5 to 0.2", "its own finer mesh", locking.rows),
+    "locking-shell": Case("shell on 8 × 8, h/a from 1e-5 to 0.2", "its own finer mesh", locking.rows),
+    "locking-solid": Case("solid on 8 × 8, ν up to 0.4999", "its own finer mesh", locking.rows, quick=False),
+    "patch": Case("patch tests on distorted meshes", "exact", patch.rows),
+}
+
+
+def run(
+    names: Iterable[str] | None = None, starting: Callable[[str], None] = lambda name: None
+) -> Iterator[Row]:
+    """The rows of the named cases, all unless given; `starting` is called before each case.
+
+    Raises ValueError for an unknown name, before anything is computed.
+    """
+    chosen = tuple(CASES) if names is None else tuple(names)
+    for name in chosen:
+        if name not in CASES:
+            raise ValueError(f"case = {name!r}: known are {', '.join(CASES)}")
+    return _rows(chosen, starting)
+
+
+def _rows(names: tuple[str, ...], starting: Callable[[str], None]) -> Iterator[Row]:
+    for name in names:
+        starting(name)
+        yield from CASES[name].rows(name)

@@ -1,0 +1,126 @@
+"""A manufactured solution of the clamped Mindlin square: errors of plate and linear shell, and their order.
+
+With q(t) = 5t² − 5t + 1, b_n(t) = tⁿ (t − 1)ⁿ and side 1, the pressure
+
+    p = E h³/12(1 − ν²) (g(x, y) + g(y, x)),    g = 12 b₁(y) q(x) (2 b₂(y) + b₁(x) q(y))
+
+bends the plate to the deflection w and the director's tilt β
+
+    w = b₃(x) b₃(y)/3 − 2h²/(5(1 − ν)) (b₃(y) b₁(x) q(x) + b₃(x) b₁(y) q(y)),
+    β = −(b₃(y) b₂(x) (2x − 1), b₃(x) b₂(y) (2y − 1)).
+
+Biquadratic fields: order 3. Source: Chinosi & Lovadina, Comput. Mech. 16 (1995) 36–44.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+from skfem import Basis, Functional
+
+from fem_reference import plate, shell
+from fem_reference.linear import DirectSolver
+from fem_reference.mesh import rectangle
+from fem_reference.verification.rows import Row, absolutely
+from scenes import EDGES, Clamped, Material, Scene, Sheet
+
+ORDER, SLACK = 3.0, 0.15
+LARGEST = {"deflection": 5e-4, "tilt": 1.2e-3}  # error on the finest mesh
+ELEMENTS = (4, 8, 16)
+RATIOS = (0.001, 0.1)  # h/L
+MATERIAL = Material(young=1e7, poisson=0.3, density=1000.0)
+
+
+def rows(case: str) -> Iterator[Row]:
+    """Errors on the finest mesh, and the order of the last refinement, of plate and shell."""
+    for model, errors_on in MODELS.items():
+        for ratio in RATIOS:
+            errors = np.array([errors_on(_square(ratio), n) for n in ELEMENTS])
+            mesh = f"{model} {ELEMENTS[-1]} × {ELEMENTS[-1]}"
+            for name, (coarse, fine) in zip(LARGEST, errors[-2:].T, strict=True):
+                what = f"{name} at h/L = {ratio:g}"
+                yield absolutely(case, f"L² error, {what}", mesh, 0.0, fine, LARGEST[name])
+                yield absolutely(case, f"L² order, {what}", mesh, ORDER, np.log2(coarse / fine), SLACK)
+
+
+def _square(ratio: float) -> Scene:
+    return Scene(
+        name="manufactured",
+        sheet=Sheet(length_x=1.0, length_y=1.0, thickness=ratio),
+        material=MATERIAL,
+        support=tuple(Clamped.model_validate({"edge": edge}) for edge in EDGES),
+    )
+
+
+def _of_plate(scene: Scene, elements: int) -> tuple[float, float]:
+    """Errors of deflection and tilt of the plate on elements × elements."""
+    model = plate.Plate.on(rectangle(scene.sheet, elements))
+    _, held, _ = plate.constrain(scene, model)
+    free = np.flatnonzero(~held.ravel())
+    force = np.zeros(held.shape)
+    force[:, 2] = plate.share(model.basis, pressure(scene))
+    stiffness = plate.stiffness_matrix(scene, model)
+    fields = np.zeros(held.size)
+    fields[free] = DirectSolver().factor(stiffness[free][:, free]).solve(force.ravel()[free])
+    w, tilt = fields.reshape(-1, 5)[:, 2:4].T
+    return _errors(scene, model.basis, w, tilt)
+
+
+def _of_shell(scene: Scene, elements: int) -> tuple[float, float]:
+    """The same of the shell's first linear step from the flat sheet."""
+    structure, _ = shell.discretise(rectangle(scene.sheet, elements), scene)
+    basis = plate.Plate.on(rectangle(scene.sheet, elements)).basis
+    structure.dead[:, 2] = plate.share(basis, pressure(scene))
+    rest = structure.rest()
+    forces = structure.forces(rest, 1.0)
+    matrix, right = structure.system(rest, forces, 1.0, mixed=False)
+    state = structure.advance(rest, forces, 1.0, DirectSolver().factor(matrix).solve(right))
+    return _errors(scene, basis, state.change[0, :, 2], state.change[1, :, 0])
+
+
+MODELS: dict[str, Callable[[Scene, int], tuple[float, float]]] = {"plate": _of_plate, "shell": _of_shell}
+
+
+def _errors(scene: Scene, basis: Basis, w: np.ndarray, tilt: np.ndarray) -> tuple[float, float]:
+    """Relative errors in L² of nodal deflections and tilts along x (n,)."""
+    return _error(basis, w, deflection(scene)), _error(basis, tilt, tilt_x)
+
+
+def _error(basis: Basis, nodal: np.ndarray, exact: Callable[..., np.ndarray]) -> float:
+    difference = Functional(lambda w: (w.u - exact(*w.x)) ** 2).assemble(basis, u=basis.interpolate(nodal))
+    return float(np.sqrt(difference / Functional(lambda w: exact(*w.x) ** 2).assemble(basis)))
+
+
+def _bubble(t: np.ndarray, power: int) -> np.ndarray:
+    return t**power * (t - 1.0) ** power
+
+
+def _quadratic(t: np.ndarray) -> np.ndarray:
+    return 5.0 * t**2 - 5.0 * t + 1.0
+
+
+def deflection(scene: Scene) -> Callable[..., np.ndarray]:
+    """w(x, y) [m]."""
+    by_shear = 2.0 * scene.sheet.thickness**2 / (5.0 * (1.0 - scene.material.poisson))
+
+    def w(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        shear = _bubble(y, 3) * _bubble(x, 1) * _quadratic(x) + _bubble(x, 3) * _bubble(y, 1) * _quadratic(y)
+        return _bubble(x, 3) * _bubble(y, 3) / 3.0 - by_shear * shear
+
+    return w
+
+
+def tilt_x(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """The tilt of the director along x."""
+    return -_bubble(y, 3) * _bubble(x, 2) * (2.0 * x - 1.0)
+
+
+def pressure(scene: Scene) -> Callable[..., np.ndarray]:
+    """p(x, y) [Pa]."""
+    rigidity = plate.section_stiffness(scene)["bending"][0, 0]
+
+    def half(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        return 12.0 * _bubble(y, 1) * _quadratic(x) * (2.0 * _bubble(y, 2) + _bubble(x, 1) * _quadratic(y))
+
+    return lambda x, y: rigidity * (half(x, y) + half(y, x))

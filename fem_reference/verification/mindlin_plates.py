@@ -1,0 +1,66 @@
+"""Square Mindlin plates under a uniform load, ν 0.3, shear correction 5/6: w D/(q L⁴) at the centre.
+
+Hard simple support (deflection and the tilt along the edge held) and clamped, h/L 0.001 to 0.2. The shell
+answers for the clamped ones under a load so small that it is linear.
+Source: closed forms in Wang, Reddy & Lee, Shear Deformable Beams and Plates (2000), and converged elements.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from fem_reference import solve
+from fem_reference.materials import bending_stiffness
+from fem_reference.verification.rows import Row, absolutely, relatively
+from scenes import EDGES, Clamped, Gravity, Hinged, Material, Scene, Sheet, Status
+
+TOLERANCE = 3e-3
+ELEMENTS = 16
+HARD_SIMPLE = {0.001: 0.00406, 0.1: 0.00427, 0.2: 0.00490}
+CLAMPED = {0.001: 0.0012653, 0.1: 0.001505, 0.2: 0.002172}
+SUPPORTS: dict[str, type[Clamped | Hinged]] = {"clamped": Clamped, "hinged": Hinged}
+SMALL = 1e-4  # the shell's deflection at the centre over the thickness
+
+
+def simply_supported(case: str) -> Iterator[Row]:
+    """The plate with hard simple supports."""
+    yield from _of(case, "plate", HARD_SIMPLE)
+
+
+def clamped(case: str) -> Iterator[Row]:
+    """The plate and the shell with clamped edges."""
+    yield from _of(case, "plate", CLAMPED)
+    yield from _of(case, "shell", CLAMPED)
+
+
+def _of(case: str, model: str, published: dict[float, float]) -> Iterator[Row]:
+    kind = "hinged" if published is HARD_SIMPLE else "clamped"
+    mesh = f"{model} {ELEMENTS} × {ELEMENTS}"
+    found = {}
+    for ratio, value in published.items():
+        found[ratio] = deflection(model, kind, ratio, ELEMENTS)
+        yield relatively(case, f"w D/qL⁴ at h/L = {ratio:g}", mesh, value, found[ratio], TOLERANCE)
+    ratio = max(published)
+    change = abs(deflection(model, kind, ratio, ELEMENTS // 2) / found[ratio] - 1.0)
+    yield absolutely(case, f"change from half the mesh, {ratio:g}", mesh, 0.0, change, TOLERANCE)
+
+
+def deflection(model: str, kind: str, ratio: float, elements: int, poisson: float = 0.3) -> float:
+    """w D/(q L⁴) at the centre, D the thin plate's; kind: "hinged" is hard (plate only), or "clamped"."""
+    material = Material(young=1e7, poisson=poisson, density=1000.0)
+    rigidity = bending_stiffness(material, ratio)[0, 0]
+    load = SMALL * ratio * rigidity / CLAMPED[0.001]
+    scene = Scene(
+        name="square",
+        sheet=Sheet(length_x=1.0, length_y=1.0, thickness=ratio),
+        material=material,
+        support=tuple(SUPPORTS[kind].model_validate({"edge": edge}) for edge in EDGES),
+        gravity=Gravity(acceleration=(0.0, 0.0, load / (material.density * ratio))),
+    )
+    hard = {"hard_edges": tuple(EDGES)} if kind == "hinged" else {}
+    solution = solve(scene, model, elements=elements, **hard)
+    if solution.status is not Status.CONVERGED:
+        return float("nan")
+    return float(solution.displacement(np.array([[0.5, 0.5]]))[0, 2] * rigidity / load)

@@ -1,0 +1,114 @@
+"""Patch tests: under a constant stress the inner nodes of a distorted mesh are in balance.
+
+Each model's nodes are put where a state of constant strain has them; what is asked is the largest unbalanced
+force inside over the largest on the rim: zero but for rounding. Plate: constant stretch and curvature,
+linear. Shell: a finite stretch and rotation, and a small constant curvature (with a finite one the positions
+are not biquadratic). Solid: a finite deformation gradient.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+from skfem import MeshQuad
+
+from fem_reference import plate, shell, solid
+from fem_reference.mesh import rectangle
+from fem_reference.shell_structure import State as ShellState
+from fem_reference.solid_structure import State as SolidState
+from fem_reference.verification.rows import Row, absolutely
+from scenes import Material, Scene, Sheet
+
+ROUNDING = 1e-8
+ELEMENTS, MOVED = 3, 0.25  # inner vertices move by up to so much of an element
+SCENE = Scene(
+    name="patch",
+    sheet=Sheet(length_x=1.0, length_y=1.0, thickness=0.02),
+    material=Material(young=1e7, poisson=0.3, density=1000.0),
+)
+STRETCH = np.array([[0.10, 0.04], [-0.03, -0.07]])  # displacement gradient in the plane
+CURVATURE = np.array([[1.0, 1.5], [1.5, -1.0]])  # gradient of the director's tilt [1/m]
+SMALL = 1e-8
+
+
+def rows(case: str) -> Iterator[Row]:
+    """The largest force inside over the largest on the rim for every model and state."""
+    states = {
+        "plate": {"constant stretch": _plate_stretch, "constant curvature": _plate_curvature},
+        "shell": {"finite stretch": _shell_stretch, "constant curvature": _shell_curvature},
+        "solid": {"finite deformation": _solid_deformation},
+    }
+    for model, checks in states.items():
+        for state, unbalanced in checks.items():
+            mesh = f"{model} {ELEMENTS} × {ELEMENTS}, distorted"
+            yield absolutely(case, f"unbalanced, {state}", mesh, 0.0, unbalanced(), ROUNDING)
+
+
+def distorted() -> MeshQuad:
+    """The sheet's mesh with its inner vertices moved at random, always alike."""
+    mesh = rectangle(SCENE.sheet, ELEMENTS)
+    inner, points = mesh.interior_nodes(), mesh.p.copy()
+    points[:, inner] += MOVED / ELEMENTS * np.random.default_rng(1).uniform(-1.0, 1.0, (2, len(inner)))
+    return MeshQuad(points, mesh.t).with_boundaries(mesh.boundaries)
+
+
+def _inside_over_rim(forces: np.ndarray, plan: np.ndarray) -> float:
+    """Of nodal forces (n, …) at plan positions (n, 2) [m] of the unit square."""
+    inside = np.all((plan > 1e-9) & (plan < 1.0 - 1e-9), axis=1)
+    return float(np.abs(forces[inside]).max() / np.abs(forces[~inside]).max())
+
+
+def _plate(fields: np.ndarray, model: plate.Plate) -> np.ndarray:
+    return (plate.stiffness_matrix(SCENE, model) @ fields.ravel()).reshape(-1, 5)
+
+
+def _plate_stretch() -> float:
+    model = plate.Plate.on(distorted())
+    fields = np.zeros((model.basis.N, 5))
+    fields[:, :2] = model.nodes @ STRETCH.T
+    return _inside_over_rim(_plate(fields, model)[:, :2], model.nodes)
+
+
+def _plate_curvature() -> float:
+    model = plate.Plate.on(distorted())
+    fields = np.zeros((model.basis.N, 5))
+    fields[:, 2] = -0.5 * np.einsum("na,ab,nb->n", model.nodes, CURVATURE, model.nodes)
+    fields[:, 3:] = model.nodes @ CURVATURE
+    return _inside_over_rim(_plate(fields, model)[:, 2:], model.nodes)
+
+
+def _shell_stretch() -> float:
+    structure, nodes = shell.discretise(distorted(), SCENE)
+    turn = Rotation.from_rotvec([0.7, -1.1, 0.4]).as_matrix()
+    change = np.zeros((2, len(nodes), 3))
+    flat = np.column_stack([nodes, np.zeros(len(nodes))])
+    change[0, :, :2] = nodes @ STRETCH.T
+    change[0] = (flat + change[0]) @ turn.T - flat
+    change[1] = turn[:, 2] - [0.0, 0.0, 1.0]
+    return _inside_over_rim(structure.forces(ShellState(change), 0.0).residual[0], nodes)
+
+
+def _shell_curvature() -> float:
+    structure, nodes = shell.discretise(distorted(), SCENE)
+    change = np.zeros((2, len(nodes), 3))
+    change[0, :, 2] = -0.5 * SMALL * np.einsum("na,ab,nb->n", nodes, CURVATURE, nodes)
+    change[1, :, :2] = SMALL * nodes @ CURVATURE
+    residual = structure.forces(ShellState(change), 0.0).residual
+    return _inside_over_rim(np.column_stack([residual[0, :, 2], residual[1, :, :2]]), nodes)
+
+
+def _solid_deformation() -> float:
+    structure = solid.discretise(distorted(), SCENE)
+    gradient = np.eye(3)
+    gradient[:2, :2] += STRETCH
+    gradient[2, 2] = 1.05
+    turn = Rotation.from_rotvec([0.7, -1.1, 0.4]).as_matrix()
+    positions = structure.columns.positions
+    displacement = positions @ (turn @ gradient).T - positions
+    residual = structure.forces(SolidState(displacement), 0.0).residual
+    plan = structure.columns.plan_nodes
+    inside = np.all((plan > 1e-9) & (plan < 1.0 - 1e-9), axis=1)
+    middle = residual[inside, structure.columns.layers]  # top and bottom belong to the rim
+    return float(np.abs(middle).max() / np.abs(residual).max())

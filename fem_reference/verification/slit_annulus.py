@@ -1,0 +1,72 @@
+"""Annular plate slit along a radius, one side of the slit clamped and the other lifted.
+
+E 21e6, ν 0, radii 6 and 10, thickness 0.03, force 0.8 per length of the lifted side: rises of half the
+diameter. A and B are the inner and the outer end of the lifted side.
+Source: Sze, Liu & Lo, Finite Elements in Analysis and Design 40 (2004) 1551–1569, section 3.3.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+
+import numpy as np
+from skfem import MeshQuad, MeshQuad2
+
+from fem_reference import shell
+from fem_reference.verification.rows import Row, mesh_change, relatively
+from scenes import Clamped, EdgeLoad, Material, Scene, Sheet, Status
+
+TOLERANCE = 5e-3
+RADIAL, AROUND = 6, 48
+FORCE = 0.8
+PUBLISHED = {
+    0.1: (4.277, 5.876),
+    0.25: (7.602, 10.288),
+    0.5: (10.468, 13.768),
+    0.75: (12.310, 15.842),
+    1.0: (13.891, 17.528),
+}
+
+
+def rows(case: str) -> Iterator[Row]:
+    """Rise of both ends of the lifted side at each share of the force."""
+    mesh = f"shell {RADIAL} × {AROUND}"
+    for share, values in PUBLISHED.items():
+        found = rise(share, RADIAL, AROUND)
+        for name, published, computed in zip(("w_A", "w_B"), values, found, strict=True):
+            yield relatively(case, f"{name} at P = {share:g} P_max", mesh, published, computed, TOLERANCE)
+    smallest = min(PUBLISHED)
+    coarse, fine = rise(smallest, RADIAL // 2, AROUND // 2), rise(smallest, RADIAL, AROUND)
+    yield mesh_change(case, mesh, coarse, fine, TOLERANCE)
+
+
+def rise(share: float, radial: int, around: int) -> np.ndarray:
+    """w (2,) [m] of the inner and the outer end of the lifted side."""
+    scene = Scene(
+        name="slit annulus",
+        sheet=Sheet(length_x=20.0, length_y=20.0, thickness=0.03),
+        material=Material(young=21e6, poisson=0.0, density=1.0),
+        support=(Clamped(edge="y1"),),
+        load=(EdgeLoad(edge="y0", force_per_length=(0.0, 0.0, FORCE * share)),),
+    )
+    mesh = annulus(radial, around)
+    solution = shell.solve_on(mesh, scene)
+    if solution.status is not Status.CONVERGED:
+        return np.full(2, np.nan)
+    lifted = np.unique(mesh.facets[:, mesh.boundaries["y0"]])
+    radius = np.hypot(*mesh.p[:, lifted])
+    ends = lifted[[np.argmin(radius), np.argmax(radius)]]
+    return solution.mesh.point_data["displacement"][ends, 2]
+
+
+def annulus(radial: int, around: int) -> MeshQuad2:
+    """Radii 6 to 10, the sides of the slit along θ = 0 named y0 (θ = 0) and y1 (θ = 2π)."""
+    polar = MeshQuad.init_tensor(
+        np.linspace(6.0, 10.0, radial + 1), np.linspace(0.0, 2.0 * np.pi, around + 1)
+    )
+    sides = {"y0": lambda x: np.isclose(x[1], 0.0), "y1": lambda x: np.isclose(x[1], 2.0 * np.pi)}
+    mesh = MeshQuad2.from_mesh(polar)
+    radius, angle = mesh.doflocs
+    bent = dataclasses.replace(mesh, doflocs=np.array([radius * np.cos(angle), radius * np.sin(angle)]))
+    return bent.with_boundaries({name: polar.facets_satisfying(test) for name, test in sides.items()})

@@ -1,0 +1,32 @@
+"""A strip clamped at x = 0, the sheet that three benchmarks of large deflection share; ν = 0."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from fem_reference import shell
+from scenes import Clamped, Material, Scene, Sheet, Status
+
+
+def strip(length: float, width: float, thickness: float, young: float, **asked: Any) -> Scene:
+    """Length, width and thickness [m], E [Pa], density 1000 kg/m³; loads or gravity as asked."""
+    return Scene(
+        name="strip",
+        sheet=Sheet(length_x=length, length_y=width, thickness=thickness),
+        material=Material(young=young, poisson=0.0, density=1000.0),
+        support=(Clamped(edge="x0"),),
+        **asked,
+    )
+
+
+def tip(scene: Scene, elements: int) -> np.ndarray:
+    """Displacement (3,) [m] of the free end's middle on that many shell elements along the strip.
+
+    Not a number where no equilibrium was reached.
+    """
+    solution = shell.solve(scene, (elements, 1))
+    if solution.status is not Status.CONVERGED:
+        return np.full(3, np.nan)
+    return solution.displacement(np.array([[scene.sheet.length_x, scene.sheet.length_y / 2.0]]))[0]

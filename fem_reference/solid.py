@@ -9,9 +9,7 @@ mid-surface's.
 At every edge the solid has a layer as wide as the sheet is thick: at a free one the twisting stress turns
 round, at a clamp the Poisson contraction is stopped. On a uniform mesh much coarser than that, answers
 converge like 1/n (a full clamp's stress is singular besides): the mesh is graded towards the edges. The
-default clamp is a shell's (`solid_supports`). Hinged and held edges hold the mid-line, and a line support
-dents a solid: nothing where bending carries the load, 0.6 % of the deflection where a square sheet with
-h/a = 1/63, hinged all round, carries it by stretching. SI units.
+default clamp is a shell's (`solid_supports`). SI units.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ State: displacement u (n, levels, 3) and the sampled stresses s of every brick. 
 K = Bᵀ D B + Σ s_k H_k ⊗ I the step is Newton's, and `mixed` takes the stress that the last step extrapolated,
 s + D B δu, for the geometric part (see `equilibrium`: the strain is quadratic in u, as in the shell), and
 the extrapolated pressure in D: near ν = ½ the current one is a large error until volumes fit.
-Held components, in the frames of the supports, go to their targets in the first step.
+Held components q, u = Z q (see `solid_supports`), go to their targets in the first step.
 
 Loads act on the sheet as a surface, its mean position x̄ and director D (see `solid_mesh`), with the shell's
 work: a dead force or the pressure on x̄ is a body force uniform through the thickness, an edge moment
@@ -21,7 +21,7 @@ from scipy.sparse import csr_matrix
 from fem_reference.shell_loads import Follower
 from fem_reference.solid_element import NODES, Bricks, geometric
 from fem_reference.solid_mesh import Columns
-from fem_reference.solid_supports import ColumnSupports
+from fem_reference.solid_supports import ColumnSupports, components, into_forces, vectors
 from fem_reference.sparsity import Pattern
 
 
@@ -38,7 +38,7 @@ class State:
 class Forces:
     """At a state: B (…, k, 27, 3), e and s (…, k) of the bricks, residual R (n, levels, 3) [N].
 
-    size: what R is measured against [N]; frames: axes of the supports (n, 3, 3).
+    size: what R is measured against [N]; bases: Z of the columns.
     """
 
     gradient: np.ndarray
@@ -46,7 +46,7 @@ class Forces:
     stress: np.ndarray
     residual: np.ndarray
     size: float
-    frames: np.ndarray
+    bases: np.ndarray
 
 
 class SolidStructure:
@@ -93,17 +93,17 @@ class SolidStructure:
         stress = self.bricks.stress(strain)
         internal = self._scatter(_forces_of(gradient, stress))
         external = load_factor * self._external(state.displacement)
-        frames = self.supports.frames(load_factor)
+        bases = self.supports.bases(load_factor)
         size = np.linalg.norm(external) + np.linalg.norm(internal[self.supports.held])
-        return Forces(gradient, strain, stress, internal - external, float(size), frames)
+        return Forces(gradient, strain, stress, internal - external, float(size), bases)
 
     def imbalance(self, state: State, forces: Forces) -> float:
         """Norm of the residual of the free unknowns [N]."""
-        return float(np.linalg.norm(_into(forces.frames, forces.residual)[self.free]))
+        return float(np.linalg.norm(into_forces(forces.bases, forces.residual)[self.free]))
 
     def gap(self, state: State, load_factor: float) -> float:
         """Largest distance from the prescribed values, relative to the sheet's size."""
-        step = self._to_supports(state.displacement, load_factor, self.supports.frames(load_factor))
+        step = self._to_supports(state.displacement, load_factor, self.supports.bases(load_factor))
         return float(np.abs(step).max() / self._lever)
 
     def system(
@@ -118,21 +118,21 @@ class SolidStructure:
                 stiffness[load.elements] -= load_factor * self._of_surface(
                     load.tangent(vectors[load.elements])
                 )
-        step = self._to_supports(state.displacement, load_factor, forces.frames)
+        step = self._to_supports(state.displacement, load_factor, forces.bases)
         of_step = step.reshape(-1, 3)[self.columns.stacks].reshape(len(stiffness), -1, 1)
         pull = forces.residual + self._scatter_stacks(stiffness @ of_step)
         turned = self._turned
         if np.any(turned):
-            stiffness[turned] = self._turn(stiffness[turned], forces.frames)
+            stiffness[turned] = self._turn(stiffness[turned], forces.bases)
         matrix = self.pattern.matrix(stiffness, np.zeros(self.unknowns))
-        return matrix, -_into(forces.frames, pull)[self.free]
+        return matrix, -into_forces(forces.bases, pull)[self.free]
 
     def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
         """The state after a step (unknowns,), with the stress it extrapolates."""
         full = np.zeros(self.free.shape)
         full[self.free] = step
-        change = self._to_supports(state.displacement, load_factor, forces.frames) + _out_of(
-            forces.frames, full
+        change = self._to_supports(state.displacement, load_factor, forces.bases) + vectors(
+            forces.bases, full
         )
         strain = np.einsum("ekic,eic->ek", forces.gradient, self._of_bricks(change))
         of_step = np.einsum("ekl,el->ek", self.bricks.stiffness(forces.strain, state.pressure), strain)
@@ -172,19 +172,19 @@ class SolidStructure:
             out[:, place[:, None], :, place[None, :], :] += bricks.transpose(1, 3, 0, 2, 4)
         return out.reshape(m, 3 * s, 3 * s)
 
-    def _turn(self, stacks: np.ndarray, frames: np.ndarray) -> np.ndarray:
-        """Matrices (k, 3 s, 3 s) of the turned stacks, in the frames of their nodes."""
+    def _turn(self, stacks: np.ndarray, bases: np.ndarray) -> np.ndarray:
+        """Zᵀ K Z of the turned stacks, (k, 3 s, 3 s)."""
         k, size = stacks.shape[:2]
-        of_node = np.repeat(frames[self.columns.plan_elements[self._turned]], self.columns.levels, axis=1)
-        rows = stacks.reshape(k, size // 3, 3, size)
-        rows = (of_node.swapaxes(2, 3) @ rows).reshape(k, size, size)
-        rows = rows.swapaxes(1, 2).reshape(k, size // 3, 3, size)
-        return (of_node.swapaxes(2, 3) @ rows).reshape(k, size, size).swapaxes(1, 2)
+        z = bases[self.columns.plan_elements[self._turned]]  # (k, 9, 3 levels, 3 levels)
+        for _ in range(2):
+            rows = stacks.reshape(*z.shape[:3], size)
+            stacks = (z.swapaxes(2, 3) @ rows).reshape(k, size, size).swapaxes(1, 2)
+        return stacks
 
-    def _to_supports(self, displacement: np.ndarray, load_factor: float, frames: np.ndarray) -> np.ndarray:
+    def _to_supports(self, displacement: np.ndarray, load_factor: float, bases: np.ndarray) -> np.ndarray:
         """The step (n, levels, 3) to the prescribed values."""
-        gap = _into(frames, self.supports.target(load_factor) - displacement)
-        return _out_of(frames, np.where(self.free, 0.0, gap))
+        gap = components(bases, self.supports.target(load_factor) - displacement)
+        return vectors(bases, np.where(self.free, 0.0, gap))
 
     def _external(self, displacement: np.ndarray) -> np.ndarray:
         external = self.dead.copy()
@@ -232,13 +232,3 @@ class SolidStructure:
 def _forces_of(gradient: np.ndarray, stress: np.ndarray) -> np.ndarray:
     """Bᵀ s, (m, 27, 3)."""
     return np.einsum("ekic,ek->eic", gradient, stress)
-
-
-def _into(frames: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """Components (n, levels, 3) in the frames (n, 3, 3) of vectors (n, levels, 3)."""
-    return np.einsum("nck,nlc->nlk", frames, vectors)
-
-
-def _out_of(frames: np.ndarray, components: np.ndarray) -> np.ndarray:
-    """Vectors (n, levels, 3) of components in the frames (n, 3, 3)."""
-    return np.einsum("nck,nlk->nlc", frames, components)

@@ -1,14 +1,17 @@
 """What supports hold in the solid, as a function of the load factor.
 
-The mid-line of a supported edge is held as in the scene. A clamp holds the edge's face as well:
+Hinged and held edges hold the mean of every column along the edge, and the face turns freely about it; a
+held mid-line would be the same for a thin sheet, but for the dent of a line support, which grows without
+bound as the mesh is refined. A clamp holds the edge's face:
 
     "shell-like"  the face stays on the director, free to change its thickness along it: the components across
                   the director are held everywhere, the one along it on the mid-line only. This is the
                   clamp of a shell, and leaves no singular corner
     "full"        all three components of the whole face; the strain is singular at its rims
 
-The face of a rod bent by λκ follows the rod's director: held values are u = u_rod + ζ (d − e_z), and the held
-components are taken in the frame (across the edge, along the rod, d).
+The face of a rod bent by λκ follows the rod's director: held values are u = u_rod + ζ (d − e_z). A column's
+displacements are u = Z q, with q the components that are held or free: along the rod's axes (across the edge,
+along the rod, d), and on a hinged or held edge with the column's mean in the place of its middle node.
 """
 
 from __future__ import annotations
@@ -27,44 +30,69 @@ CLAMPS = ("shell-like", "full")
 
 @dataclass(frozen=True)
 class ColumnSupports:
-    """held: (n, levels, 3) by component of the node's frame; edges: name → held components of its own."""
+    """held: (n, levels, 3) of the components q; edges: name → held components of its own; hinged: (n,)."""
 
     line: Supports
-    heights: np.ndarray
+    columns: Columns
     held: np.ndarray
     edges: dict[str, np.ndarray]
+    hinged: np.ndarray
 
     def target(self, load_factor: float) -> np.ndarray:
         """Prescribed displacement (n, levels, 3) [m]; zero where nothing moves."""
         displacement, turn = self.line.change(load_factor)
-        return displacement[:, None] + self.heights[:, None] * turn[:, None]
+        return displacement[:, None] + self.columns.heights[:, None] * turn[:, None]
 
-    def frames(self, load_factor: float) -> np.ndarray:
-        """Axes (n, 3, 3) in which components are held, by column; the third is the director of a rod."""
-        frames = np.tile(np.eye(3), (len(self.held), 1, 1))
+    def bases(self, load_factor: float) -> np.ndarray:
+        """Z (n, 3 levels, 3 levels) of every column."""
+        levels, middle = self.columns.levels, self.columns.layers
+        axes = np.tile(np.eye(3), (len(self.held), 1, 1))
         for rod in self.line.rods:
             _, turn = rod.change(load_factor)
-            along, up = -turn[:, rod.axis], 1.0 + turn[:, 2]  # sin and cos of the rod's angle
-            frames[rod.nodes, rod.axis, rod.axis], frames[rod.nodes, 2, rod.axis] = up, along
-            frames[rod.nodes, rod.axis, 2], frames[rod.nodes, 2, 2] = -along, up
-        return frames
+            sine, cosine = -turn[:, rod.axis], 1.0 + turn[:, 2]
+            axes[rod.nodes, rod.axis, rod.axis], axes[rod.nodes, 2, rod.axis] = cosine, sine
+            axes[rod.nodes, rod.axis, 2], axes[rod.nodes, 2, 2] = -sine, cosine
+        with_mean = np.eye(levels)
+        with_mean[middle] = self.columns.averages[0]
+        spread = np.where(self.hinged[:, None, None], np.linalg.inv(with_mean), np.eye(levels))
+        size = 3 * levels
+        return np.einsum("nlm,nck->nlcmk", spread, axes).reshape(-1, size, size)
 
     @property
     def turned(self) -> np.ndarray:
-        """Plan nodes (n,) whose frame is not the scene's."""
-        on = np.zeros(len(self.held), dtype=bool)
+        """Plan nodes (n,) whose Z is not the identity."""
+        on = self.hinged.copy()
         for rod in self.line.rods:
             on[rod.nodes] = True
         return on
 
     def reactions(self, nodal: np.ndarray, load_factor: float) -> dict[str, np.ndarray]:
         """Force [N] (3,) of each support from nodal ones (n, levels, 3); what several hold they share."""
-        frames = self.frames(load_factor)
-        local = np.einsum("nck,nlc->nlk", frames, nodal) / np.maximum(sum(self.edges.values()), 1)
+        bases = self.bases(load_factor)
+        shared = into_forces(bases, nodal) / np.maximum(sum(self.edges.values()), 1)
+        levels = self.columns.levels
+        rigid = np.linalg.solve(bases, np.tile(np.eye(3), (levels, 1)))  # q of the unit translations
+        rigid = rigid.reshape(len(bases), levels, 3, 3)
         return {
-            name: np.einsum("nck,nlk->c", frames, np.where(held, local, 0.0))
+            name: np.einsum("nlk,nlkc->c", np.where(held, shared, 0.0), rigid)
             for name, held in self.edges.items()
         }
+
+
+def components(bases: np.ndarray, displacement: np.ndarray) -> np.ndarray:
+    """q = Z⁻¹ u, (n, levels, 3)."""
+    flat = displacement.reshape(*bases.shape[:2], 1)
+    return np.linalg.solve(bases, flat).reshape(displacement.shape)
+
+
+def vectors(bases: np.ndarray, q: np.ndarray) -> np.ndarray:
+    """u = Z q, (n, levels, 3)."""
+    return (bases @ q.reshape(*bases.shape[:2], 1)).reshape(q.shape)
+
+
+def into_forces(bases: np.ndarray, nodal: np.ndarray) -> np.ndarray:
+    """Forces on the components, Zᵀ r, (n, levels, 3)."""
+    return (bases.swapaxes(1, 2) @ nodal.reshape(*bases.shape[:2], 1)).reshape(nodal.shape)
 
 
 def of_scene(scene: Scene, columns: Columns, clamp: str) -> ColumnSupports:
@@ -73,13 +101,15 @@ def of_scene(scene: Scene, columns: Columns, clamp: str) -> ColumnSupports:
         raise ValueError(f"clamp = {clamp!r}: known are {', '.join(CLAMPS)}")
     on_edge = {str(support.edge): columns.edge(support.edge) for support in scene.supports}
     line = shell_supports.of_scene(scene, columns.plan_nodes, on_edge)
-    edges = {}
+    edges, hinged = {}, np.zeros(len(columns.plan_nodes), dtype=bool)
     for support in scene.supports:
         nodes, axes = line.edges[support.edge]
         held = np.zeros((len(columns.plan_nodes), columns.levels, 3), dtype=bool)
         held[nodes[:, None], columns.layers, axes] = True
         if holds_director(support):
             held[nodes, :, : 2 if clamp == "shell-like" else 3] = True
+        else:
+            hinged[nodes] = True
         edges[str(support.edge)] = held
     none = np.zeros((len(columns.plan_nodes), columns.levels, 3), dtype=bool)
-    return ColumnSupports(line, columns.heights, np.logical_or.reduce([none, *edges.values()]), edges)
+    return ColumnSupports(line, columns, np.logical_or.reduce([none, *edges.values()]), edges, hinged)

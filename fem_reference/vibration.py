@@ -20,7 +20,7 @@ from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.sparse import csr_matrix
+from scipy.sparse import bsr_matrix, csr_matrix
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from fem_reference import plate, shell, solid, solid_supports
@@ -169,16 +169,25 @@ def _solid_at_rest(
     rest = structure.rest()
     stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
     columns = structure.columns
-    shape = (len(columns.plan_nodes), 3 * columns.levels)
-    arms = (columns.positions - columns.positions.mean(axis=(0, 1))).reshape(-1, 3)
+    supports = solid_supports.of_scene(scene, columns, clamp)
+    bases = supports.bases(0.0)
+    blocks = np.arange(len(bases) + 1)
+    basis = bsr_matrix((bases, blocks[:-1], blocks)).tocsr()  # u = Z q over all columns
+    arms = columns.positions - columns.positions.mean(axis=(0, 1))
     moves = [np.broadcast_to(axis, arms.shape) for axis in np.eye(3)]
     turns = [np.cross(axis, arms) for axis in np.eye(3)]
+    rigid = [solid_supports.components(bases, motion).ravel() for motion in moves + turns]
+
+    def sample(fields: np.ndarray, points: np.ndarray) -> np.ndarray:
+        displacement = solid_supports.vectors(bases, fields.reshape(columns.positions.shape))
+        return solid.sample(columns, displacement, points)
+
     return RestState(
-        stiffness=stiffness,
-        mass=structure.mass(scene.material.density),
-        held=solid_supports.of_scene(scene, columns, clamp).held.reshape(shape),
-        rigid=np.array(moves + turns).reshape(6, -1).T,
-        sample=lambda fields, points: solid.sample(columns, fields.reshape(columns.positions.shape), points),
+        stiffness=(basis.T @ stiffness @ basis).tocsr(),
+        mass=(basis.T @ structure.mass(scene.material.density) @ basis).tocsr(),
+        held=supports.held.reshape(len(columns.plan_nodes), -1),
+        rigid=np.array(rigid).T,
+        sample=sample,
     )
 
 

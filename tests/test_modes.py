@@ -107,6 +107,15 @@ def test_rigid_motions_left_out(supports, expected, model):
     assert got.frequencies[0] * factor(scene) > 1.0
 
 
+def test_hinged_plate():
+    """All edges hinged, thin: 2π² = 19.74 and 5π² twice (a soft hinge is a little softer); in all models."""
+    supports = [{"edge": edge, "kind": "hinged"} for edge in scenes.EDGES]
+    scene = Scene(name="hinged", sheet=THIN, material=STEEL, supports=supports)
+    for model in ("plate", "shell", "solid"):
+        got = modes(scene, model, 12, count=3).frequencies * factor(scene)
+        np.testing.assert_allclose(got, np.pi**2 * np.array([2.0, 5.0, 5.0]), rtol=5e-3)
+
+
 def test_solid_near_incompressible():
     """ν = 0.4999, 8×8: within 0.5 % of the plate with the same ν, which does not know of volumes."""
     rubber = Material(young=1e6, poisson=0.4999, density=1000.0)

@@ -35,8 +35,11 @@ class Calibration:
         return self.springs.layer_distance
 
     def as_dict(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench calibrate`."""
+        """The JSON document of `sheetbench calibrate`; strain springs only where there are any."""
         springs = self.springs.model_dump(exclude_none=True)
+        for name in ("shear", "mid_shear", "mid_stretch"):
+            if not springs[name]:
+                del springs[name]
         distance = springs.pop("layer_distance")
         return {
             "method": self.method,

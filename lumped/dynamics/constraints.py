@@ -54,6 +54,8 @@ class Projection:
             miss = self.residual(u, time)
             if np.abs(miss).max() < tolerance:
                 return u
+            if not np.isfinite(miss).all():
+                break
             u = u - self._spread(weighted @ scipy.linalg.cho_solve(factors, miss))
         raise ArithmeticError("the actuators' constraints found no solution: use smaller steps")
 

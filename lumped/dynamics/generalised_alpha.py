@@ -70,7 +70,7 @@ class GeneralisedAlpha(Integrator):
             if self._fixed:
                 break
             start = self._algorithm if self._algorithm is not None else state.a
-            error = h * h * (abs(self._beta - 1.0 / 6.0)) * float(np.abs(algorithm - start).max())
+            error = h * h * (abs(self._beta - 1.0 / 6.0)) * float(np.abs((algorithm - start)[: self._masses]).max())
             largest = max(self._largest, float(np.abs(after.u[: self._masses]).max()))
             allowed = ERROR * max(largest, 1e-6 * self.system.problem.size)
             ratio = 0.9 * (allowed / max(error, 1e-30)) ** (1.0 / 3.0)
@@ -114,8 +114,12 @@ class GeneralisedAlpha(Integrator):
         def blocks(u: np.ndarray) -> np.ndarray:
             return system.matrix(u, motion(u)[0], time, by_u, by_v, 1.0)
 
-        guess = base_u + state.a / by_u
-        u = self._newton.solve(h, residual, blocks, guess, lambda correction: correction)
+        try:
+            guess = base_u + state.a / by_u
+            u = self._newton.solve(h, residual, blocks, guess, lambda correction: correction)
+        except StepFailed:  # after a jump the old acceleration leads nowhere
+            guess = state.u + held + h * state.v
+            u = self._newton.solve(h, residual, blocks, guess, lambda correction: correction)
         v, a = motion(u)
         return State(time, u, v, a), start + share * a
 

@@ -11,7 +11,7 @@ import numpy as np
 from lumped.dynamics.system import State, System
 from lumped.linear import Factor
 
-CORRECTIONS = 15
+CORRECTIONS = 20
 STALE = 0.2  # ratio of successive corrections above which the factors are made anew
 
 
@@ -60,6 +60,9 @@ class Newton:
         self._system, self._tolerance = system, tolerance * system.problem.size
         self._factor: Factor | None = None
         self._key: Any = None
+        multipliers = system.coupling.algebraic if system.coupling is not None else np.zeros((1, 3), bool)
+        size = (system.assembly.pattern.size, 3)
+        self._placed = ~np.broadcast_to(multipliers, size)  # multipliers carry the rounding of inertia forces
 
     def forget(self) -> None:
         """Drop the factors."""
@@ -84,15 +87,15 @@ class Newton:
                 self._factor, fresh = problem.factor(blocks(u)), True
             correction = weigh(problem.expand(self._factor.solve(-problem.reduce(residual(u)))))
             u = u + correction
-            length = float(np.abs(correction).max())
+            length = float(np.abs(correction[self._placed]).max())
             if not np.isfinite(length):
                 break
             if length < self._tolerance:
                 return u
+            if length > problem.size:
+                break
             if length > STALE * last and not fresh:
                 self._factor = None
-            elif length > 2.0 * last:
-                break
             last, fresh = length, False
         self._factor = None
         raise StepFailed("the time step's equations did not converge: use smaller steps")

@@ -47,6 +47,7 @@ class Midpoint(Integrator):
         def residual(u: np.ndarray) -> np.ndarray:
             rate = velocity(u)
             inertia: np.ndarray = (system.mass @ ((2.0 / h) * (rate - state.v)).ravel()).reshape(-1, 3)
+            inertia[system.placed] = 0.0  # it does not reach the unknowns, and its work is counted apart
             force = inertia + system.average_elastic(state.u, u, middle)
             system.damping.add_force(mean(u), rate, force)
             return force - system.external(mean(u))
@@ -63,19 +64,17 @@ class Midpoint(Integrator):
 
         moved = system.place(time) - system.place(state.time)
         guess = state.u + moved
-        free = state.v + 0.5 * h * state.a
-        if system.moving:
-            free = free - system.place_rate(state.time)
-        guess = guess + h * free
+        free = state.v - system.place_rate(state.time) + 0.5 * h * state.a
+        guess = guess + h * system.expand(system.contract(free))
         u = self._newton.solve(h, halved, blocks, guess, weigh)
         rate = velocity(u)
         v = 2.0 * rate - state.v
         if system.moving:
-            held = system.problem.constraints.held & ~algebraic
-            v = np.where(held, system.place_rate(time), v)
+            v = v + system.place_rate(time) + system.place_rate(state.time) - (2.0 / h) * moved
         power, _ = system.damping_force(mean(u), rate)
         after = State(time, u, v, (v - state.v) / h)
-        return Advance(after, h * power, self._work(state, after, residual(u), mean(u), moved))
+        resisting = residual(u) if system.moving else u
+        return Advance(after, h * power, self._work(state, after, resisting, mean(u), moved))
 
     def _work(
         self, before: State, after: State, exerted: np.ndarray, mean: np.ndarray, moved: np.ndarray
@@ -83,7 +82,7 @@ class Midpoint(Integrator):
         """Work of moving supports, followers and commands as the step itself has it."""
         system, done = self.system, 0.0
         if system.moving:
-            done += float(np.sum(exerted * moved))
+            done += float(np.sum(exerted * moved)) + system.kinetic_of_placed(before, after)
         if system.followers:
             following = system.external(mean) - system.problem.loads.dead
             done += float(np.sum(following * (after.u - before.u)))

@@ -20,7 +20,8 @@ from lumped.dynamics.integrator import Advance, Integrator, StepFailed
 from lumped.dynamics.system import State, System
 from lumped.linear import Factor, ReducedSystem
 
-ITERATIONS = 30
+ITERATIONS = 12
+REMEMBERED = 8
 CLOSE = 1e-10  # correction relative to the sheet's side at which the iterations end early
 
 
@@ -49,11 +50,19 @@ class Projective(Integrator):
         held = system.place(time) - system.place(state.time) - h * system.place_rate(state.time)
         inertial = state.u + h * state.v + held
         u = inertial + h * h * state.a
+        history: list[tuple[np.ndarray, np.ndarray]] = []  # latest changes of unknowns and of the gradient
+        last: tuple[np.ndarray, np.ndarray] | None = None
         for _ in range(self._iterations):
             rate = (u - state.u) / h
             pull: np.ndarray = (system.mass @ (u - inertial).ravel()).reshape(-1, 3) / h**2
-            missing = system.unbalanced(u, rate, time) - pull
-            correction = system.problem.expand(self._factor.solve(system.problem.reduce(missing)))
+            gradient = system.problem.reduce(pull - system.unbalanced(u, rate, time))
+            if last is not None:
+                change = gradient - last[1]
+                if change @ last[0] > 0.0:
+                    history = [*history[1 - REMEMBERED :], (last[0], change)]
+            move = -_two_loops(gradient, history, self._factor)
+            last = move, gradient
+            correction = system.problem.expand(move)
             u = u + correction
             length = float(np.abs(correction).max())
             if not np.isfinite(length):
@@ -87,3 +96,18 @@ class Projective(Integrator):
                     np.add.at(blocks, slots, weight[:, None, None, None, None] * unit)
         reduced = ReducedSystem(assembly.pattern, system.transform, symmetric=True)
         return reduced.factor(blocks)
+
+
+def _two_loops(
+    gradient: np.ndarray, history: list[tuple[np.ndarray, np.ndarray]], factor: Factor
+) -> np.ndarray:
+    """The L-BFGS product of the inverse Hessian and the gradient, from the factors of M/h² + L."""
+    q, weights = gradient, []
+    for move, change in reversed(history):
+        weight = float(move @ q) / float(move @ change)
+        weights.append(weight)
+        q = q - weight * change
+    r = factor.solve(q)
+    for (move, change), weight in zip(history, reversed(weights), strict=True):
+        r = r + (weight - float(change @ r) / float(move @ change)) * move
+    return r

@@ -209,9 +209,9 @@ def _run(
         if not np.isfinite(row).all():
             return Status.NON_FINITE, f"at {goal:.6g} s a number overflowed", steps
         round_about = max(round_about, float(np.abs(row[1:6]).max()))
-        if abs(float(row[1:5].sum() - row[5]) - origin) > GROWN * round_about:
+        if float(row[1:5].sum() - row[5]) - origin > GROWN * round_about:
             kept.sample(row)
-            return Status.DIVERGED, f"at {goal:.6g} s the energy no longer balances: use smaller steps", steps
+            return Status.DIVERGED, f"at {goal:.6g} s the energy grows from nothing: use smaller steps", steps
         kept.sample(row)
         done += 1
         if done in shown:

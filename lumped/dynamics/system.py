@@ -58,6 +58,7 @@ class System:
         algebraic = np.zeros((size, 3), dtype=bool) if self.coupling is None else self.coupling.algebraic
         self.algebraic = abs(self.transform).T @ algebraic.ravel() > 0.0
         self.moving_part = sp.csr_array(self.transform[:, np.flatnonzero(~self.algebraic)])
+        self.placed = (np.diff(self.transform.indptr) == 0).reshape(-1, 3)  # components that are g alone
         # every unknown is a component of u itself; bound and dependent components have several
         entries = self.moving_part.tocoo()
         single = np.bincount(entries.row, minlength=3 * size)[entries.row] == 1
@@ -193,12 +194,19 @@ class System:
         inertia: np.ndarray = (self.mass @ state.a.ravel()).reshape(-1, 3)
         return inertia - self.unbalanced(state.u, state.v, state.time)
 
+    def kinetic_of_placed(self, before: State, after: State) -> float:
+        """Kinetic energy [J] that the masses moved by prescription gained, which is work done on them."""
+        gained = after.v**2 - before.v**2
+        mass = np.repeat(self.mass.diagonal().reshape(-1, 3)[:, :1], 3, axis=1)
+        return 0.5 * float(np.sum((mass * gained)[self.placed]))
+
     def work(self, before: State, after: State) -> float:
         """Work of moving supports, followers and commands in a step, by the trapezoidal rule [J]."""
         done = 0.0
         if self.moving:
             moved = self.place(after.time) - self.place(before.time)
             done += 0.5 * float(np.sum((self.exerted(before) + self.exerted(after)) * moved))
+            done += self.kinetic_of_placed(before, after)
         if self.followers:
             dead = self.problem.loads.dead
             mean = 0.5 * (self.external(before.u) + self.external(after.u)) - dead

@@ -44,13 +44,18 @@ class Verlet(Integrator):
         _, elastic = system.elastic(u, time)
         force = system.external(u) - elastic
         damped = system.damping.present
-        acting = force - system.damping_force(u, state.v + h * state.a)[1] if damped else force
+        gradient = projection.jacobian(u) if projection.active else np.empty((0, 0))
+        acting = force
+        if damped:
+            predicted = state.v + h * state.a
+            if projection.active:  # dampers would see, and punish, what the constraints do not allow
+                predicted, _ = projection.tangential(predicted, gradient)
+            acting = force - system.damping_force(u, predicted)[1]
         acceleration = system.accelerate(acting)
         if not np.isfinite(acceleration).all():
             raise StepFailed("a number overflowed")
         v = half + 0.5 * h * acceleration
         if projection.active:
-            gradient = projection.jacobian(u)
             v, impulse = projection.tangential(v, gradient)
             u = u + impulse * (2.0 / h)
             force = system.external(u) - system.elastic(u, time)[1]

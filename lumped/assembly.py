@@ -109,6 +109,7 @@ class Assembly:
                 directional.append((*row, family.weight[:, None] * np.array(k), number))
             elif np.max(k) > 0.0:
                 central.append((*row, family.weight * float(np.max(k)), number))
+        self.distribution = calibration.masses
         spring_set = calibration.springs
         areas, stretchy = [], []
         for cell in self.lattice.cells:

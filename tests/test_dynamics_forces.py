@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_lattice_mechanics import ALL, assembly_of, dense, derivative, state
 
-from lumped import area_dampers, conserving, dampers
+from lumped import area_dampers, conserving, dampers, strain_dampers, strains
 
 GRIDS = [(3, 4, 2), (3, 3, 3)]
 
@@ -17,6 +17,8 @@ def damper_force(assembly, u, v, scale=1.0):
     power = dampers.add_forces(u, v, *row, force)
     for c in assembly.cells:
         power += area_dampers.add_forces(u, v, c.nodes, c.diagonals, scale * c.stiffness, force)
+    for c in assembly.strains:
+        power += strain_dampers.add_forces(u, v, c.nodes, c.diagonals, scale * c.stiffness, force)
     return power, force
 
 
@@ -26,6 +28,8 @@ def average_force(assembly, start, end):
     conserving.add_link_forces(start, end, *row, force)
     for c in assembly.cells:
         conserving.add_cell_forces(start, end, c.nodes, c.diagonals, c.stiffness, force)
+    for c in assembly.strains:
+        strains.add_average_forces(start, end, c.nodes, c.diagonals, c.stiffness, force)
     return force
 
 
@@ -46,6 +50,10 @@ def test_damper_force_and_tangents_are_derivatives(grid):
         cell = (c.nodes, c.diagonals, c.stiffness, c.slots)
         area_dampers.add_velocity_tangent(u, *cell, 0.5, by_velocity)
         area_dampers.add_displacement_tangent(u, v, *cell, by_displacement)
+    for c in assembly.strains:
+        cell = (c.nodes, c.diagonals, c.stiffness, c.slots)
+        strain_dampers.add_velocity_tangent(u, *cell, 0.5, by_velocity)
+        strain_dampers.add_displacement_tangent(u, v, *cell, by_displacement)
     numeric = derivative(lambda w: damper_force(assembly, u, w)[1], v)
     assert np.allclose(2.0 * dense(assembly, by_velocity), numeric, atol=1e-7 * np.abs(numeric).max())
     numeric = derivative(lambda w: damper_force(assembly, w, v)[1], u)

@@ -1,16 +1,18 @@
 """The dampers of a scene on a lattice: link dampers, area dampers, mass-proportional damping.
 
 Every link's damper acts along the link (`lumped.dampers`). Its coefficient is that of the scene's [dampers]
-table by family, or else damping_time × k; area springs have dampers with damping_time only
-(`lumped.area_dampers`), since the table has no entry for them. damping_rate × m v acts on every mass. What
-has a zero coefficient is not assembled.
+table by family, or else damping_time × k; area and strain springs have dampers with damping_time only
+(`lumped.area_dampers`, `lumped.strain_dampers`), since the table has no entry for them. damping_rate × m v
+acts on every mass. What has a zero coefficient is not assembled.
 """
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from lumped import area_dampers, dampers
+from lumped import area_dampers, dampers, strain_dampers
 from lumped.assembly import Assembly, Cells
 from lumped.lattice import Lattice
 from lumped.moduli import family_stiffness
@@ -38,8 +40,10 @@ class Damping:
         self._links = (nodes[some], offset[some], rest[some], damping[some])
         a, b = self._links[0].T
         self._link_slots = np.stack([assembly.pattern.slots(*p) for p in ((a, a), (a, b), (b, a), (b, b))], 1)
-        cells = assembly.cells if scene.dampers is None and time > 0.0 else ()
-        self._cells: list[tuple[Cells, np.ndarray]] = [(c, time * c.stiffness) for c in cells]
+        self._cells: list[tuple[Any, Cells, np.ndarray]] = []  # kernels, cells, coefficients
+        if scene.dampers is None and time > 0.0:
+            self._cells += [(area_dampers, c, time * c.stiffness) for c in assembly.cells]
+            self._cells += [(strain_dampers, c, time * c.stiffness) for c in assembly.strains]
         self._diagonal = assembly.pattern.slots(np.arange(len(mass)), np.arange(len(mass)))
         in_chains = any(getattr(a, "damping_time", 0.0) > 0.0 for a in scene.actuators)
         self.present = bool(some.any() or self._cells or self._rate.any() or in_chains)
@@ -49,8 +53,8 @@ class Damping:
         if not self.present:
             return 0.0
         power = dampers.add_forces(u, v, *self._links, force)
-        for c, damping in self._cells:
-            power += area_dampers.add_forces(u, v, c.nodes, c.diagonals, damping, force)
+        for kernels, c, damping in self._cells:
+            power += kernels.add_forces(u, v, c.nodes, c.diagonals, damping, force)
         masses = len(self._rate)
         resisting = self._rate[:, None] * v[:masses]
         force[:masses] += resisting
@@ -64,8 +68,8 @@ class Damping:
         if not self.present:
             return
         dampers.add_velocity_tangent(u, *self._links, self._link_slots, scale, blocks)
-        for c, damping in self._cells:
-            area_dampers.add_velocity_tangent(u, c.nodes, c.diagonals, damping, c.slots, scale, blocks)
+        for kernels, c, damping in self._cells:
+            kernels.add_velocity_tangent(u, c.nodes, c.diagonals, damping, c.slots, scale, blocks)
         blocks[self._diagonal] += scale * self._rate[:, None, None] * np.eye(3)
         if self._coupling is not None:
             self._coupling.add_damping_tangent(u, scale, self._slots, blocks)
@@ -75,8 +79,8 @@ class Damping:
         if not self.present:
             return
         dampers.add_displacement_tangent(u, v, *self._links, self._link_slots, blocks)
-        for c, damping in self._cells:
-            area_dampers.add_displacement_tangent(u, v, c.nodes, c.diagonals, damping, c.slots, blocks)
+        for kernels, c, damping in self._cells:
+            kernels.add_displacement_tangent(u, v, c.nodes, c.diagonals, damping, c.slots, blocks)
 
     def link_weights(self, h: float) -> tuple[np.ndarray, np.ndarray]:
         """Slots (m, 4) and c/h (m,) [N/m] of the link dampers: what they add to a step's stiffness."""
@@ -84,7 +88,7 @@ class Damping:
 
     def cell_weights(self, h: float) -> list[tuple[Cells, np.ndarray]]:
         """The damped cells with c/h [N/m]."""
-        return [(c, damping / h) for c, damping in self._cells]
+        return [(c, damping / h) for _, c, damping in self._cells]
 
 
 def _table(scene: Scene, lattice: Lattice) -> list[tuple[np.ndarray, ...]]:

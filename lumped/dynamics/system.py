@@ -16,7 +16,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
-from lumped import conserving, springs
+from lumped import conserving, springs, strains
 from lumped.actuators import Drive
 from lumped.dynamics.damping import Damping
 from lumped.masses import masses
@@ -44,7 +44,7 @@ class System:
         self.coupling = problem.assembly.coupling
         self.transform = problem.constraints.transform
         size, lattice = self.assembly.pattern.size, self.assembly.lattice
-        self.lattice_mass = masses(scene, lattice)
+        self.lattice_mass = masses(scene, lattice, self.assembly.distribution)
         self.damping = Damping(scene, self.assembly, self.lattice_mass)
         self.mass_blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
         n = np.arange(lattice.mass_count)
@@ -139,6 +139,8 @@ class System:
         conserving.add_link_forces(start, end, row.nodes, row.offset, row.rest_length, row.stiffness, force)
         for c in self.assembly.cells:
             conserving.add_cell_forces(start, end, c.nodes, c.diagonals, c.stiffness, force)
+        for c in self.assembly.strains:
+            strains.add_average_forces(start, end, c.nodes, c.diagonals, c.stiffness, force)
         d = self.assembly.directional
         if len(d):
             middle = 0.5 * (start + end)

@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Any
 
 from comparisons import plugins
 from comparisons.errors import BadInput, require_choice
-from comparisons.grids import Grid, default_grid
-from scenes import Material, Scene, Sheet, Solution, load
+from comparisons.grids import Grid, default_grid, near_square
+from comparisons.symmetry import half, planes, whole
+from scenes import History, Material, Scene, Sheet, Solution, load
 
 if TYPE_CHECKING:
     from lumped import Calibration
@@ -72,39 +73,103 @@ def has_own_springs(scene: Scene, **settings: Any) -> bool:
     return scene.springs is not None and all(choice is None for choice in chosen)
 
 
-def solve_lumped(scene: Scene, **settings: Any) -> Solution:
+def solve_lumped(scene: Scene, *, linear: bool = False, symmetry: bool = False, **settings: Any) -> Solution:
     """The lattice's static answer with the settings of `calibrate`, which counts as set-up.
 
     Where no calibration, k or layer distance is given, a scene's own [springs] are used if it has them.
+    linear: one step with the flat sheet's tangent. symmetry: solve a half or a quarter where scene and grid
+    allow it (see `comparisons.symmetry`).
     """
     import lumped
 
     started = perf_counter()
+    if "grid" in settings and settings["grid"] is not None:
+        settings["grid"] = tuple(settings["grid"])
     if has_own_springs(scene, **settings):
         springs = lumped.given(scene, settings.get("grid") or default_grid(scene.sheet))
     else:
         springs = calibrate(scene.sheet, scene.material, **settings)
+    grid = list(springs.grid)
+    axes = [axis for axis in planes(scene) if grid[axis] % 2 and grid[axis] > 3] if symmetry else []
+    for axis in axes:
+        grid[axis] = grid[axis] // 2 + 1
+    springs = replace(springs, grid=(grid[0], grid[1], grid[2]))
     calibrating = perf_counter() - started
-    solution = lumped.solve(scene, springs)
+    solution = _by_parts(scene, axes, lambda part: lumped.solve(part, springs, linear=linear))
     return replace(solution, setup_seconds=solution.setup_seconds + calibrating)
 
 
+def simulate(
+    scene: Scene,
+    duration: float,
+    *,
+    grid: Grid | None = None,
+    calibration: str | None = None,
+    **settings: Any,
+) -> History:
+    """The lattice's motion over `duration` [s]; settings are those of `lumped.simulate`."""
+    import lumped
+
+    if has_own_springs(scene, calibration=calibration):
+        springs = lumped.given(scene, grid or default_grid(scene.sheet))
+    else:
+        springs = calibrate(scene.sheet, scene.material, grid=grid, calibration=calibration)
+    return lumped.simulate(scene, springs, duration, **settings)
+
+
 def solve_reference(
-    scene: Scene, *, model: str = "shell", elements: int | Sequence[int] = 16, **options: Any
+    scene: Scene,
+    *,
+    model: str = "shell",
+    elements: int | Sequence[int] = 16,
+    symmetry: bool = False,
+    **options: Any,
 ) -> Solution:
     """A finite-element reference's static answer; `elements` along the shorter side, or along x and y.
 
-    options: the model's own, as the solid's layers. Raises BadInput for a model, a number of elements or an
-    option that does not exist.
+    symmetry: solve a half or a quarter where scene and mesh allow it; of plate and shell only. options: the
+    model's own, as the solid's layers. Raises BadInput for a model, a number of elements or an option that
+    does not exist.
     """
     import fem_reference
 
-    asked = elements if isinstance(elements, int) else tuple(elements)
-    check_reference(model, asked if isinstance(asked, int) else min(asked))
+    asked = [elements] if isinstance(elements, int) else list(elements)
+    check_reference(model, min(asked))
+    along = list(near_square(scene.sheet, asked[0])) if len(asked) == 1 else asked
+    axes = [axis for axis in planes(scene) if along[axis] % 2 == 0] if symmetry else []
+    if axes and model == "solid":
+        raise BadInput("solid: is always solved whole; leave symmetry out")
+    for axis in axes:
+        along[axis] //= 2
+    counts = (along[0], along[1])
+
+    def answer(part: Scene) -> Solution:
+        return fem_reference.solve(part, model=model, elements=counts, **options)
+
     try:
-        return fem_reference.solve(scene, model=model, elements=asked, **options)
+        return _by_parts(scene, axes, answer)
     except TypeError as error:
         raise BadInput(f"{model}: {error}") from None
+
+
+def _by_parts(scene: Scene, axes: Sequence[int], answer: Callable[[Scene], Solution]) -> Solution:
+    """The answer for the whole scene from that for the part left after halving across `axes`."""
+    if not axes:
+        return answer(scene)
+    scenes = [scene]
+    for axis in axes:
+        scenes.append(half(scenes[-1], axis))
+    solution = answer(scenes[-1])
+    for axis, of in zip(reversed(axes), reversed(scenes[:-1]), strict=True):
+        solution = whole(solution, of, axis)
+    cut = "half" if len(axes) == 1 else "quarter"
+    settings: dict[str, Any] = {**solution.settings, "symmetry": ["xy"[axis] for axis in axes]}
+    for name in {"grid", "elements"} & set(settings):
+        size = list(settings[name])
+        for axis in axes:
+            size[axis] = 2 * size[axis] - (name == "grid")
+        settings[name] = size
+    return replace(solution, label=f"{solution.label}, a {cut} of the sheet", settings=settings)
 
 
 MODELS: dict[str, Callable[..., Solution]] = {

@@ -70,7 +70,12 @@ class GeneralisedAlpha(Integrator):
             if self._fixed:
                 break
             start = self._algorithm if self._algorithm is not None else state.a
-            error = h * h * (abs(self._beta - 1.0 / 6.0)) * float(np.abs((algorithm - start)[: self._masses]).max())
+            error = (
+                h
+                * h
+                * (abs(self._beta - 1.0 / 6.0))
+                * float(np.abs((algorithm - start)[: self._masses]).max())
+            )
             largest = max(self._largest, float(np.abs(after.u[: self._masses]).max()))
             allowed = ERROR * max(largest, 1e-6 * self.system.problem.size)
             ratio = 0.9 * (allowed / max(error, 1e-30)) ** (1.0 / 3.0)

@@ -23,6 +23,7 @@ from lumped.dynamics.sampling import Sampling
 from lumped.dynamics.store import FolderStore, MemoryStore
 from lumped.dynamics.system import State, System
 from lumped.dynamics.verlet import Verlet
+from lumped.fields import field_mesh
 from lumped.lattice import Weights
 from lumped.stability import SAFETY, step_limit
 from lumped.statics import pose, settle
@@ -62,7 +63,8 @@ def simulate(
     step [s]: of the integrator, never exceeded; without it `verlet` takes 0.9 of its limit, `generalised-alpha`
     adapts to its error, the others take 1/200 of the lowest period. every [s]: distance of samples, 1/100 of
     the lowest period unless given. store: a folder to stream to; a run that was stopped goes on from there.
-    frames: whole displacements to keep, evenly over the run, in `extra["frames"]`. progress: called with the
+    frames: whole displacements to keep, evenly over the run, in `extra`: "frames" (n, masses, 3),
+    "frame_times" (n,) and the "mesh" they belong to. progress: called with the
     time reached. options: the integrator's own (`radius`, `iterations`).
 
     Raises ValueError for an unknown integrator, a step above the limit of `verlet`, or a folder of another run.
@@ -88,6 +90,7 @@ def simulate(
         "every": plan.every,
         **options,
     }
+    shown = {round(i) for i in np.linspace(0, plan.samples, frames)}
     masses = system.assembly.lattice.mass_count
     asked = {
         "scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True),
@@ -103,7 +106,7 @@ def simulate(
         kept = FolderStore(store, sampling.width, masses, {**asked, "samples": plan.samples})
     ready = clock.perf_counter()
     with one_blas_thread():
-        status, message, steps = _run(system, method, plan, sampling, kept, start, frames, progress)
+        status, message, steps = _run(system, method, plan, sampling, kept, start, shown, progress)
     done = clock.perf_counter()
     parts = sampling.split(kept.samples())
     return History(
@@ -120,7 +123,11 @@ def simulate(
         steps=steps,
         setup_seconds=ready - began,
         solve_seconds=done - ready,
-        extra={"frames": kept.frames(), "positions": system.assembly.lattice.positions, "system": system},
+        extra={
+            "frames": kept.frames(),
+            "frame_times": plan.every * np.array(sorted(shown)),
+            "mesh": field_mesh(system.problem, start.u, np.zeros_like(start.u)),
+        },
     )
 
 
@@ -169,13 +176,10 @@ def _run(
     sampling: Sampling,
     kept: FolderStore | MemoryStore,
     state: State,
-    frames: int,
+    shown: set[int],
     progress: Callable[[float], None] | None,
 ) -> tuple[Status, str, int]:
     """Take the run to its end, or from its last checkpoint to its end; status, message and steps taken."""
-    shown = (
-        set(np.unique(np.linspace(0, plan.samples, frames).round().astype(int)).tolist()) if frames else set()
-    )
     masses = system.assembly.lattice.mass_count
     done, steps, dissipated, work, round_about, origin = 0, 0, 0.0, 0.0, 0.0, 0.0
     checkpoint = kept.resume()

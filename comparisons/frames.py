@@ -1,0 +1,98 @@
+"""Whole displacements of a run over time: a PVD/VTU series, and an animation of the sheet as GIF."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from comparisons.files import folder, whole, write_text
+from comparisons.vtk import write_mesh
+from scenes import FieldMesh, History, Scene
+
+PIXELS, PER_SECOND = 640, 20
+
+
+@dataclass(frozen=True)
+class Frame:
+    """One moment of a run, as far as drawing needs a solution: sampled displacement and a mesh."""
+
+    mesh: FieldMesh
+    grid: tuple[int, int, int]
+    lengths: tuple[float, float]
+
+    def displacement(self, points: np.ndarray) -> np.ndarray:
+        """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m]: bilinear between the masses."""
+        from scipy.interpolate import RegularGridInterpolator
+
+        nx, ny, layers = self.grid
+        mean = self.mesh.point_data["displacement"].reshape(ny, nx, layers, 3).mean(axis=2)
+        axes = (np.linspace(0, self.lengths[1], ny), np.linspace(0, self.lengths[0], nx))
+        found: np.ndarray = RegularGridInterpolator(axes, mean, bounds_error=False, fill_value=None)(
+            np.asarray(points, dtype=float)[:, ::-1]
+        )
+        return found
+
+
+def frames(scene: Scene, history: History) -> list[tuple[float, Frame]]:
+    """Time [s] and frame of every displacement that the run kept."""
+    mesh: FieldMesh = history.extra["mesh"]
+    grid = tuple(history.settings["grid"])
+    kept = history.extra["frames"]
+    times = history.extra["frame_times"][: len(kept)]
+    return [
+        (
+            float(t),
+            Frame(
+                FieldMesh(mesh.points, mesh.cells, {"displacement": np.array(u)}), grid, scene.sheet.lengths
+            ),
+        )
+        for t, u in zip(times, kept, strict=True)
+    ]
+
+
+def write_series(path: Path, shown: list[tuple[float, Frame]]) -> None:
+    """Write frames as NAME/0000.vtu … and the PVD file that lists them with their times."""
+    inside = folder(path.with_suffix(""))
+    lines = ['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1">', "  <Collection>"]
+    for number, (time, frame) in enumerate(shown):
+        name = f"{number:04d}.vtu"
+        write_mesh(inside / name, frame.mesh)
+        lines.append(f'    <DataSet timestep="{time!r}" part="0" file="{inside.name}/{name}"/>')
+    write_text(path, "\n".join([*lines, "  </Collection>", "</VTKFile>", ""]))
+
+
+def animate(path: Path, scene: Scene, shown: list[tuple[float, Frame]]) -> None:
+    """Write the frames as a GIF at true scale. Needs off-screen drawing: ask `comparisons.rendering` first."""
+    from PIL import Image, ImageDraw
+
+    from comparisons.figures import HEIGHTS
+    from comparisons.stage import Stage
+    from comparisons.vtk import plan_mesh
+
+    plan = plan_mesh(scene.sheet, 16).points[:, :2]
+    flat = np.column_stack([plan, np.zeros(len(plan))])
+    seen = np.vstack([flat, *(flat + frame.displacement(plan) for _, frame in shown)])
+    heights = [1e3 * frame.mesh.point_data["displacement"][:, 2] for _, frame in shown]
+    limits = (min(float(h.min()) for h in heights), max(float(h.max()) for h in heights) + 1e-9)
+    images = []
+    for (time, frame), height in zip(shown, heights, strict=True):
+        held: Any = frame
+        stage = Stage(scene, held, 1.0)
+        stage.lattice(frame.mesh, height, limits, HEIGHTS)
+        pixels, _ = stage.take(seen, np.empty((0, 3)))
+        image = Image.fromarray(pixels)
+        image = image.resize((PIXELS, round(PIXELS * image.height / image.width)), Image.Resampling.LANCZOS)
+        ImageDraw.Draw(image).text((10, 8), f"t = {time:.2f} s", fill="#20252b")
+        images.append(image.quantize(64, method=Image.Quantize.MEDIANCUT))
+    with whole(path) as partial:
+        images[0].save(
+            partial,
+            save_all=True,
+            append_images=images[1:],
+            duration=1000 // PER_SECOND,
+            loop=0,
+            optimize=True,
+        )

@@ -20,6 +20,7 @@ import numpy as np
 
 from comparisons.grids import Grid
 from comparisons.models import check_lattice, check_reference, has_own_springs, solve
+from comparisons.uncertainty import CHEAP, ErrorBar, error_bar
 from scenes import Scene, SceneError, Solution, Status, load, require_static
 
 COMPANION = "lumped-uniform"
@@ -50,23 +51,29 @@ def comparable(solution: Solution) -> bool:
 
 @dataclass(frozen=True)
 class Difference:
-    """How far one model is from another at one probe, as a fraction of the other's displacement there."""
+    """How far one model is from another at one probe, as a fraction of the other's displacement there.
+
+    distinguishable: whether that is more than the other's own error bar; None where there is no bar.
+    """
 
     probe: str
     of: str
     against: str
     relative: float | None
+    distinguishable: bool | None = None
 
 
 @dataclass(frozen=True)
 class Comparison:
     """Solutions of one scene: the chosen lattice first, the reference second, then what is shown alongside.
 
-    Every solution has its own `model` name, by which `differences` and `errors` speak of it.
+    Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
+    reference's mesh leaves uncertain, where that was asked for.
     """
 
     scene: Scene
     solutions: tuple[Solution, ...]
+    bar: ErrorBar | None = None
 
     @property
     def reference(self) -> Solution:
@@ -102,8 +109,16 @@ class Comparison:
             both = comparable(solution) and comparable(self.reference)
             for name, value in self.probes(solution).items():
                 off = relative(value, truth[name], least) if both else None
-                found.append(Difference(name, solution.model, self.reference.model, off))
+                told_apart = None
+                if self.bar is not None and off is not None:
+                    told_apart = bool(np.linalg.norm(value - truth[name]) > self.bar.at(name))
+                found.append(Difference(name, solution.model, self.reference.model, off, told_apart))
         return tuple(found)
+
+    def distinguishable(self, solution: Solution) -> bool | None:
+        """Whether a solution's error is above the reference's own; None where either is not known."""
+        off = self.error(solution)
+        return None if self.bar is None or off is None else off > self.bar.error
 
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench compare`: metres, newtons, seconds."""
@@ -112,13 +127,19 @@ class Comparison:
             "solutions": [self._solution_as_dict(solution) for solution in self.solutions],
             "differences": [vars(difference) for difference in self.differences],
             "errors": [
-                {"of": solution.model, "against": self.reference.model, "error": self.error(solution)}
+                {
+                    "of": solution.model,
+                    "against": self.reference.model,
+                    "error": self.error(solution),
+                    "distinguishable": self.distinguishable(solution),
+                }
                 for solution in self.solutions
                 if solution is not self.reference
             ],
         }
 
     def _solution_as_dict(self, solution: Solution) -> dict[str, Any]:
+        bar = self.bar if solution is self.reference else None
         return {
             "model": solution.model,
             "label": solution.label,
@@ -134,6 +155,7 @@ class Comparison:
             "probes": self.probes(solution),
             "reactions": solution.reactions,
             "energies": solution.energies,
+            **({} if bar is None else {"uncertainty": bar.as_dict()}),
         }
 
 
@@ -146,6 +168,7 @@ def compare(
     layer_distance: float | None = None,
     reference: str = "shell",
     elements: int = 16,
+    uncertainty: bool | None = None,
     starting: Callable[[str], None] = lambda model: None,
     finished: Callable[[Solution], None] = lambda solution: None,
 ) -> Comparison:
@@ -154,7 +177,8 @@ def compare(
     grid: masses along x and y, and layers; by default nine along the shorter side. calibration: by default
     `consistent`, and then the uniform calibration is solved too and shown alongside as `lumped-uniform`;
     where `k` [N/m] is given the default is `uniform`, and where the scene brings its own [springs] they are
-    used alone. layer_distance [m]. elements: along the shorter side.
+    used alone. layer_distance [m]. elements: along the shorter side. uncertainty: find the reference's error
+    bar on coarser meshes too; for the plate and the shell it is unless False, for others if True.
     `starting` and `finished` are called before and after each model, so that a caller can show progress
     and keep what is done.
 
@@ -179,7 +203,11 @@ def compare(
     solutions = [run("lumped", "lumped", **asked), run(reference, reference, elements=elements)]
     if asked["calibration"] is None and not has_own_springs(scene, **asked):
         solutions.append(run("lumped", COMPANION, **{**asked, "calibration": "uniform"}))
-    return Comparison(scene, tuple(solutions))
+    bar = None
+    if (reference in CHEAP if uncertainty is None else uncertainty) and comparable(solutions[1]):
+        starting(f"{reference} on coarser meshes")
+        bar = error_bar(scene, solutions[1], elements, lambda n: solve(scene, reference, elements=n))
+    return Comparison(scene, tuple(solutions), bar)
 
 
 def load_static(scene: str | Path) -> Scene:

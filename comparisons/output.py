@@ -64,4 +64,5 @@ def _page(comparison: Comparison, tables: list[str]) -> str:
         f"{summary.explanation(comparison)}\n\nsheetbench {manifest.version()}, "
         f"Python {made['python']}, {made['processor']}, {made['cpu_count']} processors, {manifest.today()}.\n"
     )
-    return "\n".join([title, *tables, *(f"- {said}\n" for said in summary.complaints(comparison)), footer])
+    remarks = [*summary.uncertainty(comparison), *summary.complaints(comparison)]
+    return "\n".join([title, *tables, *(f"- {said}\n" for said in remarks), footer])

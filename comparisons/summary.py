@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from comparisons.displacement import Comparison
 from comparisons.tables import Column, Table
 from scenes import Material, Sheet, Solution, Status
@@ -14,12 +16,24 @@ def _millimetres(name: str) -> Column:
 
 
 def displacements(comparison: Comparison) -> Table:
-    """A row per probe and model, the reference first."""
+    """A row per probe and model, the reference first; ±: its own error bar, by its mesh."""
     relative = {(d.probe, d.of): d.relative for d in comparison.differences}
     probes = {solution.model: comparison.probes(solution) for solution in comparison.solutions}
     ordered = sorted(comparison.solutions, key=lambda solution: solution is not comparison.reference)
+    bars = {}
+    if comparison.bar is not None:
+        size = {probe: float(np.linalg.norm(u)) for probe, u in probes[comparison.reference.model].items()}
+        bars = {probe: comparison.bar.at(probe) / size[probe] for probe in size if size[probe] > 0.0}
     rows = [
-        (probe, x, y, s.model, *(float(u) for u in probes[s.model][probe]), relative.get((probe, s.model)))
+        (
+            probe,
+            x,
+            y,
+            s.model,
+            *(float(u) for u in probes[s.model][probe]),
+            relative.get((probe, s.model)),
+            bars.get(probe) if s is comparison.reference else None,
+        )
         for probe, (x, y) in comparison.scene.probes.items()
         for s in ordered
     ]
@@ -32,6 +46,7 @@ def displacements(comparison: Comparison) -> Table:
         _millimetres("uy"),
         _millimetres("uz"),
         Column("off by", "", "%", 100.0, "z.2f"),
+        Column("±", "", "%", 100.0, ".2g"),
     )
     return Table("Displacement of the mid-surface", columns, tuple(rows))
 
@@ -95,6 +110,22 @@ def sheet(sheet: Sheet, material: Material) -> str:
     sides = " × ".join(f"{1e3 * length:g}" for length in (*sheet.lengths, sheet.thickness))
     young = f"{material.young / 1e6:g} MPa"
     return f"{sides} mm, E = {young}, ν = {material.poisson:g}, ρ = {material.density:g} kg/m³"
+
+
+def uncertainty(comparison: Comparison) -> list[str]:
+    """The reference's error bar in words, and the models that differ from it by less."""
+    if comparison.bar is None:
+        return []
+    said = [comparison.bar.note(comparison.reference.model)]
+    for solution in comparison.solutions:
+        if comparison.distinguishable(solution) is False:
+            said.append(f"{solution.model}: not distinguishable from {comparison.reference.model}.")
+            continue
+        found = (d for d in comparison.differences if d.of == solution.model)
+        if close := [difference.probe for difference in found if difference.distinguishable is False]:
+            named = f"not distinguishable from {comparison.reference.model} at {', '.join(close)}"
+            said.append(f"{solution.model}: {named}.")
+    return said
 
 
 def explanation(comparison: Comparison) -> str:

@@ -119,7 +119,7 @@ def test_json_document_has_the_promised_keys(real: Comparison) -> None:
         assert all(len(u) == 3 for u in solution["probes"].values())
         assert set(solution["reactions"]) == {"x0", "y0"}
     difference = document["differences"][0]
-    assert set(difference) == {"probe", "of", "against", "relative"}
+    assert set(difference) == {"probe", "of", "against", "relative", "distinguishable"}
     u, truth = (np.array(s["probes"]["P1"]) for s in (first, second))
     assert difference["relative"] == pytest.approx(np.linalg.norm(u - truth) / np.linalg.norm(truth))
 

@@ -40,6 +40,14 @@ def command(
     elements: Annotated[
         int, typer.Option(metavar="N", help="The reference's elements along the shorter side.")
     ] = 16,
+    uncertainty: Annotated[
+        bool | None,
+        typer.Option(
+            "--uncertainty/--no-uncertainty",
+            help="Solve the reference on coarser meshes too, for its error bar; on for plate and shell.",
+            show_default=False,
+        ),
+    ] = None,
     json: Json = False,
     out: Out = None,
 ) -> None:
@@ -71,6 +79,7 @@ def command(
             layer_distance=layer_distance,
             reference=reference,
             elements=elements,
+            uncertainty=uncertainty,
             starting=lambda model: progress(f"solving {model} …"),
             finished=finished,
         )
@@ -105,4 +114,6 @@ def _show(comparison: Comparison) -> None:
     console.show(summary.displacements(comparison), group_by=0, leave_out=("x", "y"))
     console.show(summary.costs(comparison), leave_out=("what it is",))
     console.note(" · ".join(solution.label for solution in comparison.solutions))
+    for said in summary.uncertainty(comparison):
+        console.note(said)
     console.note(summary.explanation(comparison))

@@ -1,0 +1,149 @@
+"""The reference's error bar: orders and bars of made-up answers, coverage of true errors, what compare says."""
+
+from __future__ import annotations
+
+import json
+
+import fake_solutions
+import numpy as np
+import pytest
+
+import fem_reference
+import scenes
+from comparisons import displacement, summary
+from comparisons.displacement import compare
+from comparisons.files import to_json
+from fem_reference.uncertainty import coarser, estimate, of_solutions, solve_with_bar
+from scenes import Scene, Solution, Status
+
+SIZES = [1 / 16, 1 / 12, 1 / 8]
+
+
+def made(order: float, size: float = 0.3, sizes: list[float] = SIZES) -> list[np.ndarray]:
+    """Answers 1 + size hᵖ."""
+    return [np.array([[1.0 + size * h**order]]) for h in sizes]
+
+
+@pytest.mark.parametrize("order", [1.0, 2.0, 3.3])
+@pytest.mark.parametrize("sizes", [SIZES, [0.1, 0.2, 0.4], [1 / 16, 1 / 11, 1 / 8]])
+def test_the_order_and_the_limit_of_a_power_law_are_found(order: float, sizes: list[float]) -> None:
+    found = estimate(made(order, sizes=sizes), sizes)
+    assert found.order.item() == pytest.approx(order, rel=1e-6)
+    assert found.extrapolated.item() == pytest.approx(1.0, abs=1e-9)
+    assert found.trusted.all()
+
+
+@pytest.mark.parametrize("order", [1.0, 2.0])
+def test_the_bar_is_a_quarter_more_than_the_error_of_a_power_law(order: float) -> None:
+    found = estimate(made(order), SIZES)
+    assert found.bar.item() == pytest.approx(1.25 * 0.3 * SIZES[0] ** order, rel=1e-6)
+    assert found.error == pytest.approx(found.bar.item() / found.answer.item())
+
+
+def test_a_high_order_is_not_banked_on() -> None:
+    found = estimate(made(4.0), SIZES)
+    assert found.order.item() == pytest.approx(4.0)
+    assert found.bar.item() > 2.0 * 0.3 * SIZES[0] ** 4
+
+
+@pytest.mark.parametrize("answers", [(1.0, 1.1, 1.0), (1.0, 1.2, 1.3), (1.0, 1.1, 1.12)])
+def test_swinging_or_growing_changes_get_three_times_their_range(answers: tuple[float, ...]) -> None:
+    found = estimate([np.array([[value]]) for value in answers], SIZES)
+    assert not found.trusted.any()
+    assert found.bar.item() == pytest.approx(3 * (max(answers) - min(answers)))
+    assert found.extrapolated.item() == answers[0]
+
+
+def test_rounding_is_no_evidence() -> None:
+    answers = [np.array([[1.0, 1e-17 * k, 0.5]]) for k in (1, -3, 2)]
+    found = estimate(answers, SIZES)
+    assert found.trusted.all() and np.isnan(found.order).all() and np.isnan(found.overall_order)
+    assert found.bar.max() < 1e-15
+
+
+def test_two_meshes_assume_order_2_and_factor_3() -> None:
+    found = estimate(made(2.0)[::2], SIZES[::2])
+    assert found.bar.item() == pytest.approx(3 * 0.3 * SIZES[0] ** 2)
+    assert np.isnan(found.order).all() and not found.trusted.any()
+
+
+@pytest.mark.parametrize(("count", "sizes"), [(1, SIZES[:1]), (3, SIZES[::-1]), (3, SIZES[:2])])
+def test_misuse(count: int, sizes: list[float]) -> None:
+    with pytest.raises(ValueError, match=r"meshes|rise"):
+        estimate(made(2.0)[:count], sizes)
+
+
+def test_meshes() -> None:
+    assert coarser(16) == [16, 12, 8] and coarser(2) == [2, 1] and coarser(1) == [1]
+
+
+@pytest.mark.parametrize("model", ["shell", "plate"])
+@pytest.mark.parametrize("name", ["one-edge-clamped", "two-edges-clamped", "curved-edge", "curved-edge-down"])
+def test_the_bar_covers_the_true_error_at_the_default_mesh(name: str, model: str) -> None:
+    scene = scenes.load(name)
+    points = scene.probe_points()
+    truth = fem_reference.solve(scene, model, elements=32).displacement(points)
+    _, found = solve_with_bar(scene, points, model)
+    assert found is not None
+    assert np.all(np.abs(found.answer - truth) <= found.bar + 1e-12)
+    assert found.error < (1e-3 if model == "shell" else 1e-2)
+
+
+def test_a_mesh_without_an_answer_is_left_out() -> None:
+    scene = scenes.load("one-edge-clamped")
+    good = [fake_solutions.solution(scene, "shell", size) for size in (-0.01, -0.0101, -0.0103)]
+    bad = fake_solutions.solution(scene, "shell", status=Status.DIVERGED, load_factor=0.5)
+    points = scene.probe_points()
+    assert of_solutions([bad, *good[1:]], SIZES, points) is None
+    two = of_solutions([good[0], bad, good[2]], SIZES, points)
+    assert two is not None and two.sizes == (SIZES[0], SIZES[2])
+
+
+@pytest.fixture
+def by_mesh(monkeypatch: pytest.MonkeyPatch) -> dict[str, float]:
+    """Answers without a solver: the reference's error is 8 % at one element and falls like h²."""
+    sizes = {"lumped": -0.0100, "limit": -0.0100, "share": 0.08}
+
+    def solve(scene: Scene, model: str, **settings: object) -> Solution:
+        if model == "lumped":
+            return fake_solutions.solution(scene, model, sizes["lumped"])
+        n = settings["elements"]
+        assert isinstance(n, int)
+        size = sizes["limit"] * (1 + sizes["share"] / n**2)
+        return fake_solutions.solution(scene, model, size, solve_seconds=0.004)
+
+    monkeypatch.setattr(displacement, "solve", solve)
+    return sizes
+
+
+@pytest.mark.parametrize(("lumped", "told_apart"), [(-0.0100, False), (-0.0101, True)])
+def test_compare_says_what_its_mesh_cannot_tell_apart(
+    by_mesh: dict[str, float], lumped: float, told_apart: bool
+) -> None:
+    by_mesh["lumped"] = lumped
+    found = compare("one-edge-clamped", calibration="consistent", elements=8)
+    assert found.bar is not None
+    assert found.bar.error == pytest.approx(1.25 * 0.08 / 64, rel=1e-2)
+    document = json.loads(to_json(found.as_dict()))
+    assert {d["distinguishable"] for d in document["differences"]} == {told_apart}
+    assert document["errors"][0]["distinguishable"] is told_apart
+    bar = document["solutions"][1]["uncertainty"]
+    assert bar["elements"] == [8, 6, 4] and bar["order"] == pytest.approx(2.0, abs=1e-3)
+    assert bar["solve_seconds"] == pytest.approx(0.008)
+    assert document["solutions"][1]["solve_seconds"] == 0.004
+    said = " ".join(summary.uncertainty(found))
+    assert ("not distinguishable" in said) is not told_apart
+    assert "observed order 2.0" in said
+
+
+def test_it_is_off_when_not_wanted_and_for_the_solid_unless_wanted(by_mesh: dict[str, float]) -> None:
+    def asked(**settings: object) -> bool:
+        return compare("one-edge-clamped", calibration="consistent", **settings).bar is not None  # type: ignore[arg-type]
+
+    assert asked() and asked(reference="plate")
+    assert not asked(uncertainty=False)
+    assert not asked(reference="solid") and asked(reference="solid", uncertainty=True)
+    assert not asked(elements=1)
+    without = compare("one-edge-clamped", calibration="consistent", uncertainty=False)
+    assert "uncertainty" not in without.as_dict()["solutions"][1]
+    assert {d.distinguishable for d in without.differences} == {None}

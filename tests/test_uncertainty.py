@@ -1,4 +1,4 @@
-"""The reference's error bar: orders and bars of made-up answers, coverage of true errors, what compare says."""
+"""The reference's error bar: orders and bars of made-up answers, true errors covered, what compare says."""
 
 from __future__ import annotations
 

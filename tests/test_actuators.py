@@ -1,12 +1,18 @@
-"""The chain alone: Lagrangian → force → tangent by finite differences, its mass, the elastica."""
+"""Actuators: the chain alone (triad, mass, elastica), bound to a sheet in statics and dynamics."""
 
 import numpy as np
 import pytest
+from dynamic_cases import scene, springs
 from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
+import lumped
+import scenes
 from lumped.actuators import Drive
 from lumped.actuators.chain import Chain
 from lumped.lattice import build
+from lumped.statics import pose, settle
 from scenes import Chain as ChainData
 from scenes import Sheet
 
@@ -93,3 +99,188 @@ def test_the_chain_has_the_mass_and_inertia_of_its_rods():
         turned[: chain.frames.points] = np.cross(axis, x[: chain.frames.points] - middle)
         turned[chain.frames.points : chain.frames.coordinates] = np.cross(axis, x[chain.frames.points :])
         assert np.sum(turned * (chain.mass @ turned)) == pytest.approx(inertia)
+
+
+def elastica(load, count=200):
+    """Tip place (x, y) of a cantilever of unit length and stiffness under a dead force `load` across it.
+
+    θ'' = −load cos θ, θ(0) = 0, θ'(1) = 0, found by shooting on θ'(0).
+    """
+
+    def shoot(slope):
+        def rate(s, y):
+            return [y[1], -load * np.cos(y[0]), np.cos(y[0]), np.sin(y[0])]
+
+        return solve_ivp(rate, (0.0, 1.0), [0.0, slope, 0.0, 0.0], rtol=1e-10, atol=1e-12).y[:, -1]
+
+    slope = brentq(lambda k: shoot(k)[1], 0.0, load + 5.0)
+    return shoot(slope)[2:]
+
+
+def equilibrium(chain, force, drive, steps=8):
+    """Rows of a chain alone under dead forces (rows, 3), by Newton in load steps."""
+    y, free = np.zeros((chain.rows, 3)), chain.free.ravel()
+    for share in np.linspace(1.0 / steps, 1.0, steps):
+        command = Drive(share * drive.load_factor)
+        for _ in range(30):
+            residual = (share * force - chain.force(y, command)[1]).ravel()
+            tangent = chain.tangent(y, command).reshape(y.size, y.size)
+            move = np.zeros(y.size)
+            move[free] = np.linalg.solve(tangent[np.ix_(free, free)], residual[free])
+            y = y + move.reshape(y.shape)
+            if np.abs(move).max() < 1e-12:
+                break
+        else:
+            raise AssertionError("no equilibrium")
+    return y
+
+
+@pytest.mark.parametrize("plane, axis", [("normal", 2), ("inplane", 0), ("spatial", 2)])
+def test_chain_under_an_end_load_reproduces_the_elastica(plane, axis):
+    stiffness, length, errors = 0.02, 0.3, []
+    for segments in (16, 32):
+        chain = chain_of(plane=plane, base="start", segments=segments, bending_stiffness=stiffness)
+        force = np.zeros((chain.rows, 3))
+        force[segments, axis] = 5.0 * stiffness / length**2
+        tip = equilibrium(chain, force, Drive())[segments]
+        x, y = elastica(5.0)
+        expected = length * np.array([x - 1.0, y])
+        errors.append(np.abs(tip[[1, axis]] - expected).max() / np.abs(expected).max())
+    assert errors[1] < 5e-3
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.15)
+
+
+@pytest.mark.parametrize("plane, axis", [("normal", 2), ("inplane", 0), ("spatial", 2)])
+def test_commanded_curvature_bends_a_free_chain_into_a_polygon_of_the_arc(plane, axis):
+    chain = chain_of(plane=plane, base="middle", segments=6, curvature=5.0)
+    y = equilibrium(chain, np.zeros((chain.rows, 3)), Drive())
+    turn, length = 5.0 * 0.05, 0.05
+    angles = turn * (np.arange(3) + 0.5)
+    assert y[6, axis] == pytest.approx(length * np.sin(angles).sum())
+    assert y[6, 1] == pytest.approx(length * (np.cos(angles) - 1.0).sum())
+    assert_allclose(y[0, [0, 2]], y[6, [0, 2]], atol=1e-12)
+
+
+def stiff_against_curved(segments):
+    """Largest error at the edge and at the probes, relative to the largest displacement there."""
+    curved = lumped.solve(scenes.load("curved-edge"))
+    data = {"edge": "x0", "segments": segments, "base": "middle", "curvature": 4.0, "bending_stiffness": 1e3}
+    held = lumped.solve(scene("curved-edge", [data], supports=[]))
+    assert held.status is scenes.Status.CONVERGED
+    edge = np.column_stack([np.zeros(9), np.linspace(0.0, 0.188, 9)])
+    found = []
+    for points in (edge, scenes.load("curved-edge").probe_points()):
+        truth = curved.displacement(points)
+        found.append(np.abs(held.displacement(points) - truth).max() / np.abs(truth).max())
+    lift = np.abs(held.displacement(edge) - curved.displacement(edge))[:, 2].max()
+    return np.array([lift / np.abs(curved.displacement(edge)).max(), *found])
+
+
+def test_a_stiff_chain_reproduces_the_curved_support_at_second_order():
+    eight, sixteen = stiff_against_curved(8), stiff_against_curved(16)
+    assert eight[0] < 1e-3  # the arc's lift: measured 4e-4
+    assert eight[1] < 2.5e-3  # the edge in all components, chords being shorter than arcs: measured 2.0e-3
+    assert eight[2] < 1e-2  # the probes, which the stretched edge stiffens: measured 8.9e-3
+    assert np.log2(eight[2] / sixteen[2]) == pytest.approx(2.0, abs=0.15)
+
+
+CASES = {
+    "soft chain, stiff sheet": ([{"curvature": 6.0, "bending_stiffness": 2e-4}], {"young": 1e9}),
+    "stiff chain, soft sheet": ([{"curvature": 6.0, "bending_stiffness": 50.0}], {"young": 2e7}),
+    "offset chain": ([{"curvature": 4.0, "face": "top"}], {}),
+    "chain in space": ([{"curvature": 4.0, "plane": "spatial", "segments": 5}], {}),
+    "two edges": ([{"curvature": 4.0}, {"edge": "y1", "curvature": -4.0}], {}),
+    "pair": ([{"curvature": 4.0, "face": "top"}, {"curvature": 1.0, "face": "bottom"}], {}),
+    "prescribed": (
+        [{"kind": "motion", "edge": "x1", "time": [0.0], "displacement": [[0.0003, 0.0, 0.01]]}],
+        {},
+    ),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_interaction_forces_are_equal_and_opposite(case):
+    actuators, material = CASES[case]
+    asked = scene("one-edge-clamped", actuators, **material)
+    problem = pose(asked, springs(asked, 7))
+    outcome = settle(asked, problem, "path")
+    assert outcome.status is scenes.Status.CONVERGED, outcome.message
+    u, coupling = outcome.state.u, problem.assembly.coupling
+    sheet = (
+        problem.assembly.force(u)[1] - problem.loads.dead
+    )  # what the sheet asks of whoever holds its masses
+    scale = np.abs(sheet).max()
+    total = np.zeros(3)
+    for actuator, (masses, binding, first) in zip(coupling.actuators, coupling.bindings(), strict=True):
+        y = u[first : first + actuator.rows]
+        own = actuator.force(y, Drive())[1] - actuator.weight(np.array([0.0, 0.0, -9.81]))
+        missing = np.where(actuator.free, own + binding.T @ sheet[masses], 0.0)
+        assert np.abs(missing).max(initial=0.0) < 1e-8 * scale
+        total += sheet[masses].sum(axis=0)
+    wrenches = coupling.wrenches(u, sheet)
+    assert_allclose(sum(w[:, :3].sum(axis=0) for w in wrenches.values()), total, atol=1e-8 * scale)
+    if case != "prescribed":  # free chains: all they exert is their weight
+        weight = -9.81 * 0.05 * 0.188 * len(actuators)
+        assert_allclose(total, [0.0, 0.0, weight], atol=1e-8 * scale)
+    solution = lumped.solve(asked, springs(asked, 7))
+    assert list(solution.actuators) == list(wrenches)
+
+
+def test_antagonistic_chains_with_opposite_commands_leave_the_sheet_flat():
+    pair = [{"curvature": 4.0, "face": "top"}, {"curvature": -4.0, "face": "bottom"}]
+    asked = scene("one-edge-clamped", pair, gravity=False)
+    flat = lumped.solve(asked)
+    one = lumped.solve(scene("one-edge-clamped", pair[:1], gravity=False))
+    points = asked.probe_points()
+    assert np.abs(one.displacement(points)).max() > 1e-3
+    assert np.abs(flat.displacement(points)).max() < 1e-12
+    assert set(flat.actuators) == {"x1.top", "x1.bottom"}
+
+
+def test_the_sheet_follows_a_slow_ramp_through_the_static_solutions():
+    ramp = {"time": [0.0, 2.0], "value": [0.0, 4.0]}
+    asked = scene(
+        "one-edge-clamped", [{"curvature": ramp, "damping_time": 5e-3}], gravity=False, damping_time=1e-2
+    )
+    history = lumped.simulate(asked, springs(asked), 2.0, step=0.01, every=0.25)
+    assert history.status is scenes.Status.CONVERGED
+    static = [
+        lumped.solve(scene("one-edge-clamped", [{"curvature": 2.0 * t}], gravity=False), springs(asked))
+        for t in history.time[1:]
+    ]
+    truth = np.array([s.displacement(asked.probe_points()) for s in static]).swapaxes(0, 1)
+    found = np.array([history.probes[name][1:] for name in asked.probes])
+    assert np.abs(found - truth)[:, 3:].max() < 0.01 * np.abs(truth).max()
+    assert history.actuators["x1"].shape == (9, 8, 6)
+
+
+@pytest.mark.parametrize("name", ["verlet", "generalised-alpha", "midpoint"])
+def test_integrators_agree_on_a_sheet_with_a_chain(name):
+    ramp = {"time": [0.0, 0.05], "value": [0.0, 4.0]}
+    asked = scene("one-edge-clamped", [{"curvature": ramp, "segments": 4}], gravity=False)
+    truth = lumped.simulate(asked, springs(asked, 4), 0.05, integrator="midpoint", step=1e-4, every=0.005)
+    step = {"verlet": None, "generalised-alpha": None, "midpoint": 5e-4}[name]
+    history = lumped.simulate(asked, springs(asked, 4), 0.05, integrator=name, step=step, every=0.005)
+    assert history.status is scenes.Status.CONVERGED
+    scale = np.abs(truth.probes["P4"]).max()
+    assert np.abs(history.probes["P4"] - truth.probes["P4"]).max() < 0.01 * scale
+    drift = np.abs(history.balance - history.balance[0]).max() / np.abs(history.energies["work"]).max()
+    assert drift < (1e-8 if name == "midpoint" else 1e-3)
+
+
+def test_actuators_that_cannot_act_together_are_refused():
+    chain = {"curvature": 4.0}
+    for actuators, said in (
+        ([{**chain, "edge": "x0"}], "edge x0 has a support"),
+        ([chain, {**chain, "segments": 7}], "segments = 8 and 7"),
+        ([chain, {"kind": "motion", "edge": "x1", "time": [0.0], "rotation": [[0.0, 0.1, 0.0]]}], "another"),
+        ([{"curvature": [1.0, 2.0]}], "have 7 joints"),
+        ([{"kind": "motion", "edge": "x1", "time": [0.0]}], "needs displacement"),
+    ):
+        with pytest.raises(ValueError, match=said):
+            scene("one-edge-clamped", actuators)
+
+
+def test_a_held_base_stops_rigid_motions():
+    assert scenes.free_rigid_motions(scene("one-edge-clamped", [{"base": "start"}], supports=[])) == []
+    assert len(scenes.free_rigid_motions(scene("one-edge-clamped", [{"base": "free"}], supports=[]))) == 6

@@ -1,0 +1,49 @@
+"""Scenes and shorthands that the tests of dynamics and actuators share."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import lumped
+import scenes
+from lumped.dynamics.simulation import _start
+from lumped.dynamics.system import System
+from lumped.statics import pose
+
+ROD = {"edge": "x1", "segments": 8, "bending_stiffness": 0.05, "line_density": 0.05, "radius": 1.5e-3}
+
+
+def scene(base="two-edges-clamped", actuators=(), gravity=True, supports=None, loads=(), **material):
+    """A catalogue scene with actuators, without its gravity or supports, or of another material."""
+    asked = scenes.load(base)
+    data = asked.model_dump(by_alias=True, exclude_none=True)
+    data["actuator"] = [{**ROD, **a} if a.get("kind") != "motion" else a for a in actuators]
+    data["material"].update(material)
+    data["load"] = list(loads)
+    if not gravity:
+        data.pop("gravity")
+    if supports is not None:
+        data["support"] = supports
+    return scenes.Scene.model_validate(data)
+
+
+def springs(asked, n=5):
+    """Consistent springs of an n × n × 2 lattice."""
+    return lumped.calibrate(asked.sheet, asked.material, grid=(n, n))
+
+
+def system(asked, n=5):
+    """The equations of motion and the state at rest."""
+    calibration = springs(asked, n)
+    equations = System(asked, pose(asked, calibration))
+    return equations, _start(equations, calibration, "tributary")
+
+
+def run(method, state, step, count):
+    """States after every one of `count` steps, the start first; dissipated energy of each."""
+    states, dissipated = [state], []
+    for _ in range(count):
+        advance = method.advance(states[-1], step)
+        states.append(advance.state)
+        dissipated.append(advance.dissipated)
+    return states, np.array(dissipated)

@@ -35,9 +35,9 @@ def series(model: str, settings: dict[str, Any]) -> str:
     said = [str(settings.get("calibration", ""))]
     said += [f"{n} layers" for n in layers if n != LAYERS]
     said += [
-        f"{name} {value}"
+        name if value is True else f"{name} {value}"
         for name, value in sorted(settings.items())
-        if name not in ("grid", "elements", "calibration")
+        if name not in ("grid", "elements", "calibration") and value is not False
     ]
     return " ".join(part for part in (model, *said) if part)
 

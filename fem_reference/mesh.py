@@ -7,7 +7,7 @@ order of scikit-fem's `ElementQuad2`. Coordinates in metres.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 import numpy as np
 from skfem import MeshQuad
@@ -46,18 +46,29 @@ def spacing(count: int, layer: int) -> np.ndarray:
     return np.concatenate([[0.0], np.cumsum(size)]) / size.sum()
 
 
-def rectangle(sheet: Sheet, elements: Elements, graded: bool = False) -> MeshQuad:
+def rectangle(sheet: Sheet, elements: Elements, graded: bool = False, cuts: Collection[str] = ()) -> MeshQuad:
     """A mesh of the sheet whose boundaries carry the edges' names.
+
+    cuts: edges that are planes of symmetry; the mesh is then that of the whole sheet, cut there.
 
     Uniform; or graded towards all edges, where a clamp that ends at a free edge has a singularity and
     a thick sheet has boundary layers: the same number of elements, a far smaller error.
     """
     counts = divisions(sheet.lengths, elements)
-    layer = min(counts) if graded else 1
-    x, y = (length * spacing(n, layer) for length, n in zip(sheet.lengths, counts, strict=True))
+    cut = [[name for name in cuts if EDGES[name].normal_axis == axis] for axis in (0, 1)]
+    layer = min(n << len(at) for n, at in zip(counts, cut, strict=True)) if graded else 1
+    x, y = (length * _part(n, layer, at) for length, n, at in zip(sheet.lengths, counts, cut, strict=True))
     mesh = MeshQuad.init_tensor(x, y)
     ends = {name: sheet.lengths[edge.normal_axis] * edge.far_end for name, edge in EDGES.items()}
     return mesh.with_boundaries({name: _at(EDGES[name].normal_axis, end) for name, end in ends.items()})
+
+
+def _part(count: int, layer: int, cuts: Collection[str]) -> np.ndarray:
+    """Fractions (count + 1,) of a side that is half of a side, where it is cut at one end."""
+    if not cuts:
+        return spacing(count, layer)
+    half = 2.0 * spacing(2 * count, layer)[: count + 1]
+    return half if all(EDGES[name].far_end for name in cuts) else 1.0 - half[::-1]
 
 
 def _at(axis: int, position: float) -> Callable[[np.ndarray], np.ndarray]:

@@ -28,7 +28,18 @@ from fem_reference.mesh import Elements, divisions, quarters, rectangle
 from fem_reference.plate_element import NODES, TILT_X, PlateElements, W, plate_elements, shape_values
 from fem_reference.shell_supports import Supports
 from fem_reference.sparsity import Pattern
-from scenes import EDGES, Curved, EdgeLoad, FieldMesh, Iteration, PointLoad, Scene, Solution, Status
+from scenes import (
+    EDGES,
+    Curved,
+    EdgeLoad,
+    FieldMesh,
+    Iteration,
+    PointLoad,
+    Scene,
+    Solution,
+    Status,
+    rod_middle,
+)
 from scenes.scene import require_static
 
 PARTS = ("membrane", "bending", "shear")
@@ -150,14 +161,14 @@ def constrain(
     """The supports, which fields they hold (n, 5), and the prescribed values (n, 5), 0 where free."""
     on_edge = {str(support.edge): edge_nodes(plate, support.edge) for support in scene.supports}
     supports = shell_supports.of_scene(scene, plate.nodes, on_edge)
-    held = np.column_stack([supports.position, supports.director, supports.director])
+    held = np.column_stack([supports.position, supports.director[:, None] | supports.tilt])
     for name in hard_edges:
         held[edge_nodes(plate, name), TILT_X + EDGES[name].along_axis] = True
     values = np.zeros(held.shape)
     for support in scene.supports:
         if isinstance(support, Curved):
             on, along = on_edge[support.edge], EDGES[support.edge].along_axis
-            s = plate.nodes[on, along] - scene.sheet.lengths[along] / 2.0
+            s = plate.nodes[on, along] - rod_middle(support, scene.supports, scene.sheet)
             values[on, W] = support.curvature * s**2 / 2.0
             values[on, TILT_X + along] = -support.curvature * s
     return supports, held, values

@@ -21,7 +21,7 @@ from fem_reference.location import locate
 from fem_reference.mesh import Elements, divisions, quarters, rectangle
 from fem_reference.shell_element import Element, shape
 from fem_reference.shell_structure import ShellStructure
-from scenes import FieldMesh, Scene, Solution
+from scenes import FieldMesh, Scene, Solution, Symmetric
 from scenes.scene import require_static
 
 
@@ -34,7 +34,8 @@ def solve(scene: Scene, elements: Elements = 16, graded: bool = True) -> Solutio
     require_static(scene)
     along_x, along_y = divisions(scene.sheet.lengths, elements)
     begin = perf_counter()
-    mesh = rectangle(scene.sheet, (along_x, along_y), graded)
+    cuts = [support.edge for support in scene.supports if isinstance(support, Symmetric)]
+    mesh = rectangle(scene.sheet, (along_x, along_y), graded, cuts)
     settings = {"elements": [along_x, along_y], "graded": graded}
     return solve_on(mesh, scene, f"shell {along_x} × {along_y}", settings, begin)
 

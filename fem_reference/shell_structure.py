@@ -58,6 +58,7 @@ class ShellStructure:
         self.dead, self.followers = dead, followers
         self.count = len(dead)
         free = np.concatenate([~supports.position, np.repeat(~supports.director[:, None], 2, axis=1)], axis=1)
+        free[supports.tilt.any(axis=1), 3] = False  # the first tangent of such a director is the axis held
         self.number = np.where(free, np.cumsum(free.ravel()).reshape(free.shape) - 1, -1)  # (n, 5)
         self.unknowns = int(free.sum())
         of_element = self.number[element_nodes]  # (m, 9, 5)
@@ -177,6 +178,8 @@ class ShellStructure:
         axis = np.eye(3)[np.argmin(np.abs(director), axis=1)]
         first = np.cross(axis, director)
         first /= np.linalg.norm(first, axis=1, keepdims=True)
+        node, held = np.nonzero(self.supports.tilt & ~self.supports.director[:, None])
+        first[node] = np.eye(3)[held]
         return np.stack([first, np.cross(director, first)], axis=-1)
 
     def _to_constraints(self, change: np.ndarray, load_factor: float) -> np.ndarray:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scenes import EDGES, Curved, Scene, held_axes, holds_director
+from scenes import EDGES, Curved, Scene, Symmetric, held_axes, holds_director, rod_middle
 
 
 @dataclass(frozen=True)
@@ -40,10 +40,14 @@ class Rod:
 
 @dataclass(frozen=True)
 class Supports:
-    """What is held: position (n, 3) by component, director (n,); edges: name → nodes and held axes."""
+    """What is held: position (n, 3) by component, director (n,); edges: name → nodes and held axes.
+
+    tilt: (n, 2), whether the director's component along x or y is held at 0, as on a plane of symmetry.
+    """
 
     position: np.ndarray
     director: np.ndarray
+    tilt: np.ndarray
     edges: dict[str, tuple[np.ndarray, np.ndarray]]
     rods: tuple[Rod, ...]
 
@@ -70,15 +74,22 @@ class Supports:
 def of_scene(scene: Scene, nodes: np.ndarray, on_edge: dict[str, np.ndarray]) -> Supports:
     """The supports of a scene on nodes with plan positions (n, 2) [m]; on_edge: the nodes of every edge."""
     position, director = np.zeros((len(nodes), 3), dtype=bool), np.zeros(len(nodes), dtype=bool)
+    tilt = np.zeros((len(nodes), 2), dtype=bool)
     edges: dict[str, tuple[np.ndarray, np.ndarray]] = {}
     rods = []
     for support in scene.supports:
         on, axes = on_edge[support.edge], np.array(held_axes(support))
         position[np.ix_(on, axes)] = True
         director[on] |= holds_director(support)
+        if isinstance(support, Symmetric):
+            tilt[on, EDGES[support.edge].normal_axis] = True
         edges[support.edge] = (on, axes)
         if isinstance(support, Curved) and support.curvature != 0.0:
             axis = EDGES[support.edge].along_axis
             along = nodes[on, axis]
-            rods.append(Rod(on, along - (along.min() + along.max()) / 2.0, axis, support.curvature))
-    return Supports(position, director, edges, tuple(rods))
+            middle = (along.min() + along.max()) / 2.0
+            if any(isinstance(other, Symmetric) for other in scene.supports):
+                middle = rod_middle(support, scene.supports, scene.sheet)
+            rods.append(Rod(on, along - middle, axis, support.curvature))
+    director |= tilt.all(axis=1)
+    return Supports(position, director, tilt, edges, tuple(rods))

@@ -9,6 +9,8 @@ bound as the mesh is refined. A clamp holds the edge's face:
                   clamp of a shell, and leaves no singular corner
     "full"        all three components of the whole face; the strain is singular at its rims
 
+A plane of symmetry holds the component across it in the whole face.
+
 The face of a rod bent by λκ follows the rod's director: held values are u = u_rod + ζ (d − e_z). A column's
 displacements are u = Z q, with q the components that are held or free: along the rod's axes (across the edge,
 along the rod, d), and on a hinged or held edge with the column's mean in the place of its middle node.
@@ -23,7 +25,7 @@ import numpy as np
 from fem_reference import shell_supports
 from fem_reference.shell_supports import Supports
 from fem_reference.solid_mesh import Columns
-from scenes import Scene, holds_director
+from scenes import Scene, Symmetric, holds_director
 
 CLAMPS = ("shell-like", "full")
 
@@ -106,7 +108,9 @@ def of_scene(scene: Scene, columns: Columns, clamp: str) -> ColumnSupports:
         nodes, axes = line.edges[support.edge]
         held = np.zeros((len(columns.plan_nodes), columns.levels, 3), dtype=bool)
         held[nodes[:, None], columns.layers, axes] = True
-        if holds_director(support):
+        if isinstance(support, Symmetric):
+            held[nodes[:, None], :, axes] = True
+        elif holds_director(support):
             held[nodes, :, : 2 if clamp == "shell-like" else 3] = True
         else:
             hinged[nodes] = True

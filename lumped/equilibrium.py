@@ -63,11 +63,11 @@ def follow(problem: Problem, start: State, target: float = 1.0) -> tuple[State, 
     shortest = abs(step) * SHORTEST_STEP
     while abs(target - state.load_factor) > 1e-12:
         step = np.sign(target - state.load_factor) * min(abs(step), abs(target - state.load_factor))
-        predicted = _predictor(problem, state, step)
+        predicted = predictor(problem, state, step)
         farthest = float(np.abs(predicted).max())
         if farthest > reach:
             step *= reach / farthest
-            predicted = _predictor(problem, state, step)
+            predicted = predictor(problem, state, step)
             farthest = float(np.abs(predicted).max())
         try:
             before = problem.factorisations
@@ -85,7 +85,7 @@ def follow(problem: Problem, start: State, target: float = 1.0) -> tuple[State, 
     return state, ""
 
 
-def _predictor(problem: Problem, state: State, step: float) -> np.ndarray:
+def predictor(problem: Problem, state: State, step: float) -> np.ndarray:
     """Displacement (n, 3) of a load step, linear at the state."""
     moved = problem.prescribed(state.load_factor + step) - problem.prescribed(state.load_factor)
     unbalanced = step * problem.growing(state.u) - problem.system.apply(state.blocks, moved)

@@ -11,17 +11,20 @@ from __future__ import annotations
 
 import numpy as np
 
+from lumped.assembly import Stresses
 from lumped.lattice import Lattice
 from lumped.problem import Problem
 from scenes import FieldMesh
 
 
-def field_mesh(problem: Problem, u: np.ndarray, reactions: np.ndarray) -> FieldMesh:
+def field_mesh(
+    problem: Problem, u: np.ndarray, reactions: np.ndarray, stresses: Stresses | None = None
+) -> FieldMesh:
     """Mesh and fields at displacement u (n, 3) [m] with the supports' forces on the masses (n, 3) [N];
-    rows of actuators after those of the masses are left out."""
+    rows of actuators after those of the masses are left out. stresses: those at u unless given."""
     assembly = problem.assembly
     links, lattice = assembly.links, assembly.lattice
-    stresses = assembly.stresses(u)
+    stresses = stresses or assembly.stresses(u)
     (layer_cells,) = (c.nodes[:, :, 0] for c in lattice.cells if c.name == "area")
     quads, masses = len(layer_cells), lattice.mass_count
     cell_energy = np.zeros(quads)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import Any, Literal
 
@@ -14,7 +14,7 @@ from lumped.actuators import Coupling
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration, calibrate, given
 from lumped.descent import descend, disturbed
-from lumped.equilibrium import State, StepFailed, at_rest, follow
+from lumped.equilibrium import State, StepFailed, at_rest, follow, predictor
 from lumped.fields import field_mesh
 from lumped.lattice import Weights
 from lumped.linear import SingularMatrixError
@@ -47,6 +47,7 @@ def solve(
     *,
     branch: Branch = "path",
     weights: Weights = "tributary",
+    linear: bool = False,
     progress: Callable[[Iteration], None] | None = None,
 ) -> Solution:
     """Static equilibrium of the scene on a lattice with these springs, from flat to full load.
@@ -54,12 +55,16 @@ def solve(
     springs: from `calibrate`; without them the scene's own [springs], or else `consistent` on 9 × 9 × 2.
     branch: "path" reports the equilibrium on the load path, stable or not; "stable" leaves an unstable one
     along a direction of negative curvature and descends to a stable equilibrium. weights: "full" gives
-    boundary links and masses full shares, as the seed has them. progress: called once an iteration.
+    boundary links and masses full shares, as the seed has them. linear: the answer for small displacements,
+    one step with the flat sheet's tangent. progress: called once an iteration.
 
-    Raises scenes.SceneError when nothing stops a rigid motion. Every other outcome is a status; where the
-    full load was not reached, the last converged load is kept and `load_factor` says which.
+    Raises scenes.SceneError when nothing stops a rigid motion, ValueError for linear with actuators. Every
+    other outcome is a status; where the full load was not reached, the last converged load is kept and
+    `load_factor` says which.
     """
     require_static(scene)
+    if linear and scene.actuators:
+        raise ValueError("linear = True: actuators turn with the sheet; solve without")
     began = time.perf_counter()
     _compile()
     if springs is None:
@@ -68,9 +73,12 @@ def solve(
     problem.progress = progress
     ready = time.perf_counter()
     with one_blas_thread():
-        outcome = settle(scene, problem, branch)
+        outcome = flat_step(scene, problem) if linear else settle(scene, problem, branch)
     done = time.perf_counter()
-    return _solution(scene, springs, problem, outcome, (ready - began, done - ready), branch, weights)
+    solution = _solution(scene, springs, problem, outcome, (ready - began, done - ready), branch, weights)
+    if not linear or outcome.status is Status.SINGULAR:
+        return solution
+    return _of_small_displacements(solution, problem, outcome.state)
 
 
 @cache
@@ -94,13 +102,45 @@ def pose(scene: Scene, springs: Calibration, weights: Weights = "tributary") -> 
     return Problem(assembly, constraints, Loads(scene, assembly), max(scene.sheet.lengths))
 
 
+def flat_step(scene: Scene, problem: Problem) -> Outcome:
+    """The equilibrium of small displacements: K u = f with the flat sheet's tangent K."""
+    try:
+        start = at_rest(problem)
+    except SingularMatrixError as error:
+        return _singular(problem, error)
+    u = predictor(problem, start, 1.0)
+    state = replace(start, u=u, load_factor=1.0, stresses=problem.assembly.extrapolated(start.u, u))
+    strain = weight_number(scene)
+    if strain > STRAIN_LIMIT:
+        return Outcome(Status.STRAIN_OUTSIDE_MODEL, state, f"ρ g a/E = {strain:.3g}")
+    return Outcome(Status.CONVERGED, state, "")
+
+
+def _singular(problem: Problem, error: SingularMatrixError) -> Outcome:
+    rest = State(np.zeros_like(problem.loads.dead), 0.0, *_nothing(problem))
+    return Outcome(Status.SINGULAR, rest, f"the flat sheet's tangent is singular: {error}")
+
+
+def _of_small_displacements(solution: Solution, problem: Problem, state: State) -> Solution:
+    """The solution of `flat_step` with reactions K u − f and energy ½ u·K u."""
+    internal = problem.system.apply(state.blocks, state.u)
+    reactions, on_masses = problem.constraints.reactions(internal - problem.growing(np.zeros_like(state.u)))
+    return replace(
+        solution,
+        label=f"{solution.label}, linear",
+        settings={**solution.settings, "linear": True},
+        reactions=reactions,
+        energies={"elastic": 0.5 * float(np.sum(internal * state.u))},
+        mesh=field_mesh(problem, state.u, on_masses, state.stresses),
+    )
+
+
 def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
     """The equilibrium at full load, or how far the load path went and why."""
     try:
         start = at_rest(problem)
     except SingularMatrixError as error:
-        rest = State(np.zeros_like(problem.loads.dead), 0.0, *_nothing(problem))
-        return Outcome(Status.SINGULAR, rest, f"the flat sheet's tangent is singular: {error}")
+        return _singular(problem, error)
     state, why = follow(problem, start)
     notes: list[str] = []
     while why and problem.descends and len(notes) < SNAPS:

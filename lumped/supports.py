@@ -4,8 +4,9 @@ clamped  every layer of the edge's row held
 hinged   the mean of the layers held: the last layer is minus the sum of the others
 held     the mean of the layers held in the named components
 curved   every layer held on the director of an arc of curvature λκ (λ the load factor)
+symmetric  the component across the edge held, in every layer
 
-With s the arc length from the edge's middle, an arc of curvature κ in the plane of the edge's direction e
+With s the arc length from the rod's middle, an arc of curvature κ in the plane of the edge's direction e
 and z has mid-line (sin κs/κ) e + ((1 − cos κs)/κ) z and normal cos κs z − sin κs e.
 """
 
@@ -19,7 +20,7 @@ import scipy.sparse as sp
 
 from lumped.actuators import Coupling
 from lumped.lattice import Lattice
-from scenes import EDGES, Curved, Scene, held_axes, holds_director
+from scenes import EDGES, Curved, Scene, held_axes, holds_tilt, rod_middle
 
 
 @dataclass(frozen=True)
@@ -61,8 +62,8 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
         masses = lattice.edge_columns(support.edge)
         axes = held_axes(support)
         holders[support.edge] = (masses, axes)
-        if holds_director(support):
-            fixed[masses.ravel()] = True
+        if holds_tilt(support):
+            fixed[masses.ravel()[:, None], list(axes)] = True
         else:
             for axis in axes:
                 mean_held.update({(column[-1], axis): column for column in masses})
@@ -103,17 +104,18 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
         g = np.zeros((n, 3))
         for support in bent:
             masses = lattice.edge_columns(support.edge)
-            g[masses] = _arc(lattice, support.edge, masses, load_factor * support.curvature)
+            middle = rod_middle(support, scene.supports, scene.sheet)
+            g[masses] = _arc(lattice, support.edge, masses, load_factor * support.curvature, middle)
         return g
 
     return Constraints(transform, prescribed, holders, held, fixed)
 
 
-def _arc(lattice: Lattice, edge: str, masses: np.ndarray, curvature: float) -> np.ndarray:
-    """Displacement (m, layers, 3) [m] that puts an edge's masses on the arc."""
+def _arc(lattice: Lattice, edge: str, masses: np.ndarray, curvature: float, middle: float) -> np.ndarray:
+    """Displacement (m, layers, 3) [m] that puts an edge's masses on the arc with its middle at `middle`."""
     along = EDGES[edge].along_axis
     rest = lattice.positions[masses]
-    s = rest[..., along] - rest[..., along].mean()
+    s = rest[..., along] - middle
     height = rest[..., 2]
     angle = curvature * s
     # sin κs/κ and (1 − cos κs)/κ by sinc, which have no trouble at κ = 0

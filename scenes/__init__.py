@@ -7,7 +7,19 @@ from scenes.scene import Scene, SceneError, catalogue, free_rigid_motions, load,
 from scenes.sheet import EDGES, Edge, Gravity, Material, Sheet
 from scenes.solution import FieldMesh, Iteration, Solution, Status
 from scenes.springs import DamperSet, PerDirection, SpringSet
-from scenes.supports import Clamped, Curved, Held, Hinged, Motion, Support, held_axes, holds_director
+from scenes.supports import (
+    Clamped,
+    Curved,
+    Held,
+    Hinged,
+    Motion,
+    Support,
+    Symmetric,
+    held_axes,
+    holds_director,
+    holds_tilt,
+    rod_middle,
+)
 
 __all__ = [
     "EDGES",
@@ -39,10 +51,13 @@ __all__ = [
     "SpringSet",
     "Status",
     "Support",
+    "Symmetric",
     "catalogue",
     "free_rigid_motions",
     "held_axes",
     "holds_director",
+    "holds_tilt",
     "load",
     "require_static",
+    "rod_middle",
 ]

@@ -19,7 +19,7 @@ from scenes.loads import Load, PointLoad
 from scenes.quantities import Frozen, PlanPoint
 from scenes.sheet import EDGES, Gravity, Material, Sheet
 from scenes.springs import DamperSet, SpringSet
-from scenes.supports import Support, contradiction, held_axes, holds_director
+from scenes.supports import Support, contradiction, held_axes, holds_tilt
 
 
 class SceneError(ValueError):
@@ -104,7 +104,7 @@ def free_rigid_motions(scene: Scene) -> list[str]:
 
     An actuator whose base is held, or that prescribes the edge's motion, leaves none.
     A support fixes rows of the rigid velocity t + θ × X at both ends of its edge and, if it holds
-    the director, θ × e_z; what the stacked rows leave in their null space is free.
+    the tilt, those of θ × e_z; what the stacked rows leave in their null space is free.
     """
     if any(not isinstance(actuator, Chain) or actuator.base != "free" for actuator in scene.actuators):
         return []
@@ -116,8 +116,9 @@ def free_rigid_motions(scene: Scene) -> list[str]:
             arm = (np.array([*end, 0.0]) - centre) / scale
             velocity = np.hstack([np.eye(3), -_cross_matrix(arm)])
             rows.extend(velocity[axis] for axis in held_axes(support))
-        if holds_director(support):
-            rows.extend(np.hstack([np.zeros((3, 3)), -_cross_matrix(np.array([0.0, 0.0, 1.0]))]))
+        if holds_tilt(support):
+            turned = np.hstack([np.zeros((3, 3)), -_cross_matrix(np.array([0.0, 0.0, 1.0]))])
+            rows.extend(turned[axis] for axis in held_axes(support))
     _, singular, motions = np.linalg.svd(np.array(rows))
     rank = int(np.sum(singular > 1e-9))
     names = [f"{kind} {axis}" for kind in ("translation along", "rotation about") for axis in "xyz"]
@@ -186,6 +187,6 @@ def _in_one_line(error: ValidationError) -> str:
 
 
 _UNION_TAGS = (
-    {"clamped", "hinged", "held", "curved", "point", "edge", "pressure", "chain", "motion"}
+    {"clamped", "hinged", "held", "curved", "symmetric", "point", "edge", "pressure", "chain", "motion"}
     | {"constant", "each joint", "over time"}  # forms of an actuator's curvature
 )

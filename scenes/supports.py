@@ -1,4 +1,4 @@
-"""The four kinds of edge support.
+"""The kinds of edge support.
 
 clamped  mid-surface and its normal (the director) held where they are in the flat sheet
 hinged   mid-surface held, director free to turn
@@ -6,6 +6,9 @@ held     the named components of the mid-surface's displacement held
 curved   clamped to a rigid rod bent to `curvature` [1/m] in the plane of the edge and z: arc length kept,
          the edge's middle point and tangent unmoved; curvature > 0 lifts the ends towards +z. With s
          measured from the middle along the edge the director is e_z cos κs − e_edge sin κs.
+symmetric  not a support but a cut: the sheet goes on beyond the edge as its own mirror image. The
+         displacement across the edge and the director's tilt across it are held. A rod that ends at such an
+         edge has its middle there.
 """
 
 from __future__ import annotations
@@ -15,7 +18,7 @@ from typing import Annotated, Literal
 from pydantic import Field, field_validator, model_validator
 
 from scenes.quantities import Frozen, Number, Vector3
-from scenes.sheet import EDGES, EdgeName
+from scenes.sheet import EDGES, EdgeName, Sheet
 
 Component = Literal["x", "y", "z"]
 
@@ -76,27 +79,55 @@ class Curved(_EdgeSupport):
     curvature: Number
 
 
-Support = Annotated[Clamped | Hinged | Held | Curved, Field(discriminator="kind")]
+class Symmetric(Frozen):
+    """The plane of symmetry through which the sheet is cut."""
+
+    kind: Literal["symmetric"] = "symmetric"
+    edge: EdgeName
+    motion: None = None
 
 
-def held_axes(support: Clamped | Hinged | Held | Curved) -> tuple[int, ...]:
+AnySupport = Clamped | Hinged | Held | Curved | Symmetric
+Support = Annotated[AnySupport, Field(discriminator="kind")]
+
+
+def held_axes(support: AnySupport) -> tuple[int, ...]:
     """Axes (0, 1, 2) in which the support holds the mid-surface."""
+    if isinstance(support, Symmetric):
+        return (EDGES[support.edge].normal_axis,)
     if isinstance(support, Held):
         return tuple("xyz".index(component) for component in support.components)
     return (0, 1, 2)
 
 
-def holds_director(support: Clamped | Hinged | Held | Curved) -> bool:
+def holds_director(support: AnySupport) -> bool:
     """Whether the support holds the normal as well as the mid-surface."""
     return isinstance(support, Clamped | Curved)
 
 
-def contradiction(supports: tuple[Clamped | Hinged | Held | Curved, ...]) -> str | None:
+def holds_tilt(support: AnySupport) -> bool:
+    """Whether the director may not tilt in the axes held: all layers are held there, not just their mean."""
+    return isinstance(support, Clamped | Curved | Symmetric)
+
+
+def rod_middle(rod: Curved, supports: tuple[AnySupport, ...], sheet: Sheet) -> float:
+    """Where the middle of a bent rod lies along its edge [m]: on the plane of symmetry it meets, if any."""
+    along = EDGES[rod.edge].along_axis
+    length = sheet.lengths[along]
+    for support in supports:
+        if isinstance(support, Symmetric) and EDGES[support.edge].normal_axis == along:
+            return length if EDGES[support.edge].far_end else 0.0
+    return length / 2.0
+
+
+def contradiction(supports: tuple[AnySupport, ...]) -> str | None:
     """A sentence saying which two supports cannot both be obeyed, or None.
 
-    A bent rod moves its ends along the edge and along z and turns the director there, so nothing
-    else may hold those at a shared corner; and one edge can be held in one way only.
+    A bent rod moves its ends along the edge and along z and turns the director there, so nothing else may
+    hold those at a shared corner, but for one plane of symmetry, which its middle lies on; and one edge can
+    be held in one way only.
     """
+    cuts = [support for support in supports if isinstance(support, Symmetric)]
     for i, first in enumerate(supports):
         for second in supports[i + 1 :]:
             if first.edge == second.edge:
@@ -106,10 +137,17 @@ def contradiction(supports: tuple[Clamped | Hinged | Held | Curved, ...]) -> str
             for bent, other in ((first, second), (second, first)):
                 if not isinstance(bent, Curved) or bent.curvature == 0.0:
                     continue
-                moved = {EDGES[bent.edge].along_axis, 2}
+                along = EDGES[bent.edge].along_axis
+                if isinstance(other, Symmetric) and len({c.edge for c in cuts if _normal(c) == along}) == 1:
+                    continue
+                moved = {along, 2}
                 if holds_director(other) or moved & set(held_axes(other)):
                     return (
                         f"the rod on edge {bent.edge} (curvature {bent.curvature:g} 1/m) moves the corner "
                         f"that the {other.kind} support on edge {other.edge} holds"
                     )
     return None
+
+
+def _normal(support: Symmetric) -> int:
+    return EDGES[support.edge].normal_axis

@@ -1,0 +1,187 @@
+"""Half and quarter sheets: the whole sheet's answer, to rounding, and when a scene has no symmetry to use."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fem_reference
+import scenes
+from comparisons import models
+from comparisons.errors import BadInput
+from comparisons.symmetry import half, planes, whole
+from scenes import (
+    Clamped,
+    Curved,
+    EdgeLoad,
+    Gravity,
+    Held,
+    Hinged,
+    Material,
+    PointLoad,
+    Pressure,
+    Scene,
+    SceneError,
+    Sheet,
+    Solution,
+    Status,
+    Symmetric,
+)
+
+SHEET = Sheet(length_x=0.188, length_y=0.25, thickness=0.003)
+MATERIAL = Material(young=54.5e6, poisson=0.48, density=1678.0)
+DOWN = Gravity(acceleration=(0.0, 0.0, -9.81))
+
+
+def scene(supports: list, loads: list | None = None, gravity: Gravity = DOWN) -> Scene:
+    return Scene(
+        name="part",
+        sheet=SHEET,
+        material=MATERIAL,
+        gravity=gravity,
+        support=tuple(supports),
+        load=tuple(loads or ()),
+    )
+
+
+ALL_AROUND = scene(
+    [Hinged(edge=edge) for edge in ("x0", "x1", "y0", "y1")],
+    [
+        PointLoad(at=(0.094, 0.125), force=(0.0, 0.0, 0.3)),
+        PointLoad(at=(0.05, 0.125), force=(0.0, 0.0, 0.2)),
+        PointLoad(at=(0.188 - 0.05, 0.125), force=(0.0, 0.0, 0.2)),
+        Pressure(value=20.0),
+    ],
+)
+BRIDGE = scene(
+    [Clamped(edge="y0"), Clamped(edge="y1")],
+    [
+        EdgeLoad(edge="x0", force_per_length=(0.3, 0.0, -0.5), moment_per_length=0.02),
+        EdgeLoad(edge="x1", force_per_length=(-0.3, 0.0, -0.5), moment_per_length=0.02),
+    ],
+)
+ROLLED = scene([Curved(edge="x0", curvature=3.0), Curved(edge="x1", curvature=3.0)])
+ONE_EDGE = scenes.load("one-edge-clamped")
+TAPE = scenes.load("curved-edge")
+
+PARTS = {
+    "hinged all around": (ALL_AROUND, (0, 1)),
+    "clamped bridge with edge loads": (scene(list(BRIDGE.supports), list(BRIDGE.loads)), (0,)),
+    "two rods": (ROLLED, (0, 1)),
+    "one edge": (ONE_EDGE, (1,)),
+    "a rod": (TAPE, (1,)),
+}
+SOLVES = {
+    "lattice": ("lumped", {"grid": (9, 9, 2)}),
+    "linear lattice": ("lumped", {"grid": (9, 9, 2), "linear": True}),
+    "shell": ("shell", {"elements": (4, 4)}),
+    "plate": ("plate", {"elements": (4, 4)}),
+}
+
+
+@pytest.mark.parametrize("solve", SOLVES)
+@pytest.mark.parametrize("name", PARTS)
+def test_a_part_answers_for_the_whole_to_rounding(name: str, solve: str) -> None:
+    asked, axes = PARTS[name]
+    model, settings = SOLVES[solve]
+    assert planes(asked) == axes
+    entire = models.solve(asked, model, **settings)
+    part = models.solve(asked, model, symmetry=True, **settings)
+    assert entire.status is part.status is Status.CONVERGED
+    points = np.random.default_rng(1).uniform(0, 1, (300, 2)) * np.array(asked.sheet.lengths)
+    u = entire.displacement(points)
+    assert np.abs(part.displacement(points) - u).max() < 1e-8 * np.abs(u).max()
+    assert (
+        part.unknowns < 0.65 * entire.unknowns if len(axes) == 1 else part.unknowns < 0.45 * entire.unknowns
+    )
+    scale = max(np.abs(force).max() for force in entire.reactions.values())
+    for edge, force in entire.reactions.items():
+        assert part.reactions[edge] == pytest.approx(force, abs=1e-8 * scale)
+    assert sum(part.energies.values()) == pytest.approx(sum(entire.energies.values()), rel=1e-8)
+    assert part.settings["symmetry"] == ["xy"[axis] for axis in axes]
+    size = "grid" if model == "lumped" else "elements"
+    assert part.settings[size] == entire.settings[size]
+
+
+def test_the_mesh_is_that_of_the_whole_sheet() -> None:
+    part = models.solve(ALL_AROUND, "shell", elements=(4, 4), symmetry=True)
+    mesh = part.mesh
+    assert mesh.points[:, :2].max(axis=0) == pytest.approx(SHEET.lengths)
+    assert mesh.point_data["displacement"] == pytest.approx(part.displacement(mesh.points[:, :2]), abs=1e-12)
+    (_, quads), *_ = mesh.cells
+    assert len(quads) == 64 and quads.max() < len(mesh.points)
+
+
+@pytest.mark.parametrize(
+    ("asked", "axes"),
+    [
+        (scenes.load("two-edges-clamped"), ()),
+        (scene([Clamped(edge="x0")], gravity=Gravity(acceleration=(0.0, 1.0, -9.81))), ()),
+        (scene([Clamped(edge="x0")], gravity=Gravity(acceleration=(5.0, 0.0, -9.81))), (1,)),
+        (scene([Clamped(edge="x0"), Hinged(edge="x1")]), (1,)),
+        (scene([Clamped(edge="x0")], [PointLoad(at=(0.1, 0.1), force=(0.0, 0.0, 1.0))]), ()),
+        (scene([Clamped(edge="x0")], [PointLoad(at=(0.1, 0.125), force=(0.0, 1.0, 0.0))]), ()),
+        (scene([Clamped(edge="x0")], [EdgeLoad(edge="x1", moment_per_length=0.1)]), ()),
+        (scene([Clamped(edge="x0"), Clamped(edge="x1")], [EdgeLoad(edge="x1", moment_per_length=0.1)]), ()),
+        (scene([Held(edge="x0", components=("x", "y", "z")), Hinged(edge="x1")]), (1,)),
+    ],
+)
+def test_planes_of_symmetry_are_those_of_supports_and_loads(asked: Scene, axes: tuple[int, ...]) -> None:
+    assert planes(asked) == axes
+
+
+def test_a_grid_without_a_line_of_masses_on_the_plane_is_solved_whole() -> None:
+    solution = models.solve(ONE_EDGE, "lumped", grid=(5, 6, 2), symmetry=True)
+    assert "symmetry" not in solution.settings
+    assert "symmetry" not in models.solve(ONE_EDGE, "shell", elements=3, symmetry=True).settings
+
+
+def test_half_of_a_point_load_on_the_plane_and_nothing_beyond_it() -> None:
+    part = half(ALL_AROUND, 0)
+    assert part.sheet.lengths == (0.094, 0.25)
+    assert [load.force[2] for load in part.loads if isinstance(load, PointLoad)] == [0.15, 0.2]
+    assert {support.edge: support.kind for support in part.supports} == {
+        "x0": "hinged",
+        "x1": "symmetric",
+        "y0": "hinged",
+        "y1": "hinged",
+    }
+
+
+def test_restored_vectors_mirror() -> None:
+    part = models.solve(half(ONE_EDGE, 1), "plate", elements=(2, 1))
+    restored: Solution = whole(part, ONE_EDGE, 1)
+    below, above = restored.displacement(np.array([[0.1, 0.05], [0.1, 0.138]]))
+    assert above == pytest.approx(below * [1.0, -1.0, 1.0], abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["hinged all around", "a rod"])
+def test_a_plane_of_symmetry_means_the_same_in_the_solid(name: str) -> None:
+    asked, axes = PARTS[name]
+    axis, sizes = axes[0], {False: [4, 4], True: [4, 4]}
+    sizes[True][axis] = 2
+    entire = fem_reference.solve(asked, model="solid", elements=tuple(sizes[False]), grading="uniform")
+    part = fem_reference.solve(
+        half(asked, axis), model="solid", elements=tuple(sizes[True]), grading="uniform"
+    )
+    points = asked.probe_points()
+    u = entire.displacement(points)
+    assert whole(part, asked, axis).displacement(points) == pytest.approx(u, abs=1e-8 * np.abs(u).max())
+
+
+def test_the_solid_is_solved_whole() -> None:
+    with pytest.raises(BadInput, match="solid: is always solved whole"):
+        models.solve(ONE_EDGE, "solid", elements=2, symmetry=True)
+
+
+def test_a_plane_of_symmetry_alone_leaves_the_sheet_loose() -> None:
+    with pytest.raises(SceneError, match="nothing stops"):
+        scenes.require_static(scene([Symmetric(edge="x1"), Symmetric(edge="y1")]))
+    scenes.require_static(scene([Symmetric(edge="x1"), Held(edge="x0", components=("y", "z"))]))
+
+
+def test_a_rod_between_two_planes_of_symmetry_is_refused() -> None:
+    rod = Curved(edge="x0", curvature=1.0)
+    scene([rod, Symmetric(edge="y1")])
+    with pytest.raises(ValueError, match="moves the corner"):
+        scene([rod, Symmetric(edge="y0"), Symmetric(edge="y1")])

@@ -1,0 +1,168 @@
+"""`sheetbench simulate`: its document and files, measured histories, resuming after a kill, memory."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+import tracemalloc
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+from dynamic_cases import scene, springs
+
+import lumped
+from comparisons import histories
+from comparisons.cli import main
+
+HERE = Path(__file__).parent
+RUN = ["simulate", "two-edges-settling", "--lumped", "4", "--duration", "0.1"]
+
+
+def leaves_with(code, arguments):
+    try:
+        main(arguments)
+    except SystemExit as stop:
+        return (stop.code or 0) == code
+    return code == 0
+
+
+def test_json_has_the_promised_keys_and_enough_samples(capsys):
+    assert leaves_with(0, [*RUN, "--json"])
+    document = json.loads(capsys.readouterr().out)
+    assert {"time", "probes", "energy", "status", "steps", "solve_seconds"} <= set(document)
+    assert document["status"] == "converged" and document["steps"] > 0
+    count = len(document["time"])
+    assert np.shape(document["probes"]["P4"]) == (count, 3) and len(document["energy"]) == count
+    assert np.shape(document["reactions"]["x0"]) == (count, 3)
+    asked = scene("two-edges-settling")
+    lowest = lumped.modes(asked, springs(asked, 4), 1).frequencies[0]
+    assert count - 1 >= 100 * 0.1 * lowest
+    assert document["time"][-1] == pytest.approx(0.1)
+
+
+def test_files_of_a_run(tmp_path, capsys):
+    measured = tmp_path / "measured.csv"
+    measured.write_text("time,probe,ux,uy,uz\n0.01,P4,,,-0.001\n0.05,P4,,,-0.02\n")
+    assert leaves_with(0, [*RUN, "--every", "0.005", "--out", str(tmp_path), "--measured", str(measured)])
+    out = capsys.readouterr().out
+    assert "off by" in out
+    document = json.loads((tmp_path / "history.json").read_text())
+    assert 0.0 < document["measured_errors"]["P4"] < 1.0
+    lines = (tmp_path / "history.csv").read_text().splitlines()
+    assert len(lines) == 22 and lines[0].startswith("time [s],P1.ux [m]") and "balance [J]" in lines[0]
+    assert (tmp_path / "history.png").stat().st_size > 10_000
+    series = ElementTree.parse(tmp_path / "frames.pvd").getroot().findall("Collection/DataSet")
+    last = series[-1].attrib
+    assert float(last["timestep"]) == pytest.approx(0.1)
+    mesh = meshio.read(tmp_path / last["file"])
+    corner = np.flatnonzero(np.linalg.norm(mesh.points[:, :2] - 0.188, axis=1) < 1e-9)
+    found = mesh.point_data["displacement"][corner].mean(axis=0)
+    assert found == pytest.approx(document["probes"]["P4"][-1], rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "options, said",
+    [
+        (["--integrator", "verlet", "--step", "0.1"], "stability limit of verlet"),
+        (["--integrator", "rk4"], "choose from"),
+        (["--duration", "-1"], "duration = -1 s"),
+        (["--measured", "nowhere.csv"], "nowhere.csv"),
+    ],
+)
+def test_bad_input_leaves_with_2_in_one_line(options, said, capsys):
+    assert leaves_with(2, [*RUN, *options])
+    error = capsys.readouterr().err
+    assert said in error.splitlines()[-1]
+
+
+@pytest.mark.parametrize(
+    "text, said",
+    [
+        ("t,probe,ux,uy,uz\n", "the header must be"),
+        ("time,probe,ux,uy,uz\n0.1,P9,0,0,0\n", "line 2"),
+        ("time,probe,ux,uy,uz\n0.1,P1,0,0,zero\n", "not numbers"),
+    ],
+)
+def test_measured_files_are_checked(tmp_path, text, said):
+    path = tmp_path / "measured.csv"
+    path.write_text(text)
+    with pytest.raises(ValueError, match=said):
+        histories.read_measured(path, ["P1"])
+
+
+def test_measured_error_is_relative_to_the_largest_measured_component():
+    asked = scene()
+    history = lumped.simulate(asked, springs(asked, 4), 0.05, every=0.005)
+    exact = history.probes["P4"][2:8]
+    measured = histories.Measured(history.time[2:8], exact.copy())
+    assert histories.error(history, "P4", measured) == pytest.approx(0.0, abs=1e-12)
+    measured.displacement[:, 0] = np.nan
+    measured.displacement[3, 2] *= 1.1
+    expected = abs(0.1 * exact[3, 2]) / np.nanmax(np.abs(measured.displacement))
+    assert histories.error(history, "P4", measured) == pytest.approx(expected)
+
+
+KILLED = """
+import sys
+from pathlib import Path
+sys.path.insert(0, {here!r})
+import lumped
+from dynamic_cases import scene, springs
+asked = scene("one-edge-clamped", {actuators}, damping_time=1e-3)
+lumped.simulate(asked, springs(asked, 4), {duration}, integrator={name!r}, every=0.002, store=Path(sys.argv[1]), frames=20)
+"""
+RUNS = {
+    "generalised-alpha": ([], 1.6),
+    "verlet": ([], 0.8),
+    "midpoint": ([{"segments": 2, "curvature": 3.0}], 1.0),
+}
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_a_killed_run_resumes_to_the_last_digit(tmp_path, name):
+    actuators, duration = RUNS[name]
+    code = KILLED.format(here=str(HERE), actuators=actuators, duration=duration, name=name)
+    command = [sys.executable, "-c", code, str(tmp_path / "killed")]
+    process = subprocess.Popen(command)
+    checkpoint = tmp_path / "killed" / "checkpoint.npz"
+    waited = time.monotonic() + 120.0
+    while not checkpoint.exists() and time.monotonic() < waited:
+        assert process.poll() is None, "the run ended before its first checkpoint"
+        time.sleep(0.005)
+    samples = tmp_path / "killed" / "samples.bin"
+    size = samples.stat().st_size
+    while samples.stat().st_size == size and process.poll() is None:
+        time.sleep(0.001)  # so that there is something after the checkpoint to be dropped
+    process.send_signal(signal.SIGKILL)
+    assert process.wait() == -signal.SIGKILL
+    asked = scene("one-edge-clamped", actuators, damping_time=1e-3)
+    options = {"integrator": name, "every": 0.002, "frames": 20}
+    whole = lumped.simulate(asked, springs(asked, 4), duration, store=tmp_path / "whole", **options)
+    killed_at = samples.stat().st_size
+    resumed = lumped.simulate(asked, springs(asked, 4), duration, store=tmp_path / "killed", **options)
+    for file in ("samples.bin", "frames.bin"):
+        assert (tmp_path / "killed" / file).read_bytes() == (tmp_path / "whole" / file).read_bytes()
+    assert killed_at < samples.stat().st_size
+    assert resumed.steps == whole.steps and np.array_equal(resumed.time, whole.time)
+    with pytest.raises(ValueError, match="holds another run"):
+        lumped.simulate(asked, springs(asked, 4), 2.0 * duration, store=tmp_path / "killed", **options)
+
+
+def test_memory_does_not_grow_with_the_duration(tmp_path):
+    asked = scene(damping_time=1e-3)
+
+    def peak(duration):
+        tracemalloc.start()
+        options = {"integrator": "midpoint", "step": 1e-3, "every": 1e-3}
+        lumped.simulate(asked, springs(asked, 4), duration, store=tmp_path / str(duration), **options)
+        found = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        return found
+
+    peak(0.1)
+    assert peak(1.6) < peak(0.2) + 20_000  # bytes; 1400 more samples are 370 kB
+    assert (tmp_path / "1.6" / "samples.bin").stat().st_size > 300_000

@@ -12,7 +12,7 @@ from comparisons.files import folder, whole, write_text
 from comparisons.vtk import write_mesh
 from scenes import FieldMesh, History, Scene
 
-PIXELS, PER_SECOND = 640, 20
+PIXELS, COLOURS, PER_SECOND = 480, 96, 20
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ def write_series(path: Path, shown: list[tuple[float, Frame]]) -> None:
 
 
 def animate(path: Path, scene: Scene, shown: list[tuple[float, Frame]]) -> None:
-    """Write the frames as a GIF at true scale. Needs off-screen drawing: ask `comparisons.rendering` first."""
+    """Write the frames as a GIF at true scale. Needs off-screen drawing (`comparisons.rendering`)."""
     from PIL import Image, ImageDraw
 
     from comparisons.figures import HEIGHTS
@@ -86,7 +86,7 @@ def animate(path: Path, scene: Scene, shown: list[tuple[float, Frame]]) -> None:
         image = Image.fromarray(pixels)
         image = image.resize((PIXELS, round(PIXELS * image.height / image.width)), Image.Resampling.LANCZOS)
         ImageDraw.Draw(image).text((10, 8), f"t = {time:.2f} s", fill="#20252b")
-        images.append(image.quantize(64, method=Image.Quantize.MEDIANCUT))
+        images.append(image.quantize(COLOURS, method=Image.Quantize.MEDIANCUT))
     with whole(path) as partial:
         images[0].save(
             partial,

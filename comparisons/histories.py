@@ -1,8 +1,8 @@
 """Histories of dynamic runs: documents, tables, measured histories beside them, the plot over time.
 
-A measured history is a CSV with the header `time,probe,ux,uy,uz`: seconds, a probe's name, metres; a component
-may be left empty. Its error at a probe is the largest |component of (simulated − measured)| over its times
-within the run, divided by the largest |measured component|, the simulation interpolated linearly.
+A measured history is a CSV with the header `time,probe,ux,uy,uz`: seconds, a probe's name, metres; a
+component may be left empty. Its error at a probe is the largest |component of (simulated − measured)| over
+its times within the run, divided by the largest |measured component|, the simulation interpolated linearly.
 """
 
 from __future__ import annotations

@@ -1,5 +1,7 @@
 """Dynamics: settling, energy, periods, agreement with solve_ivp, orders, step limits, momentum, dampers."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from dynamic_cases import run, scene, springs, system
@@ -56,7 +58,7 @@ def test_small_oscillations_have_the_lattices_own_frequencies(base):
 def reference():
     """P4 of a 5 × 5 × 2 lattice with a little damping, from solve_ivp with tight tolerances."""
     asked = scene(damping_time=2e-4)
-    equations, rest = system(asked)
+    equations, _ = system(asked)
     count = equations.reduced_mass.shape[0]
 
     def rate(time, y):
@@ -94,7 +96,7 @@ def test_observed_order_is_the_declared_one(name, damping):
             asked, springs(asked, 4), 0.008, integrator=name, step=h, every=0.008, **options
         )
         ends.append(history.probes["P4"][-1])
-    changes = [largest(a - b) for a, b in zip(ends[:-1], ends[1:], strict=True)]
+    changes = [largest(a - b) for a, b in pairwise(ends)]
     slope = np.log2(changes[1] / changes[2])
     assert slope == pytest.approx(INTEGRATORS[name].order, abs=0.15)
     assert changes[2] < (0.1 if name == "projective" else 2e-3) * largest(ends[-1])

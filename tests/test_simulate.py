@@ -113,7 +113,8 @@ sys.path.insert(0, {here!r})
 import lumped
 from dynamic_cases import scene, springs
 asked = scene("one-edge-clamped", {actuators}, damping_time=1e-3)
-lumped.simulate(asked, springs(asked, 4), {duration}, integrator={name!r}, every=0.002, store=Path(sys.argv[1]), frames=20)
+options = dict(integrator={name!r}, every=0.002, frames=20)
+lumped.simulate(asked, springs(asked, 4), {duration}, store=Path(sys.argv[1]), **options)
 """
 RUNS = {
     "generalised-alpha": ([], 1.6),

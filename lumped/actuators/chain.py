@@ -173,8 +173,7 @@ class Chain:
         return out
 
     def wrenches(self, positions: np.ndarray, on_masses: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Force and moment about the middle of each segment's axis; chains of a pair share the force evenly,
-        and the moment as their joints' torques ask."""
+        """Force and moment about the middle of each segment's axis; chains of a pair share them evenly."""
         frames = self.frames
         points = frames.rest[: frames.points] + y[: frames.points]
         middle = 0.5 * (points[1:] + points[:-1])

@@ -1,7 +1,7 @@
 """Constraints of the actuators in explicit dynamics: Φ(u) = 0 and J v = 0 by M⁻¹-weighted projections.
 
-Only the actuators' rows appear in Φ, and the mass matrix couples them with nothing else, so that a small dense
-matrix J M⁻¹ Jᵀ does it all. Source: Ryckaert et al. (1977), Andersen (1983): SHAKE and RATTLE.
+Only the actuators' rows appear in Φ, and the mass matrix couples them with nothing else, so that a small
+dense matrix J M⁻¹ Jᵀ does it all. Source: Ryckaert et al. (1977), Andersen (1983): SHAKE and RATTLE.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Projection:
         return force[coupling.masses :].ravel()[self._order]
 
     def onto_constraints(self, u: np.ndarray, jacobian: np.ndarray, time: float) -> np.ndarray:
-        """Displacement u + M⁻¹ J₀ᵀ μ that satisfies Φ = 0, (size, 3). Raises ArithmeticError if none is found."""
+        """Displacement u + M⁻¹ J₀ᵀ μ that satisfies Φ = 0. Raises ArithmeticError if none is found."""
         weighted = self._inverse_mass @ jacobian.T
         factors = scipy.linalg.cho_factor(jacobian @ weighted)
         tolerance = TIGHT * float(np.abs(jacobian).max()) * self._system.problem.size
@@ -60,7 +60,7 @@ class Projection:
         raise ArithmeticError("the actuators' constraints found no solution: use smaller steps")
 
     def tangential(self, vector: np.ndarray, jacobian: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The vector (size, 3) less M⁻¹ Jᵀ μ, so that J times it vanishes; and μ as multiplier rows (size, 3)."""
+        """The vector (size, 3) less M⁻¹ Jᵀ μ, so that J times it vanishes; and μ in its rows (size, 3)."""
         weighted = self._inverse_mass @ jacobian.T
         own = vector[-self._rows :].ravel()[self._component]
         multipliers = scipy.linalg.solve(jacobian @ weighted, jacobian @ own, assume_a="pos")

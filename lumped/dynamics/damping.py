@@ -23,11 +23,12 @@ class Damping:
     """Damping forces, (size, 3) [N], on masses and actuators' rows. mass: (n,) [kg]."""
 
     def __init__(self, scene: Scene, assembly: Assembly, mass: np.ndarray):
-        self._coupling, self._slots = assembly.coupling, getattr(assembly, "coupling_slots", None)
+        self._coupling = assembly.coupling
+        self._coupling_slots = assembly.coupling_slots if assembly.coupling is not None else np.empty(0, int)
         self._rate = scene.material.damping_rate * mass
         time = scene.material.damping_time
         if scene.dampers is not None:
-            parts = _table(scene, assembly.lattice)
+            parts = _table(scene.dampers, assembly.lattice)
         else:
             k = [assembly.links.stiffness, assembly.directional.stiffness.mean(axis=-1)]
             parts = [
@@ -72,7 +73,7 @@ class Damping:
             kernels.add_velocity_tangent(u, c.nodes, c.diagonals, damping, c.slots, scale, blocks)
         blocks[self._diagonal] += scale * self._rate[:, None, None] * np.eye(3)
         if self._coupling is not None:
-            self._coupling.add_damping_tangent(u, scale, self._slots, blocks)
+            self._coupling.add_damping_tangent(u, scale, self._coupling_slots, blocks)
 
     def add_displacement_tangent(self, u: np.ndarray, v: np.ndarray, blocks: np.ndarray) -> None:
         """Add the derivative of the lattice's damping force by the displacement, which is unsymmetric."""
@@ -91,10 +92,10 @@ class Damping:
         return [(c, damping / h) for _, c, damping in self._cells]
 
 
-def _table(scene: Scene, lattice: Lattice) -> list[tuple[np.ndarray, ...]]:
-    parts = []
+def _table(table: Any, lattice: Lattice) -> list[tuple[np.ndarray, ...]]:
+    parts: list[tuple[np.ndarray, ...]] = []
     for family in lattice.links:
-        c = family_stiffness(scene.dampers, family.name, family.direction)
+        c = family_stiffness(table, family.name, family.direction)
         if np.ndim(c):
             raise ValueError(
                 f"dampers.{family.name}: a damper acts along its link; give one number, or x and y"

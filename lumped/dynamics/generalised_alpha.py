@@ -56,7 +56,7 @@ class GeneralisedAlpha(Integrator):
         self._largest = float(memory["largest"])
 
     def advance(self, state: State, at_most: float) -> Advance:
-        """One step; an adaptive one divides `at_most` evenly and is repeated, shorter, until its error is small."""
+        """One step; an adaptive one divides `at_most` evenly and is repeated until its error is small."""
         shortest = 1e-6 * self.step
         while True:
             h = at_most if self._fixed else at_most / np.ceil(at_most / self.step - 1e-9)

@@ -21,7 +21,7 @@ class StepFailed(ArithmeticError):
 
 @dataclass(frozen=True)
 class Advance:
-    """A step taken: the new state, the energy taken by dampers in it [J] and the work done on the sheet [J]."""
+    """A step taken: the new state, the energy that dampers took [J] and the work done on the sheet [J]."""
 
     state: State
     dissipated: float
@@ -76,8 +76,8 @@ class Newton:
         guess: np.ndarray,
         weigh: Callable[[np.ndarray], np.ndarray],
     ) -> np.ndarray:
-        """u with Tᵀ residual(u) = 0. key: factors of another key do not serve; weigh: the correction (size, 3)
-        from the solution of the linear system. Raises StepFailed."""
+        """u with Tᵀ residual(u) = 0. key: factors of another key do not serve; weigh: the correction
+        (size, 3) from the solution of the linear system. Raises StepFailed."""
         problem = self._system.problem
         u, last, fresh = guess, np.inf, False
         if key != self._key:

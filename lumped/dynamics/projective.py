@@ -1,15 +1,15 @@
 """The local/global scheme of Liu et al. (2013): implicit Euler with a constant, prefactored matrix.
 
-Implicit Euler minimises ½ |u − û|²_M/h² + E(u) with û = u₀ + h v₀. The local step projects every link onto its
-rest length along its present direction; the global step solves
+Implicit Euler minimises ½ |u − û|²_M/h² + E(u) with û = u₀ + h v₀. The local step projects every link onto
+its rest length along its present direction; the global step solves
 
     (M/h² + L) Δu = −[M (u − û)/h² + f_int(u) + f_damp(u, (u − u₀)/h) − f_ext],   L = Σ k (I, −I; −I, I)
 
-For links this is the same as projecting and solving for u; written with the residual, area springs take part
-too, with |k| in L for each diagonal of their cells (Liu et al. 2017 see the scheme as such a quasi-Newton
-method). A fixed number of iterations bounds the cost, not the error: first order in the step, dissipative, and
-soft bending modes converge slowly beside stiff links. Dampers of c count as c/h in L. No chains: their
-constraints turn with them, which a constant matrix cannot follow.
+For links this is the same as projecting and solving for u; written with the residual, other springs take
+part too: cells with |k| in L for each of their diagonals. Dampers of c count as c/h. Soft bending modes
+beside stiff links need hundreds of such iterations: the last changes are remembered as in L-BFGS (Liu et al. 2017), which
+brings that down to about ten. Their number is fixed, which bounds the cost, not the error: first order in
+the step, and dissipative. No chains: their constraints turn with them, which a constant matrix cannot follow.
 """
 
 from __future__ import annotations

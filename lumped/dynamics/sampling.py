@@ -1,4 +1,4 @@
-"""What a run writes down at a sample: probes, energies, reactions and actuator forces, as one row of numbers."""
+"""What a run writes down at a sample: probes, energies, reactions, actuator forces, as a row of numbers."""
 
 from __future__ import annotations
 

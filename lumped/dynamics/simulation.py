@@ -60,14 +60,14 @@ def simulate(
 ) -> History:
     """Motion of the scene's sheet over `duration` [s].
 
-    step [s]: of the integrator, never exceeded; without it `verlet` takes 0.9 of its limit, `generalised-alpha`
-    adapts to its error, the others take 1/200 of the lowest period. every [s]: distance of samples, 1/100 of
-    the lowest period unless given. store: a folder to stream to; a run that was stopped goes on from there.
-    frames: whole displacements to keep, evenly over the run, in `extra`: "frames" (n, masses, 3),
-    "frame_times" (n,) and the "mesh" they belong to. progress: called with the
-    time reached. options: the integrator's own (`radius`, `iterations`).
+    step [s]: of the integrator, never exceeded; without it `verlet` takes 0.9 of its limit,
+    `generalised-alpha` adapts to its error, the others take 1/200 of the lowest period. every [s]: distance
+    of samples, 1/100 of the lowest period unless given. store: a folder to stream to; a run that was stopped
+    goes on from there. frames: whole displacements to keep, evenly over the run, in `extra`: "frames"
+    (n, masses, 3), "frame_times" (n,) and the "mesh" they belong to. progress: called with the time reached.
+    options: the integrator's own (`radius`, `iterations`).
 
-    Raises ValueError for an unknown integrator, a step above the limit of `verlet`, or a folder of another run.
+    Raises ValueError for an unknown integrator, a step above the limit of `verlet`, a folder of another run.
     """
     if integrator not in INTEGRATORS:
         raise ValueError(f"integrator = {integrator!r}: unknown; choose from {', '.join(INTEGRATORS)}")

@@ -133,7 +133,7 @@ class System:
         return self.external(u) - force
 
     def average_elastic(self, start: np.ndarray, end: np.ndarray, time: float) -> np.ndarray:
-        """Internal force whose work from `start` to `end` is the elastic energy stored, commands as at `time`."""
+        """Internal force whose work from `start` to `end` is the energy stored, commands as at `time`."""
         force = np.zeros_like(start)
         row = self.assembly.links
         conserving.add_link_forces(start, end, row.nodes, row.offset, row.rest_length, row.stiffness, force)
@@ -192,7 +192,7 @@ class System:
         }
 
     def exerted(self, state: State) -> np.ndarray:
-        """M a + f_int + f_damp − f_ext: what supports exert on their masses and actuators on theirs, (size, 3)."""
+        """M a + f_int + f_damp − f_ext, (size, 3): what supports and actuators exert on their masses."""
         inertia: np.ndarray = (self.mass @ state.a.ravel()).reshape(-1, 3)
         return inertia - self.unbalanced(state.u, state.v, state.time)
 

@@ -5,15 +5,34 @@ Voigt order [xx, yy, 2xy]; per unit of mid-surface area, with thickness h:
     membrane  N = h C E,           C = E/(1 − ν²) [[1, ν, 0], [ν, 1, 0], [0, 0, (1 − ν)/2]]   [Pa]
     bending   M = h³/12 C κ
     shear     Q = k h G γ,         G = E/2(1 + ν),   k = 5/6 (Reissner)
+
+A `Section` given in their place makes the sheet any other plate, a lattice's homogenised one for instance.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
 from scenes import Material
 
 SHEAR_CORRECTION = 5.0 / 6.0
+
+
+class Section(NamedTuple):
+    """Stiffness of the sheet per unit of its width: membrane (3, 3) [N/m] and bending (3, 3) [N·m] in Voigt
+    order, shear (2, 2) [N/m]."""
+
+    membrane: np.ndarray
+    bending: np.ndarray
+    shear: np.ndarray
+
+
+def section_of(material: Material, thickness: float) -> Section:
+    """The section of a homogeneous sheet of this material."""
+    laws = (membrane_stiffness, bending_stiffness, transverse_shear_stiffness)
+    return Section(*(law(material, thickness) for law in laws))
 
 
 def plane_stress(material: Material) -> np.ndarray:

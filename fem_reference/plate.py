@@ -23,7 +23,7 @@ from skfem import Basis, ElementQuad2, FacetBasis, LinearForm, MeshQuad
 from fem_reference import shell_supports
 from fem_reference.linear import DirectSolver, SingularMatrix
 from fem_reference.location import locate
-from fem_reference.materials import bending_stiffness, membrane_stiffness, transverse_shear_stiffness
+from fem_reference.materials import Section, section_of
 from fem_reference.mesh import Elements, divisions, quarters, rectangle
 from fem_reference.plate_element import NODES, TILT_X, PlateElements, W, plate_elements, shape_values
 from fem_reference.shell_supports import Supports
@@ -74,12 +74,17 @@ class Plate:
         return np.einsum("ap,pak->pk", shape_values(local), fields[self.elements.nodes[element]])
 
 
-def solve(scene: Scene, elements: Elements = 16, hard_edges: tuple[str, ...] = ()) -> Solution:
+def solve(
+    scene: Scene,
+    elements: Elements = 16,
+    hard_edges: tuple[str, ...] = (),
+    section: Section | None = None,
+) -> Solution:
     """The linear static answer; elements along the shorter side (near-square), or (nx, ny).
 
     hard_edges: edges on which the tilt along the edge is held as well. A hinged support is soft; with
-    its edge hard it is the simple support of the published Mindlin benchmarks. Raises SceneError if the
-    supports leave a rigid motion free.
+    its edge hard it is the simple support of the published Mindlin benchmarks. section: stiffness per width,
+    from material and thickness unless given. Raises SceneError if the supports leave a rigid motion free.
     """
     require_static(scene)
     begin = perf_counter()
@@ -90,7 +95,7 @@ def solve(scene: Scene, elements: Elements = 16, hard_edges: tuple[str, ...] = (
     free = np.flatnonzero(~held)
     ready = perf_counter()
 
-    stiffness = stiffness_matrix(scene, plate)
+    stiffness = stiffness_matrix(scene, plate, section)
     u = fields.ravel()
     status, message = Status.CONVERGED, ""
     try:
@@ -104,6 +109,8 @@ def solve(scene: Scene, elements: Elements = 16, hard_edges: tuple[str, ...] = (
     settings: dict[str, Any] = {"elements": [along_x, along_y]}
     if hard_edges:
         settings["hard_edges"] = list(hard_edges)
+    if section is not None:
+        settings["section"] = section._asdict()
     return Solution(
         model="plate",
         label=f"plate {along_x} × {along_y}",
@@ -115,7 +122,7 @@ def solve(scene: Scene, elements: Elements = 16, hard_edges: tuple[str, ...] = (
         solve_seconds=done - ready,
         sample=lambda points: plate.sample(fields[:, :3], points),
         reactions=supports.reactions(unbalanced.reshape(-1, 5)[:, :3]),
-        energies=energies(scene, plate, u),
+        energies=energies(scene, plate, u, section),
         mesh=field_mesh(plate, fields),
         history=(Iteration(1.0, float(np.linalg.norm(unbalanced[free]) / (size or 1.0)), 1.0),),
         load_factor=1.0 if status is Status.CONVERGED else 0.0,
@@ -123,15 +130,14 @@ def solve(scene: Scene, elements: Elements = 16, hard_edges: tuple[str, ...] = (
     )
 
 
-def section_stiffness(scene: Scene) -> dict[str, np.ndarray]:
+def section_stiffness(scene: Scene, section: Section | None = None) -> dict[str, np.ndarray]:
     """Stiffness of the section by part: membrane [N/m] and bending [N·m] (3, 3), shear [N/m] (2, 2)."""
-    of = (membrane_stiffness, bending_stiffness, transverse_shear_stiffness)
-    return {part: law(scene.material, scene.sheet.thickness) for part, law in zip(PARTS, of, strict=True)}
+    return dict(zip(PARTS, section or section_of(scene.material, scene.sheet.thickness), strict=True))
 
 
-def stiffness_matrix(scene: Scene, plate: Plate) -> csr_matrix:
+def stiffness_matrix(scene: Scene, plate: Plate, section: Section | None = None) -> csr_matrix:
     """Stiffness of the free plate, (5 n, 5 n) [N/m, N, N·m]."""
-    sections = section_stiffness(scene)
+    sections = section_stiffness(scene, section)
     blocks = [_integrate(b, sections[part], plate.elements.areas) for part, b in plate.strains().items()]
     return _assemble(plate, np.sum(blocks, axis=0))
 
@@ -145,9 +151,10 @@ def mass_matrix(scene: Scene, plate: Plate) -> csr_matrix:
     return _assemble(plate, np.einsum("mab,ij->maibj", products, inertia))
 
 
-def energies(scene: Scene, plate: Plate, u: np.ndarray) -> dict[str, float]:
+def energies(scene: Scene, plate: Plate, u: np.ndarray, section: Section | None = None) -> dict[str, float]:
     """Membrane, bending and shear energy [J] of the unknowns u (5 n,)."""
-    sections, nodal, areas = section_stiffness(scene), u[plate.elements.unknowns], plate.elements.areas
+    sections, areas = section_stiffness(scene, section), plate.elements.areas
+    nodal = u[plate.elements.unknowns]
     out = {}
     for part, operator in plate.strains().items():
         strain = np.einsum("mqic,mc->mqi", operator, nodal)

@@ -14,21 +14,27 @@ from typing import Any
 import numpy as np
 from skfem import Basis, ElementQuad2, MeshQuad
 
-from fem_reference import shell_loads, shell_supports
+from fem_reference import rod, shell_loads, shell_supports
 from fem_reference.equilibrium import trace
 from fem_reference.linear import DirectSolver
 from fem_reference.location import locate
+from fem_reference.materials import Section, section_of
 from fem_reference.mesh import Elements, divisions, quarters, rectangle
 from fem_reference.shell_element import Element, shape
+from fem_reference.shell_loads import Line
+from fem_reference.shell_rods import RoddedShell
 from fem_reference.shell_structure import ShellStructure
 from scenes import FieldMesh, Scene, Solution, Symmetric
 from scenes.scene import require_static
 
 
-def solve(scene: Scene, elements: Elements = 16, graded: bool = True) -> Solution:
+def solve(
+    scene: Scene, elements: Elements = 16, graded: bool = True, section: Section | None = None
+) -> Solution:
     """The static equilibrium of a scene; elements along the shorter side (near-square), or (nx, ny).
 
-    graded: finer towards the edges, uniform otherwise (see `mesh.rectangle`).
+    graded: finer towards the edges, uniform otherwise (see `mesh.rectangle`). section: stiffness per width,
+    from material and thickness unless given.
     Raises scenes.SceneError if the supports leave a rigid motion free.
     """
     require_static(scene)
@@ -36,8 +42,10 @@ def solve(scene: Scene, elements: Elements = 16, graded: bool = True) -> Solutio
     begin = perf_counter()
     cuts = [support.edge for support in scene.supports if isinstance(support, Symmetric)]
     mesh = rectangle(scene.sheet, (along_x, along_y), graded, cuts)
-    settings = {"elements": [along_x, along_y], "graded": graded}
-    return solve_on(mesh, scene, f"shell {along_x} × {along_y}", settings, begin)
+    settings: dict[str, Any] = {"elements": [along_x, along_y], "graded": graded}
+    if section is not None:
+        settings["section"] = section._asdict()
+    return solve_on(mesh, scene, f"shell {along_x} × {along_y}", settings, begin, section)
 
 
 def solve_on(
@@ -46,6 +54,7 @@ def solve_on(
     label: str = "shell",
     settings: dict[str, Any] | None = None,
     begin: float | None = None,
+    section: Section | None = None,
 ) -> Solution:
     """The same on any flat mesh of quadrilaterals [m], straight-sided (MeshQuad) or biquadratic (MeshQuad2).
 
@@ -53,7 +62,7 @@ def solve_on(
     anywhere; of the scene's sheet only the thickness is used.
     """
     begin = perf_counter() if begin is None else begin
-    structure, nodes = discretise(mesh, scene)
+    structure, nodes = discretise(mesh, scene, section)
     solver = DirectSolver(structure.symmetric)
     ready = perf_counter()
     path = trace(structure, solver)
@@ -84,14 +93,24 @@ def solve_on(
     )
 
 
-def discretise(mesh: MeshQuad, scene: Scene) -> tuple[ShellStructure, np.ndarray]:
+def discretise(
+    mesh: MeshQuad, scene: Scene, section: Section | None = None
+) -> tuple[ShellStructure, np.ndarray]:
     """The discrete shell of a scene on a mesh, and its nodes' plan positions (n, 2) [m]."""
     basis = Basis(mesh, ElementQuad2())
     nodes, element_nodes = basis.doflocs.T, basis.element_dofs.T
-    element = Element.build(nodes[element_nodes], scene.material, scene.sheet.thickness)
+    element = Element.build(
+        nodes[element_nodes], section or section_of(scene.material, scene.sheet.thickness)
+    )
     on_edge = {str(edge): basis.get_dofs(edge).flatten() for edge in (s.edge for s in scene.supports)}
     supports = shell_supports.of_scene(scene, nodes, on_edge)
     dead, followers = shell_loads.of_scene(scene, mesh, element_nodes, nodes, element.areas)
+    lines = {
+        str(a.edge): Line.along(mesh, mesh.boundaries[a.edge], nodes[element_nodes]) for a in scene.actuators
+    }
+    sides = {edge: element_nodes[line.elements[:, None], line.sides] for edge, line in lines.items()}
+    if rods := rod.of_scene(scene, nodes, sides):
+        return RoddedShell(element, element_nodes, supports, dead, followers, rods), nodes
     return ShellStructure(element, element_nodes, supports, dead, followers), nodes
 
 

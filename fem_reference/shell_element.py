@@ -28,8 +28,7 @@ from dataclasses import dataclass
 import numpy as np
 from skfem import ElementQuad2
 
-from fem_reference.materials import bending_stiffness, membrane_stiffness, transverse_shear_stiffness
-from scenes import Material
+from fem_reference.materials import Section
 
 TWO = np.array([-1.0, 1.0]) / np.sqrt(3.0)
 THREE = np.array([-1.0, 0.0, 1.0]) * np.sqrt(0.6)
@@ -110,7 +109,7 @@ class Element:
     areas: np.ndarray
 
     @classmethod
-    def build(cls, nodes: np.ndarray, material: Material, thickness: float) -> Element:
+    def build(cls, nodes: np.ndarray, section: Section) -> Element:
         """From the nodes' plan positions (m, 9, 2) [m]. Raises ValueError if an element is inverted."""
         _, slope = shape(*GAUSS)
         jacobian = np.einsum("agi,eib->egba", slope, nodes)  # ∂x_b/∂ξ_a
@@ -123,13 +122,9 @@ class Element:
         areas = GAUSS_WEIGHTS * np.abs(area)
         in_plane, transverse = _cartesian_in_plane(inverse, areas), _cartesian_shear(inverse)
         stiffness = np.zeros((len(nodes), STRAINS, STRAINS))
-        stiffness[:, MEMBRANE, MEMBRANE] = _integrate(
-            in_plane, membrane_stiffness(material, thickness), areas
-        )
-        stiffness[:, BENDING, BENDING] = _integrate(in_plane, bending_stiffness(material, thickness), areas)
-        stiffness[:, SHEAR, SHEAR] = _integrate(
-            transverse, transverse_shear_stiffness(material, thickness), areas
-        )
+        stiffness[:, MEMBRANE, MEMBRANE] = _integrate(in_plane, section.membrane, areas)
+        stiffness[:, BENDING, BENDING] = _integrate(in_plane, section.bending, areas)
+        stiffness[:, SHEAR, SHEAR] = _integrate(transverse, section.shear, areas)
         reference = np.zeros((len(nodes), 18, 3))
         reference[:, :9, :2] = nodes
         reference[:, 9:, 2] = 1.0

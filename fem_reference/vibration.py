@@ -25,6 +25,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from fem_reference import plate, shell, solid, solid_supports
 from fem_reference.linear import DirectSolver
+from fem_reference.materials import Section
 from fem_reference.mesh import Elements, divisions, rectangle
 from scenes import Scene
 
@@ -70,6 +71,8 @@ def modes(
     scene: Scene, model: str = "shell", elements: Elements = 16, count: int = 10, **options: Any
 ) -> Modes:
     """The `count` lowest elastic modes; a scene without supports is a free sheet.
+
+    options: the model's own; of plate and shell `section`, as in their `solve`.
 
     Raises ValueError for an unknown model or a count that the mesh cannot give.
     """
@@ -127,7 +130,7 @@ def _free_rigid_motions(rest: RestState) -> int:
     return 6 - int(np.sum(singular > 1e-9))
 
 
-def _plate_at_rest(scene: Scene, elements: tuple[int, int]) -> RestState:
+def _plate_at_rest(scene: Scene, elements: tuple[int, int], section: Section | None = None) -> RestState:
     model = plate.Plate.on(rectangle(scene.sheet, elements))
     _, held, _ = plate.constrain(scene, model)
     x, y = (model.nodes - model.nodes.mean(axis=0)).T
@@ -138,7 +141,7 @@ def _plate_at_rest(scene: Scene, elements: tuple[int, int]) -> RestState:
     rigid[4, :, 2], rigid[4, :, 3] = -x, 1.0
     rigid[5, :, 0], rigid[5, :, 1] = -y, x
     return RestState(
-        stiffness=plate.stiffness_matrix(scene, model),
+        stiffness=plate.stiffness_matrix(scene, model, section),
         mass=plate.mass_matrix(scene, model),
         held=held,
         rigid=rigid.reshape(6, -1).T,
@@ -146,10 +149,10 @@ def _plate_at_rest(scene: Scene, elements: tuple[int, int]) -> RestState:
     )
 
 
-def _shell_at_rest(scene: Scene, elements: tuple[int, int]) -> RestState:
+def _shell_at_rest(scene: Scene, elements: tuple[int, int], section: Section | None = None) -> RestState:
     """The tangent of the shell that nothing holds or loads; the last two fields turn the director."""
     bare = scene.model_copy(update={"supports": (), "loads": (), "gravity": None})
-    structure, _ = shell.discretise(rectangle(scene.sheet, elements), bare)
+    structure, _ = shell.discretise(rectangle(scene.sheet, elements), bare, section)
     rest = structure.rest()
     stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
     return _plate_at_rest(scene, elements)._replace(stiffness=stiffness)

@@ -6,6 +6,7 @@ from scipy.spatial.transform import Rotation
 from skfem import Basis, ElementQuad2, MeshQuad
 
 from fem_reference import shell_loads
+from fem_reference.materials import section_of
 from fem_reference.mesh import rectangle
 from fem_reference.shell import discretise
 from fem_reference.shell_element import Element
@@ -32,7 +33,7 @@ def distorted(elements=3, by=0.2, seed=0) -> MeshQuad:
 def build(mesh: MeshQuad, thickness=SHEET.thickness, material=RUBBER):
     basis = Basis(mesh, ElementQuad2())
     nodes, element_nodes = basis.doflocs.T, basis.element_dofs.T
-    return Element.build(nodes[element_nodes], material, thickness), nodes, element_nodes
+    return Element.build(nodes[element_nodes], section_of(material, thickness)), nodes, element_nodes
 
 
 def scene(supports=(), loads=(), **more) -> Scene:

@@ -234,3 +234,16 @@ def test_unknown_choices_are_refused():
     ):
         with pytest.raises(ValueError, match=said):
             lumped.simulate(asked, springs(asked), 0.01, **options)
+
+
+@pytest.mark.slow
+def test_the_seeds_run_settles_and_without_dampers_keeps_its_energy():
+    asked = scene("two-edges-settling")
+    static = lumped.solve(asked, springs(asked, 9)).displacement(asked.probe_points())
+    history = lumped.simulate(asked, springs(asked, 9), 3.0)
+    end = np.array([history.probes[name][-1] for name in asked.probes])
+    assert largest(end - static) < 1e-4 * largest(static)
+    asked = scene()
+    history = lumped.simulate(asked, springs(asked, 9), 10.0, integrator="midpoint", step=1e-3, every=0.02)
+    drift = largest(history.balance - history.balance[0])
+    assert drift < 1e-6 * largest(history.energies["potential"])

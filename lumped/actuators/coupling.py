@@ -1,7 +1,8 @@
 """All actuators of a scene, bound to a lattice: their rows follow those of the masses in the displacement.
 
 A mass that a support holds, in whichever component, stays with its support; one that two actuators on
-neighbouring edges could bind stays with the first. Chains on one edge are one actuator model.
+neighbouring edges could bind stays with the first. Chains on one edge are one actuator model. An actuator's
+name is its edge, or, where an edge has several, its edge and its number in the scene.
 """
 
 from __future__ import annotations
@@ -152,13 +153,9 @@ def _actuators(scene: Scene, lattice: Lattice) -> tuple[Actuator, ...]:
     taken = np.zeros(lattice.mass_count, dtype=bool)
     for support in scene.supports:
         taken[lattice.edge_columns(support.edge).ravel()] = True
-    count = {edge: sum(a.edge == edge for a in scene.actuators) for edge in ("x0", "x1", "y0", "y1")}
-    names = [
-        a.edge if count[a.edge] == 1 else f"{a.edge}.{getattr(a, 'face', i)}"
-        for i, a in enumerate(scene.actuators)
-    ]
+    names = [str(a.edge) for a in scene.actuators]
     if len(set(names)) < len(names):
-        names = [f"{a.edge}.{i + 1}" for i, a in enumerate(scene.actuators)]
+        names = [f"{edge}.{i + 1}" for i, edge in enumerate(names)]
     found: list[Actuator] = []
     for edge in dict.fromkeys(a.edge for a in scene.actuators):
         here = [(name, a) for name, a in zip(names, scene.actuators, strict=True) if a.edge == edge]

@@ -7,9 +7,10 @@ its rest length along its present direction; the global step solves
 
 For links this is the same as projecting and solving for u; written with the residual, other springs take
 part too: cells with |k| in L for each of their diagonals. Dampers of c count as c/h. Soft bending modes
-beside stiff links need hundreds of such iterations: the last changes are remembered as in L-BFGS (Liu et al. 2017), which
-brings that down to about ten. Their number is fixed, which bounds the cost, not the error: first order in
-the step, and dissipative. No chains: their constraints turn with them, which a constant matrix cannot follow.
+beside stiff links need hundreds of such iterations: the last changes are remembered as in L-BFGS (Liu et al.
+2017), which brings that down to about ten. Their number is fixed, which bounds the cost, not the error: first
+order in the step, and dissipative. No chains: their constraints turn with them, which a constant matrix
+cannot follow.
 """
 
 from __future__ import annotations

@@ -104,6 +104,9 @@ def simulate(
     kept: FolderStore | MemoryStore = MemoryStore(sampling.width, masses)
     if store is not None:
         kept = FolderStore(store, sampling.width, masses, {**asked, "samples": plan.samples})
+    # kernels are compiled, or loaded, in the set-up
+    system.matrix(start.u, start.v, 0.0, 1.0, 1.0, 1.0)
+    system.average_elastic(start.u, start.u, 0.0)
     ready = clock.perf_counter()
     with one_blas_thread():
         status, message, steps = _run(system, method, plan, sampling, kept, start, shown, progress)

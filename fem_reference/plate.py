@@ -20,7 +20,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from skfem import Basis, ElementQuad2, FacetBasis, LinearForm, MeshQuad
 
-from fem_reference import shell_supports
+from fem_reference import refusal, shell_supports
 from fem_reference.linear import DirectSolver, SingularMatrix
 from fem_reference.location import locate
 from fem_reference.materials import Section, section_of
@@ -87,6 +87,8 @@ def solve(
     from material and thickness unless given. Raises SceneError if the supports leave a rigid motion free.
     """
     require_static(scene)
+    if scene.actuators:
+        return refusal.of_actuators(scene, "plate")
     begin = perf_counter()
     along_x, along_y = divisions(scene.sheet.lengths, elements)
     plate = Plate.on(rectangle(scene.sheet, (along_x, along_y)))

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from skfem import Basis, ElementQuad2, MeshQuad
 
-from fem_reference import rod, shell_loads, shell_supports
+from fem_reference import actuator_forces, edge_motion, rod, shell_loads, shell_supports
 from fem_reference.equilibrium import trace
 from fem_reference.linear import DirectSolver
 from fem_reference.location import locate
@@ -59,7 +59,7 @@ def solve_on(
     """The same on any flat mesh of quadrilaterals [m], straight-sided (MeshQuad) or biquadratic (MeshQuad2).
 
     Supports and loads act on the mesh's boundaries of their edges' names ("x0", …), which may lie
-    anywhere; of the scene's sheet only the thickness is used.
+    anywhere; of the scene's sheet only the thickness is used, and the lengths of edges with actuators.
     """
     begin = perf_counter() if begin is None else begin
     structure, nodes = discretise(mesh, scene, section)
@@ -69,7 +69,11 @@ def solve_on(
     done = perf_counter()
 
     displacement, turn = path.state.change
-    residual = structure.forces(path.state, path.load_factor).residual[0]
+    forces = structure.forces(path.state, path.load_factor)
+    exerted, fields = {}, {}
+    if isinstance(structure, RoddedShell):
+        exerted = actuator_forces.wrenches(scene, structure, path.state, forces)
+        fields = {"actuator_line_force": actuator_forces.line_forces(structure, path.state, forces)}
 
     def sample(points: np.ndarray) -> np.ndarray:
         return interpolate(mesh, structure.element_nodes, displacement, points)
@@ -84,12 +88,15 @@ def solve_on(
         setup_seconds=ready - begin,
         solve_seconds=done - ready,
         sample=sample,
-        reactions=structure.supports.reactions(residual),
+        reactions=structure.supports.reactions(forces.residual[0]),
         energies=structure.energies(path.state),
-        mesh=field_mesh(nodes, structure.element_nodes, displacement, turn + np.array([0.0, 0.0, 1.0])),
+        mesh=field_mesh(
+            nodes, structure.element_nodes, displacement, turn + np.array([0.0, 0.0, 1.0]), **fields
+        ),
         history=tuple(path.history),
         load_factor=path.load_factor,
         message=path.message,
+        actuators=exerted,
     )
 
 
@@ -105,13 +112,15 @@ def discretise(
     on_edge = {str(edge): basis.get_dofs(edge).flatten() for edge in (s.edge for s in scene.supports)}
     supports = shell_supports.of_scene(scene, nodes, on_edge)
     dead, followers = shell_loads.of_scene(scene, mesh, element_nodes, nodes, element.areas)
-    lines = {
-        str(a.edge): Line.along(mesh, mesh.boundaries[a.edge], nodes[element_nodes]) for a in scene.actuators
-    }
-    sides = {edge: element_nodes[line.elements[:, None], line.sides] for edge, line in lines.items()}
-    if rods := rod.of_scene(scene, nodes, sides):
-        return RoddedShell(element, element_nodes, supports, dead, followers, rods), nodes
-    return ShellStructure(element, element_nodes, supports, dead, followers), nodes
+    if not scene.actuators:
+        return ShellStructure(element, element_nodes, supports, dead, followers), nodes
+    sides = {}
+    for edge in {str(actuator.edge) for actuator in scene.actuators}:
+        line = Line.along(mesh, mesh.boundaries[edge], nodes[element_nodes])
+        sides[edge] = element_nodes[line.elements[:, None], line.sides]
+    supports = edge_motion.hold(supports, scene, nodes, {edge: np.unique(at) for edge, at in sides.items()})
+    rods = rod.of_scene(scene, nodes, sides)
+    return RoddedShell(element, element_nodes, supports, dead, followers, rods), nodes
 
 
 def interpolate(
@@ -124,10 +133,13 @@ def interpolate(
 
 
 def field_mesh(
-    nodes: np.ndarray, element_nodes: np.ndarray, displacement: np.ndarray, director: np.ndarray
+    nodes: np.ndarray,
+    element_nodes: np.ndarray,
+    displacement: np.ndarray,
+    director: np.ndarray,
+    **more: np.ndarray,
 ) -> FieldMesh:
-    """Nodes and bilinear quarters of the elements, with displacement [m] and director."""
+    """Nodes and bilinear quarters of the elements, with displacement [m], director and more nodal fields."""
     points = np.column_stack([nodes, np.zeros(len(nodes))])
-    return FieldMesh(
-        points, [("quad", quarters(element_nodes.T))], {"displacement": displacement, "director": director}
-    )
+    fields = {"displacement": displacement, "director": director, **more}
+    return FieldMesh(points, [("quad", quarters(element_nodes.T))], fields)

@@ -11,10 +11,19 @@ With load factor λ the rod is bent to λκ. Where two supports share a corner b
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from scenes import EDGES, Curved, Scene, Symmetric, held_axes, holds_director, rod_middle
+
+
+class Driver(Protocol):
+    """What moves nodes (k,) that are held: their displacement [m] and change of director, (k, 3) each."""
+
+    @property
+    def nodes(self) -> np.ndarray: ...
+    def change(self, load_factor: float) -> tuple[np.ndarray, np.ndarray]: ...
 
 
 @dataclass(frozen=True)
@@ -42,7 +51,8 @@ class Rod:
 class Supports:
     """What is held: position (n, 3) by component, director (n,); edges: name → nodes and held axes.
 
-    tilt: (n, 2), whether the director's component along x or y is held at 0, as on a plane of symmetry.
+    tilt: (n, 2), whether the director's component along x or y is held at 0, as on a plane of symmetry;
+    rods, driven: what moves nodes that are held.
     """
 
     position: np.ndarray
@@ -50,12 +60,13 @@ class Supports:
     tilt: np.ndarray
     edges: dict[str, tuple[np.ndarray, np.ndarray]]
     rods: tuple[Rod, ...]
+    driven: tuple[Driver, ...] = ()
 
     def change(self, load_factor: float) -> np.ndarray:
         """Prescribed change (2, n, 3) of positions [m] and directors; zero where nothing moves them."""
         out = np.zeros((2, len(self.director), 3))
-        for rod in self.rods:
-            out[:, rod.nodes] = rod.change(load_factor)
+        for driver in (*self.rods, *self.driven):
+            out[:, driver.nodes] = driver.change(load_factor)
         return out
 
     def reactions(self, nodal: np.ndarray) -> dict[str, np.ndarray]:

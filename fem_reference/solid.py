@@ -19,7 +19,7 @@ from time import perf_counter
 import numpy as np
 from skfem import MeshQuad
 
-from fem_reference import shell_loads, solid_supports
+from fem_reference import refusal, shell_loads, solid_supports
 from fem_reference.equilibrium import trace
 from fem_reference.linear import DirectSolver
 from fem_reference.location import locate
@@ -51,6 +51,8 @@ def solve(
     Raises scenes.SceneError if the supports leave a rigid motion free, ValueError for an unknown option.
     """
     require_static(scene)
+    if scene.actuators:
+        return refusal.of_actuators(scene, "solid")
     begin = perf_counter()
     along_x, along_y = divisions(scene.sheet.lengths, elements)
     structure = discretise(mesh_of(scene, (along_x, along_y), grading), scene, layers, law, clamp)

@@ -3,8 +3,9 @@
     K φ = ω² M φ,    f = ω/2π,    φᵀ M φ = 1
 
 K is the model's stiffness at rest and M its consistent mass, rotary inertia included. Loads, weight and
-damping have no part in it; a curved support counts as a clamp. Lanczos iterations (ARPACK) on (K − σM)⁻¹
-with the shift σ < 0 below the spectrum, so that a free sheet's singular K needs no special care.
+damping have no part in it, nor have actuators; a curved support counts as a clamp. Lanczos iterations
+(ARPACK) on (K − σM)⁻¹ with the shift σ < 0 below the spectrum, so that a free sheet's singular K needs no
+special care.
 
 The rigid motions that the supports leave free are counted exactly (the null space of their values at
 the held unknowns); so many lowest modes, whose frequency is zero, are left out and their number is reported.
@@ -151,7 +152,7 @@ def _plate_at_rest(scene: Scene, elements: tuple[int, int], section: Section | N
 
 def _shell_at_rest(scene: Scene, elements: tuple[int, int], section: Section | None = None) -> RestState:
     """The tangent of the shell that nothing holds or loads; the last two fields turn the director."""
-    bare = scene.model_copy(update={"supports": (), "loads": (), "gravity": None})
+    bare = scene.model_copy(update={"supports": (), "loads": (), "actuators": (), "gravity": None})
     structure, _ = shell.discretise(rectangle(scene.sheet, elements), bare, section)
     rest = structure.rest()
     stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
@@ -166,7 +167,7 @@ def _solid_at_rest(
     grading: str = "edges",
 ) -> RestState:
     """The tangent of the solid that nothing holds or loads; both laws have the same."""
-    bare = scene.model_copy(update={"supports": (), "loads": (), "gravity": None})
+    bare = scene.model_copy(update={"supports": (), "loads": (), "actuators": (), "gravity": None})
     mesh = solid.mesh_of(scene, elements, grading)
     structure = solid.discretise(mesh, bare, layers)
     rest = structure.rest()

@@ -1,0 +1,107 @@
+"""What actuators exert on the sheet: a rod's line force and couple along the edge, summed by segments.
+
+Nodal forces F of the rod on the sheet are those of a line force q with ∫ N q ds = F, of second order along a
+side; couples likewise from the pull on the directors, d × f_d. A segment's share is the force and the moment
+about its middle, on the rod's axis, that it exerts on the sheet [N, N·m]. A prescribed motion is one segment,
+its moment about the edge's middle; chains that act as one share its forces evenly.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fem_reference.rod import Rod, names
+from fem_reference.shell_rods import RoddedShell, RodForces, RodState, of_rods, with_rods
+from fem_reference.shell_structure import Forces, State
+from scenes import EdgeMotion, Scene
+
+_SAMPLES = 32  # of a segment
+_MASS = np.array([[4.0, 2.0, -1.0], [2.0, 16.0, 2.0], [-1.0, 2.0, 4.0]]) / 15.0  # ∫ N N dξ
+
+
+def wrenches(scene: Scene, structure: RoddedShell, state: State, forces: Forces) -> dict[str, np.ndarray]:
+    """Name of an actuator → force and moment (segments, 6) [N, N·m] of its segments on the sheet."""
+    found = {}
+    for i, rod in enumerate(structure.rods):
+        share = by_segment(rod, i, of_rods(state), with_rods(forces)) / len(rod.names)
+        found.update({name: share for name in rod.names})
+    motions = [n for n, a in zip(names(scene), scene.actuators, strict=True) if isinstance(a, EdgeMotion)]
+    for name, moved in zip(motions, structure.supports.driven, strict=True):
+        found[name] = _of_motion(structure, moved.nodes, state, forces)
+    return {name: found[name] for name in names(scene)}
+
+
+def line_forces(structure: RoddedShell, state: State, forces: Forces) -> np.ndarray:
+    """Line force (n, 3) [N/m] of the rods on the sheet at the shell's nodes, zero off their edges."""
+    out = np.zeros((structure.count, 3))
+    for i, rod in enumerate(structure.rods):
+        out[rod.line] += line_force(rod, i, of_rods(state), with_rods(forces))[0]
+    return out
+
+
+def _of_motion(structure: RoddedShell, nodes: np.ndarray, state: State, forces: Forces) -> np.ndarray:
+    force, pull = forces.residual[:, nodes]
+    displacement, turn = state.change[:, nodes]
+    position = structure.rest_positions[nodes] + displacement
+    director = turn + np.array([0.0, 0.0, 1.0])
+    middle = 0.5 * (position.min(axis=0) + position.max(axis=0))
+    moment = np.cross(position - middle, force) + np.cross(director, pull)
+    return np.concatenate([force.sum(axis=0), moment.sum(axis=0)])[None]
+
+
+def line_force(rod: Rod, i: int, state: RodState, forces: RodForces) -> tuple[np.ndarray, np.ndarray]:
+    """Line force [N/m] and couple [N·m/m] (p, 3) of rod i on the sheet, at the nodes of its edge."""
+    count = len(rod.line)
+    pull = np.zeros((2, count, 3))
+    np.add.at(pull[0], rod.places, -forces.rod_pull[i][:, :3])
+    np.add.at(pull[1], rod.places, -forces.rod_pull[i][:, 3:6])
+    if rod.base is not None:  # what holds the base reaches the sheet through the rod
+        pull[:, rod.base] += forces.residual[:, rod.line[rod.base]]
+    director = state.change[1][rod.line] + np.array([0.0, 0.0, 1.0])
+    mass = np.zeros((count, count))
+    half = 0.5 * np.linalg.norm(rod.reference[:, 2] - rod.reference[:, 0], axis=1)
+    np.add.at(mass, (rod.places[:, :, None], rod.places[:, None, :]), half[:, None, None] * _MASS)
+    nodal = np.concatenate([pull[0], np.cross(director, pull[1])], axis=1)
+    line = np.linalg.solve(mass, nodal)
+    return line[:, :3], line[:, 3:]
+
+
+def by_segment(rod: Rod, i: int, state: RodState, forces: RodForces) -> np.ndarray:
+    """Force and moment (segments, 6) [N, N·m] on the sheet."""
+    force, couple = line_force(rod, i, state, forces)
+    ends = rod.reference[:, [0, 2]]
+    low, high = ends.min(axis=(0, 1)), ends.max(axis=(0, 1))
+    along = int(np.argmax(high[:2] - low[:2]))
+    length = high[along] - low[along]
+    share = length / rod.segments
+    within = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
+    places = low[along] + share * (np.arange(rod.segments)[:, None] + np.append(within, 0.5))
+    values = _shapes(rod, along, places.ravel()).reshape(rod.segments, _SAMPLES + 1, -1)
+    position = _positions(rod, state.change[0])
+    director = state.change[1][rod.line] + np.array([0.0, 0.0, 1.0])
+    middle = values[:, -1] @ (position + rod.offset * director)
+    at, force, couple = (values[:, :-1] @ nodal for nodal in (position, force, couple))
+    moment = np.cross(at - middle[:, None], force) + couple
+    return np.concatenate([force, moment], axis=2).sum(axis=1) * share / _SAMPLES
+
+
+def _positions(rod: Rod, displacement: np.ndarray) -> np.ndarray:
+    """φ (p, 3) at the nodes of the edge."""
+    flat = np.zeros((len(rod.line), 3))
+    flat[rod.places] = rod.reference[:, :3]
+    return flat + displacement[rod.line]
+
+
+def _shapes(rod: Rod, along: int, places: np.ndarray) -> np.ndarray:
+    """Values (n, p) of the shape functions at places (n,) [m] along the edge."""
+    nodes = rod.reference[:, :3, along]
+    ends = np.sort(nodes[:, [0, 2]], axis=1)
+    side = np.argmax(
+        (places[:, None] >= ends[:, 0] - 1e-12) & (places[:, None] <= ends[:, 1] + 1e-12), axis=1
+    )
+    first, last = nodes[side, 0], nodes[side, 2]
+    xi = 2.0 * (places - first) / (last - first) - 1.0
+    out = np.zeros((len(places), len(rod.line)))
+    local = np.array([xi * (xi - 1.0) / 2.0, 1.0 - xi**2, xi * (xi + 1.0) / 2.0]).T
+    np.put_along_axis(out, rod.places[side], local, axis=1)
+    return out

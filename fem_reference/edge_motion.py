@@ -1,0 +1,63 @@
+"""An edge moved rigidly, as an actuator of the kind "motion" prescribes it; statics take its last pose.
+
+With the middle of the edge at X_m, displacement u and rotation vector θ, at load factor λ
+
+    φ = X_m + λ u + R(λθ) (X − X_m),    d = R(λθ) e_z.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from fem_reference.shell_supports import Supports
+from scenes import EdgeMotion, Scene
+
+
+@dataclass(frozen=True)
+class MovedEdge:
+    """nodes: (k,); arm: X − X_m (k, 3) [m]; displacement (3,) [m]; rotation (3,) [rad]."""
+
+    nodes: np.ndarray
+    arm: np.ndarray
+    displacement: np.ndarray
+    rotation: np.ndarray
+
+    def change(self, load_factor: float) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement (k, 3) [m] and change of director (k, 3) at a load factor."""
+        turn = Rotation.from_rotvec(load_factor * self.rotation)
+        director = turn.apply([0.0, 0.0, 1.0]) - [0.0, 0.0, 1.0]
+        displacement = load_factor * self.displacement + turn.apply(self.arm) - self.arm
+        return displacement, np.tile(director, (len(self.nodes), 1))
+
+
+def of_scene(scene: Scene, nodes: np.ndarray, on_edge: dict[str, np.ndarray]) -> list[MovedEdge]:
+    """The moved edges of a scene; nodes: plan positions (n, 2) [m]; on_edge: edge → the nodes on it."""
+    found = []
+    for actuator in scene.actuators:
+        if isinstance(actuator, EdgeMotion):
+            on = on_edge[str(actuator.edge)]
+            middle = np.mean(scene.sheet.edge_ends(actuator.edge), axis=0)
+            arm = np.column_stack([nodes[on] - middle, np.zeros(len(on))])
+            last = [
+                np.array(values[-1] if values else (0.0, 0.0, 0.0))
+                for values in (actuator.displacement, actuator.rotation)
+            ]
+            found.append(MovedEdge(on, arm, *last))
+    return found
+
+
+def hold(supports: Supports, scene: Scene, nodes: np.ndarray, on_edge: dict[str, np.ndarray]) -> Supports:
+    """The supports with the moved edges held in position and director, and driven."""
+    moved = of_scene(scene, nodes, on_edge)
+    position, director, edges = supports.position.copy(), supports.director.copy(), dict(supports.edges)
+    named = (str(actuator.edge) for actuator in scene.actuators if isinstance(actuator, EdgeMotion))
+    for edge, motion in zip(named, moved, strict=True):
+        position[motion.nodes] = True
+        director[motion.nodes] = True
+        edges[edge] = (motion.nodes, np.arange(3))
+    return replace(
+        supports, position=position, director=director, edges=edges, driven=(*supports.driven, *moved)
+    )

@@ -12,7 +12,7 @@ from comparisons.files import folder, whole, write_text
 from comparisons.vtk import write_mesh
 from scenes import FieldMesh, History, Scene
 
-PIXELS, COLOURS, PER_SECOND = 480, 96, 20
+PIXELS, COLOURS, PER_SECOND, MOST = 480, 96, 12, 50
 
 
 @dataclass(frozen=True)
@@ -72,6 +72,7 @@ def animate(path: Path, scene: Scene, shown: list[tuple[float, Frame]]) -> None:
     from comparisons.stage import Stage
     from comparisons.vtk import plan_mesh
 
+    shown = shown[:: -(-len(shown) // MOST)]
     plan = plan_mesh(scene.sheet, 16).points[:, :2]
     flat = np.column_stack([plan, np.zeros(len(plan))])
     seen = np.vstack([flat, *(flat + frame.displacement(plan) for _, frame in shown)])
@@ -86,7 +87,13 @@ def animate(path: Path, scene: Scene, shown: list[tuple[float, Frame]]) -> None:
         image = Image.fromarray(pixels)
         image = image.resize((PIXELS, round(PIXELS * image.height / image.width)), Image.Resampling.LANCZOS)
         ImageDraw.Draw(image).text((10, 8), f"t = {time:.2f} s", fill="#20252b")
-        images.append(image.quantize(COLOURS, method=Image.Quantize.MEDIANCUT))
+        images.append(image)
+    # one palette for all and no dither: what stands still stays the same, and the file small
+    every = Image.new("RGB", (PIXELS, sum(image.height for image in images[::8])))
+    for number, image in enumerate(images[::8]):
+        every.paste(image, (0, number * image.height))
+    palette = every.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE)
+    images = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
     with whole(path) as partial:
         images[0].save(
             partial,

@@ -11,11 +11,11 @@ from __future__ import annotations
 import numpy as np
 
 from fem_reference.rod import Rod, names
+from fem_reference.shell_element import THREE, THREE_WEIGHTS
 from fem_reference.shell_rods import RoddedShell, RodForces, RodState, of_rods, with_rods
 from fem_reference.shell_structure import Forces, State
 from scenes import EdgeMotion, Scene
 
-_SAMPLES = 32  # of a segment
 _MASS = np.array([[4.0, 2.0, -1.0], [2.0, 16.0, 2.0], [-1.0, 2.0, 4.0]]) / 15.0  # ∫ N N dξ
 
 
@@ -72,17 +72,20 @@ def by_segment(rod: Rod, i: int, state: RodState, forces: RodForces) -> np.ndarr
     ends = rod.reference[:, [0, 2]]
     low, high = ends.min(axis=(0, 1)), ends.max(axis=(0, 1))
     along = int(np.argmax(high[:2] - low[:2]))
-    length = high[along] - low[along]
-    share = length / rod.segments
-    within = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
-    places = low[along] + share * (np.arange(rod.segments)[:, None] + np.append(within, 0.5))
-    values = _shapes(rod, along, places.ravel()).reshape(rod.segments, _SAMPLES + 1, -1)
+    bounds = np.linspace(low[along], high[along], rod.segments + 1)
+    cuts = np.unique(np.concatenate([bounds, ends[:, :, along].ravel()]))  # smooth between
+    half = 0.5 * np.diff(cuts)[:, None]
+    places = (0.5 * (cuts[1:] + cuts[:-1])[:, None] + half * THREE).ravel()
+    weights = (half * THREE_WEIGHTS).ravel()
+    segment = np.clip(np.searchsorted(bounds, places) - 1, 0, rod.segments - 1)
+    values = _shapes(rod, along, places)
     position = _positions(rod, state.change[0])
-    director = state.change[1][rod.line] + np.array([0.0, 0.0, 1.0])
-    middle = values[:, -1] @ (position + rod.offset * director)
-    at, force, couple = (values[:, :-1] @ nodal for nodal in (position, force, couple))
-    moment = np.cross(at - middle[:, None], force) + couple
-    return np.concatenate([force, moment], axis=2).sum(axis=1) * share / _SAMPLES
+    axis = position + rod.offset * (state.change[1][rod.line] + np.array([0.0, 0.0, 1.0]))
+    middle = _shapes(rod, along, 0.5 * (bounds[1:] + bounds[:-1])) @ axis
+    moment = np.cross(values @ position - middle[segment], values @ force) + values @ couple
+    out = np.zeros((rod.segments, 6))
+    np.add.at(out, segment, weights[:, None] * np.concatenate([values @ force, moment], axis=1))
+    return out
 
 
 def _positions(rod: Rod, displacement: np.ndarray) -> np.ndarray:

@@ -105,8 +105,7 @@ def add_forces(u, nodes, diagonals, stiffness, force) -> float:
 def add_average_forces(start, end, nodes, diagonals, stiffness, force) -> None:
     """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it.
 
-    The strains are quadratic in the sides, so that the mean stress on the mean sides is exact (Simo and Tarnow
-    1992).
+    The strains are quadratic in the sides: the mean stress on the mean sides is exact (Simo, Tarnow 1992).
     """
     change, first, second = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     for c in range(len(nodes)):

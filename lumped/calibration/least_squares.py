@@ -79,8 +79,9 @@ def bounded_least_squares(
         values: dict[str, Any] = {
             name: float(stiffness * value) for name, value in zip(UNKNOWNS, unknowns, strict=False)
         }
-        pairs = {name: _by_direction(values.pop(f"{name}_x"), values.pop(f"{name}_y")) for name in PAIRS}
-        return SpringSet(**values, **pairs, vertical=4.0 * float(stiffness), layer_distance=distance)
+        for name in PAIRS:
+            values[name] = _by_direction(values.pop(f"{name}_x"), values.pop(f"{name}_y"))
+        return SpringSet(**values, vertical=4.0 * float(stiffness), layer_distance=distance)
 
     upper = np.triu_indices(2)
 

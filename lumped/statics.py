@@ -88,7 +88,7 @@ def _compile() -> None:
     material = Material(young=1e6, poisson=0.3, density=1e3)
     gravity = Gravity(acceleration=(0.0, 0.0, -1.0))
     scene = Scene(
-        name="small", sheet=sheet, material=material, gravity=gravity, supports=(Clamped(edge="x0"),)
+        name="small", sheet=sheet, material=material, gravity=gravity, support=(Clamped(edge="x0"),)
     )
     with one_blas_thread():
         settle(scene, pose(scene, calibrate(sheet, material, (3, 7))), "path")
@@ -218,6 +218,8 @@ def _solution(
     reactions, on_masses = problem.constraints.reactions(-unbalanced)
     coupling = problem.assembly.coupling
     wrenches = coupling.wrenches(state.u, -unbalanced) if coupling is not None else {}
+    if coupling is not None:
+        reactions |= coupling.base_reactions(-unbalanced)
     columns = lattice.columns().reshape(-1, lattice.grid[2])
     mid_surface = state.u[columns].mean(axis=1)
 

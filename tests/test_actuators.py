@@ -286,3 +286,15 @@ def test_actuators_that_cannot_act_together_are_refused():
 def test_a_held_base_stops_rigid_motions():
     assert scenes.free_rigid_motions(scene("one-edge-clamped", [{"base": "start"}], supports=[])) == []
     assert len(scenes.free_rigid_motions(scene("one-edge-clamped", [{"base": "free"}], supports=[]))) == 6
+
+
+@pytest.mark.parametrize("base, segments", [("start", 8), ("middle", 8), ("middle", 7), ("end", 5)])
+def test_a_held_base_carries_sheet_and_chain_in_statics_and_at_the_end_of_a_run(base, segments):
+    chain = {"edge": "x0", "base": base, "segments": segments, "bending_stiffness": 5.0}
+    asked = scene("one-edge-clamped", [chain], supports=[], damping_rate=20.0)
+    weight = 9.81 * (1678.0 * 0.188**2 * 0.003 + 0.05 * 0.188)
+    solution = lumped.solve(asked, springs(asked))
+    assert solution.status is scenes.Status.CONVERGED
+    assert_allclose(solution.reactions["x0 base"], [0.0, 0.0, weight], atol=1e-8 * weight)
+    history = lumped.simulate(asked, springs(asked), 1.0, step=5e-3, every=0.1, radius=0.5)
+    assert history.reactions["x0 base"][-1] == pytest.approx([0.0, 0.0, weight], abs=0.01 * weight)

@@ -95,6 +95,11 @@ class Actuator(Protocol):
         """Derivative of the damping force by the velocity, (rows, 3, rows, 3) [N·s/m]."""
         ...
 
+    def base_reaction(self, exerted: np.ndarray) -> np.ndarray | None:
+        """Force (3,) [N] that a held base exerts on the actuator, from what holds its rows, (rows, 3); None
+        where no base is held."""
+        ...
+
     def wrenches(self, positions: np.ndarray, on_masses: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Force and moment (names, segments, 6) [N, N·m] on the sheet from the forces `on_masses` (m, 3)."""
         ...

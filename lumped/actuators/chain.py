@@ -172,6 +172,14 @@ class Chain:
         out[:count, :, :count, :] = damped.reshape(count, 3, count, 3)
         return out
 
+    def base_reaction(self, exerted: np.ndarray) -> np.ndarray | None:
+        """Force on the points that the base holds."""
+        if self.frames.base == "free":
+            return None
+        points = self.frames.points
+        force: np.ndarray = exerted[:points][~self.free[:points, 0]].sum(axis=0)
+        return force
+
     def wrenches(self, positions: np.ndarray, on_masses: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Force and moment about the middle of each segment's axis; chains of a pair share them evenly."""
         frames = self.frames

@@ -133,6 +133,17 @@ class Coupling:
             force[place] += resisting
         return power
 
+    def base_reactions(self, exerted: np.ndarray) -> dict[str, np.ndarray]:
+        """Force (3,) [N] of every held base on its chain, by "EDGE base", from what holds masses and rows,
+        (size, 3) [N]."""
+        found = {}
+        for actuator, place in self._each():
+            whole = exerted[place] + actuator.binding.T @ exerted[actuator.masses]
+            force = actuator.base_reaction(whole)
+            if force is not None:
+                found[f"{actuator.edge} base"] = force
+        return found
+
     def wrenches(self, u: np.ndarray, on_masses: np.ndarray) -> dict[str, np.ndarray]:
         """Force and moment of each segment on the sheet, (segments, 6) [N, N·m] by actuator, from the forces
         that the actuators exert on the masses, (size, 3) [N]."""

@@ -76,6 +76,10 @@ class RigidMotion:
         """None."""
         return np.zeros((0, 3, 0, 3))
 
+    def base_reaction(self, exerted: np.ndarray) -> np.ndarray | None:
+        """None: it stands on nothing."""
+        return None
+
     def wrenches(self, positions: np.ndarray, on_masses: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Force and moment about the rest place of the edge's middle."""
         moment = np.cross(positions - self._middle, on_masses).sum(axis=0)

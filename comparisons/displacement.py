@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.candidates import Candidate
 from comparisons.grids import Grid
 from comparisons.models import check_lattice, check_reference, has_own_springs, solve
 from comparisons.uncertainty import CHEAP, ErrorBar, error_bar
@@ -169,6 +170,7 @@ def compare(
     reference: str = "shell",
     elements: int = 16,
     uncertainty: bool | None = None,
+    choice: Candidate | None = None,
     starting: Callable[[str], None] = lambda model: None,
     finished: Callable[[Solution], None] = lambda solution: None,
 ) -> Comparison:
@@ -178,7 +180,8 @@ def compare(
     `consistent`, and then the uniform calibration is solved too and shown alongside as `lumped-uniform`;
     where `k` [N/m] is given the default is `uniform`, and where the scene brings its own [springs] they are
     used alone. layer_distance [m]. elements: along the shorter side. uncertainty: find the reference's error
-    bar on coarser meshes too; for the plate and the shell it is unless False, for others if True.
+    bar on coarser meshes too; for the plate and the shell it is unless False, for others if True. choice: a
+    model that takes the lattice's place (`comparisons.advisor`); a name that the reference has is changed.
     `starting` and `finished` are called before and after each model, so that a caller can show progress
     and keep what is done.
 
@@ -200,14 +203,22 @@ def compare(
         finished(solution)
         return solution
 
-    solutions = [run("lumped", "lumped", **asked), run(reference, reference, elements=elements)]
-    if asked["calibration"] is None and not has_own_springs(scene, **asked):
+    if choice is not None:
+        first = run(choice.model, _apart(choice.model, reference), **choice.settings)
+    else:
+        first = run("lumped", "lumped", **asked)
+    solutions = [first, run(reference, reference, elements=elements)]
+    if choice is None and asked["calibration"] is None and not has_own_springs(scene, **asked):
         solutions.append(run("lumped", COMPANION, **{**asked, "calibration": "uniform"}))
     bar = None
     if (reference in CHEAP if uncertainty is None else uncertainty) and comparable(solutions[1]):
         starting(f"{reference} on coarser meshes")
         bar = error_bar(scene, solutions[1], elements, lambda n: solve(scene, reference, elements=n))
     return Comparison(scene, tuple(solutions), bar)
+
+
+def _apart(model: str, reference: str) -> str:
+    return model if model != reference else f"{model}-advised"
 
 
 def load_static(scene: str | Path) -> Scene:

@@ -54,7 +54,11 @@ def compose(comparison: Comparison) -> Figure:
     scale = exaggeration(scene, [lattice, reference])
 
     left, middle, right = (Stage(scene, reference, scale) for _ in range(3))
-    left.lattice(lattice.mesh, masses, height_limits, HEIGHTS)
+    if any(kind == "line" for kind, _ in lattice.mesh.cells):
+        left.lattice(lattice.mesh, masses, height_limits, HEIGHTS)
+    else:
+        shown_heights = 1e3 * lattice.displacement(plan)[:, 2]
+        left.surface(lattice, shown_heights, height_limits, HEIGHTS, _elements(lattice))
     middle.surface(reference, heights, height_limits, HEIGHTS, _elements(reference))
     right.surface(reference, difference, difference_limits, DIFFERENCES, 0)
     flat = np.column_stack([plan, np.zeros(len(plan))])
@@ -65,7 +69,7 @@ def compose(comparison: Comparison) -> Figure:
 
     figure, axes, bars = _layout(shots[0][0].shape[0] / shots[0][0].shape[1])
     titles = [
-        MODEL_NAMES.get(lattice.model, lattice.model),
+        MODEL_NAMES.get(lattice.model.removesuffix("-advised"), lattice.model),
         MODEL_NAMES.get(reference.model, reference.model),
         "Difference",
     ]

@@ -48,13 +48,23 @@ def command(
             show_default=False,
         ),
     ] = None,
+    auto: Annotated[
+        bool,
+        typer.Option("--auto", help="Let the advisor choose the model shown first.", show_default=False),
+    ] = False,
+    tolerance: Annotated[
+        float | None,
+        typer.Option(metavar="FRACTION", help="Error that --auto may make; 0.01 unless given."),
+    ] = None,
     json: Json = False,
     out: Out = None,
 ) -> None:
     """Solve a scene with the lattice and with a reference, and show what differs and what it cost."""
+    from comparisons.advisor import advise, check_auto
     from comparisons.cli import console
     from comparisons.cli.app import NOT_CONVERGED
     from comparisons.displacement import compare, load_static
+    from comparisons.errors import BadInput
     from comparisons.files import folder, to_json
     from comparisons.grids import parse_grid
     from comparisons.output import Output
@@ -63,9 +73,17 @@ def command(
 
     asked = load_static(scene)
     grid = parse_grid(lumped, "--lumped") if lumped is not None else None
+    given = {"--lumped": lumped, "--calibration": calibration, "--k": k, "--layer-distance": layer_distance}
+    check_auto(auto, tolerance, given)
     output = Output(folder(out), command_line()) if out is not None else None
 
     with console.progress() as progress:
+        advice = None
+        if auto:
+            progress("asking the advisor …")
+            advice = advise(asked, 0.01 if tolerance is None else tolerance)
+            if advice.choice is None:
+                raise BadInput(f"--auto: {advice.message}")
 
         def finished(solution: Solution) -> None:
             if output is not None:
@@ -80,6 +98,7 @@ def command(
             reference=reference,
             elements=elements,
             uncertainty=uncertainty,
+            choice=advice.choice if advice is not None else None,
             starting=lambda model: progress(f"solving {model} …"),
             finished=finished,
         )
@@ -91,9 +110,13 @@ def command(
             no_picture = output.picture(comparison)
 
     if json:
-        print(to_json(comparison.as_dict()), end="")
+        document = comparison.as_dict()
+        print(to_json(document if advice is None else {**document, "advice": advice.as_dict()}), end="")
     else:
         _show(comparison)
+        if advice is not None:
+            percent = 100 * (advice.tolerance or 0.0)
+            console.note(f"The first model was chosen for {percent:g} %: {advice.reason}")
         if output is not None:
             console.note(f"Files in {output.folder}: {', '.join(output.written)}")
     if no_picture:

@@ -1,0 +1,170 @@
+"""The advisor: what it chooses and leaves out, on known scenes and on scenes drawn at random."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from test_cli import one_line, run
+
+import fem_reference
+import scenes
+from comparisons import advisor_study
+from comparisons.advisor import Advice, advise
+from comparisons.advisor_study import scenes_at_random, study
+from comparisons.campaign import campaign
+from comparisons.displacement import error
+from comparisons.models import solve
+from comparisons.scales import scales
+from scenes import Clamped, Gravity, Scene
+
+
+def actual_error(advice: Advice, elements: int = 16) -> float:
+    """Error of the choice against a shell that the advisor did not see."""
+    assert advice.choice is not None
+    points = advice.scene.probe_points()
+    truth = fem_reference.solve(advice.scene, model="shell", elements=elements).displacement(points)
+    found = error(
+        solve(advice.scene, advice.choice.model, **advice.choice.settings).displacement(points), truth
+    )
+    assert found is not None
+    return found
+
+
+def lighter(scene: Scene, share: float) -> Scene:
+    """The scene under a share of its weight."""
+    gravity = Gravity(acceleration=(0.0, 0.0, -9.81 * share))
+    return scene.model_copy(update={"gravity": gravity})
+
+
+def test_scales_of_the_seed_sheet() -> None:
+    found = scales(scenes.load("two-edges-clamped"))
+    rigidity = 54.5e6 * 0.003**3 / 12 / (1 - 0.48**2)
+    assert found.load_number == pytest.approx(1678 * 9.81 * 0.003 * 0.188**3 / rigidity)
+    assert found.slenderness == pytest.approx(0.003 / 0.188)
+    assert found.strain == pytest.approx(1678 * 9.81 * 0.188 / 54.5e6)
+
+
+@pytest.mark.parametrize("name", ["two-edges-clamped", "one-edge-clamped", "curved-edge"])
+@pytest.mark.parametrize("tolerance", [0.05, 0.01, 0.003])
+def test_the_choice_meets_the_tolerance(name: str, tolerance: float) -> None:
+    advice = advise(scenes.load(name), tolerance)
+    assert advice.met
+    assert actual_error(advice) <= tolerance
+
+
+def test_a_loose_tolerance_costs_no_more_than_a_tight_one() -> None:
+    scene = scenes.load("curved-edge")
+    loose, tight = advise(scene, 0.05), advise(scene, 0.001)
+    assert loose.seconds is not None and tight.seconds is not None
+    assert loose.seconds < tight.seconds
+    assert tight.choice is not None and tight.choice.model == "shell"
+
+
+def test_what_the_scene_does_not_need_is_left_out() -> None:
+    light = advise(lighter(scenes.load("one-edge-clamped"), 0.01), 0.02)
+    assert light.choice is not None
+    assert light.choice.settings.get("linear") or light.choice.model == "plate"
+    assert light.choice.settings["symmetry"] is True
+    assert "large displacements" not in light.needs
+    said = " ".join(light.left_out)
+    assert "dynamics" in said and "nonlinearity" in said and "half" in said
+    assert actual_error(light) <= 0.02
+
+    heavy = advise(scenes.load("two-edges-clamped"), 0.01)
+    assert heavy.choice is not None and "symmetry" not in heavy.choice.settings
+    assert {"bending", "membrane stiffening", "large displacements"} <= set(heavy.needs)
+
+
+def test_within_a_budget_the_most_accurate_is_chosen() -> None:
+    scene = scenes.load("two-edges-clamped")
+    short, long = advise(scene, None, 0.02), advise(scene, None, 1.0)
+    assert short.met and long.met
+    assert short.seconds is not None and short.seconds <= 0.02
+    assert short.error is not None and long.error is not None and long.error <= short.error
+    hopeless = advise(scene, 0.01, 1e-7)
+    assert not hopeless.met and hopeless.choice is None and "no model solves this" in hopeless.message
+
+
+def test_only_the_lattice_knows_actuators() -> None:
+    advice = advise(scenes.load("actuated-edge"), 0.05)
+    assert advice.choice is not None and advice.choice.model == "lumped"
+    assert "actuators" in advice.needs
+
+
+def test_the_document_has_the_promised_keys(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert run("advise", "one-edge-clamped", "--tolerance", "0.02", "--json", "--out", str(tmp_path)) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert set(document["choice"]) == {"model", "settings"}
+    assert document["predicted"]["error"] <= 0.02 and document["predicted"]["solve_seconds"] > 0
+    assert "bending" in document["needs"]
+    assert json.loads((tmp_path / "advice.json").read_text(encoding="utf-8")) == document
+    assert (tmp_path / "tried.csv").exists() and (tmp_path / "manifest.json").exists()
+
+
+def test_compare_solves_with_the_choice_first(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("compare", "curved-edge", "--auto", "--tolerance", "0.02", "--elements", "8", "--json") == 0
+    document = json.loads(capsys.readouterr().out)
+    choice = document["advice"]["choice"]
+    first, second = document["solutions"]
+    assert first["model"].removesuffix("-advised") == choice["model"] and second["model"] == "shell"
+    assert document["errors"][0]["error"] <= 0.02
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("compare", "one-edge-clamped", "--tolerance", "0.1"), "--tolerance = 0.1: goes with --auto"),
+        (("compare", "one-edge-clamped", "--auto", "--k", "5"), "--auto and --k"),
+        (("compare", "one-edge-clamped", "--auto", "--tolerance", "2"), "--tolerance = 2: a fraction"),
+        (("advise", "one-edge-clamped", "--tolerance", "0"), "--tolerance = 0"),
+        (("advise", "one-edge-clamped", "--budget", "-1"), "--budget = -1"),
+    ],
+)
+def test_bad_input_is_said_in_a_line(
+    arguments: tuple[str, ...], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(*arguments) == 2
+    assert said in one_line(capsys)
+
+
+def test_scenes_drawn_are_the_same_for_the_same_seed_and_within_range() -> None:
+    drawn = [scene for scene, _ in zip(scenes_at_random(3), range(40), strict=False)]
+    again = [scene for scene, _ in zip(scenes_at_random(3), range(40), strict=False)]
+    assert drawn == again and len({scene.sheet for scene in drawn}) == 40
+    for scene in drawn:
+        scenes.require_static(scene)
+        found = scales(scene)
+        assert 0.003 <= found.slenderness <= 0.05
+        assert 0.0 < found.load_number < 200.0
+    assert len({tuple(s.kind for s in scene.supports) for scene in drawn}) >= 6
+
+
+def test_an_unstable_scene_gets_no_choice_but_the_reason() -> None:
+    base = scenes.load("one-edge-clamped")
+    upright = base.model_copy(
+        update={"gravity": Gravity(acceleration=(-200.0, 0.0, 0.0)), "supports": (Clamped(edge="x0"),)}
+    )
+    advice = advise(upright, 0.01)  # a sheet that stands on its edge and is too heavy to
+    assert advice.choice is None and not advice.met
+    assert "unstable" in advice.message
+
+
+def test_a_few_random_scenes(tmp_path: Path) -> None:
+    with campaign(tmp_path) as store:
+        found = study(store, count=2, compared=1, tolerances=(0.02,), workers=2, elements=12)
+        again = study(store, count=2, compared=1, tolerances=(0.02,), workers=2, elements=12)
+    assert len(found.cases) == 2 and found.met == 1.0
+    assert found == again
+    assert found.cases[0]["cost_ratio"] is not None
+    assert "tolerance" in found.table().to_markdown()
+
+
+@pytest.mark.slow
+def test_sixty_random_scenes(tmp_path: Path) -> None:
+    with campaign(tmp_path) as store:
+        found = study(store, workers=2)
+    assert len(found.cases) == 60 * len(advisor_study.TOLERANCES)
+    assert found.met >= 0.95
+    assert found.within >= 0.80

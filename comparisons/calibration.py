@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from math import inf
+from typing import TYPE_CHECKING, Any
 
 from comparisons.tables import Column, Table
+
+if TYPE_CHECKING:
+    from lumped import Calibration
 
 _UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
 _MEANINGS = {
@@ -15,7 +19,43 @@ _MEANINGS = {
     "cross_diagonal": "kddT, between layers, diagonal",
     "area": "area spring of a cell in a layer",
     "mid_area": "area spring of a mid-surface cell",
+    "shear": "strain spring of a cell in a layer, in-plane shear",
+    "mid_shear": "strain spring of a mid-surface cell, in-plane shear",
+    "mid_stretch": "strain spring of a mid-surface cell, stretching",
 }
+
+
+def document(calibration: Calibration) -> dict[str, Any]:
+    """The JSON document of `sheetbench calibrate`; of a fit also what the data tell of each spring.
+
+    fit: residual, the largest relative miss of the targets; half_widths, of the springs' 95 % intervals as
+    shares of themselves, of area springs as shares of the diagonal's stiffness (null: not seen by the data).
+    """
+    from lumped.calibration.fitted import FittedCalibration
+
+    found = calibration.as_dict()
+    if isinstance(calibration, FittedCalibration):
+        known = calibration.identifiability
+        found["fit"] = {
+            "residual": calibration.residual,
+            "half_widths": known.half_widths if known else {},
+            "singular_values": known.singular_values if known else [],
+        }
+    return found
+
+
+def fit(calibration: dict[str, Any]) -> Table:
+    """A row per spring that was fitted: its 95 % interval. `calibration` as `document` gives it."""
+    rows = tuple(
+        (
+            name,
+            "of the diagonal" if name in ("area", "mid_area") else "of itself",
+            width if width < inf else None,
+        )
+        for name, width in calibration["fit"]["half_widths"].items()
+    )
+    columns = (Column("spring"), Column("share"), Column("±", "", "%", 100.0, ".2f"))
+    return Table("What the data tell of each spring: 95 % intervals", columns, rows)
 
 
 def springs(calibration: dict[str, Any]) -> Table:

@@ -33,17 +33,24 @@ def calibrate(
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,
+    training: Sequence[Scene] | None = None,
 ) -> Calibration:
     """Springs of a lattice; by default consistent ones for nine masses along the shorter side.
 
-    k [N/m] and layer_distance [m] are the calibration's own options. Raises BadInput for a name that is
-    not a calibration or lengths that are not above zero, and ValueError for options it does not take.
+    k [N/m] and layer_distance [m] are the calibration's own options; training: the scenes that a fitted
+    one is fitted to, see `comparisons.targets`. Raises BadInput for a name that is not a calibration or
+    lengths that are not above zero, and ValueError for options it does not take.
     """
     import lumped
+    from lumped.calibration import FITTED
 
     check_lattice(calibration, k, layer_distance)
     method = calibration or "consistent"
     grid = grid or default_grid(sheet)
+    if method in FITTED and k is None:
+        from comparisons.targets import fitted
+
+        return fitted(sheet, material, grid, method, layer_distance, training)
     return lumped.calibrate(sheet, material, grid=grid, method=method, k=k, layer_distance=layer_distance)
 
 

@@ -11,7 +11,7 @@ from comparisons.cli.options import Json, Out, command_line
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
-    from scenes import Material, Sheet
+    from scenes import Material, Scene, Sheet
 
 Quantities = TypeVar("Quantities", bound="BaseModel")
 DENSITY = 1000.0  # kg/m³
@@ -50,6 +50,8 @@ def command(
     """Find the spring constants of a lattice, and report which of the sheet's moduli they meet.
 
     Give a SCENE, or --young --poisson --thickness --side; with both, the options change the scene's values.
+    The fitted methods train on the SCENE; without one, on the sheet under its own weight with one edge and
+    with two adjacent edges clamped.
     """
     from comparisons import calibration as report
     from comparisons import summary
@@ -67,14 +69,16 @@ def command(
         {"thickness": thickness, **_sides(side)},
         {"young": young, "poisson": poisson, "density": density},
     )
-    found = calibrate(
+    calibration = calibrate(
         sheet,
         material,
         grid=parse_grid(grid, "--grid") if grid is not None else None,
         calibration=method,
         k=k,
         layer_distance=layer_distance,
-    ).as_dict()
+        training=_training(scene, sheet, material) if scene is not None else None,
+    )
+    found = report.document(calibration)
     springs, moduli = report.springs(found), report.moduli(found)
     if out is not None:
         files = {
@@ -98,6 +102,9 @@ def command(
     console.show(springs)
     console.note(f"layer distance {1e3 * found['layer_distance']:.6g} mm")
     console.show(moduli)
+    if "fit" in found:
+        console.show(report.fit(found))
+        console.note(f"the targets are met within {100 * found['fit']['residual']:.2g} %")
     for said in found.get("notes", ()):
         console.note(said)
     if out is not None:
@@ -117,6 +124,16 @@ def _sides(text: str | None) -> dict[str, float]:
     if len(sides) not in (1, 2):
         raise BadInput(f"--side = '{text}': not a side; write 0.188 or 0.188x0.3, in metres")
     return {"length_x": sides[0], "length_y": sides[-1]}
+
+
+def _training(name: str, sheet: Sheet, material: Material) -> list[Scene]:
+    """The named scene with this sheet and material, for a fitted method to train on."""
+    import scenes
+    from comparisons.displacement import load_static
+
+    scene = load_static(name)
+    changed = {"sheet": sheet.model_dump(), "material": material.model_dump(), "probes": {}}
+    return [_checked(scenes.Scene, {**scene.model_dump(by_alias=True, exclude_none=True), **changed})]
 
 
 def _sheet_and_material(

@@ -1,0 +1,47 @@
+"""The fitted methods on the command line and in `compare`: what they train on, and what is said of them."""
+
+import json
+
+import pytest
+from test_cli import run
+
+import scenes
+from comparisons import targets
+from comparisons.models import calibrate
+
+SCENE = scenes.load("two-edges-clamped")
+
+
+def test_training_scenes_are_the_seeds_sheet_held_by_one_and_two_edges():
+    one, two = targets.training_scenes(SCENE.sheet, SCENE.material)
+    assert [s.edge for s in one.supports] == ["x0"] and [s.edge for s in two.supports] == ["x0", "y0"]
+    assert two.gravity == SCENE.gravity
+
+
+def test_a_fit_is_computed_once():
+    first = calibrate(SCENE.sheet, SCENE.material, grid=(5, 5, 2), calibration="fit-modal")
+    assert calibrate(SCENE.sheet, SCENE.material, grid=(5, 5, 2), calibration="fit-modal") is first
+    assert first.method == "fit-modal" and first.masses == "gregory"
+
+
+def test_calibrate_trains_on_the_scene_it_is_given(capsys: pytest.CaptureFixture[str]) -> None:
+    found = []
+    for scene in ("two-edges-clamped", "one-edge-clamped"):
+        assert run("calibrate", scene, "--method", "fit-static", "--grid", "5", "--json") == 0
+        found.append(json.loads(capsys.readouterr().out))
+    assert found[0]["springs"] != found[1]["springs"]
+    assert found[0]["fit"]["residual"] < 0.01
+    assert set(found[0]["fit"]["half_widths"]) <= set(found[0]["springs"])
+
+
+def test_calibrate_shows_what_the_data_tell(capsys: pytest.CaptureFixture[str]) -> None:
+    sheet = ("--young", "54.5e6", "--poisson", "0.48", "--thickness", "0.003", "--side", "0.188")
+    assert run("calibrate", *sheet, "--method", "fit-static", "--grid", "5") == 0
+    printed = capsys.readouterr().out
+    assert "What the data tell of each spring" in printed and "do not see" in printed
+
+
+@pytest.mark.parametrize("option", [("--k", "550"), ("--poisson", "0.6")])
+def test_bad_options_of_a_fit(option, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("calibrate", "two-edges-clamped", "--method", "fit-modal", *option) == 2
+    assert capsys.readouterr().err.count("\n") == 1

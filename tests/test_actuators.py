@@ -252,7 +252,7 @@ def test_the_sheet_follows_a_slow_ramp_through_the_static_solutions():
     ]
     truth = np.array([s.displacement(asked.probe_points()) for s in static]).swapaxes(0, 1)
     found = np.array([history.probes[name][1:] for name in asked.probes])
-    assert np.abs(found - truth)[:, 3:].max() < 0.01 * np.abs(truth).max()
+    assert np.abs(found - truth).max() < 0.01 * np.abs(truth).max()
     assert history.actuators["x1"].shape == (9, 8, 6)
 
 

@@ -7,12 +7,14 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 from test_cli import one_line, run
 
 import scenes
 from comparisons import models, plugins
 from comparisons.errors import BadInput
+from scenes import Clamped, EdgeLoad, Hinged, PointLoad, Status
 
 DOCS = Path(__file__).parent.parent / "docs"
 ENTRY = "[sheetbench.models]\nstrip = plugin:MODEL\nabsent = no_such_module:MODEL\nhalf = plugin:np\n"
@@ -75,3 +77,55 @@ def test_what_is_wrong_with_a_plugin_is_said_in_a_line(
         models.solve(scene, "strip", grid=9)
     assert run("tradeoff", "one-edge-clamped", "--model", "strip:grid=9") == 2
     assert "no setting 'grid'" in one_line(capsys)
+
+
+def test_mujoco_is_installed_as_a_plugin() -> None:
+    assert "mujoco" in plugins.names()
+    with pytest.raises(BadInput, match="elastic2d = 'none'"):
+        models.solve(scenes.load("one-edge-clamped"), "mujoco", elastic2d="none")
+    with pytest.raises(BadInput, match="grid = 2"):
+        models.solve(scenes.load("one-edge-clamped"), "mujoco", grid=2)
+
+
+def test_mujocos_sheet_at_rest_as_it_is() -> None:
+    """With two edges clamped it bends half as far as the shell, and less on a finer grid: nothing is tuned."""
+    scene = scenes.load("two-edges-clamped")
+    truth = models.solve(scene, "shell", elements=8).displacement(scene.probe_points())
+    corner = {}
+    for grid in (9, 17):
+        solution = models.solve(scene, "mujoco", grid=grid)
+        assert solution.status is Status.CONVERGED
+        assert solution.settings["grid"] == [grid, grid]
+        u = solution.displacement(scene.probe_points())
+        assert u[1, [1, 0, 2]] == pytest.approx(u[2, [0, 1, 2]], rel=1e-4)  # the sheet's diagonal symmetry
+        corner[grid] = u[3, 2]
+    assert truth[3, 2] == pytest.approx(-13.5e-3, rel=0.01)
+    assert corner[9] == pytest.approx(-7.24e-3, rel=0.02)
+    assert corner[17] == pytest.approx(-6.83e-3, rel=0.02)
+
+
+def test_mujocos_clamps_hinges_and_point_loads() -> None:
+    base = scenes.load("one-edge-clamped")
+    light = base.model_copy(
+        update={"gravity": None, "loads": (PointLoad(at=(0.188, 0.094), force=(0, 0, 1e-3)),)}
+    )
+    clamped = models.solve(light, "mujoco", grid=9)
+    assert np.abs(clamped.displacement(np.array([[0.0, 0.05], [0.0, 0.188]]))).max() == 0.0
+    tip = clamped.displacement(np.array([[0.188, 0.094]]))[0, 2]
+    shell = models.solve(light, "shell", elements=8).displacement(np.array([[0.188, 0.094]]))[0, 2]
+    assert 0.5 * shell < tip < 2.0 * shell
+    middle = np.array([[0.094, 0.094]])
+    sagging = []
+    for kind in (Clamped, Hinged):
+        supports = tuple(kind(edge=edge) for edge in ("x0", "x1"))
+        bridge = base.model_copy(update={"supports": supports})
+        sagging.append(models.solve(bridge, "mujoco", grid=9).displacement(middle)[0, 2])
+    assert sagging[1] < sagging[0] < 0.0
+
+
+def test_mujoco_refuses_what_it_does_not_have() -> None:
+    base = scenes.load("one-edge-clamped")
+    pulled = base.model_copy(update={"loads": (EdgeLoad(edge="x1", force_per_length=(1.0, 0.0, 0.0)),)})
+    for scene in (scenes.load("curved-edge"), pulled):
+        solution = models.solve(scene, "mujoco")
+        assert solution.status is Status.REFUSED and solution.message

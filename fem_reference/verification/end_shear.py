@@ -15,23 +15,24 @@ from fem_reference.verification.strip import strip, tip
 from scenes import EdgeLoad
 
 TOLERANCE = 5e-3
-ELEMENTS = 16
+ELEMENTS = {"shell": 16, "solid": 16}
 FORCE = 4.0
 PUBLISHED = {0.25: (0.563, 3.015), 0.5: (1.604, 4.933), 0.75: (2.541, 6.031), 1.0: (3.286, 6.698)}
 
 
 def rows(case: str) -> Iterator[Row]:
     """−u and w of the tip at each share of the force."""
-    mesh = f"shell {ELEMENTS} × 1"
-    for share, values in PUBLISHED.items():
-        displacement = _tip(share, ELEMENTS)
-        for name, published, computed in zip(
-            ("−u", "w"), values, (-displacement[0], displacement[2]), strict=True
-        ):
-            yield relatively(case, f"{name} at P = {share:g} P_max", mesh, published, computed, TOLERANCE)
-    yield mesh_change(case, mesh, _tip(1.0, ELEMENTS // 2), _tip(1.0, ELEMENTS), TOLERANCE)
+    for model, elements in ELEMENTS.items():
+        mesh = f"{model} {elements} × 1"
+        for share, values in PUBLISHED.items():
+            displacement = _tip(share, elements, model)
+            found = (-displacement[0], displacement[2])
+            for name, published, computed in zip(("−u", "w"), values, found, strict=True):
+                yield relatively(case, f"{name} at P = {share:g} P_max", mesh, published, computed, TOLERANCE)
+        coarse, fine = (_tip(1.0, n, model) for n in (elements // 2, elements))
+        yield mesh_change(case, mesh, coarse, fine, TOLERANCE)
 
 
-def _tip(share: float, elements: int) -> np.ndarray:
+def _tip(share: float, elements: int, model: str) -> np.ndarray:
     load = EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, FORCE * share))
-    return tip(strip(10.0, 1.0, 0.1, 1.2e6, loads=(load,)), elements)
+    return tip(strip(10.0, 1.0, 0.1, 1.2e6, loads=(load,)), elements, model)

@@ -18,7 +18,7 @@ from fem_reference.verification.strip import strip, tip
 from scenes import Gravity
 
 TOLERANCE = 2e-3
-ELEMENTS = 16
+ELEMENTS = {"shell": 16, "solid": 16}
 YOUNG, THICKNESS, DENSITY = 1e7, 0.01, 1000.0
 PUBLISHED = {
     0.5: (0.06231, 0.00222),
@@ -32,16 +32,18 @@ PUBLISHED = {
 
 def rows(case: str) -> Iterator[Row]:
     """Drop w/L and shortening u/L of the tip at each load."""
-    mesh = f"shell {ELEMENTS} × 1"
-    for load, values in PUBLISHED.items():
-        for name, published, computed in zip(("w/L", "u/L"), values, hanging(load, ELEMENTS), strict=True):
-            yield relatively(case, f"{name} at qL³/EI = {load:g}", mesh, published, computed, TOLERANCE)
-    largest = max(PUBLISHED)
-    yield mesh_change(case, mesh, hanging(largest, ELEMENTS // 2), hanging(largest, ELEMENTS), TOLERANCE)
+    for model, elements in ELEMENTS.items():
+        mesh = f"{model} {elements} × 1"
+        for load, values in PUBLISHED.items():
+            found = hanging(load, elements, model)
+            for name, published, computed in zip(("w/L", "u/L"), values, found, strict=True):
+                yield relatively(case, f"{name} at qL³/EI = {load:g}", mesh, published, computed, TOLERANCE)
+        coarse, fine = (hanging(max(PUBLISHED), n, model) for n in (elements // 2, elements))
+        yield mesh_change(case, mesh, coarse, fine, TOLERANCE)
 
 
-def hanging(load: float, elements: int) -> np.ndarray:
+def hanging(load: float, elements: int, model: str) -> np.ndarray:
     """Drop and shortening (2,) of the tip over the length, at qL³/EI = load; the length is 1 m."""
     acceleration = load * YOUNG * THICKNESS**2 / 12.0 / DENSITY
     scene = strip(1.0, 0.1, THICKNESS, YOUNG, gravity=Gravity(acceleration=(0.0, 0.0, -acceleration)))
-    return -tip(scene, elements)[[2, 0]]
+    return -tip(scene, elements, model)[[2, 0]]

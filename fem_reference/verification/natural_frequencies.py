@@ -28,13 +28,19 @@ Values = tuple[float | None, ...]
 
 
 def _rows(
-    case: str, sheet: Sheet, edges: tuple[str, ...], unit: str, converged: Values, bounds: Values
+    case: str,
+    sheet: Sheet,
+    edges: tuple[str, ...],
+    unit: str,
+    converged: Values,
+    bounds: Values,
+    models: tuple[str, ...] = ("plate", "shell"),
 ) -> Iterator[Row]:
-    """Six modes of plate and shell; unit: "Hz" or "ω a² √(ρh/D)"."""
+    """Six modes of every model; unit: "Hz" or "ω a² √(ρh/D)"."""
     clamps = tuple(Clamped.model_validate({"edge": edge}) for edge in edges)
     scene = Scene(name=case, sheet=sheet, material=STEEL, support=clamps)
     scale = 1.0 if unit == "Hz" else _coefficient(scene)
-    for model in ("plate", "shell"):
+    for model in models:
         mesh = f"{model} {ELEMENTS} × {ELEMENTS}"
         found = scale * modes(scene, model, ELEMENTS, count=6).frequencies
         for kind, tolerance, values in (("converged", CONVERGED, converged), ("bound", BOUND, bounds)):
@@ -61,6 +67,7 @@ fv16: Callable[[str], Iterator[Row]] = partial(
     unit="Hz",
     converged=(0.4179, 1.0227, 2.5618, 3.272, 3.7214, 6.5105),
     bounds=(0.421, 1.029, 2.582, 3.306, 3.753, 6.555),
+    models=("plate", "shell", "solid"),
 )
 fv12: Callable[[str], Iterator[Row]] = partial(
     _rows,

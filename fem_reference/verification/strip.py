@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from fem_reference import shell
+from fem_reference import solve
 from scenes import Clamped, Material, Scene, Sheet, Status
 
 
@@ -21,12 +21,15 @@ def strip(length: float, width: float, thickness: float, young: float, **asked: 
     )
 
 
-def tip(scene: Scene, elements: int) -> np.ndarray:
-    """Displacement (3,) [m] of the free end's middle on that many shell elements along the strip.
+def tip(scene: Scene, elements: int, model: str = "shell") -> np.ndarray:
+    """Displacement (3,) [m] of the free end's middle on that many elements along the strip.
 
     Not a number where no equilibrium was reached.
     """
-    solution = shell.solve(scene, (elements, 1))
+    uniform: dict[str, Any] = (
+        {"grading": "uniform"} if model == "solid" else {}
+    )  # ν = 0: no layers at the ends
+    solution = solve(scene, model, elements=(elements, 1), **uniform)
     if solution.status is not Status.CONVERGED:
         return np.full(3, np.nan)
     return solution.displacement(np.array([[scene.sheet.length_x, scene.sheet.length_y / 2.0]]))[0]

@@ -2,8 +2,8 @@
 
     error        at the probes, as `comparisons.displacement` defines it
     field error  (∫ |u − u_ref|² dA / ∫ |u_ref|² dA)^½ over the undeformed sheet
-    uncertainty  of the reference, in both measures: its distance from the same model on half as many
-                 elements a side. The true one is smaller if the order of convergence is one at least.
+    uncertainty  of the reference, in both measures: its bar by the grid convergence index, from meshes of
+                 n, ¾ n and ½ n elements a side (`fem_reference.uncertainty`)
     cost         see `comparisons.timing`
 
 Orders: the slope of log error over log h, h the size of a cell, and of log time over log unknowns, over the
@@ -26,6 +26,7 @@ from comparisons.executors import Pool, processes
 from comparisons.models import check
 from comparisons.pareto import FLOOR_FACTOR, front, grouped, order
 from comparisons.store import Finished, Store
+from fem_reference.uncertainty import coarser, estimate
 from scenes import Scene, Status, require_static
 
 COMPARABLE = (str(Status.CONVERGED), str(Status.UNSTABLE), str(Status.STRAIN_OUTSIDE_MODEL))
@@ -97,7 +98,7 @@ def tradeoff(
     """Measure every candidate on a scene, through the campaign's store.
 
     reference: by default the shell with twice as many elements as the finest shell among the candidates, and
-    32 at least; its `elements` must be even. Raises SceneError for a scene without a static answer and
+    32 at least. Raises SceneError for a scene without a static answer and
     BadInput for a model or setting that does not exist. A solve that fails is a row with its status.
     """
     require_static(scene)
@@ -105,23 +106,44 @@ def tradeoff(
         check(candidate.model, candidate.settings)
     fine = reference or _finest(candidates)
     check(fine.model, fine.settings)
-    half = Candidate(fine.model, {**fine.settings, "elements": fine.settings["elements"] // 2})
-    asked = [timing.run(scene, c.model, c.settings, timed=False) for c in (fine, half)]
-    asked += [timing.run(scene, c.model, c.settings, repeats) for c in candidates]
-    outcomes = carry_out(asked, store, workers=workers, pool=pool, progress=progress)
-    return assemble(scene, asked, outcomes)
+    meshes = coarser(fine.settings["elements"])
+    judges = [timing.run(scene, fine.model, {**fine.settings, "elements": n}, timed=False) for n in meshes]
+    asked = [timing.run(scene, c.model, c.settings, repeats) for c in candidates]
+    outcomes = carry_out([*judges, *asked], store, workers=workers, pool=pool, progress=progress)
+    count = len(judges)
+    return assemble(scene, judges, outcomes[:count], asked, outcomes[count:])
 
 
-def assemble(scene: Scene, asked: Sequence[Run], outcomes: Sequence[Finished]) -> Tradeoff:
-    """The trade-off of finished runs: the reference, the same on half as many elements, then the rows."""
-    weights = timing.field_points(scene.sheet)[1]
-    truth, coarser = outcomes[:2]
+def assemble(
+    scene: Scene,
+    judges: Sequence[Run],
+    judged: Sequence[Finished],
+    asked: Sequence[Run],
+    outcomes: Sequence[Finished],
+) -> Tradeoff:
+    """The trade-off of finished runs: the reference on meshes from fine to coarse, and the rows."""
+    weights, truth = timing.field_points(scene.sheet)[1], judged[0]
     rows = []
-    for run, outcome in zip(asked[2:], outcomes[2:], strict=True):
+    for run, outcome in zip(asked, outcomes, strict=True):
         errors = _errors(outcome, truth, weights)
         rows.append(_row(scene, run, outcome) | dict(zip(("error", "field_error"), errors, strict=True)))
-    uncertainty, field_uncertainty = _errors(coarser, truth, weights)
-    return Tradeoff(scene, tuple(rows), _row(scene, asked[0], truth), uncertainty, field_uncertainty)
+    sizes = [cell_size(scene, run.arguments["settings"]) or 0.0 for run in judges]
+    uncertainty, field_uncertainty = _bars(judged, sizes, weights)
+    return Tradeoff(scene, tuple(rows), _row(scene, judges[0], truth), uncertainty, field_uncertainty)
+
+
+def _bars(
+    judged: Sequence[Finished], sizes: Sequence[float], weights: np.ndarray
+) -> tuple[float | None, float | None]:
+    """Uncertainty of the finest of the reference's answers, at the probes and over the sheet."""
+    usable = [(o.row, size) for o, size in zip(judged, sizes, strict=True) if _comparable(o)]
+    if len(usable) < 2 or not _comparable(judged[0]):
+        return None, None
+    used = [size for _, size in usable]
+    at_probes = estimate([np.array(list(row["probes"].values())) for row, _ in usable], used)
+    field = estimate([np.array(row["field"]) for row, _ in usable], used)
+    bar, size = (float(weights @ np.sum(u**2, axis=1)) for u in (field.bar, field.answer))
+    return at_probes.error, float(np.sqrt(bar / size)) if size > 0.0 else None
 
 
 def _finest(candidates: Sequence[Candidate]) -> Candidate:

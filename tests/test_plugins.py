@@ -88,7 +88,7 @@ def test_mujoco_is_installed_as_a_plugin() -> None:
 
 
 def test_mujocos_sheet_at_rest_as_it_is() -> None:
-    """With two edges clamped it bends half as far as the shell, and less on a finer grid: nothing is tuned."""
+    """With two edges clamped it bends half as far as the shell, less on a finer grid: nothing is tuned."""
     scene = scenes.load("two-edges-clamped")
     truth = models.solve(scene, "shell", elements=8).displacement(scene.probe_points())
     corner = {}

@@ -13,7 +13,18 @@ from importlib import import_module
 
 import typer
 
-VERBS = ("scenes", "compare", "calibrate", "identify", "simulate", "tradeoff", "advise", "verify", "modes")
+VERBS = (
+    "scenes",
+    "compare",
+    "calibrate",
+    "identify",
+    "simulate",
+    "tradeoff",
+    "transfer",
+    "advise",
+    "verify",
+    "modes",
+)
 BAD_INPUT = 2
 NOT_CONVERGED = 3
 _OURS = ("scenes", "lumped", "fem_reference", "comparisons")

@@ -26,9 +26,8 @@ def tip(scene: Scene, elements: int, model: str = "shell") -> np.ndarray:
 
     Not a number where no equilibrium was reached.
     """
-    uniform: dict[str, Any] = (
-        {"grading": "uniform"} if model == "solid" else {}
-    )  # ν = 0: no layers at the ends
+    # With ν = 0 there are no layers at the ends to grade towards.
+    uniform: dict[str, Any] = {"grading": "uniform"} if model == "solid" else {}
     solution = solve(scene, model, elements=(elements, 1), **uniform)
     if solution.status is not Status.CONVERGED:
         return np.full(3, np.nan)

@@ -1,7 +1,7 @@
 """Annular plate slit along a radius, one side of the slit clamped and the other lifted.
 
-E 21e6, ν 0, radii 6 and 10, thickness 0.03, force 0.8 per length of the lifted side: it rises nearly as high as
-the plate is wide. A and B are the inner and the outer end of the lifted side.
+E 21e6, ν 0, radii 6 and 10, thickness 0.03, force 0.8 per length of the lifted side, which rises nearly as
+high as the plate is wide. A and B are the inner and the outer end of the lifted side.
 Source: Sze, Liu & Lo, Finite Elements in Analysis and Design 40 (2004) 1551–1569, section 3.3.
 """
 

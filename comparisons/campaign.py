@@ -81,10 +81,16 @@ def carry_out(
     *,
     workers: int = 1,
     pool: Pool = processes,
+    retry: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> list[Finished]:
-    """Every run's outcome, in the order of `runs`; those that the store has are not run again."""
+    """Every run's outcome, in the order of `runs`; those that the store has are not run again.
+
+    retry: but those that failed or were lost are.
+    """
     asked = list(runs)
+    for run in asked if retry else ():
+        store.forget(run.key)
     missing = {run.key: run for run in asked if store.get(run.key) is None}
     session = _Session(store, len({run.key for run in asked}), len(missing), progress)
     for timed, width in ((False, max(workers, 1)), (True, 1)):

@@ -31,7 +31,8 @@ class Candidate:
 
 def series(model: str, settings: dict[str, Any]) -> str:
     """The name of the family of rows that differ in their grids only."""
-    layers = settings.get("grid", (0, 0, LAYERS))[2:]
+    grid = settings.get("grid")
+    layers = grid[2:] if isinstance(grid, list | tuple) else []
     said = [str(settings.get("calibration", ""))]
     said += [f"{n} layers" for n in layers if n != LAYERS]
     said += [

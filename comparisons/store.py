@@ -1,5 +1,7 @@
 """The SQLite file of a campaign: one row a finished run, written at once and never changed.
 
+Runs that failed or were lost may be forgotten, to be done again.
+
 Table `runs`: key (hash of what was asked, see `campaign.Run`), task and arguments (JSON), status, row
 (JSON, what the run found), message, started and finished (UTC, ISO 8601), seconds. A row is committed, and
 synchronised to disk, before the next run's result is looked at: killing the process loses only runs that
@@ -86,6 +88,11 @@ class Store:
             return None
         key, status, row, *rest = found
         return Finished(key, status, json.loads(row), *rest)
+
+    def forget(self, key: str) -> None:
+        """Take out a run that found nothing, so that it can be done again."""
+        with self._database:
+            self._database.execute("delete from runs where key = ? and status in ('failed', 'lost')", (key,))
 
     def keys(self) -> Iterator[str]:
         """Keys of all finished runs."""

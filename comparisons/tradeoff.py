@@ -93,12 +93,13 @@ def tradeoff(
     repeats: int = 5,
     workers: int = 1,
     pool: Pool = processes,
+    retry: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> Tradeoff:
     """Measure every candidate on a scene, through the campaign's store.
 
     reference: by default the shell with twice as many elements as the finest shell among the candidates, and
-    32 at least. Raises SceneError for a scene without a static answer and
+    32 at least. retry: do again what failed in an earlier call. Raises SceneError for a scene without a static answer and
     BadInput for a model or setting that does not exist. A solve that fails is a row with its status.
     """
     require_static(scene)
@@ -109,7 +110,7 @@ def tradeoff(
     meshes = coarser(fine.settings["elements"])
     judges = [timing.run(scene, fine.model, {**fine.settings, "elements": n}, timed=False) for n in meshes]
     asked = [timing.run(scene, c.model, c.settings, repeats) for c in candidates]
-    outcomes = carry_out([*judges, *asked], store, workers=workers, pool=pool, progress=progress)
+    outcomes = carry_out([*judges, *asked], store, workers=workers, pool=pool, retry=retry, progress=progress)
     count = len(judges)
     return assemble(scene, judges, outcomes[:count], asked, outcomes[count:])
 

@@ -41,6 +41,12 @@ def fail() -> dict[str, Any]:
     raise ZeroDivisionError("by nothing")
 
 
+def needs(path: str) -> dict[str, Any]:
+    if not Path(path).exists():
+        raise FileNotFoundError(path)
+    return {}
+
+
 def not_finite() -> dict[str, Any]:
     return {"value": float("nan")}
 

@@ -78,6 +78,16 @@ def test_a_run_that_fails_is_a_row_with_its_status(store: Store) -> None:
     assert found[2].row == {"value": None}
 
 
+def test_what_failed_is_done_again_only_when_asked(store: Store, tmp_path: Path) -> None:
+    runs = [task("square", x=1.0), task("needs", path=str(tmp_path / "file"))]
+    first = carry_out(runs, store)
+    assert [outcome.status for outcome in first] == ["done", "failed"]
+    (tmp_path / "file").touch()
+    assert carry_out(runs, store) == first
+    again = carry_out(runs, store, retry=True)
+    assert again[0] == first[0] and again[1].status == "done"
+
+
 def test_a_run_that_takes_its_process_down_is_the_only_one_lost(store: Store) -> None:
     runs = [
         task("square", x=1.0, seconds=0.5),

@@ -74,6 +74,7 @@ def test_lists_of_sizes_become_rows_with_near_square_cells() -> None:
     assert [c.settings["grid"] for c in found] == [[5, 9, 2], [3, 4, 3]] * 2
     assert found[3].series == "lumped uniform 3 layers"
     assert series("shell", {"elements": 4}) == "shell"
+    assert series("mine", {"grid": 9, "fast": True, "slow": False, "kind": "a"}) == "mine fast kind a"
     assert parse_model("mine:grid=9,soft=true,kind=a") == Candidate(
         "mine", {"grid": 9, "soft": True, "kind": "a"}
     )

@@ -47,6 +47,9 @@ def command(
     scheduler: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="A dask scheduler, as tcp://host:8786.")
     ] = None,
+    retry: Annotated[
+        bool, typer.Option("--retry", help="Run again what failed in an earlier run.", show_default=False)
+    ] = False,
     json: Json = False,
     out: Out = None,
 ) -> None:
@@ -94,6 +97,7 @@ def command(
             repeats=repeats,
             workers=workers or os.cpu_count() or 1,
             pool=pool,
+            retry=retry,
             progress=progress,
         )
     written = _write(found, out) if out is not None else []

@@ -4,12 +4,13 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 OUT    ?= demo
 
-.PHONY: help install demo test verify locking lint clean
+.PHONY: help install demo test verify locking transfer lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
 	@echo "make verify    the references against published values, every row (about a minute)"
 	@echo "make locking   the locking sweeps and their picture (files in $(OUT)/)"
+	@echo "make transfer  every calibration on every scene of the transfer study (a quarter of an hour; files in $(OUT)/transfer/)"
 	@echo "make install   set up only: $(BIN)/sheetbench"
 	@echo "make clean     remove the environment and the demo's files"
 
@@ -36,6 +37,10 @@ verify: install
 
 locking: install
 	@$(BIN)/sheetbench verify --locking --out $(OUT)
+
+transfer: install
+	@$(BIN)/sheetbench transfer --out $(OUT)/transfer
+	@$(BIN)/python -m pytest -m slow tests/test_transfer.py
 
 lint: install
 	@$(BIN)/ruff check .

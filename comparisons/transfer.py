@@ -4,7 +4,7 @@
                   |component of u_shell| there
     extrapolated  the error of Richardson's limit u + (u − u')/3 of the two finest grids, the coarser with
                   cells twice as large (u')
-    predicted     the error of the finite-element model whose membrane, bending and shear stiffness are those
+    predicted     the error of the shell whose membrane, bending and shear stiffness are those
                   the moduli report gives: of the finest grid, and of cells → 0
     miss          of a natural frequency: f/f_shell − 1
 
@@ -228,7 +228,7 @@ class _Study:
     def _homogenised(self, name: str, method: str, n: int) -> np.ndarray | None:
         arguments = {
             "scene": self.texts[name],
-            "model": "plate" if name in LINEAR else "shell",
+            "model": "shell",
             "elements": self.elements,
             "method": method,
             "grid": [n, n, 2],

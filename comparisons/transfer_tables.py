@@ -117,6 +117,6 @@ def explanation(found: Transfer) -> str:
         f"component of u_shell there; shell of {found.elements} elements a side. fit-static and fit-modal "
         "are trained on the sheet under its own weight with one edge and with two adjacent edges clamped, "
         "again for every thickness and E; all other methods see no scene. extrapolated: Richardson's limit, "
-        "error ~ h². predicted: the shell (the plate in the linear scenes) whose stiffness is the lattice's "
-        "by its moduli report; apart: the lattice from that plate. Frequencies: f/f_shell − 1."
+        "error ~ h². predicted: the shell whose stiffness is the lattice's by its moduli report; apart: the "
+        "lattice from that shell. Frequencies: f/f_shell − 1."
     )

@@ -68,6 +68,10 @@ def unknown(scene: Scene, name: str) -> Unknown:
         if values:
             return Unknown(name, "1/m", values[0], -inf, inf, 1.0 / max(scene.sheet.lengths))
         raise BadInput(f"unknown = '{name}': edge '{edge}' has no support or actuator of one curvature")
+    if name.startswith("tilt_"):
+        raise BadInput(
+            f"unknown = '{name}': no support has a tilt that could be sought; clamps stand upright"
+        )
     raise BadInput(f"unknown = '{name}': cannot be sought; choose from {', '.join(NAMES)}")
 
 

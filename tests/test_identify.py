@@ -224,6 +224,7 @@ def test_bad_file_leaves_with_2_and_one_line(fault, tmp_path, capsys):
         (("--unknown", "young,young"), ["each once"]),
         (("--unknown", "curvature_x0"), ["x0", "no support"]),
         (("--unknown", "damping_time"), ["damping_time", "first guess"]),
+        (("--unknown", "tilt_x0"), ["tilt_x0", "no support has a tilt"]),
         (("--model", "plate"), ["plate", "shell"]),
         (("--calibration", "fit-static"), ["fit-static"]),
         (("--lumped", "9y"), ["9y"]),

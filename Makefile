@@ -4,13 +4,15 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 OUT    ?= demo
 
-.PHONY: help install demo test verify locking transfer lint clean
+.PHONY: help install demo test verify locking transfer tradeoff advisor-study lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
 	@echo "make verify    the references against published values, every row (about a minute)"
 	@echo "make locking   the locking sweeps and their picture (files in $(OUT)/)"
 	@echo "make transfer  every calibration on every scene of the transfer study (a quarter of an hour; files in $(OUT)/transfer/)"
+	@echo "make tradeoff  error against time on the seed's test 1, with the picture (files in $(OUT)/)"
+	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/; up to half an hour)"
 	@echo "make install   set up only: $(BIN)/sheetbench"
 	@echo "make clean     remove the environment and the demo's files"
 
@@ -41,6 +43,14 @@ locking: install
 transfer: install
 	@$(BIN)/sheetbench transfer --out $(OUT)/transfer
 	@$(BIN)/python -m pytest -m slow tests/test_transfer.py
+
+tradeoff: install
+	@$(BIN)/sheetbench tradeoff two-edges-clamped --lumped 3,5,7,9,17,33 --calibration consistent,cauchy,uniform \
+	  --shell 2,3,4,8,12,16 --solid 2,4,8 --model mujoco:grid=5 --model mujoco:grid=9 --model mujoco:grid=17 \
+	  --out $(OUT)
+
+advisor-study: install
+	@$(BIN)/python -m comparisons.advisor_study --out $(OUT)
 
 lint: install
 	@$(BIN)/ruff check .

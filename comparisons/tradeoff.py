@@ -99,7 +99,8 @@ def tradeoff(
     """Measure every candidate on a scene, through the campaign's store.
 
     reference: by default the shell with twice as many elements as the finest shell among the candidates, and
-    32 at least. retry: do again what failed in an earlier call. Raises SceneError for a scene without a static answer and
+    32 at least. retry: do again what failed in an earlier call.
+    Raises SceneError for a scene without a static answer and
     BadInput for a model or setting that does not exist. A solve that fails is a row with its status.
     """
     require_static(scene)

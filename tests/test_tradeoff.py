@@ -17,8 +17,11 @@ from test_cli import one_line, run
 
 import scenes
 from comparisons import candidates, tables, timing
+from comparisons.campaign import campaign
 from comparisons.candidates import Candidate, lattices, parse_model, series
+from comparisons.dynamic_tradeoff import dynamic_tradeoff, oscillation
 from comparisons.errors import BadInput
+from comparisons.files import to_json
 from comparisons.pareto import front, grouped, order
 from comparisons.store import FILE
 from scenes import Scene, Sheet
@@ -146,6 +149,38 @@ def test_asked_again_nothing_is_run_and_the_document_is_the_same(
     assert json.loads(printed.out) == written
     assert printed.err == ""
     assert rows_in(finished / FILE) == before
+
+
+def test_oscillation_of_a_damped_cosine() -> None:
+    time = np.linspace(0.0, 2.0, 401)
+    rate = 2.0 * np.pi * 5.0
+    period, damping = oscillation(time, -0.3 - 0.1 * np.exp(-0.03 * rate * time) * np.cos(rate * time))
+    assert period == pytest.approx(0.2, rel=1e-3)
+    assert damping == pytest.approx(0.03, rel=0.02)
+    assert oscillation(time, time) == (None, None)
+
+
+def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path: Path) -> None:
+    scene = scenes.load("two-edges-settling")
+    with campaign(tmp_path) as store:
+        found = dynamic_tradeoff(
+            scene,
+            0.6,
+            store,
+            grid=(3, 3, 2),
+            integrators=("generalised-alpha", "midpoint"),
+            divisions=(40, 80, 160),
+            reference=1600,
+            workers=2,
+        )
+    assert len(found.rows) == 6 and all(row["status"] == "converged" for row in found.rows)
+    assert found.uncertainty is not None and found.uncertainty < 1e-4
+    for entry in found.orders:
+        assert entry["error_order"] == pytest.approx(2.0, abs=0.15)
+    assert all(row["error"] < 1e-3 for row in found.rows if row["step"] < found.lowest_period / 150)
+    assert found.reference["damping"] == pytest.approx(found.rows[-1]["damping"], rel=1e-2)
+    assert all(row["seconds_per_second"] > 0.0 for row in found.rows)
+    assert found.front and json.loads(to_json(found.as_dict()))["rows"]
 
 
 def test_latex_says_what_the_cells_say() -> None:

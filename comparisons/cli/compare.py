@@ -64,7 +64,6 @@ def command(
     from comparisons.cli import console
     from comparisons.cli.app import NOT_CONVERGED
     from comparisons.displacement import compare, load_static
-    from comparisons.errors import BadInput
     from comparisons.files import folder, to_json
     from comparisons.grids import parse_grid
     from comparisons.output import Output
@@ -83,7 +82,8 @@ def command(
             progress("asking the advisor …")
             advice = advise(asked, 0.01 if tolerance is None else tolerance)
             if advice.choice is None:
-                raise BadInput(f"--auto: {advice.message}")
+                console.warn(f"--auto: {advice.message}")
+                raise typer.Exit(NOT_CONVERGED)
 
         def finished(solution: Solution) -> None:
             if output is not None:

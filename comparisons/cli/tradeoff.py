@@ -47,6 +47,19 @@ def command(
     scheduler: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="A dask scheduler, as tcp://host:8786.")
     ] = None,
+    duration: Annotated[
+        float | None,
+        typer.Option(
+            metavar="S",
+            help="Trade of the motion over so many seconds instead: integrators and steps, on --grid.",
+        ),
+    ] = None,
+    grid: Annotated[
+        str | None, typer.Option(metavar="GRID", help="With --duration: the lattice, 9 unless given.")
+    ] = None,
+    integrator: Annotated[
+        str, typer.Option(metavar="NAMES", help="With --duration: the integrators.")
+    ] = "generalised-alpha,midpoint,projective,verlet",
     retry: Annotated[
         bool, typer.Option("--retry", help="Run again what failed in an earlier run.", show_default=False)
     ] = False,
@@ -71,6 +84,9 @@ def command(
     from comparisons.files import folder, to_json
     from comparisons.tradeoff import tradeoff
 
+    if duration is not None:
+        _motion(scene, duration, grid, items(integrator), workers or os.cpu_count() or 1, json, out)
+        return
     asked = load_static(scene)
     candidates = lattices(asked.sheet, items(lumped), items(calibration))
     for name, sizes in (("plate", plate), ("shell", shell), ("solid", solid)):
@@ -116,6 +132,56 @@ def command(
     if found.uncertainty is None:
         console.warn(f"no errors: the reference, {found.reference['label']}: {found.reference['status']}")
         raise typer.Exit(NOT_CONVERGED)
+
+
+def _motion(
+    name: str,
+    duration: float,
+    grid: str | None,
+    integrators: list[str],
+    workers: int,
+    json: bool,
+    out: Path | None,
+) -> None:
+    """The trade of a motion: integrators and steps."""
+    from tempfile import TemporaryDirectory
+
+    import scenes
+    from comparisons.campaign import campaign
+    from comparisons.cli import console
+    from comparisons.dynamic_tradeoff import dynamic_tradeoff
+    from comparisons.errors import BadInput
+    from comparisons.files import folder, to_json, write_text
+    from comparisons.grids import parse_grid
+    from comparisons.manifest import manifest
+
+    if not duration > 0.0:
+        raise BadInput(f"--duration = {duration:g}: seconds, more than 0")
+    asked = scenes.load(name)
+    shape = parse_grid(grid, "--grid") if grid is not None else None
+    with (
+        TemporaryDirectory() as scratch,
+        campaign(folder(out) if out is not None else Path(scratch)) as store,
+        console.campaign_progress() as progress,
+    ):
+        found = dynamic_tradeoff(
+            asked, duration, store, grid=shape, integrators=integrators, workers=workers, progress=progress
+        )
+    if out is not None:
+        write_text(out / "motion.json", to_json(found.as_dict()))
+        write_text(out / "motion.csv", found.table().to_csv())
+        write_text(out / "motion.md", found.table().to_markdown())
+        write_text(out / "manifest.json", to_json(manifest(asked, {"duration": duration}, command_line())))
+    if json:
+        print(to_json(found.as_dict()), end="")
+        return
+    console.heading(asked.name, asked.title)
+    console.show(found.table(), leave_out=("steps", "status"))
+    for row in found.rows:
+        if row["status"] != "converged":
+            console.warn(f"{row['integrator']}, step {row['step']:.3g} s: {row['status']}: {row['message']}")
+    known = "unknown" if found.uncertainty is None else f"{100 * found.uncertainty:.2g} %"
+    console.note(f"lowest period {found.lowest_period:.4g} s; uncertainty of the reference {known}")
 
 
 def _write(found: Tradeoff, out: Path) -> list[str]:

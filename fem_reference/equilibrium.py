@@ -6,29 +6,40 @@ Garcea (2017, "mixed integration point") take for the geometric stiffness the st
 linear step extrapolated, σ* = C (ε + B δu), and leave the residual alone: the answer is the
 same, the path from the flat sheet is a few iterations long. Supports move in the first linear step.
 
-A load step that does not converge is halved; after one that converges easily it is doubled. At the end
-the inertia of the true tangent says whether the equilibrium is stable; under follower loads, whose tangent is
-not symmetric, its real eigenvalues do (collapse; flutter is a matter of dynamics).
+Load steps adapt. The first linear step towards a load, which the mixed iterations then halve again and again,
+may go no farther than a reach of a few sizes of the structure: a longer one is cut to it, load and all, with
+the factors at hand. A load step whose corrections stop shrinking is given up at once and halves the reach; an
+easy one raises it. Three watchdogs end a load step: a number that is not finite, a step that leaves the
+structure far behind, corrections that stagnate; `inspect` may end the whole path at an equilibrium that the
+structure itself does not vouch for. Where the path ends before the full load, the inertia of the last
+equilibrium's tangent says whether it has lost its uniqueness.
+
+At the end the inertia of the true tangent says whether the equilibrium is stable; under follower loads, whose
+tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter of dynamics).
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import LinearOperator, eigs
 
-from fem_reference.linear import DirectSolver, SingularMatrix
+from fem_reference.linear import DirectSolver, Factor, SingularMatrix
 from scenes import Iteration, Status
 
 TOLERANCE = 5e-9  # residual, relative to the forces that balance
 VANISHING = 1e-13  # work of a step, relative to the load step's first: beyond it only rounding is left
-ITERATIONS = 16  # in one load step
-EASY = 6  # a load step that took no more is followed by a longer one
+ITERATIONS = 24  # in one load step
+BACK = 4  # corrections that are no shorter than so many before are given up
+EASY = 6  # a load step that took no more is followed by one GROWTH times as long
+GROWTH = 4.0
 FACTORISATIONS = 400  # in all
-SMALLEST_STEP = 1.0 / 1024.0
+FIRST_REACH = 8.0  # sizes of the structure that the first linear step may move it
+SMALLEST_STEP = 2.0**-10
 FARTHEST = 1e3  # a step beyond so many sizes of the structure has diverged
 
 
@@ -60,62 +71,144 @@ class Path:
     message: str = ""
 
 
-def trace(structure: Structure, solver: DirectSolver) -> Path:
-    """The equilibrium at load factor 1, or the last one on the way with the reason it is the last."""
+class Fault(NamedTuple):
+    """What makes an equilibrium worthless: the status it deserves and a sentence."""
+
+    status: Status
+    message: str
+
+
+class StepFailed(ArithmeticError):
+    """A load step found no equilibrium. status: how it ended; length: of its first linear step."""
+
+    def __init__(self, status: Status, said: str, length: float):
+        super().__init__(said)
+        self.status, self.length = status, length
+
+
+def trace(
+    structure: Structure,
+    solver: DirectSolver,
+    inspect: Callable[[Path], Fault | None] = lambda path: None,
+) -> Path:
+    """The equilibrium at load factor 1, or the last one on the way with the reason it is the last.
+
+    inspect: shown the path at every equilibrium on the way; a fault, if it finds one, ends it there.
+    """
     path = Path(structure.rest())
-    size = 1.0
+    size, reach = 1.0, FIRST_REACH
+    factor: Factor | None = None
     while path.load_factor < 1.0:
-        target = min(1.0, path.load_factor + size)
         before = path.factorisations
-        state, status = _newton(structure, solver, path, target)
-        if state is not None:
-            path.state, path.load_factor = state, target
-            size *= 2.0 if path.factorisations - before <= EASY else 1.0
+        try:
+            first = _Predictor(structure, solver, path, min(1.0, path.load_factor + size), reach, factor)
+            factor = first.factor if structure.symmetric else None
+            state = _newton(structure, solver, path, first)
+        except StepFailed as failure:
+            size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
+            if size < SMALLEST_STEP or path.factorisations >= FACTORISATIONS:
+                _give_up(structure, solver, path, failure)
+                return path
             continue
-        size /= 2.0
-        if size < SMALLEST_STEP or path.factorisations >= FACTORISATIONS:
-            path.status = status
-            path.message = f"no equilibrium found beyond load factor {path.load_factor:.4g}"
+        grown = first.target - path.load_factor
+        path.state, path.load_factor, factor = state, first.target, None
+        if (fault := inspect(path)) is not None:
+            path.status, path.message = fault
             return path
-    path.status, path.message = _stability(structure, solver, path)
+        easy = path.factorisations - before <= EASY
+        size, reach = (GROWTH * grown, GROWTH * reach) if easy else (grown, reach)
+    path.status, path.message = stability(structure, solver, path)
     return path
 
 
-def _newton(structure: Structure, solver: DirectSolver, path: Path, target: float) -> tuple[Any, Status]:
-    """The equilibrium at load factor `target` from the path's last, or None and why."""
-    state, before, length = path.state, np.inf, 0.0
-    works: list[float] = []
+class _Predictor:
+    """The first linear step from a path's last equilibrium towards a load, no longer than `reach`.
+
+    factor: of the tangent there, where it is at hand; it serves as long as the tangent does not depend on the
+    load. target: the load factor that the step is for.
+    """
+
+    def __init__(
+        self,
+        structure: Structure,
+        solver: DirectSolver,
+        path: Path,
+        target: float,
+        reach: float,
+        factor: Factor | None,
+    ):
+        self.target, self.factor = target, factor
+        self._aim(structure, solver, path)
+        if reach < self.length < np.inf:
+            self.target = path.load_factor + (target - path.load_factor) * reach / self.length
+            self._aim(structure, solver, path)
+        if not self.length < FARTHEST:
+            raise StepFailed(Status.DIVERGED, "the first step has no end", FIRST_REACH)
+
+    def _aim(self, structure: Structure, solver: DirectSolver, path: Path) -> None:
+        forces = structure.forces(path.state, self.target)
+        try:
+            matrix, rows = structure.system(path.state, forces, self.target)
+            if self.factor is None or not structure.symmetric:
+                path.factorisations += 1
+                self.factor = solver.factor(matrix)
+            step = self.factor.solve(rows)
+        except SingularMatrix as error:
+            raise StepFailed(Status.SINGULAR, str(error), FIRST_REACH) from None
+        self.state = structure.advance(path.state, forces, self.target, step)
+        self.length = structure.length(path.state, self.state)
+        self.work = abs(float(step @ rows))
+
+
+def _newton(structure: Structure, solver: DirectSolver, path: Path, first: _Predictor) -> Any:
+    """The equilibrium at a predictor's load factor. Raises StepFailed."""
+    state, target, before = first.state, first.target, np.inf
+    works, lengths = [first.work], [first.length]
     for _ in range(ITERATIONS):
         forces = structure.forces(state, target)
         imbalance = structure.imbalance(state, forces)
         relative = imbalance / forces.size if forces.size > 0.0 else imbalance
-        path.history.append(Iteration(target, relative, length))
+        path.history.append(Iteration(target, relative, lengths[-1]))
         if not np.isfinite(relative):
-            return None, Status.NON_FINITE
-        rounded = bool(works) and works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before
+            raise StepFailed(Status.NON_FINITE, "a number overflowed", first.length)
+        rounded = works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before
         if structure.gap(state, target) <= TOLERANCE and (relative <= TOLERANCE or rounded):
-            return state, Status.CONVERGED
+            return state
+        if len(lengths) > BACK and lengths[-1] >= lengths[-1 - BACK]:
+            raise StepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
         if path.factorisations >= FACTORISATIONS:
-            return None, Status.STEP_LIMIT
+            said = f"{FACTORISATIONS} factorisations were not enough"
+            raise StepFailed(Status.STEP_LIMIT, said, first.length)
         path.factorisations += 1
         try:
             matrix, rows = structure.system(state, forces, target)
             step = solver.factor(matrix).solve(rows)
-        except SingularMatrix:
-            return None, Status.SINGULAR
+        except SingularMatrix as error:
+            raise StepFailed(Status.SINGULAR, str(error), first.length) from None
         following = structure.advance(state, forces, target, step)
-        length = structure.length(state, following)
-        if not length < FARTHEST:
-            return None, Status.DIVERGED
+        lengths.append(structure.length(state, following))
+        if not lengths[-1] < FARTHEST:
+            raise StepFailed(Status.DIVERGED, "the corrections have no end", first.length)
         works.append(abs(float(step @ rows)))
         state, before = following, imbalance
-    return None, Status.STEP_LIMIT
+    raise StepFailed(Status.STEP_LIMIT, f"no equilibrium in {ITERATIONS} corrections", first.length)
 
 
-def _stability(structure: Structure, solver: DirectSolver, path: Path) -> tuple[Status, str]:
-    """Whether the tangent is positive definite or, under follower loads, has no real eigenvalue below 0."""
-    forces = structure.forces(path.state, 1.0)
-    matrix, _ = structure.system(path.state, forces, 1.0, mixed=False)
+def _give_up(structure: Structure, solver: DirectSolver, path: Path, failure: StepFailed) -> None:
+    """Say where the path ended and, from the last equilibrium's tangent, whether it had branched by then."""
+    path.status = failure.status
+    path.message = f"no equilibrium found beyond load factor {path.load_factor:.4g}: {failure}"
+    if path.load_factor > 0.0:
+        status, said = stability(structure, solver, path)
+        if status is not Status.CONVERGED:
+            path.message += f"; {said} there: the answer is not unique on this grid"
+
+
+def stability(structure: Structure, solver: DirectSolver, path: Path) -> tuple[Status, str]:
+    """Whether the tangent at the path's last equilibrium is positive definite or, under follower loads, has
+    no real eigenvalue below 0; a sentence where it is not."""
+    forces = structure.forces(path.state, path.load_factor)
+    matrix, _ = structure.system(path.state, forces, path.load_factor, mixed=False)
     path.factorisations += 1
     try:
         if structure.symmetric:

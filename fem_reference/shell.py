@@ -8,13 +8,14 @@ assumed, rotations are not; the weight has no couple on the director.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 from skfem import Basis, ElementQuad2, MeshQuad
 
-from fem_reference import actuator_forces, edge_motion, rod, shell_loads, shell_supports
+from fem_reference import actuator_forces, edge_motion, rod, shell_loads, shell_supports, shell_watch
 from fem_reference.equilibrium import trace
 from fem_reference.linear import DirectSolver
 from fem_reference.location import locate
@@ -33,19 +34,36 @@ def solve(
 ) -> Solution:
     """The static equilibrium of a scene; elements along the shorter side (near-square), or (nx, ny).
 
-    graded: finer towards the edges, uniform otherwise (see `mesh.rectangle`). section: stiffness per width,
-    from material and thickness unless given.
+    graded: finer towards the edges, uniform otherwise (see `mesh.rectangle`); where the sheet bends more than
+    stretched elements stand, it is divided evenly after all, and the message says so. section: stiffness per
+    width, from material and thickness unless given.
     Raises scenes.SceneError if the supports leave a rigid motion free.
     """
     require_static(scene)
     along_x, along_y = divisions(scene.sheet.lengths, elements)
     begin = perf_counter()
     cuts = [support.edge for support in scene.supports if isinstance(support, Symmetric)]
-    mesh = rectangle(scene.sheet, (along_x, along_y), graded, cuts)
     settings: dict[str, Any] = {"elements": [along_x, along_y], "graded": graded}
     if section is not None:
         settings["section"] = section._asdict()
-    return solve_on(mesh, scene, f"shell {along_x} × {along_y}", settings, begin, section)
+
+    def on(graded: bool) -> Solution:
+        mesh = rectangle(scene.sheet, (along_x, along_y), graded, cuts)
+        label, asked = f"shell {along_x} × {along_y}", {**settings, "graded": graded}
+        return solve_on(mesh, scene, label, asked, begin, section, graded)
+
+    solution = on(graded)
+    if not graded or shell_watch.STRETCHED.message not in solution.message:
+        return solution
+    even = on(False)
+    return replace(
+        even,
+        iterations=solution.iterations + even.iterations,
+        setup_seconds=even.setup_seconds - solution.solve_seconds,
+        solve_seconds=solution.solve_seconds + even.solve_seconds,
+        history=solution.history + even.history,
+        message="; ".join(filter(None, ["divided evenly, for it bends much", even.message])),
+    )
 
 
 def solve_on(
@@ -55,18 +73,21 @@ def solve_on(
     settings: dict[str, Any] | None = None,
     begin: float | None = None,
     section: Section | None = None,
+    graded: bool = False,
 ) -> Solution:
     """The same on any flat mesh of quadrilaterals [m], straight-sided (MeshQuad) or biquadratic (MeshQuad2).
 
     Supports and loads act on the mesh's boundaries of their edges' names ("x0", …), which may lie
     anywhere; of the scene's sheet only the thickness is used, and the lengths of edges with actuators.
+    graded: give up where stretched elements bend too much (see `shell_watch`).
     """
     begin = perf_counter() if begin is None else begin
     structure, nodes = discretise(mesh, scene, section)
     solver = DirectSolver(structure.symmetric)
     ready = perf_counter()
-    path = trace(structure, solver)
+    path = trace(structure, solver, shell_watch.inspector(scene, structure, solver, graded))
     done = perf_counter()
+    status, message = shell_watch.judge(scene, path)
 
     displacement, turn = path.state.change
     forces = structure.forces(path.state, path.load_factor)
@@ -82,7 +103,7 @@ def solve_on(
         model="shell",
         label=label,
         settings=settings or {"elements": mesh.nelements},
-        status=path.status,
+        status=status,
         unknowns=structure.unknowns,
         iterations=path.factorisations,
         setup_seconds=ready - begin,
@@ -95,7 +116,7 @@ def solve_on(
         ),
         history=tuple(path.history),
         load_factor=path.load_factor,
-        message=path.message,
+        message=message,
         actuators=exerted,
     )
 

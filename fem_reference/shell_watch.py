@@ -1,0 +1,90 @@
+"""What the shell watches for in its own answers: elements turned inside out or stretched, strains too large.
+
+inverted   (φ,r × φ,s) · d, positive in the flat sheet, has reached zero at a Gauss point.
+weight     ρ g a/E, the strain of a sheet of side a that hangs by its own weight: beyond 0.05 a linear law of
+           stress and strain means nothing.
+stretched  In an element of sides b ≥ l the in-plane shear's assumed strains do not see a motion along b
+           that goes like P₂(2y/b) across it. It changes along l at the cost of the stretch along b alone,
+           so that the bending moment M = D κ along l, doing work 2 M v,x ψ,x, outweighs √(A D) of it where
+
+               (h κ/2) (b/l)² > 5:
+
+           elements may lose stability, not the sheet. The 5 is measured: cantilevers of h/a from 0.01 to
+           0.1 with b/l from 2.6 to 10 lost it from 6 on, none below (docs/stability.md). Only where the
+           tangent has lost it is the sheet divided evenly, b/l = 1, which stands any strain of the model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from fem_reference.equilibrium import Fault, Path, stability
+from fem_reference.linear import DirectSolver
+from fem_reference.shell_element import BENDING, GAUSS, shape
+from fem_reference.shell_structure import ShellStructure, State
+from scenes import Scene, Status
+
+WEIGHT_LIMIT = 0.05
+STRETCH_LIMIT = 5.0
+STRETCHED = Fault(Status.UNSTABLE, "elements are stretched too far for how much they bend: divide it evenly")
+FLAT = 1e-6  # of the element's area in the flat sheet, below which it counts as turned inside out
+
+
+def inspector(
+    scene: Scene, structure: ShellStructure, solver: DirectSolver, graded: bool
+) -> Callable[[Path], Fault | None]:
+    """What `equilibrium.trace` is to look at; graded: elements are stretched, and may be without harm."""
+
+    def inspect(path: Path) -> Fault | None:
+        fault = inverted(structure, path.state)
+        if fault is None and graded and stretch(structure, path.state, scene.sheet.thickness) > STRETCH_LIMIT:
+            return None if stability(structure, solver, path)[0] is Status.CONVERGED else STRETCHED
+        return fault
+
+    return inspect
+
+
+def inverted(structure: ShellStructure, state: State) -> Fault | None:
+    """The element that has turned inside out most, if one has."""
+    value, slope = shape(*GAUSS)
+    reference = structure.element.reference
+    now = reference + structure._gather(state.change)
+    along, across = np.einsum("agi,eic->aegc", slope, now[:, :9])
+    area = np.einsum("egc,gi,eic->eg", np.cross(along, across), value, now[:, 9:])
+    flat = np.linalg.det(np.einsum("agi,eib->egba", slope, reference[:, :9, :2]))
+    share = (area / flat).min(axis=1)
+    worst = int(np.argmin(share))
+    if share[worst] > FLAT:
+        return None
+    x, y = reference[worst, 8, :2]
+    where = f"x = {x:.4g} m, y = {y:.4g} m"
+    return Fault(Status.INVERTED, f"the element at {where} has turned inside out: use more elements")
+
+
+def stretch(structure: ShellStructure, state: State, thickness: float) -> float:
+    """The largest (h κ/2) (b/l)² of all elements, κ the curvature along their shorter side."""
+    nodes = structure.element.reference[:, :9, :2]
+    sides = np.stack([np.linalg.norm(nodes[:, a] - nodes[:, b], axis=1) for a, b in ((5, 7), (6, 4))], axis=1)
+    strain = structure.element.strain(structure._gather(state.change))[:, BENDING]
+    bent = np.stack([np.abs(strain[:, part]).max(axis=1) for part in (slice(0, 6), slice(6, 12))], axis=1)
+    surface = 0.5 * thickness * bent / (0.5 * sides) ** 2
+    return float(np.max(surface * (sides[:, ::-1] / sides) ** 2))
+
+
+def weight_strain(scene: Scene) -> float:
+    """ρ g a/E, a the longer side."""
+    if scene.gravity is None:
+        return 0.0
+    weight = scene.material.density * float(np.linalg.norm(scene.gravity.acceleration))
+    return weight * max(scene.sheet.lengths) / scene.material.young
+
+
+def judge(scene: Scene, path: Path) -> Fault:
+    """The status and message of a path that has ended: strains beyond the model, if the weight means them."""
+    strain = weight_strain(scene)
+    if strain <= WEIGHT_LIMIT or path.status is Status.NON_FINITE:
+        return Fault(path.status, path.message)
+    said = f"ρ g a/E = {strain:.3g}, more than {WEIGHT_LIMIT:g}"
+    return Fault(Status.STRAIN_OUTSIDE_MODEL, "; ".join(filter(None, [said, path.message])))

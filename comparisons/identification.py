@@ -8,7 +8,7 @@ Least squares in the unknowns' x (`comparisons.unknowns`),
 by a trust region (SciPy's `least_squares`), from the values that the scene gives. Every measured component
 weighs the same: the noise is taken to be independent and equally large in all of them. Then x ± t s √C_ii,
 with s² = r·r/(m − n), C = (Jᵀ J)⁻¹ and Student's t, is a 95 % interval. It does not know of the model's own
-errors, which `--model shell` or a finer lattice tells apart from the noise's.
+errors; of a lattice's, one Gauss–Newton step on cells half as large gives the measure (`refined`).
 Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
 """
 
@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -40,12 +41,14 @@ POOR = 0.05  # standard deviation of the residuals, of the largest measurement: 
 
 @dataclass(frozen=True)
 class Found:
-    """An unknown's value, its 95 % interval, the value the search started from, and the unit."""
+    """An unknown's value, its 95 % interval, the value the search started from, the unit, and about where a
+    lattice with cells half as large would put it (None: not asked)."""
 
     value: float
     interval: tuple[float, float]
     start: float
     unit: str
+    refined: float | None = None
 
 
 @dataclass(frozen=True)
@@ -73,7 +76,13 @@ class Identification:
             "model": self.model,
             "settings": self.settings,
             "unknowns": {
-                name: {"value": u.value, "interval": list(u.interval), "start": u.start, "unit": u.unit}
+                name: {
+                    "value": u.value,
+                    "interval": list(u.interval),
+                    "refined": u.refined,
+                    "start": u.start,
+                    "unit": u.unit,
+                }
                 for name, u in self.unknowns.items()
             },
             "residuals": self.residuals,
@@ -96,12 +105,14 @@ def identify(
     calibration: str | None = None,
     elements: int = 16,
     offset: float = 0.0,
+    refine: bool = True,
     progress: Callable[[str], None] = lambda text: None,
 ) -> Identification:
     """The unknowns of these names, from measurements.
 
     grid, calibration: of the lattice; elements: of a reference; offset [m]: where a cloud was taken along the
-    surface's normal, 0 on the mid-surface. progress: told of every evaluation.
+    surface's normal, 0 on the mid-surface. refine: whether to look at a finer lattice too (not for motions).
+    progress: told of every evaluation.
 
     Raises BadInput for names, models and data that do not go together, and NotReached where the model has no
     stable answer with the scene's own values.
@@ -148,9 +159,19 @@ def identify(
     )
     final, slopes = at(best.x)
     known = identifiability([u.name for u in unknowns], slopes, final)
+    steps: Sequence[float | None] = [None] * len(unknowns)
+    if refine and model == "lumped" and not _moving(measured):
+        progress("looking at cells half as large")
+        steps = _refinement(scene, measured, unknowns, best.x, settings, calibration, offset)
     found = {
-        u.name: Found(u.value(x), u.interval(x, known.half_widths[u.name]), u.start, u.unit)
-        for u, x in zip(unknowns, best.x, strict=True)
+        u.name: Found(
+            u.value(x),
+            u.interval(x, known.half_widths[u.name]),
+            u.start,
+            u.unit,
+            None if step is None else u.value(x + step),
+        )
+        for u, x, step in zip(unknowns, best.x, steps, strict=True)
     }
     noise = float(np.sqrt(final @ final / (len(final) - len(unknowns))))
     warnings = [
@@ -160,6 +181,14 @@ def identify(
             for u, active in zip(unknowns, best.active_mask, strict=True)
             if active
         ),
+    ]
+    warnings += [
+        f"{u.name} would be {found[u.name].refined:.4g} on cells half as large: the grid's error is not "
+        "small beside the interval"
+        for u, step in zip(unknowns, steps, strict=True)
+        if step is not None
+        and known.half_widths[u.name] < inf
+        and abs(step) > known.half_widths[u.name] / 3.0
     ]
     if noise > POOR:
         warnings.append(
@@ -181,6 +210,31 @@ def identify(
     )
 
 
+def _refinement(
+    scene: Scene,
+    measured: Measured,
+    unknowns: tuple[Unknown, ...],
+    x: np.ndarray,
+    settings: dict[str, Any],
+    calibration: str | None,
+    offset: float,
+) -> list[float | None]:
+    """The Gauss–Newton step of x on a lattice with cells half as large; None where that has no answer."""
+    nx, ny, layers = settings["grid"]
+    finer = (2 * nx - 1, 2 * ny - 1, layers)
+    predict, _, axes = _predictor(scene, measured, "lumped", finer, calibration, 0)
+    try:
+        residuals, slopes = _misfit(measured, axes, offset)(predict(unknowns, x, _asked(measured, axes)))
+    except NotReached:
+        return [None] * len(unknowns)
+    step: list[float | None] = np.linalg.lstsq(slopes, -residuals)[0].tolist()
+    return step
+
+
+def _moving(measured: Measured) -> bool:
+    return isinstance(measured, Displacements) and measured.time is not None
+
+
 def _check(
     measured: Measured,
     unknowns: tuple[Unknown, ...],
@@ -200,7 +254,7 @@ def _check(
             raise BadInput(f"calibration = '{calibration}': its springs do not follow from what is sought")
     else:
         check_reference(model, elements)
-    moving = isinstance(measured, Displacements) and measured.time is not None
+    moving = _moving(measured)
     still = [name for name in names if name in DAMPING]
     if still and not moving:
         raise BadInput(
@@ -266,5 +320,3 @@ def _per_point(measured: Measured, residuals: np.ndarray) -> np.ndarray:
     out = np.full(measured.displacement.shape, np.nan)
     out[measured.measured] = residuals * measured.scale
     return out
-
-

@@ -16,8 +16,11 @@ _PARTS = tuple(Column(f"off in {part}", "m", "mm", 1e3, "z.4f") for part in ("ux
 
 def unknowns(found: Identification) -> Table:
     """A row per unknown; values in the SI unit named."""
-    rows = tuple((name, u.unit, u.value, *u.interval, u.start) for name, u in found.unknowns.items())
-    shown = tuple(Column(name, form=".6g") for name in ("value", "from", "to", "started at"))
+    rows = tuple(
+        (name, u.unit, u.value, *u.interval, u.refined, u.start) for name, u in found.unknowns.items()
+    )
+    names = ("value", "from", "to", "on finer cells", "started at")
+    shown = tuple(Column(name, form=".6g") for name in names)
     return Table("What was sought, with its 95 % interval", (Column("unknown"), Column("unit"), *shown), rows)
 
 
@@ -63,5 +66,6 @@ def explanation(found: Identification) -> str:
         f"{found.model} {size}: residuals have a standard deviation of {1e3 * found.noise:.3g} mm, "
         f"{100 * found.noise / largest:.3g} % of the largest measurement, and reach "
         f"{100 * found.relative:.3g} %. The interval takes them for independent noise of one size; "
-        "it does not know of the model's own errors."
+        "it does not know of the model's own errors. on finer cells: about where a lattice with cells half as "
+        "large would put the value."
     )

@@ -66,6 +66,6 @@ def explanation(found: Identification) -> str:
         f"{found.model} {size}: residuals have a standard deviation of {1e3 * found.noise:.3g} mm, "
         f"{100 * found.noise / largest:.3g} % of the largest measurement, and reach "
         f"{100 * found.relative:.3g} %. The interval takes them for independent noise of one size; "
-        "it does not know of the model's own errors. on finer cells: about where a lattice with cells half as "
-        "large would put the value."
+        "it does not know of the model's own errors. on finer cells: about where a lattice with cells half "
+        "as large would put the value."
     )

@@ -38,16 +38,18 @@ def scales(scene: Scene) -> Scales:
     rigidity = material.young * sheet.thickness**3 / (12.0 * (1.0 - material.poisson**2))
     load = 0.0
     if scene.gravity is not None:
-        load += material.density * sheet.thickness * float(np.linalg.norm(scene.gravity.acceleration))
+        acceleration = abs(scene.gravity.last_factor) * float(np.linalg.norm(scene.gravity.acceleration))
+        load += material.density * sheet.thickness * acceleration
     for acting in scene.loads:
+        factor = abs(acting.last_factor)
         if isinstance(acting, PointLoad):
-            load += float(np.linalg.norm(acting.force)) / area
+            load += factor * float(np.linalg.norm(acting.force)) / area
         elif isinstance(acting, EdgeLoad):
             length = sheet.lengths[EDGES[acting.edge].along_axis]
-            load += float(np.linalg.norm(acting.force_per_length)) * length / area
-            load += abs(acting.moment_per_length) * length / area / side
+            load += factor * float(np.linalg.norm(acting.force_per_length)) * length / area
+            load += factor * abs(acting.moment_per_length) * length / area / side
         elif isinstance(acting, Pressure):
-            load += abs(acting.value)
+            load += factor * abs(acting.value)
     return Scales(
         slenderness=sheet.thickness / side,
         load=load,

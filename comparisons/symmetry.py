@@ -130,7 +130,7 @@ def _image_of(load: Load, scene: Scene, axis: int) -> Load:
     if isinstance(load, PointLoad):
         at = list(load.at)
         at[axis] = scene.sheet.lengths[axis] - at[axis]
-        return PointLoad(at=(at[0], at[1]), force=_times(load.force, flip))
+        return load.model_copy(update={"at": (at[0], at[1]), "force": _times(load.force, flip)})
     if isinstance(load, EdgeLoad):
         force = _times(load.force_per_length, flip)
         return load.model_copy(update={"edge": _image(load.edge, axis), "force_per_length": force})
@@ -147,7 +147,8 @@ def _half_load(load: Load, scene: Scene, axis: int) -> Load | None:
     if isclose(load.at[axis], middle, rel_tol=1e-12):
         on_plane = list(load.at)
         on_plane[axis] = middle
-        return PointLoad(at=(on_plane[0], on_plane[1]), force=_times(load.force, [0.5, 0.5, 0.5]))
+        force = _times(load.force, [0.5, 0.5, 0.5])
+        return load.model_copy(update={"at": (on_plane[0], on_plane[1]), "force": force})
     return load if load.at[axis] < middle else None
 
 

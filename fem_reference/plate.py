@@ -189,24 +189,26 @@ def edge_nodes(plate: Plate, edge: str) -> np.ndarray:
 
 
 def loads(scene: Scene, plate: Plate) -> np.ndarray:
-    """Work-equivalent nodal forces [N] and couples [N·m], (n, 5)."""
+    """Work-equivalent nodal forces [N] and couples [N·m], (n, 5), with the last factor of every history."""
     force = np.zeros((plate.basis.N, 5))
     area = share(plate.basis)
     if scene.gravity is not None:
         weight = scene.material.density * scene.sheet.thickness * np.array(scene.gravity.acceleration)
-        force[:, :3] += np.outer(area, weight)
+        force[:, :3] += np.outer(area, scene.gravity.last_factor * weight)
     for load in scene.loads:
+        factor = load.last_factor
         if isinstance(load, PointLoad):
             element, local = locate(plate.basis.mesh, np.array([load.at]))
-            force[plate.elements.nodes[element[0]], :3] += np.outer(shape_values(local), load.force)
+            nodes = plate.elements.nodes[element[0]]
+            force[nodes, :3] += factor * np.outer(shape_values(local), load.force)
         elif isinstance(load, EdgeLoad):
             edge, mesh = EDGES[load.edge], plate.basis.mesh
             length = share(FacetBasis(mesh, ElementQuad2(), facets=mesh.boundaries[load.edge]))
-            force[:, :3] += np.outer(length, load.force_per_length)
+            force[:, :3] += factor * np.outer(length, load.force_per_length)
             outward = edge.outward[edge.normal_axis]
-            force[:, TILT_X + edge.normal_axis] -= outward * load.moment_per_length * length
+            force[:, TILT_X + edge.normal_axis] -= factor * outward * load.moment_per_length * length
         else:
-            force[:, W] += load.value * area
+            force[:, W] += factor * load.value * area
     return force
 
 

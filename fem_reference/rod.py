@@ -223,8 +223,9 @@ def _weight(scene: Scene, chains: Sequence[Chain], offsets: np.ndarray, half: np
     """Dead force on Q (k, 9, 3) of the chains' weight on their axes."""
     out = np.zeros((len(half), 9, 3))
     if scene.gravity is not None:
+        acceleration = scene.gravity.last_factor * np.array(scene.gravity.acceleration)
         for chain, offset in zip(chains, offsets, strict=True):
-            line = chain.line_density * np.array(scene.gravity.acceleration)
+            line = chain.line_density * acceleration
             nodal = half[:, None, None] * _SHARES[:, None] * line
             out[:, :3] += nodal
             out[:, 3:6] += offset * nodal

@@ -192,23 +192,26 @@ def point_force(
 def of_scene(
     scene: Scene, mesh: MeshQuad, element_nodes: np.ndarray, nodes: np.ndarray, areas: np.ndarray
 ) -> tuple[np.ndarray, list[Follower]]:
-    """Dead nodal forces (n, 3) [N] and follower loads of a scene on a mesh that carries the edges' names."""
+    """Dead nodal forces (n, 3) [N] and follower loads of a scene on a mesh that carries the edges' names;
+    every load with the last factor of its history."""
     count, corners = len(nodes), nodes[element_nodes]
     dead, followers = np.zeros((count, 3)), list[Follower]()
     if scene.gravity is not None:
         weight = scene.material.density * scene.sheet.thickness * np.array(scene.gravity.acceleration)
-        dead += area_force(areas, element_nodes, count, weight)
+        dead += area_force(areas, element_nodes, count, scene.gravity.last_factor * weight)
     for load in scene.loads:
+        factor = load.last_factor
         match load:
             case PointLoad():
-                dead += point_force(mesh, element_nodes, count, np.array(load.at), np.array(load.force))
+                force = factor * np.array(load.force)
+                dead += point_force(mesh, element_nodes, count, np.array(load.at), force)
             case EdgeLoad():
                 line = Line.along(mesh, mesh.boundaries[load.edge], corners)
-                dead += line_force(line, element_nodes, count, np.array(load.force_per_length))
+                dead += line_force(line, element_nodes, count, factor * np.array(load.force_per_length))
                 if load.moment_per_length:
-                    followers.append(FollowerMoment(load.moment_per_length, line))
+                    followers.append(FollowerMoment(factor * load.moment_per_length, line))
             case Pressure():
-                followers.append(FollowerPressure(load.value, orientation(corners)))
+                followers.append(FollowerPressure(factor * load.value, orientation(corners)))
     return dead, followers
 
 

@@ -7,17 +7,23 @@ edge moment    per undeformed length: a couple F = ±M (t × D)/|D|² on the out
                vector between them, t the current edge tangent (central difference of the neighbours' mean)
 pressure       p ½ d1 × d2 on every mid-surface cell, a quarter at each corner column, equally among layers
 
+A load's `history` multiplies it by its factor at a time; statics take the last. A factor on a dead load makes
+its work depend on the path in time: only constant dead loads have a potential.
+
 Follower loads have unsymmetric tangents in general; see e.g. Schweizerhof and Ramm (1984).
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import numpy as np
 
+from lumped.actuators import Drive
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
 from lumped.masses import masses
-from scenes import EDGES, EdgeLoad, PointLoad, Pressure, Scene
+from scenes import EDGES, EdgeLoad, FactorTable, PointLoad, Pressure, Scene
 
 
 def locate(lattice: Lattice, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -38,72 +44,115 @@ def locate(lattice: Lattice, points: np.ndarray) -> tuple[np.ndarray, np.ndarray
     return columns, weights
 
 
+@dataclass
+class _Part:
+    """Loads that share a history, if they have one, as times [s] and factors.
+
+    dead: (n, 3) [N]; moments: masses of an edge, [N·m] by column, turn; pressure: [Pa].
+    """
+
+    history: tuple[np.ndarray, np.ndarray] | None
+    dead: np.ndarray
+    moments: list[tuple[np.ndarray, np.ndarray, float]] = field(default_factory=list)
+    pressure: float = 0.0
+
+    def factor(self, time: float | None) -> float:
+        """The history's factor at a time [s]; the last one without a time."""
+        return 1.0 if self.history is None else float(Drive(1.0, time).value(*self.history))
+
+
 class Loads:
     """The external forces of a scene at load factor 1; every load scales with the load factor.
 
-    dead: (n, 3) [N]; conservative: whether there are no follower loads.
+    dead: (n, 3) [N], of the dead loads without a history; conservative: whether there are no follower
+    loads; potential: whether there is nothing but `dead`.
     """
 
     def __init__(self, scene: Scene, assembly: Assembly):
         self._assembly = assembly
         lattice = assembly.lattice
         columns = lattice.columns().reshape(-1, lattice.grid[2])
-        self.dead = np.zeros((assembly.pattern.size, 3))
-        self._moments: list[tuple[np.ndarray, np.ndarray, float]] = []
-        self._pressure = 0.0
+        self._parts: dict[FactorTable | None, _Part] = {}
+        self.dead = self._part(None).dead
         if scene.gravity is not None:
             acceleration = np.array(scene.gravity.acceleration)
-            self.dead[: lattice.mass_count] += masses(scene, lattice)[:, None] * acceleration
+            dead = self._part(scene.gravity.history).dead
+            dead[: lattice.mass_count] += masses(scene, lattice)[:, None] * acceleration
             if assembly.coupling is not None:
-                self.dead[lattice.mass_count :] += assembly.coupling.weight(acceleration)
+                dead[lattice.mass_count :] += assembly.coupling.weight(acceleration)
         for load in scene.loads:
+            part = self._part(load.history)
             if isinstance(load, PointLoad):
                 at, weights = locate(lattice, np.array([load.at]))
                 share = weights[0][:, None] * np.array(load.force) / lattice.grid[2]
-                self.dead[columns[at[0]]] += share[:, None, :]
+                part.dead[columns[at[0]]] += share[:, None, :]
             elif isinstance(load, EdgeLoad):
                 edge = lattice.edge_columns(load.edge)
                 length = np.full(len(edge), lattice.spacing[EDGES[load.edge].along_axis])
                 length[[0, -1]] /= 2.0
                 force = length[:, None] * np.array(load.force_per_length) / lattice.grid[2]
-                self.dead[edge] += force[:, None, :]
+                part.dead[edge] += force[:, None, :]
                 if load.moment_per_length:
                     along = np.eye(3)[EDGES[load.edge].along_axis]
                     turn = np.cross(EDGES[load.edge].outward, [0.0, 0.0, 1.0]) @ along
-                    self._moments.append((edge, length * load.moment_per_length, float(turn)))
+                    part.moments.append((edge, length * load.moment_per_length, float(turn)))
             elif isinstance(load, Pressure):
-                self._pressure += load.value
-        self.conservative = not self._moments and not self._pressure
+                part.pressure += load.value
+        self.conservative = not any(part.moments or part.pressure for part in self._parts.values())
+        self.potential = self.conservative and len(self._parts) == 1
 
-    def force(self, u: np.ndarray) -> np.ndarray:
-        """External force (n, 3) [N] on the masses displaced by u."""
-        if self.conservative:
+    def _part(self, history: FactorTable | None) -> _Part:
+        """The part with this history, made when it is first asked for."""
+        if history not in self._parts:
+            table = None if history is None else (np.array(history.time), np.array(history.factor))
+            self._parts[history] = _Part(table, np.zeros((self._assembly.pattern.size, 3)))
+        return self._parts[history]
+
+    def _followers(self, time: float | None) -> tuple[list[tuple[np.ndarray, np.ndarray, float]], float]:
+        """Edge moments and pressure at a time."""
+        scaled = [(part.factor(time), part) for part in self._parts.values()]
+        moments = [(edge, by * moment, turn) for by, part in scaled for edge, moment, turn in part.moments]
+        return moments, sum(by * part.pressure for by, part in scaled)
+
+    def force(self, u: np.ndarray, time: float | None = None) -> np.ndarray:
+        """External force (n, 3) [N] on the masses displaced by u, at a time [s]; without a time, as statics
+        have it: with the last factor of every history."""
+        if self.potential:
             return self.dead
         force = self.dead.copy()
+        for part in self._parts.values():
+            if part.history is not None:
+                force += part.factor(time) * part.dead
+        if self.conservative:
+            return force
         x = self._assembly.lattice.positions + u[: self._assembly.lattice.mass_count]
-        for edge, moment, turn in self._moments:
+        moments, pressure = self._followers(time)
+        for edge, moment, turn in moments:
             top, bottom, couple = self._couple(x, edge, moment, turn)[:3]
             force[top] += couple
             force[bottom] -= couple
-        if self._pressure:
+        if pressure:
             corners, d1, d2 = self._mid_cells(x)
-            share = self._pressure / 8.0 / corners.shape[2] * np.cross(d1, d2)
+            share = pressure / 8.0 / corners.shape[2] * np.cross(d1, d2)
             np.add.at(force, corners.reshape(len(corners), -1), share[:, None, :])
         return force
 
-    def add_tangent(self, u: np.ndarray, load_factor: float, blocks: np.ndarray) -> None:
+    def add_tangent(
+        self, u: np.ndarray, load_factor: float, blocks: np.ndarray, time: float | None = None
+    ) -> None:
         """Subtract the derivative of load_factor × force from the tangent's blocks (b, 3, 3)."""
         if self.conservative:
             return
         x = self._assembly.lattice.positions + u[: self._assembly.lattice.mass_count]
-        for edge, moment, turn in self._moments:
+        moments, pressure = self._followers(time)
+        for edge, moment, turn in moments:
             self._add_couple_tangent(x, edge, load_factor * moment, turn, blocks)
-        if self._pressure:
+        if pressure:
             corners, d1, d2 = self._mid_cells(x)
             p = corners.shape[2]
             # δ(d1 × d2) = −[d2]× δd1 + [d1]× δd2, and d1 = x2 − x0, d2 = x3 − x1
             by_corner = np.stack([_spin(d2), -_spin(d1), -_spin(d2), _spin(d1)], axis=1)
-            by_corner *= load_factor * self._pressure / 8.0 / p**2
+            by_corner *= load_factor * pressure / 8.0 / p**2
             flat = corners.reshape(len(corners), -1)
             slots = self._assembly.pattern.slots(flat[:, :, None], flat[:, None, :])
             columns = np.repeat(by_corner, p, axis=1)

@@ -185,7 +185,7 @@ def weight_number(scene: Scene) -> float:
     """ρ g a/E, the strain at which a sheet of side a hangs under its own weight."""
     if scene.gravity is None:
         return 0.0
-    acceleration = float(np.linalg.norm(scene.gravity.acceleration))
+    acceleration = abs(scene.gravity.last_factor) * float(np.linalg.norm(scene.gravity.acceleration))
     return scene.material.density * acceleration * max(scene.sheet.lengths) / scene.material.young
 
 

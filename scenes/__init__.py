@@ -20,6 +20,7 @@ from scenes.supports import (
     holds_tilt,
     rod_middle,
 )
+from scenes.tables import FactorTable
 
 __all__ = [
     "EDGES",
@@ -32,6 +33,7 @@ __all__ = [
     "Edge",
     "EdgeLoad",
     "EdgeMotion",
+    "FactorTable",
     "FieldMesh",
     "Gravity",
     "Held",

@@ -17,28 +17,22 @@ slide along its axis, since two inextensible rods on opposite faces could not be
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from scenes.quantities import Frozen, NonNegative, Number, Positive, Vector3
 from scenes.sheet import EdgeName
+from scenes.tables import OverTime
 
 Plane = Literal["normal", "inplane", "spatial"]
 Base = Literal["free", "start", "middle", "end"]
 
 
-class CurvatureTable(Frozen):
+class CurvatureTable(OverTime):
     """Intrinsic curvature over time: time (n,) [s], increasing; value (n,) [1/m], one for all joints."""
 
-    time: tuple[Number, ...] = Field(min_length=1)
     value: tuple[Number, ...]
-
-    @model_validator(mode="after")
-    def _one_value_each(self) -> CurvatureTable:
-        _same_length("value", self.time, self.value)
-        return self
 
 
 def _form(value: Any) -> str:
@@ -88,31 +82,20 @@ class Chain(Frozen):
         return between + 1 if self.base == "middle" and self.segments % 2 == 0 else between
 
 
-class EdgeMotion(Frozen):
+class EdgeMotion(OverTime):
     """The edge displaced by `displacement` (n, 3) [m] and turned about its middle by the rotation vectors
     `rotation` (n, 3) [rad] at the times `time` (n,) [s], linear between samples."""
 
     kind: Literal["motion"]
     edge: EdgeName
-    time: tuple[Number, ...] = Field(min_length=1)
     displacement: tuple[Vector3, ...] = ()
     rotation: tuple[Vector3, ...] = ()
 
     @model_validator(mode="after")
-    def _one_pose_each(self) -> EdgeMotion:
+    def _moves_something(self) -> EdgeMotion:
         if not self.displacement and not self.rotation:
             raise ValueError("needs displacement [m] or rotation [rad]")
-        for name in ("displacement", "rotation"):
-            if getattr(self, name):
-                _same_length(name, self.time, getattr(self, name))
         return self
-
-
-def _same_length(name: str, time: tuple, values: tuple) -> None:
-    if len(time) != len(values):
-        raise ValueError(f"{len(time)} times but {len(values)} in {name}")
-    if any(b <= a for a, b in pairwise(time)):
-        raise ValueError("times must increase")
 
 
 def _kind(data: Any) -> str:

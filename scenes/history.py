@@ -20,9 +20,9 @@ class History:
     """Samples of a run; n of them, of which the first is the start.
 
     time: (n,) [s]; probes: name → displacement (n, 3) [m]; energies: kinetic, elastic, potential,
-    dissipated and work, (n,) [J] each (work: done by supports, followers and commands that move);
-    reactions: support's edge → force on the sheet (n, 3) [N], and
-    "EDGE base" → force of a held base on its chain; actuators: name → force and moment about the
+    dissipated and work, (n,) [J] each (potential: of constant dead loads; work: done by all other loads,
+    and by supports and commands that move); reactions: support's edge → force on the sheet (n, 3) [N],
+    and "EDGE base" → force of a held base on its chain; actuators: name → force and moment about the
     segment's middle that each segment exerts on the sheet, (n, segments, 6) [N, N·m]; steps: taken by the
     integrator; status `converged` means that the run reached its end.
     """

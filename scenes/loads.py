@@ -5,6 +5,10 @@ edge      per undeformed length of an edge: a dead force [N/m] and a moment [N·
           edge tangent; moment > 0 turns the edge so that material just outside it would move towards +z
 pressure  a follower pressure [Pa] on the whole sheet, along the current normal (initially +z), per
           current area
+
+Each may have a `history = {time = [s], factor = [-]}` that scales it over time: linear between samples, the
+first factor before and the last one after; without it a load acts in full from t = 0 on. Statics take the
+last factor.
 """
 
 from __future__ import annotations
@@ -13,11 +17,12 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from scenes.quantities import Frozen, Number, PlanPoint, Vector3
+from scenes.quantities import Number, PlanPoint, Vector3
 from scenes.sheet import EdgeName
+from scenes.tables import Loading
 
 
-class PointLoad(Frozen):
+class PointLoad(Loading):
     """A dead force [N] at plan point `at` [m]."""
 
     kind: Literal["point"] = "point"
@@ -25,7 +30,7 @@ class PointLoad(Frozen):
     force: Vector3
 
 
-class EdgeLoad(Frozen):
+class EdgeLoad(Loading):
     """A dead force [N/m] and a moment [N·m/m] along an edge."""
 
     kind: Literal["edge"] = "edge"
@@ -40,7 +45,7 @@ class EdgeLoad(Frozen):
         return self
 
 
-class Pressure(Frozen):
+class Pressure(Loading):
     """A follower pressure [Pa]."""
 
     kind: Literal["pressure"] = "pressure"

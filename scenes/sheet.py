@@ -11,6 +11,7 @@ from typing import Annotated, Literal, NamedTuple
 from pydantic import Field, model_validator
 
 from scenes.quantities import Frozen, NonNegative, Number, PlanPoint, Positive, Vector3
+from scenes.tables import Loading
 
 EdgeName = Literal["x0", "x1", "y0", "y1"]
 
@@ -82,7 +83,7 @@ class Material(Frozen):
     damping_rate: NonNegative = 0.0
 
 
-class Gravity(Frozen):
-    """A uniform acceleration [m/s²] of every mass."""
+class Gravity(Loading):
+    """A uniform acceleration [m/s²] of every mass; may have a `history`, as loads do."""
 
     acceleration: Vector3

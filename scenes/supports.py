@@ -15,30 +15,22 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, field_validator
 
 from scenes.quantities import Frozen, Number, Vector3
 from scenes.sheet import EDGES, EdgeName, Sheet
+from scenes.tables import OverTime
 
 Component = Literal["x", "y", "z"]
 
 
-class Motion(Frozen):
+class Motion(OverTime):
     """Prescribed displacement of a support over time (dynamics only), linear between samples.
 
     time: (n,) [s], increasing; displacement: (n, 3) [m].
     """
 
-    time: tuple[Number, ...] = Field(min_length=1)
     displacement: tuple[Vector3, ...]
-
-    @model_validator(mode="after")
-    def _one_displacement_each(self) -> Motion:
-        if len(self.time) != len(self.displacement):
-            raise ValueError(f"{len(self.time)} times but {len(self.displacement)} displacements")
-        if any(b <= a for a, b in zip(self.time, self.time[1:], strict=False)):
-            raise ValueError("times must increase")
-        return self
 
 
 class _EdgeSupport(Frozen):

@@ -104,7 +104,9 @@ class _Grid:
         for support in self.scene.supports:
             row = self._row(support.edge, x - extra["x0"], y - extra["y0"])
             pinned |= row >= 0
-        gravity = self.scene.gravity.acceleration if self.scene.gravity is not None else (0.0, 0.0, 0.0)
+        gravity = np.zeros(3)
+        if self.scene.gravity is not None:
+            gravity = self.scene.gravity.last_factor * np.array(self.scene.gravity.acceleration)
         material, thickness = self.scene.material, self.scene.sheet.thickness
         return f"""<mujoco>
           <option timestep="{settings["time_step"]}" gravity="{_words(gravity)}" integrator="discrete">
@@ -152,7 +154,7 @@ class _Grid:
             if isinstance(load, PointLoad):
                 away = np.abs(rest[:, :2] - load.at) / self.spacing
                 share = np.prod(np.clip(1.0 - away, 0.0, None), axis=1)
-                force += share[:, None] * np.array(load.force)
+                force += load.last_factor * share[:, None] * np.array(load.force)
         return force
 
 

@@ -1,11 +1,12 @@
 """Energy–momentum-conserving midpoint rule: implicit, second order, without numerical dissipation.
 
-    M (v₁ − v₀)/h + f̄(u₀, u₁) + f_damp(ū, Δu/h) + J(ū)ᵀ λ = f_ext(ū),   Δu = ½ h (v₀ + v₁),   Φ(u₁) = 0
+    M (v₁ − v₀)/h + f̄(u₀, u₁) + f_damp(ū, Δu/h) + J(ū)ᵀ λ = f_ext(ū, t̄),   Δu = ½ h (v₀ + v₁),   Φ(u₁) = 0
 
 with the discrete gradient f̄ of the elastic energy (`lumped.conserving`, `lumped.actuators.joints`):
-f̄·Δu = ΔE exactly, J(ū) Δu = ΔΦ = 0 since Φ is quadratic, dead loads do exactly their potential's work and
-dampers take h P(ū, Δu/h) ≥ 0. Energy is held to the tolerance of the iteration; linear and angular momentum
-of a free sheet too. Source: Simo and Tarnow (1992), Gonzalez (1996, 1999).
+f̄·Δu = ΔE exactly, J(ū) Δu = ΔΦ = 0 since Φ is quadratic, constant dead loads do exactly their potential's
+work, all others f_ext(ū, t̄)·Δu, and dampers take h P(ū, Δu/h) ≥ 0. Energy is held to the tolerance of the
+iteration; linear and angular momentum of a free sheet too. Source: Simo and Tarnow (1992), Gonzalez (1996,
+1999).
 """
 
 from __future__ import annotations
@@ -50,7 +51,7 @@ class Midpoint(Integrator):
             inertia[system.placed] = 0.0  # it does not reach the unknowns, and its work is counted apart
             force = inertia + system.average_elastic(state.u, u, middle)
             system.damping.add_force(mean(u), rate, force)
-            return force - system.external(mean(u))
+            return force - system.external(mean(u), middle)
 
         def halved(u: np.ndarray) -> np.ndarray:
             force = residual(u)
@@ -79,16 +80,16 @@ class Midpoint(Integrator):
     def _work(
         self, before: State, after: State, exerted: np.ndarray, mean: np.ndarray, moved: np.ndarray
     ) -> float:
-        """Work of moving supports, followers and commands as the step itself has it."""
+        """Work of moving supports, commands and loads without a potential as the step itself has it."""
         system, done = self.system, 0.0
         if system.moving:
             done += float(np.sum(exerted * moved)) + system.kinetic_of_placed(before, after)
-        if system.followers:
-            following = system.external(mean) - system.problem.loads.dead
-            done += float(np.sum(following * (after.u - before.u)))
+        middle = 0.5 * (before.time + after.time)
+        if system.working:
+            working = system.external(mean, middle) - system.problem.loads.dead
+            done += float(np.sum(working * (after.u - before.u)))
         if system.coupling is not None:
-            then, now = system.drive(before.time), system.drive(after.time)
-            middle = system.drive(0.5 * (before.time + after.time))
-            done += system.coupling.command_work(before.u, then, middle)
-            done += system.coupling.command_work(after.u, middle, now)
+            then, between, now = (system.drive(t) for t in (before.time, middle, after.time))
+            done += system.coupling.command_work(before.u, then, between)
+            done += system.coupling.command_work(after.u, between, now)
         return done

@@ -1,7 +1,8 @@
 """Dynamics of a lattice from rest: a scene and springs in, a `scenes.History` out.
 
-Gravity, loads and commands act from t = 0 on. The sheet starts flat and at rest; with a curved support it
-starts in the shape that the support alone gives it. Samples are evenly spaced; steps divide their distance.
+Gravity, loads and commands act from t = 0 on, loads scaled by their histories. The sheet starts flat and at
+rest; with a curved support it starts in the shape that the support alone gives it. Samples are evenly spaced;
+steps divide their distance.
 """
 
 from __future__ import annotations
@@ -62,7 +63,8 @@ def simulate(
 
     step [s]: of the integrator, never exceeded; without it `verlet` takes 0.9 of its limit,
     `generalised-alpha` adapts to its error, the others take 1/200 of the lowest period. every [s]: distance
-    of samples, 1/100 of the lowest period unless given. store: a folder to stream to; a run that was stopped
+    of samples, 1/100 of the lowest period unless given; no step is longer, and what a load's history does
+    within a step may go unseen. store: a folder to stream to; a run that was stopped
     goes on from there. frames: whole displacements to keep, evenly over the run, in `extra`: "frames"
     (n, masses, 3), "frame_times" (n,) and the "mesh" they belong to. progress: called with the time reached.
     options: the integrator's own (`radius`, `iterations`).

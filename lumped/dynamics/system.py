@@ -1,6 +1,6 @@
 """The equations of motion of a scene on a lattice, for every integrator:
 
-    M u̇̇ + f_damp(u, u̇) + f_int(u, t) + J(u)ᵀ λ = f_ext(u),   Φ(u) = 0,   u = T q + g(t).
+    M u̇̇ + f_damp(u, u̇) + f_int(u, t) + J(u)ᵀ λ = f_ext(u, t),   Φ(u) = 0,   u = T q + g(t).
 
 u holds the masses' displacements, then the actuators' rows with their multipliers λ (`lumped.actuators`);
 T and g come from supports and bindings, with Tᵀ M g = const: whole columns move with a support's `motion`.
@@ -73,9 +73,9 @@ class System:
         self._still = problem.constraints.prescribed(1.0)
 
     @property
-    def followers(self) -> bool:
-        """Whether some loads follow the sheet."""
-        return not self.problem.loads.conservative
+    def working(self) -> bool:
+        """Whether some loads have no potential: they follow the sheet, or change over time."""
+        return not self.problem.loads.potential
 
     @property
     def constrained(self) -> bool:
@@ -122,15 +122,15 @@ class System:
         force = np.zeros_like(u)
         return self.damping.add_force(u, v, force), force
 
-    def external(self, u: np.ndarray) -> np.ndarray:
+    def external(self, u: np.ndarray, time: float) -> np.ndarray:
         """External force."""
-        return self.problem.loads.force(u)
+        return self.problem.loads.force(u, time)
 
     def unbalanced(self, u: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         """f_ext − f_int − f_damp − Jᵀλ; on multiplier rows −Φ."""
         _, force = self.elastic(u, time)
         self.damping.add_force(u, v, force)
-        return self.external(u) - force
+        return self.external(u, time) - force
 
     def average_elastic(self, start: np.ndarray, end: np.ndarray, time: float) -> np.ndarray:
         """Internal force whose work from `start` to `end` is the energy stored, commands as at `time`."""
@@ -154,7 +154,7 @@ class System:
     ) -> np.ndarray:
         """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once."""
         blocks = self.assembly.tangent(u)
-        self.problem.loads.add_tangent(u, 1.0, blocks)
+        self.problem.loads.add_tangent(u, 1.0, blocks, time)
         if not self.problem.conservative:
             self.damping.add_displacement_tangent(u, v, blocks)
         if self.coupling is not None:
@@ -182,7 +182,7 @@ class System:
         return self.expand(self.solve_mass(self.reduce(force)))
 
     def energies(self, state: State) -> dict[str, float]:
-        """Kinetic, elastic and potential energy [J]; only dead loads have a potential."""
+        """Kinetic, elastic and potential energy [J]; only constant dead loads have a potential."""
         elastic, _ = self.elastic(state.u, state.time)
         v = state.v.ravel()
         return {
@@ -203,16 +203,16 @@ class System:
         return 0.5 * float(np.sum((mass * gained)[self.placed]))
 
     def work(self, before: State, after: State) -> float:
-        """Work of moving supports, followers and commands in a step, by the trapezoidal rule [J]."""
+        """Work of moving supports, commands and loads without a potential in a step, by the trapezoidal rule
+        [J]."""
         done = 0.0
         if self.moving:
             moved = self.place(after.time) - self.place(before.time)
             done += 0.5 * float(np.sum((self.exerted(before) + self.exerted(after)) * moved))
             done += self.kinetic_of_placed(before, after)
-        if self.followers:
-            dead = self.problem.loads.dead
-            mean = 0.5 * (self.external(before.u) + self.external(after.u)) - dead
-            done += float(np.sum(mean * (after.u - before.u)))
+        if self.working:
+            mean = 0.5 * (self.external(before.u, before.time) + self.external(after.u, after.time))
+            done += float(np.sum((mean - self.problem.loads.dead) * (after.u - before.u)))
         if self.coupling is not None:
             then, now = self.drive(before.time), self.drive(after.time)
             for u in (before.u, after.u):

@@ -1,6 +1,6 @@
 """Explicit velocity Verlet (central differences), second order also with dampers.
 
-    u₁ = u₀ + h v₀ + ½ h² a₀,    v₁ = v₀ + ½ h (a₀ + M⁻¹ f(u₁, v₀ + h a₀)),    a₁ = M⁻¹ f(u₁, v₁)
+    u₁ = u₀ + h v₀ + ½ h² a₀,    v₁ = v₀ + ½ h (a₀ + M⁻¹ f(u₁, v₀ + h a₀, t₁)),    a₁ = M⁻¹ f(u₁, v₁, t₁)
 
 The elastic forces are computed once a step; the damping forces twice, with the predicted and with the final
 velocity, since they at hand from half a step before would leave the scheme of first order. Undamped it is
@@ -42,7 +42,7 @@ class Verlet(Integrator):
         if system.moving:
             half = half + system.place_rate(time) - system.place_rate(state.time)
         _, elastic = system.elastic(u, time)
-        force = system.external(u) - elastic
+        force = system.external(u, time) - elastic
         damped = system.damping.present
         gradient = projection.jacobian(u) if projection.active else np.empty((0, 0))
         acting = force
@@ -58,7 +58,7 @@ class Verlet(Integrator):
         if projection.active:
             v, impulse = projection.tangential(v, gradient)
             u = u + impulse * (2.0 / h)
-            force = system.external(u) - system.elastic(u, time)[1]
+            force = system.external(u, time) - system.elastic(u, time)[1]
         taken = 0.0
         if damped:
             power, resisting = system.damping_force(u, v)

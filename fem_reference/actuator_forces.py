@@ -23,7 +23,9 @@ def wrenches(scene: Scene, structure: RoddedShell, state: State, forces: Forces)
     """Name of an actuator → force and moment (segments, 6) [N, N·m] of its segments on the sheet."""
     found = {}
     for i, rod in enumerate(structure.rods):
-        share = by_segment(rod, i, of_rods(state), with_rods(forces)) / len(rod.names)
+        nodal = nodal_force(rod, i, of_rods(state), with_rods(forces))
+        director = state.change[1][rod.line] + np.array([0.0, 0.0, 1.0])
+        share = by_segment(rod, nodal, _positions(rod, state.change[0]), director) / len(rod.names)
         found.update({name: share for name in rod.names})
     motions = [n for n, a in zip(names(scene), scene.actuators, strict=True) if isinstance(a, EdgeMotion)]
     for name, moved in zip(motions, structure.supports.driven, strict=True):
@@ -35,7 +37,7 @@ def line_forces(structure: RoddedShell, state: State, forces: Forces) -> np.ndar
     """Line force (n, 3) [N/m] of the rods on the sheet at the shell's nodes, zero off their edges."""
     out = np.zeros((structure.count, 3))
     for i, rod in enumerate(structure.rods):
-        out[rod.line] += line_force(rod, i, of_rods(state), with_rods(forces))[0]
+        out[rod.line] += line_force(rod, nodal_force(rod, i, of_rods(state), with_rods(forces)))[0]
     return out
 
 
@@ -49,26 +51,33 @@ def _of_motion(structure: RoddedShell, nodes: np.ndarray, state: State, forces: 
     return np.concatenate([force.sum(axis=0), moment.sum(axis=0)])[None]
 
 
-def line_force(rod: Rod, i: int, state: RodState, forces: RodForces) -> tuple[np.ndarray, np.ndarray]:
-    """Line force [N/m] and couple [N·m/m] (p, 3) of rod i on the sheet, at the nodes of its edge."""
-    count = len(rod.line)
-    pull = np.zeros((2, count, 3))
+def nodal_force(rod: Rod, i: int, state: RodState, forces: RodForces) -> np.ndarray:
+    """Force and couple (p, 6) [N, N·m] of rod i on the nodes of its edge."""
+    pull = np.zeros((2, len(rod.line), 3))
     np.add.at(pull[0], rod.places, -forces.rod_pull[i][:, :3])
     np.add.at(pull[1], rod.places, -forces.rod_pull[i][:, 3:6])
     if rod.base is not None:  # what holds the base reaches the sheet through the rod
         pull[:, rod.base] += forces.residual[:, rod.line[rod.base]]
     director = state.change[1][rod.line] + np.array([0.0, 0.0, 1.0])
+    return np.concatenate([pull[0], np.cross(director, pull[1])], axis=1)
+
+
+def line_force(rod: Rod, nodal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Line force [N/m] and couple [N·m/m] (p, 3) of forces and couples (p, 6) on the nodes of the edge."""
+    count = len(rod.line)
     mass = np.zeros((count, count))
     half = 0.5 * np.linalg.norm(rod.reference[:, 2] - rod.reference[:, 0], axis=1)
     np.add.at(mass, (rod.places[:, :, None], rod.places[:, None, :]), half[:, None, None] * _MASS)
-    nodal = np.concatenate([pull[0], np.cross(director, pull[1])], axis=1)
     line = np.linalg.solve(mass, nodal)
     return line[:, :3], line[:, 3:]
 
 
-def by_segment(rod: Rod, i: int, state: RodState, forces: RodForces) -> np.ndarray:
-    """Force and moment (segments, 6) [N, N·m] on the sheet."""
-    force, couple = line_force(rod, i, state, forces)
+def by_segment(rod: Rod, nodal: np.ndarray, position: np.ndarray, director: np.ndarray) -> np.ndarray:
+    """Force and moment (segments, 6) [N, N·m] on the sheet, of its nodal ones (p, 6) where the nodes are.
+
+    position, director: φ [m] and d (p, 3) at the nodes of the edge.
+    """
+    force, couple = line_force(rod, nodal)
     ends = rod.reference[:, [0, 2]]
     low, high = ends.min(axis=(0, 1)), ends.max(axis=(0, 1))
     along = int(np.argmax(high[:2] - low[:2]))
@@ -79,9 +88,7 @@ def by_segment(rod: Rod, i: int, state: RodState, forces: RodForces) -> np.ndarr
     weights = (half * THREE_WEIGHTS).ravel()
     segment = np.clip(np.searchsorted(bounds, places) - 1, 0, rod.segments - 1)
     values = _shapes(rod, along, places)
-    position = _positions(rod, state.change[0])
-    axis = position + rod.offset * (state.change[1][rod.line] + np.array([0.0, 0.0, 1.0]))
-    middle = _shapes(rod, along, 0.5 * (bounds[1:] + bounds[:-1])) @ axis
+    middle = _shapes(rod, along, 0.5 * (bounds[1:] + bounds[:-1])) @ (position + rod.offset * director)
     moment = np.cross(values @ position - middle[segment], values @ force) + values @ couple
     out = np.zeros((rod.segments, 6))
     np.add.at(out, segment, weights[:, None] * np.concatenate([values @ force, moment], axis=1))

@@ -2,7 +2,9 @@
 
 With the middle of the edge at X_m, displacement u and rotation vector θ, at load factor λ
 
-    φ = X_m + λ u + R(λθ) (X − X_m),    d = R(λθ) e_z.
+    φ = X_m + λ u + R(λθ) (X − X_m),    d = R(λθ) e_z,
+
+linearised, as the plate has it, φ = X + u + θ × (X − X_m), d = e_z + θ × e_z.
 """
 
 from __future__ import annotations
@@ -27,10 +29,18 @@ class MovedEdge:
 
     def change(self, load_factor: float) -> tuple[np.ndarray, np.ndarray]:
         """Displacement (k, 3) [m] and change of director (k, 3) at a load factor."""
-        turn = Rotation.from_rotvec(load_factor * self.rotation)
+        turn = self.turn(load_factor)
         director = turn.apply([0.0, 0.0, 1.0]) - [0.0, 0.0, 1.0]
         displacement = load_factor * self.displacement + turn.apply(self.arm) - self.arm
         return displacement, np.tile(director, (len(self.nodes), 1))
+
+    def turn(self, load_factor: float) -> Rotation:
+        """R at a load factor."""
+        return Rotation.from_rotvec(load_factor * self.rotation)
+
+    def small_change(self) -> tuple[np.ndarray, np.ndarray]:
+        """The linearised displacement (k, 3) [m] and change of director (3,) at full load."""
+        return self.displacement + np.cross(self.rotation, self.arm), np.cross(self.rotation, [0.0, 0.0, 1.0])
 
 
 def of_scene(scene: Scene, nodes: np.ndarray, on_edge: dict[str, np.ndarray]) -> list[MovedEdge]:

@@ -4,14 +4,15 @@
 
 with plane-stress C (see `materials`) and the strains of `plate_element`. Bending and membrane do not know of
 each other: no stiffening by stretching, no shortening by bending. Loads act on the flat sheet: pressure
-along +z, an edge moment m as −m on the tilt towards the outward normal. A curved support is linearised: with
+along +z, an edge moment m as −m on the tilt towards the outward normal. Actuators are linearised about the
+flat sheet (`plate_rods`, `edge_motion`), and their forces' moments taken there. So is a curved support: with
 s from the edge's middle w = κ s²/2 and the tilt along the edge is −κ s, none across it; the mid-line's
 shortening is of second order. Source: Hughes, The Finite Element Method (2000), ch. 5. SI units.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
@@ -20,12 +21,14 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from skfem import Basis, ElementQuad2, FacetBasis, LinearForm, MeshQuad
 
-from fem_reference import refusal, shell_supports
+from fem_reference import edge_motion, plate_rods, shell_supports
 from fem_reference.linear import DirectSolver, SingularMatrix
 from fem_reference.location import locate
 from fem_reference.materials import Section, section_of
 from fem_reference.mesh import Elements, divisions, quarters, rectangle
 from fem_reference.plate_element import NODES, TILT_X, PlateElements, W, plate_elements, shape_values
+from fem_reference.rod import Rod
+from fem_reference.shell_rods import hold_bases
 from fem_reference.shell_supports import Supports
 from fem_reference.sparsity import Pattern
 from scenes import (
@@ -87,18 +90,17 @@ def solve(
     from material and thickness unless given. Raises SceneError if the supports leave a rigid motion free.
     """
     require_static(scene)
-    if scene.actuators:
-        return refusal.of_actuators(scene, "plate")
     begin = perf_counter()
     along_x, along_y = divisions(scene.sheet.lengths, elements)
     plate = Plate.on(rectangle(scene.sheet, (along_x, along_y)))
-    supports, held, fields = constrain(scene, plate, hard_edges)
-    force = loads(scene, plate).ravel()
-    free = np.flatnonzero(~held)
+    rods = plate_rods.of_scene(scene, plate.basis.mesh, plate.elements.nodes, plate.nodes)
+    supports, held, fields = constrain(scene, plate, hard_edges, rods.rods)
+    force = rods.force(loads(scene, plate).ravel())
+    free = np.flatnonzero(~np.concatenate([held.ravel(), rods.held]))
     ready = perf_counter()
 
-    stiffness = stiffness_matrix(scene, plate, section)
-    u = fields.ravel()
+    stiffness = rods.stiffness(stiffness_matrix(scene, plate, section))
+    u = np.concatenate([fields.ravel(), np.zeros(len(rods.held))])
     status, message = Status.CONVERGED, ""
     try:
         u[free] = DirectSolver().factor(stiffness[free][:, free]).solve((force - stiffness @ u)[free])
@@ -107,7 +109,10 @@ def solve(
     unbalanced = stiffness @ u - force
     done = perf_counter()
 
-    size = np.linalg.norm(force) + np.linalg.norm(unbalanced[held.ravel()])
+    size = np.linalg.norm(force) + np.linalg.norm(np.delete(unbalanced, free))
+    fields, nodal = u[: fields.size].reshape(-1, 5), unbalanced[: fields.size].reshape(-1, 5)
+    exerted, line = plate_rods.exerted(scene, rods, u, nodal, plate.nodes)
+    by_part = energies(scene, plate, u[: fields.size], section)
     settings: dict[str, Any] = {"elements": [along_x, along_y]}
     if hard_edges:
         settings["hard_edges"] = list(hard_edges)
@@ -123,12 +128,13 @@ def solve(
         setup_seconds=ready - begin,
         solve_seconds=done - ready,
         sample=lambda points: plate.sample(fields[:, :3], points),
-        reactions=supports.reactions(unbalanced.reshape(-1, 5)[:, :3]),
-        energies=energies(scene, plate, u, section),
-        mesh=field_mesh(plate, fields),
+        reactions=supports.reactions(nodal[:, :3]),
+        energies={**by_part, "rod": rods.energy(u)} if rods.rods else by_part,
+        mesh=field_mesh(plate, fields, {"actuator_line_force": line} if scene.actuators else {}),
         history=(Iteration(1.0, float(np.linalg.norm(unbalanced[free]) / (size or 1.0)), 1.0),),
         load_factor=1.0 if status is Status.CONVERGED else 0.0,
         message=message,
+        actuators=exerted,
     )
 
 
@@ -165,11 +171,15 @@ def energies(scene: Scene, plate: Plate, u: np.ndarray, section: Section | None 
 
 
 def constrain(
-    scene: Scene, plate: Plate, hard_edges: tuple[str, ...] = ()
+    scene: Scene, plate: Plate, hard_edges: tuple[str, ...] = (), rods: Sequence[Rod] = ()
 ) -> tuple[Supports, np.ndarray, np.ndarray]:
-    """The supports, which fields they hold (n, 5), and the prescribed values (n, 5), 0 where free."""
-    on_edge = {str(support.edge): edge_nodes(plate, support.edge) for support in scene.supports}
+    """The supports, which fields they hold (n, 5), and the prescribed values (n, 5), 0 where free.
+
+    rods: of the scene, whose bases hold a node.
+    """
+    on_edge = {str(on.edge): edge_nodes(plate, on.edge) for on in (*scene.supports, *scene.actuators)}
     supports = shell_supports.of_scene(scene, plate.nodes, on_edge)
+    supports = edge_motion.hold(hold_bases(supports, rods), scene, plate.nodes, on_edge)
     held = np.column_stack([supports.position, supports.director[:, None] | supports.tilt])
     for name in hard_edges:
         held[edge_nodes(plate, name), TILT_X + EDGES[name].along_axis] = True
@@ -180,6 +190,9 @@ def constrain(
             s = plate.nodes[on, along] - rod_middle(support, scene.supports, scene.sheet)
             values[on, W] = support.curvature * s**2 / 2.0
             values[on, TILT_X + along] = -support.curvature * s
+    for moved in edge_motion.of_scene(scene, plate.nodes, on_edge):
+        displacement, turn = moved.small_change()
+        values[moved.nodes] = np.column_stack([displacement, np.tile(turn[:2], (len(moved.nodes), 1))])
     return supports, held, values
 
 
@@ -218,13 +231,14 @@ def share(basis: Basis | FacetBasis, density: Callable[..., np.ndarray] | None =
     return form.assemble(basis)
 
 
-def field_mesh(plate: Plate, fields: np.ndarray) -> FieldMesh:
-    """Nodes and bilinear quarters of the elements, with displacement [m] and director of fields (n, 5)."""
+def field_mesh(plate: Plate, fields: np.ndarray, more: dict[str, np.ndarray]) -> FieldMesh:
+    """Nodes and bilinear quarters of the elements, with displacement [m] and director of fields (n, 5), and
+    more data of the nodes."""
     flat = np.zeros(len(fields))
     return FieldMesh(
         np.column_stack([plate.nodes, flat]),
         [("quad", quarters(plate.basis.element_dofs))],
-        {"displacement": fields[:, :3], "director": np.column_stack([fields[:, 3:], flat + 1.0])},
+        {"displacement": fields[:, :3], "director": np.column_stack([fields[:, 3:], flat + 1.0]), **more},
     )
 
 

@@ -6,6 +6,7 @@ the constraint |m| = 1 treated as the shell treats |d| = 1. State, forces and st
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -274,7 +275,7 @@ def with_rods(forces: Forces) -> RodForces:
     return forces
 
 
-def hold_bases(supports: Supports, rods: list[Rod]) -> Supports:
+def hold_bases(supports: Supports, rods: Sequence[Rod]) -> Supports:
     """The supports with what the rods' bases hold: position and director of a node, reported by the edge."""
     position, director, edges = supports.position.copy(), supports.director.copy(), dict(supports.edges)
     for rod in rods:

@@ -80,6 +80,7 @@ def modes(
     if model not in REST_STATES:
         raise ValueError(f"model = {model!r}: known are {', '.join(REST_STATES)}")
     begin = perf_counter()
+    scene = scene.model_copy(update={"actuators": ()})
     along_x, along_y = divisions(scene.sheet.lengths, elements)
     rest = REST_STATES[model](scene, (along_x, along_y), **options)
     ready = perf_counter()

@@ -61,7 +61,7 @@ def compose(tradeoff: Tradeoff) -> Figure:
         style: dict[str, Any] = {"color": colour, "marker": MARKERS.get(model, "P"), "lw": 0.9, "ms": 3.6}
         if model in REFERENCE_COLOURS:
             style["ls"] = (0, (4, 1.5))
-        label = name if orders[name] is None else f"{name}  ($h^{{{orders[name]:.1f}}}$)"
+        label = name if orders[name] is None else f"{name}  ($h^{{{orders[name]:z.1f}}}$)"
         _against_time(left, rows, [i in on_front for i in known], style, label)
         sized = [row for row in rows if row["cell_size"]]
         right.plot([1e3 * r["cell_size"] for r in sized], [100 * r["error"] for r in sized], **style)

@@ -270,7 +270,71 @@ def test_an_edge_moved_rigidly_agrees_with_the_lattice() -> None:
     )
 
 
-@pytest.mark.parametrize("model", ["plate", "solid"])
+def small(scene: Scene, factor: float = 1e-3) -> Scene:
+    """The scene's weight and intrinsic curvature scaled down."""
+    (one,) = scene.actuators
+    curved = np.multiply(one.curvature, factor).tolist()
+    weight = Gravity(acceleration=(0.0, 0.0, -9.81 * factor))
+    scaled = Chain(**{**one.model_dump(), "curvature": curved})
+    return scene.model_copy(update={"gravity": weight, "actuators": (scaled,)})
+
+
+@pytest.mark.parametrize("base", ["free", "middle"])
+@pytest.mark.parametrize("name", CHAINS)
+def test_the_plate_is_the_limit_of_small_deflections(name: str, base: str) -> None:
+    asked = dict(CHAINS[name])
+    if base == "middle" and name == "list":
+        asked["curvature"] = (*asked["curvature"], 2.0)
+    scene = small(driven(chain(**asked, base=base)))
+    points = np.random.default_rng(0).uniform(0.0, 0.188, (50, 2))
+    plate = fem_reference.solve(scene, model="plate", elements=12)
+    expected = fem_reference.solve(scene, model="shell", elements=12, graded=False)
+    truth = expected.displacement(points)
+    assert np.abs(plate.displacement(points) - truth).max() < 3e-3 * np.abs(truth).max()
+    assert plate.energies["rod"] == pytest.approx(expected.energies["rod"], rel=3e-3)
+    own = 0.05 * 0.188 * 9.81e-3
+    sheet = 1678.0 * 0.003 * 0.188**2 * 9.81e-3
+    total = plate.actuators["x1"].sum(axis=0)[:3]
+    held = sum(plate.reactions.values())
+    np.testing.assert_allclose(held, [0.0, 0.0, sheet + own], atol=1e-5 * sheet)
+    np.testing.assert_allclose(total + plate.reactions["x0"], [0.0, 0.0, sheet], atol=1e-5 * sheet)
+    assert np.all(plate.mesh.point_data["actuator_line_force"][plate.mesh.points[:, 0] < 0.187] == 0.0)
+
+
+@pytest.mark.parametrize("name", ["curved-edge", "curved-edge-down"])
+def test_on_the_plate_too_a_stiff_rod_is_the_curved_support(name: str) -> None:
+    rigid = scenes.load(name)
+    curvature = rigid.supports[0].curvature
+    stiff = chain(edge="x0", bending_stiffness=1e3, line_density=1e-6, curvature=curvature, base="middle")
+    elastic = rigid.model_copy(update={"supports": (), "actuators": (stiff,)})
+    points = np.random.default_rng(0).uniform(0.0, 0.188, (100, 2))
+    bent, expected = (fem_reference.solve(scene, model="plate", elements=8) for scene in (elastic, rigid))
+    truth = expected.displacement(points)
+    assert np.abs(bent.displacement(points) - truth).max() < 1e-3 * np.abs(truth).max()
+    np.testing.assert_allclose(bent.reactions["x0"], expected.reactions["x0"], rtol=1e-4, atol=1e-6)
+
+
+def test_on_the_plate_an_edge_moves_rigidly() -> None:
+    """A small motion, as the shell has it; a free sheet is taken along without strain."""
+    motion = EdgeMotion(
+        kind="motion", edge="x1", time=(0.0, 1.0),
+        displacement=((0, 0, 0), (0.0, 1e-6, 1e-5)), rotation=((0, 0, 0), (1e-4, -1e-4, 2e-6)),
+    )  # fmt: skip
+    scene = driven(motion, gravity=Gravity(acceleration=(0.0, 0.0, -1e-2)))
+    points = np.random.default_rng(0).uniform(0.0, 0.188, (50, 2))
+    plate = fem_reference.solve(scene, model="plate", elements=12)
+    expected = fem_reference.solve(scene, model="shell", elements=12, graded=False)
+    truth = expected.displacement(points)
+    assert np.abs(plate.displacement(points) - truth).max() < 3e-3 * np.abs(truth).max()
+    wrench = expected.actuators["x1"]
+    np.testing.assert_allclose(plate.actuators["x1"], wrench, atol=5e-3 * np.abs(wrench).max())
+    free = fem_reference.solve(scene.model_copy(update={"supports": (), "gravity": None}), model="plate")
+    assert sum(free.energies.values()) < 1e-20
+    turned = np.cross([1e-4, -1e-4, 2e-6], [-0.188, -0.094, 0.0])
+    np.testing.assert_allclose(free.displacement([[0.0, 0.0]])[0] - turned, [0.0, 1e-6, 1e-5], atol=1e-12)
+
+
+@pytest.mark.parametrize("model", ["solid"])
 def test_models_without_rods_refuse_and_say_so(model: str) -> None:
     scene = driven(chain())
     solution = fem_reference.solve(scene, model=model)

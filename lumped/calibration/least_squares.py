@@ -25,7 +25,7 @@ WEIGHTS = {"D": 1.0, "S": 1.0, "A": 0.3}
 PAIRS = ("axial", "cross", "mid_stretch")
 STRAINS = ("mid_stretch_x", "mid_stretch_y", "shear", "mid_shear")
 FREE = ("area", "mid_area")
-MET = 1e-8  # weighted miss that counts as none
+MET = 1e-6  # weighted miss that counts as none
 WEAK = 1e-4  # weight of the strain springs themselves, where they are needed
 UNKNOWNS = (
     *(f"{name}_{direction}" for name in PAIRS for direction in "xy"),
@@ -107,7 +107,14 @@ def bounded_least_squares(
     start = np.array([0.3] * bounded + [0.1] * len(FREE) + [0.0] * free_distance)
     low = np.array([0.0] * bounded + [-np.inf] * len(FREE) + [-2.0] * free_distance)
     high = np.array([np.inf] * len(UNKNOWNS) + [2.0] * free_distance)
-    exact = {"x_scale": "jac", "xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "max_nfev": 3000}
+    exact = {
+        "jac": "3-point",
+        "x_scale": "jac",
+        "xtol": 1e-15,
+        "ftol": 1e-15,
+        "gtol": 1e-15,
+        "max_nfev": 3000,
+    }
 
     links = np.setdiff1d(np.arange(len(start)), strains)
 

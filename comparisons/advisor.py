@@ -100,7 +100,7 @@ def advise(scene: Scene, tolerance: float | None = 0.01, budget: float | None = 
         pass
     if not probing.judge.usable:
         said = probing.judge.solution
-        reason = f"the {probing.judge_model} finds no stable equilibrium: {said.status}: {said.message}"
+        reason = f"the shell finds no stable equilibrium: {said.status}: {said.message}"
         return _advice(probing, sizes, tolerance, budget, None, resolution, reason)
     linear = not scene.actuators and sizes.load_number <= LINEAR_LOAD_NUMBER
     candidates = probing.candidates(linear)
@@ -226,23 +226,22 @@ def _effects(
     """What the scene needs of a model, and what is left out of the chosen one."""
     needs, left_out = ["bending"], ["dynamics: the question is static"]
     small = NEGLIGIBLE * tolerance
-    if not probing.scene.actuators:
-        energies = probing.judge.solution.energies
-        total = sum(energies.values()) or 1.0
-        for name, part in (("transverse shear", "shear"), ("membrane stiffening", "membrane")):
-            share = energies.get(part, 0.0) / total
-            if share > small:
-                needs.append(name)
-            else:
-                left_out.append(f"{name}: {100 * share:.1g} % of the energy")
-        linear = probing.trial(probing.candidate("plate", 4))
-        off = probing.error(linear)
-        if off > tolerance:
-            needs.append("large displacements")
-        elif chosen is not None and (
-            chosen.candidate.settings.get("linear") or chosen.candidate.model == "plate"
-        ):
-            left_out.append(f"nonlinearity: the linear answer is {100 * off:.1g} % off")
+    energies = probing.judge.solution.energies
+    total = sum(energies.values()) or 1.0
+    for name, part in (("transverse shear", "shear"), ("membrane stiffening", "membrane")):
+        share = energies.get(part, 0.0) / total
+        if share > small:
+            needs.append(name)
+        else:
+            left_out.append(f"{name}: {100 * share:.1g} % of the energy")
+    linear = probing.trial(probing.candidate("plate", 4))
+    off = probing.error(linear)
+    if off > tolerance:
+        needs.append("large displacements")
+    elif chosen is not None and (
+        chosen.candidate.settings.get("linear") or chosen.candidate.model == "plate"
+    ):
+        left_out.append(f"nonlinearity: the linear answer is {100 * off:.1g} % off")
     if probing.scene.actuators:
         needs.append("actuators")
     if chosen is not None and probing.planes:

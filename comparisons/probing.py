@@ -1,9 +1,8 @@
 """Quick solves of a scene that tell what each model would get wrong and cost here.
 
 The judge is the shell on three meshes of rising fineness with the grid convergence index as its error bar,
-made finer only as long as a decision hangs on it; of a scene with actuators, which only the lattice knows, it
-is the lattice on three grids. Times are this machine's, on warm code; those of models that were not solved
-follow t = c N^p through the two solved ones nearest in unknowns.
+made finer only as long as a decision hangs on it. Times are this machine's, on warm code; those of models
+that were not solved follow t = c N^p through the two solved ones nearest in unknowns.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ from comparisons.grids import near_square
 from comparisons.symmetry import planes
 from scenes import Scene, Solution, Status
 
-JUDGES = (4, 6, 8, 12, 16, 24, 32)  # elements along the shorter side, or cells of a lattice
+JUDGES = (4, 6, 8, 12, 16, 24, 32)  # elements along the shorter side
 FIRST = 3  # of them are always solved
 CELLS = {"lumped": (2, 4, 6, 8, 12, 16, 24, 32), "plate": (2, 4, 8), "shell": (2, 3, 4, 6, 8, 12, 16, 24)}
 UNKNOWNS = {"lumped": 6.0, "plate": 20.0, "shell": 20.0}  # a cell or element
@@ -52,7 +51,6 @@ class Probing:
         self.scene = scene
         self.points = scene.probe_points()
         self.planes = planes(scene)
-        self.judge_model = "lumped" if scene.actuators else "shell"
         self.trials: dict[str, Trial] = {}
         self.judges: list[int] = []
         self.seconds = 0.0
@@ -73,8 +71,6 @@ class Probing:
     def candidates(self, linear: bool) -> list[Candidate]:
         """What may be chosen: lattices and shells; the linear lattice and the plate where `linear`."""
         found = [self.candidate("lumped", n) for n in CELLS["lumped"]]
-        if self.scene.actuators:
-            return found
         found += [self.candidate("shell", n) for n in CELLS["shell"]]
         if linear:
             found += [self.candidate("lumped", n, linear=True) for n in CELLS["lumped"]]
@@ -146,7 +142,7 @@ class Probing:
         return near.seconds * float(size / unknowns(near.candidate)) ** exponent
 
     def _judge(self, cells: int) -> Candidate:
-        return self.candidate(self.judge_model, cells)
+        return self.candidate("shell", cells)
 
 
 def unknowns(candidate: Candidate) -> float:

@@ -1,5 +1,8 @@
 """A lattice with its springs, ready to compute: energy, internal force, tangent over a fixed block pattern.
 
+With precision "single" the internal force is computed from displacements, rest geometry and stiffness kept
+in single precision, each link in it, cells in double within themselves; the tangent stays in double.
+
 Only what the scene has is assembled: families of zero stiffness are left out. Links of the seed's
 per-direction law (unequal x, y, z stiffness) are kept apart: they have no energy, and their tangent is
 unsymmetric.
@@ -8,7 +11,8 @@ unsymmetric.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal, TypeVar
 
 import numpy as np
 
@@ -18,6 +22,8 @@ from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.moduli import family_stiffness, strain_stiffness
 from scenes import Sheet
+
+Precision = Literal["double", "single"]
 
 
 @dataclass(frozen=True)
@@ -56,6 +62,9 @@ class Cells:
         return energy
 
 
+Part = TypeVar("Part", Links, Cells)
+
+
 @dataclass(frozen=True)
 class Stresses:
     """The tension of every central link, (m,) [N], the stress of every area spring, (c,), and the stresses of
@@ -89,6 +98,7 @@ class Assembly:
     """Energy, force and tangent of a calibrated lattice. Displacements and forces are (n, 3) [m], [N].
 
     couple: makes the actuators bound to the lattice; their rows follow those of the masses in every array.
+    precision: of the internal force.
     """
 
     def __init__(
@@ -97,6 +107,7 @@ class Assembly:
         calibration: Calibration,
         weights: Weights = "tributary",
         couple: Callable[[Lattice], Coupling] | None = None,
+        precision: Precision = "double",
     ):
         self.lattice: Lattice = build(sheet, calibration.grid, calibration.layer_distance, weights)
         self.families = tuple(dict.fromkeys(family.name for family in self.lattice.links))
@@ -133,6 +144,20 @@ class Assembly:
         self.directional = self._links(directional, 3)
         self.cells = tuple(self._cells(*area) for area in areas)
         self.strains = tuple(self._cells(*row) for row in stretchy)
+        self.precision = precision
+        self._forcing = self.links, self.directional, self.cells, self.strains
+        if precision == "single":
+            self._forcing = (
+                _rounded(self.links),
+                _rounded(self.directional),
+                tuple(_rounded(c) for c in self.cells),
+                tuple(_rounded(c) for c in self.strains),
+            )
+
+    @property
+    def rounding(self) -> float:
+        """Relative spacing of the numbers that the internal force is computed with."""
+        return float(np.finfo(np.float32 if self.precision == "single" else float).eps)
 
     @property
     def conservative(self) -> bool:
@@ -169,17 +194,19 @@ class Assembly:
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Elastic energy [J] and its gradient, the internal force, (n, 3) [N]."""
-        force = np.zeros_like(u)
-        links = self.links
-        energy = springs.add_forces(u, links.nodes, links.offset, links.rest_length, links.stiffness, force)
-        for c in self.cells:
-            energy += cells.add_forces(u, c.nodes, c.diagonals, c.stiffness, force)
-        for c in self.strains:
-            energy += strains.add_forces(u, c.nodes, c.diagonals, c.stiffness, force)
-        d = self.directional
+        links, d, areas, stretches = self._forcing
+        kept = u.astype(np.float32) if self.precision == "single" else u
+        force = np.zeros_like(kept)
+        energy = springs.add_forces(
+            kept, links.nodes, links.offset, links.rest_length, links.stiffness, force
+        )
+        for c in areas:
+            energy += cells.add_forces(kept, c.nodes, c.diagonals, c.stiffness, force)
+        for c in stretches:
+            energy += strains.add_forces(kept, c.nodes, c.diagonals, c.stiffness, force)
         if len(d):
-            springs.add_directional_forces(u, d.nodes, d.offset, d.rest_length, d.stiffness, force)
-        return energy, force
+            springs.add_directional_forces(kept, d.nodes, d.offset, d.rest_length, d.stiffness, force)
+        return energy, force.astype(float, copy=False)
 
     def energies(self, u: np.ndarray) -> dict[str, float]:
         """Elastic energy of each spring family and of the area and strain springs [J]."""
@@ -243,6 +270,12 @@ class Assembly:
         if len(d):
             springs.add_directional_tangent(u, d.nodes, d.offset, d.rest_length, d.stiffness, d.slots, blocks)
         return blocks
+
+
+def _rounded(row: Part) -> Part:
+    """The same in single precision."""
+    floats = {k: value for k, value in vars(row).items() if getattr(value, "dtype", None) == np.float64}
+    return replace(row, **{name: value.astype(np.float32) for name, value in floats.items()})
 
 
 def _neighbours(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -10,6 +10,9 @@ Load steps adapt: a step's predictor, linear in the load, may displace no mass f
 sheet's longer side; a step that fails is halved with the factors at hand. Where the path ends before
 λ = 1 and the forces have an energy, a regularised Newton descent (`lumped.descent`) looks for a stable
 state there.
+
+Watchdogs end a path: a number that is not finite, corrections that grow or do not settle (a load step's
+own), collapsed links and inverted cells at an equilibrium (`lumped.watch`), too many factorisations.
 """
 
 from __future__ import annotations
@@ -21,11 +24,13 @@ import numpy as np
 from lumped.assembly import Stresses
 from lumped.linear import Factor, SingularMatrixError
 from lumped.problem import Problem
+from lumped.watch import broken
 
 COARSE = 1e-5  # residual, relative to the forces, at which corrections turn to the true tangent
 FINE = 1e-11  # residual, relative to the forces, that counts as equilibrium
 FIRST_REACH = 1.3  # farthest predicted displacement of a first step, in sides of the sheet
 SHORTEST_STEP = 2.0**-12
+FACTORISATIONS = 2000  # of one path
 CORRECTIONS = 14  # of one load step
 
 
@@ -76,9 +81,14 @@ def follow(problem: Problem, start: State, target: float = 1.0) -> tuple[State, 
         except (StepFailed, SingularMatrixError) as failure:
             step /= 2.0
             reach = min(reach, farthest) / 2.0
-            if abs(step) < shortest:
+            if abs(step) < shortest or problem.factorisations > FACTORISATIONS:
                 return state, str(failure)
             continue
+        problem.fault = broken(problem.assembly, state.u)
+        if problem.fault is not None:
+            return state, problem.fault.message
+        if problem.factorisations > FACTORISATIONS:
+            return state, f"{FACTORISATIONS} factorisations were not enough"
         if problem.factorisations - before <= 7:
             reach *= 1.5
         step *= 4.0
@@ -100,12 +110,13 @@ def _correct(
     stresses = assembly.extrapolated(start.u, predicted)
     u = start.u + predicted
     lengths = [float(np.abs(predicted).max())]
+    single = assembly.precision == "single"
     for _ in range(CORRECTIONS):
         unbalanced, residual = problem.residual(u, load_factor)
         problem.note(load_factor, residual, lengths[-1])
         if not np.isfinite(residual):
             raise StepFailed("a number overflowed")
-        if residual < COARSE:
+        if residual < COARSE or (single and residual < rounding_floor(problem, u, load_factor)):
             return polish(problem, u, load_factor, tolerance)
         factor = problem.factor(problem.tangent(u, load_factor, stresses))
         step = problem.expand(factor.solve(problem.reduce(unbalanced)))
@@ -152,4 +163,4 @@ def rounding_floor(problem: Problem, u: np.ndarray, load_factor: float) -> float
     if assembly.coupling is not None:
         carried += assembly.coupling.carried()
     scale = problem.force_scale(u, load_factor)
-    return float(np.finfo(float).eps * np.linalg.norm(carried) / scale) if scale > 0.0 else np.inf
+    return float(assembly.rounding * np.linalg.norm(carried) / scale) if scale > 0.0 else np.inf

@@ -17,7 +17,7 @@ import numpy as np
 import scipy.linalg
 import scipy.sparse as sp
 from scipy.sparse.csgraph import reverse_cuthill_mckee
-from scipy.sparse.linalg import LinearOperator, eigs, splu
+from scipy.sparse.linalg import LinearOperator, eigs, onenormest, splu
 
 from lumped.assembly import Pattern
 from lumped.constrained import Saddle
@@ -65,6 +65,23 @@ class Factor:
         if not miss <= BACKWARD_ERROR * size:  # also catches nan
             raise SingularMatrixError(f"residual {miss:.1e} after refinement")
         return x
+
+    def condition(self) -> float:
+        """Condition number ‖A‖₁ ‖A⁻¹‖₁, the latter estimated with the factors (Hager 1984, Higham 1988)."""
+        n = self._matrix.shape[0]
+        if n == 0:
+            return 1.0
+
+        def columns(b: np.ndarray) -> np.ndarray:
+            return np.column_stack([self._solve(column) for column in b.reshape(n, -1).T])
+
+        # of an unsymmetric matrix the solver with the transpose is missing: its symmetric part is close by
+        inverse = LinearOperator(
+            (n, n), matvec=lambda b: self._solve(b.ravel()), rmatvec=lambda b: self._solve(b.ravel()),
+            matmat=columns, rmatmat=columns, dtype=float,
+        )  # fmt: skip
+        largest = float(abs(self._matrix).sum(axis=0).max())
+        return largest * float(onenormest(inverse, t=min(2, n)))
 
     def negative_real_parts(self) -> int:
         """Eigenvalues with a negative real part among the NEAREST ones to zero of an unsymmetric matrix.

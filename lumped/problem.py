@@ -15,6 +15,7 @@ from lumped.assembly import Assembly, Stresses
 from lumped.linear import Factor, ReducedSystem
 from lumped.loads import Loads
 from lumped.supports import Constraints
+from lumped.watch import Fault
 from scenes import Iteration
 
 Progress = Callable[[Iteration], None]
@@ -25,7 +26,8 @@ class Problem:
     """A lattice under its supports and loads, which grow with the load factor λ.
 
     size: the sheet's longer side [m]. base: loads that act in full at every λ; the supports are then in
-    their places from the start and only `loads` grow. factorisations counts every tangent factorised.
+    their places from the start and only `loads` grow. factorisations counts every tangent factorised. fault:
+    what ended the path at a state that means nothing, if anything did.
     """
 
     assembly: Assembly
@@ -36,6 +38,7 @@ class Problem:
     factorisations: int = 0
     history: list[Iteration] = field(default_factory=list)
     progress: Progress | None = None
+    fault: Fault | None = None
 
     def __post_init__(self) -> None:
         dead = self.loads.conservative and (self.base is None or self.base.conservative)

@@ -24,8 +24,9 @@ def _stretch(u, nodes, offset, rest_length, m):
     dx, dy, dz = u[b, 0] - u[a, 0], u[b, 1] - u[a, 1], u[b, 2] - u[a, 2]
     rx, ry, rz = offset[m, 0] + dx, offset[m, 1] + dy, offset[m, 2] + dz
     length = math.sqrt(rx * rx + ry * ry + rz * rz)
-    twice = 2.0 * (offset[m, 0] * dx + offset[m, 1] * dy + offset[m, 2] * dz) + dx * dx + dy * dy + dz * dz
-    elongation = twice / (length + rest_length[m])
+    along = offset[m, 0] * dx + offset[m, 1] * dy + offset[m, 2] * dz
+    # not 2.0 * along: the literal would turn single precision into double
+    elongation = (along + along + dx * dx + dy * dy + dz * dz) / (length + rest_length[m])
     return elongation, length, rx / length, ry / length, rz / length
 
 

@@ -10,11 +10,12 @@ from typing import Any, Literal
 
 import numpy as np
 
+from lumped import watch
 from lumped.actuators import Coupling
-from lumped.assembly import Assembly
+from lumped.assembly import Assembly, Precision
 from lumped.calibration import Calibration, calibrate, given
 from lumped.descent import descend, disturbed
-from lumped.equilibrium import State, StepFailed, at_rest, follow, predictor
+from lumped.equilibrium import FACTORISATIONS, State, StepFailed, at_rest, follow, predictor
 from lumped.fields import field_mesh
 from lumped.lattice import Weights
 from lumped.linear import SingularMatrixError
@@ -48,6 +49,7 @@ def solve(
     branch: Branch = "path",
     weights: Weights = "tributary",
     linear: bool = False,
+    precision: Precision = "double",
     progress: Callable[[Iteration], None] | None = None,
 ) -> Solution:
     """Static equilibrium of the scene on a lattice with these springs, from flat to full load.
@@ -56,7 +58,8 @@ def solve(
     branch: "path" reports the equilibrium on the load path, stable or not; "stable" leaves an unstable one
     along a direction of negative curvature and descends to a stable equilibrium. weights: "full" gives
     boundary links and masses full shares, as the seed has them. linear: the answer for small displacements,
-    one step with the flat sheet's tangent. progress: called once an iteration.
+    one step with the flat sheet's tangent. precision: of the internal force (`lumped.assembly`). progress:
+    called once an iteration.
 
     Raises scenes.SceneError when nothing stops a rigid motion, ValueError for linear with actuators. Every
     other outcome is a status; where the full load was not reached, the last converged load is kept and
@@ -69,7 +72,7 @@ def solve(
     _compile()
     if springs is None:
         springs = given(scene) if scene.springs is not None else calibrate(scene.sheet, scene.material)
-    problem = pose(scene, springs, weights)
+    problem = pose(scene, springs, weights, precision)
     problem.progress = progress
     ready = time.perf_counter()
     with one_blas_thread():
@@ -94,10 +97,15 @@ def _compile() -> None:
         settle(scene, pose(scene, calibrate(sheet, material, (3, 7))), "path")
 
 
-def pose(scene: Scene, springs: Calibration, weights: Weights = "tributary") -> Problem:
+def pose(
+    scene: Scene,
+    springs: Calibration,
+    weights: Weights = "tributary",
+    precision: Precision = "double",
+) -> Problem:
     """The lattice of a scene under its supports and loads."""
     couple = partial(Coupling, scene) if scene.actuators else None
-    assembly = Assembly(scene.sheet, springs, weights, couple)
+    assembly = Assembly(scene.sheet, springs, weights, couple, precision)
     constraints = constrain(scene, assembly.lattice, assembly.coupling)
     return Problem(assembly, constraints, Loads(scene, assembly), max(scene.sheet.lengths))
 
@@ -143,7 +151,9 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
         return _singular(problem, error)
     state, why = follow(problem, start)
     notes: list[str] = []
-    while why and problem.descends and len(notes) < SNAPS:
+    while why and problem.fault is None and problem.descends and len(notes) < SNAPS:
+        if problem.factorisations > FACTORISATIONS:
+            break
         beyond = min(1.0, state.load_factor + SNAP_STEP)
         try:
             landed = descend(problem, state.u, beyond)
@@ -159,7 +169,10 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
         except (StepFailed, SingularMatrixError) as error:
             notes.append(f"no stable equilibrium found nearby: {error}")
     if why:
-        return Outcome(Status.DIVERGED, state, f"load factor {state.load_factor:.4g} of 1 reached: {why}")
+        status = Status.DIVERGED if problem.factorisations <= FACTORISATIONS else Status.STEP_LIMIT
+        if problem.fault is not None:
+            status = problem.fault.status
+        return Outcome(status, state, f"load factor {state.load_factor:.4g} of 1 reached: {why}")
     return Outcome(*_judge(scene, problem, state, notes))
 
 
@@ -174,6 +187,8 @@ def _judge(scene: Scene, problem: Problem, state: State, notes: list[str]) -> tu
     elif state.negative:
         status = Status.UNSTABLE
         notes.append(f"{state.negative} directions of negative curvature")
+    doubts = watch.layers(scene, problem.assembly, state.u)
+    notes.extend(filter(None, [doubts, watch.digits(problem, state)]))
     if not problem.assembly.conservative:
         notes.append("per-direction springs: not central, no energy; solved with an unsymmetric tangent")
     elif not problem.conservative:
@@ -235,6 +250,8 @@ def _solution(
         settings["branch"] = branch
     if weights != "tributary":
         settings["weights"] = weights
+    if problem.assembly.precision != "double":
+        settings["precision"] = problem.assembly.precision
     energies = problem.assembly.energies(state.u)
     return Solution(
         model="lumped",

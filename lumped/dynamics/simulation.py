@@ -15,7 +15,9 @@ from typing import Any
 
 import numpy as np
 
+from lumped.assembly import Precision
 from lumped.calibration import Calibration, calibrate, given
+from lumped.dynamics import watchdog
 from lumped.dynamics.constraints import Projection
 from lumped.dynamics.generalised_alpha import GeneralisedAlpha
 from lumped.dynamics.integrator import Integrator, StepFailed
@@ -35,7 +37,6 @@ from scenes import Chain, Curved, History, Scene, Status
 SAMPLES_PER_PERIOD = 100
 STEPS_PER_PERIOD = 200  # of implicit integrators with a fixed step
 SAMPLES_PER_CHECKPOINT = 50
-GROWN = 1.0  # energy from nowhere, relative to the energy that went round, that counts as divergence
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,7 @@ def simulate(
     integrator: str = "generalised-alpha",
     every: float | None = None,
     weights: Weights = "tributary",
+    precision: Precision = "double",
     store: Path | None = None,
     frames: int = 0,
     progress: Callable[[float], None] | None = None,
@@ -67,7 +69,8 @@ def simulate(
     within a step may go unseen. store: a folder to stream to; a run that was stopped
     goes on from there. frames: whole displacements to keep, evenly over the run, in `extra`: "frames"
     (n, masses, 3), "frame_times" (n,) and the "mesh" they belong to. progress: called with the time reached.
-    options: the integrator's own (`radius`, `iterations`).
+    precision: of the internal force (see `lumped.assembly`). options: the integrator's own (`radius`,
+    `iterations`).
 
     Raises ValueError for an unknown integrator, a step above the limit of `verlet`, a folder of another run.
     """
@@ -79,7 +82,7 @@ def simulate(
     began = clock.perf_counter()
     if springs is None:
         springs = given(scene) if scene.springs is not None else calibrate(scene.sheet, scene.material)
-    system = System(scene, pose(scene, springs, weights))
+    system = System(scene, pose(scene, springs, weights, precision))
     start = _start(system, springs, weights)
     method, plan = _prepare(system, springs, start, duration, step, integrator, every, options)
     sampling = Sampling(system)
@@ -92,6 +95,8 @@ def simulate(
         "every": plan.every,
         **options,
     }
+    if precision != "double":
+        settings["precision"] = precision
     shown = {round(i) for i in np.linspace(0, plan.samples, frames)}
     masses = system.assembly.lattice.mass_count
     asked = {
@@ -210,18 +215,20 @@ def _run(
                 state, taken = advance.state, taken + 1
                 dissipated += advance.dissipated
                 work += advance.work
+                stuck = watchdog.stagnates(state, taken) if not plan.steps else None
+                if stuck is not None:
+                    return stuck.status, stuck.message, steps + taken
         except StepFailed as failure:
             return Status.DIVERGED, f"at {state.time:.6g} s: {failure}", steps
         state = replace(state, time=goal)
         steps += taken
         row = sampling.row(state, dissipated, work)
-        if not np.isfinite(row).all():
-            return Status.NON_FINITE, f"at {goal:.6g} s a number overflowed", steps
         round_about = max(round_about, float(np.abs(row[1:6]).max()))
-        if float(row[1:5].sum() - row[5]) - origin > GROWN * round_about:
+        fault = watchdog.bark(system, state, row, origin, round_about)
+        if fault is None or fault.status is not Status.NON_FINITE:
             kept.sample(row)
-            return Status.DIVERGED, f"at {goal:.6g} s the energy grows from nothing: use smaller steps", steps
-        kept.sample(row)
+        if fault is not None:
+            return fault.status, fault.message, steps
         done += 1
         if done in shown:
             kept.frame(state.u[:masses])

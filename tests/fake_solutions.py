@@ -10,7 +10,7 @@ from scenes import FieldMesh, Scene, Solution, Status
 
 
 def solution(scene: Scene, model: str = "lumped", size: float = -0.01, **changes: Any) -> Solution:
-    """A sheet whose far corner moves by `size` [m], and any other point by x y / (length_x length_y) of it."""
+    """A sheet whose far corner moves by `size` [m], any other point by x y / (length_x length_y) of it."""
     lx, ly = scene.sheet.lengths
 
     def sample(points: np.ndarray) -> np.ndarray:

@@ -37,14 +37,16 @@ class State:
 
 
 class System:
-    """Forces, mass and constraints of a scene in motion."""
+    """Forces, mass and constraints of a scene in motion. mass: of every lumped mass, (n,) [kg], instead of
+    its share of the sheet's."""
 
-    def __init__(self, scene: Scene, problem: Problem):
+    def __init__(self, scene: Scene, problem: Problem, mass: np.ndarray | None = None):
         self.scene, self.problem, self.assembly = scene, problem, problem.assembly
         self.coupling = problem.assembly.coupling
         self.transform = problem.constraints.transform
         size, lattice = self.assembly.pattern.size, self.assembly.lattice
-        self.lattice_mass = masses(scene, lattice, self.assembly.distribution)
+        shared = masses(scene, lattice, self.assembly.distribution)
+        self.lattice_mass = shared if mass is None else mass
         self.damping = Damping(scene, self.assembly, self.lattice_mass)
         self.mass_blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
         n = np.arange(lattice.mass_count)

@@ -10,7 +10,7 @@ help:
 	@echo "make test      set up and run the tests, the linter and the type checker"
 	@echo "make verify    the references against published values, every row (about a minute)"
 	@echo "make locking   the locking sweeps and their picture (files in $(OUT)/)"
-	@echo "make transfer  every calibration on every scene of the transfer study (15 minutes; files in $(OUT)/transfer/)"
+	@echo "make transfer  every calibration on every scene of the transfer study (ten minutes; files in $(OUT)/transfer/)"
 	@echo "make tradeoff  error against time on the seed's test 1, with the picture (files in $(OUT)/)"
 	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/; up to half an hour)"
 	@echo "make install   set up only: $(BIN)/sheetbench"

@@ -23,8 +23,7 @@ from skfem import MeshQuad
 
 from fem_reference import actuator_forces, rod
 from fem_reference.rod import Rod
-from fem_reference.shell_loads import Line
-from scenes import EDGES, Chain, Edge, EdgeMotion, Scene
+from scenes import EDGES, Edge, EdgeMotion, Scene
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -128,10 +127,7 @@ class PlateRods:
 
 def of_scene(scene: Scene, mesh: MeshQuad, element_nodes: np.ndarray, nodes: np.ndarray) -> PlateRods:
     """The rods of a scene on a plate with nodes at plan positions (n, 2) [m]; element_nodes: (m, 9)."""
-    sides = {}
-    for edge in {str(actuator.edge) for actuator in scene.actuators if isinstance(actuator, Chain)}:
-        line = Line.along(mesh, mesh.boundaries[edge], nodes[element_nodes])
-        sides[edge] = element_nodes[line.elements[:, None], line.sides]
+    sides = rod.sides(scene, mesh, element_nodes, nodes)
     return PlateRods.on(rod.of_scene(scene, nodes, sides), len(nodes))
 
 

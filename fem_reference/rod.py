@@ -29,8 +29,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from skfem import MeshQuad
 
 from fem_reference.shell_element import TWO
+from fem_reference.shell_loads import Line
 from scenes import EDGES, Chain, CurvatureTable, Scene
 
 FIRM, SLENDER = 1e3, 1e5  # firm stiffnesses over the sheet's and over the rod's own
@@ -86,6 +88,17 @@ def names(scene: Scene) -> list[str]:
     if len(set(edges)) == len(edges):
         return edges
     return [f"{edge}.{i + 1}" for i, edge in enumerate(edges)]
+
+
+def sides(
+    scene: Scene, mesh: MeshQuad, element_nodes: np.ndarray, nodes: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Nodes (k, 3) of the sides along every edge with a chain; element_nodes: (m, 9); nodes: (n, 2) [m]."""
+    found = {}
+    for edge in {str(actuator.edge) for actuator in scene.actuators if isinstance(actuator, Chain)}:
+        line = Line.along(mesh, mesh.boundaries[edge], nodes[element_nodes])
+        found[edge] = element_nodes[line.elements[:, None], line.sides]
+    return found
 
 
 def of_scene(scene: Scene, nodes: np.ndarray, sides: dict[str, np.ndarray]) -> list[Rod]:

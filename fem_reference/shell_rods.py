@@ -17,6 +17,7 @@ from fem_reference.shell_element import Element
 from fem_reference.shell_loads import Follower
 from fem_reference.shell_structure import Forces, ShellStructure, State
 from fem_reference.shell_supports import Supports
+from fem_reference.sparsity import Union
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ class RoddedShell(ShellStructure):
             number = np.where(free, self.unknowns + np.cumsum(free.ravel()).reshape(free.shape) - 1, -1)
             self.unknowns += int(free.sum())
             self.aside_number.append(number)
-        self._slots: tuple[np.ndarray, np.ndarray, csr_matrix] | None = None
+        self._union = Union(self.unknowns)
 
     def rest(self) -> RodState:
         """Flat and free of stress."""
@@ -146,7 +147,7 @@ class RoddedShell(ShellStructure):
             extra = np.einsum("es,esic->eic", stress - found.rod_stress[i], gradient)
             self._add_multipliers(reduced, i, state, extra, found.rod_pull[i])
             entries.append((number, reduced))
-        return self._joined(shell, entries), rows
+        return self._union.matrix(shell, entries), rows
 
     def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> RodState:
         """The state after a step (unknowns,), with the stresses it extrapolates."""
@@ -234,33 +235,6 @@ class RoddedShell(ShellStructure):
                 for turn in range(2):
                     place = first + 2 * node + turn
                     reduced[:, place, place] += pressing[:, node]
-
-    def _joined(self, shell: csr_matrix, entries: list[tuple[np.ndarray, np.ndarray]]) -> csr_matrix:
-        """The shell's matrix and the rods' (k, 21, 21) in one, of a pattern that stays."""
-        parts = [shell.data]
-        kept = []
-        for number, matrix in entries:
-            free = (number[:, :, None] >= 0) & (number[:, None, :] >= 0)
-            kept.append(free)
-            parts.append(matrix[free])
-        if self._slots is None:
-            lines = np.repeat(np.arange(shell.shape[0]), np.diff(shell.indptr)).astype(np.int64)
-            keys = [lines * self.unknowns + shell.indices]
-            for (number, _), free in zip(entries, kept, strict=True):
-                key = number[:, :, None].astype(np.int64) * self.unknowns + number[:, None, :]
-                keys.append(key[free])
-            key, slots = np.unique(np.concatenate(keys), return_inverse=True)
-            starts = np.searchsorted(key, np.arange(self.unknowns + 1, dtype=np.int64) * self.unknowns)
-            empty = csr_matrix(
-                (np.zeros(len(key)), (key % self.unknowns).astype(np.int32), starts.astype(np.int32)),
-                shape=(self.unknowns, self.unknowns),
-            )
-            self._slots = slots, key, empty
-        slots, key, empty = self._slots
-        data = np.bincount(slots, np.concatenate(parts), len(key))
-        joined = csr_matrix((data, empty.indices, empty.indptr), shape=empty.shape)
-        joined.has_canonical_format = True
-        return joined
 
 
 def of_rods(state: State) -> RodState:

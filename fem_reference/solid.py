@@ -9,7 +9,8 @@ mid-surface's.
 At every edge the solid has a layer as wide as the sheet is thick: at a free one the twisting stress turns
 round, at a clamp the Poisson contraction is stopped. On a uniform mesh much coarser than that, answers
 converge like 1/n (a full clamp's stress is singular besides): the mesh is graded towards the edges. The
-default clamp is a shell's (`solid_supports`). SI units.
+default clamp is a shell's (`solid_supports`). Actuators are the shell's rods and motions (`solid_rods`). SI
+units.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from time import perf_counter
 import numpy as np
 from skfem import MeshQuad
 
-from fem_reference import refusal, shell_loads, solid_supports
+from fem_reference import rod, shell_loads, solid_supports
 from fem_reference.equilibrium import trace
 from fem_reference.linear import DirectSolver
 from fem_reference.location import locate
@@ -29,6 +30,7 @@ from fem_reference.shell_element import GAUSS, GAUSS_WEIGHTS
 from fem_reference.solid_element import Bricks
 from fem_reference.solid_materials import LAWS, lame
 from fem_reference.solid_mesh import Columns, graded_rectangle
+from fem_reference.solid_rods import RoddedSolid
 from fem_reference.solid_structure import SolidStructure
 from scenes import Scene, Solution, Status
 from scenes.scene import require_static
@@ -51,8 +53,6 @@ def solve(
     Raises scenes.SceneError if the supports leave a rigid motion free, ValueError for an unknown option.
     """
     require_static(scene)
-    if scene.actuators:
-        return refusal.of_actuators(scene, "solid")
     begin = perf_counter()
     along_x, along_y = divisions(scene.sheet.lengths, elements)
     structure = discretise(mesh_of(scene, (along_x, along_y), grading), scene, layers, law, clamp)
@@ -65,7 +65,10 @@ def solve(
     status, message = path.status, path.message
     if status is Status.CONVERGED and structure.inside_out(path.state):
         status, message = Status.INVERTED, "a brick has turned inside out"
-    residual = structure.forces(path.state, path.load_factor).residual
+    forces = structure.forces(path.state, path.load_factor)
+    exerted = {}
+    if isinstance(structure, RoddedSolid):
+        exerted = structure.wrenches(scene, path.state, forces)
     return Solution(
         model="solid",
         label=f"solid {along_x} × {along_y} × {layers}",
@@ -82,12 +85,13 @@ def solve(
         setup_seconds=ready - begin,
         solve_seconds=done - ready,
         sample=lambda points: sample(columns, displacement, points),
-        reactions=structure.supports.reactions(residual, path.load_factor),
+        reactions=structure.supports.reactions(forces.residual, path.load_factor),
         energies=structure.energies(path.state),
         mesh=columns.field_mesh(displacement),
         history=tuple(path.history),
         load_factor=path.load_factor,
         message=message,
+        actuators=exerted,
     )
 
 
@@ -119,8 +123,15 @@ def discretise(
     positions = np.concatenate([stacks[:, place] for place in columns.places])
     bricks = Bricks.build(positions, LAWS[law], lame(scene.material))
     areas = np.abs(mesh.mapping().detDF((np.array(GAUSS) + 1.0) / 2.0)) * GAUSS_WEIGHTS / 4.0
-    supports = solid_supports.of_scene(scene, columns, clamp)
+    rods = []
+    if scene.actuators:
+        rods = rod.of_scene(
+            scene, columns.plan_nodes, rod.sides(scene, mesh, columns.plan_elements, columns.plan_nodes)
+        )
+    supports = solid_supports.of_scene(scene, columns, clamp, rods)
     dead, followers = shell_loads.of_scene(scene, mesh, columns.plan_elements, columns.plan_nodes, areas)
+    if scene.actuators:
+        return RoddedSolid(columns, bricks, supports, dead, followers, rods)
     return SolidStructure(columns, bricks, supports, dead, followers)
 
 

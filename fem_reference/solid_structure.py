@@ -124,7 +124,7 @@ class SolidStructure:
         turned = self._turned
         if np.any(turned):
             stiffness[turned] = self._turn(stiffness[turned], forces.bases)
-        matrix = self.pattern.matrix(stiffness, np.zeros(self.unknowns))
+        matrix = self.pattern.matrix(stiffness, np.zeros(self.pattern.size))
         return matrix, -into_forces(forces.bases, pull)[self.free]
 
     def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
@@ -143,7 +143,7 @@ class SolidStructure:
         """Consistent mass ∫ ρ N N dV of the free unknowns [kg]; density [kg/m³]."""
         products = density * self.bricks.products()
         blocks = self._stack(np.einsum("eij,cd->eicjd", products, np.eye(3)))
-        return self.pattern.matrix(blocks, np.zeros(self.unknowns))
+        return self.pattern.matrix(blocks, np.zeros(self.pattern.size))
 
     def length(self, start: State, end: State) -> float:
         """Largest nodal displacement between two states, relative to the sheet's size."""

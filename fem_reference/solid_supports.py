@@ -11,34 +11,40 @@ bound as the mesh is refined. A clamp holds the edge's face:
 
 A plane of symmetry holds the component across it in the whole face.
 
-The face of a rod bent by λκ follows the rod's director: held values are u = u_rod + ζ (d − e_z). A column's
-displacements are u = Z q, with q the components that are held or free: along the rod's axes (across the edge,
-along the rod, d), and on a hinged or held edge with the column's mean in the place of its middle node.
+The face of a rod bent by λκ follows the rod's director: held values are u = u_rod + ζ (d − e_z); that of an
+edge moved rigidly does likewise. The column that an actuator's base holds is held as a clamp holds it. A
+column's displacements are u = Z q, with q the components that are held or free: along the rod's axes (across
+the edge, along the rod, d), and on a hinged or held edge with the column's mean in place of its middle node.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from fem_reference import shell_supports
+from fem_reference import edge_motion, shell_supports
+from fem_reference.edge_motion import MovedEdge
+from fem_reference.rod import Rod
 from fem_reference.shell_supports import Supports
 from fem_reference.solid_mesh import Columns
-from scenes import Scene, Symmetric, holds_director
+from scenes import EdgeMotion, Scene, Symmetric, holds_director
 
 CLAMPS = ("shell-like", "full")
 
 
 @dataclass(frozen=True)
 class ColumnSupports:
-    """held: (n, levels, 3) of the components q; edges: name → held components of its own; hinged: (n,)."""
+    """held: (n, levels, 3) of the components q; edges: name → held components of its own; hinged: (n,);
+    moved: the edges moved rigidly."""
 
     line: Supports
     columns: Columns
     held: np.ndarray
     edges: dict[str, np.ndarray]
     hinged: np.ndarray
+    moved: tuple[MovedEdge, ...] = ()
 
     def target(self, load_factor: float) -> np.ndarray:
         """Prescribed displacement (n, levels, 3) [m]; zero where nothing moves."""
@@ -54,6 +60,8 @@ class ColumnSupports:
             sine, cosine = -turn[:, rod.axis], 1.0 + turn[:, 2]
             axes[rod.nodes, rod.axis, rod.axis], axes[rod.nodes, 2, rod.axis] = cosine, sine
             axes[rod.nodes, rod.axis, 2], axes[rod.nodes, 2, 2] = -sine, cosine
+        for moved in self.moved:
+            axes[moved.nodes] = moved.turn(load_factor).as_matrix()
         with_mean = np.eye(levels)
         with_mean[middle] = self.columns.averages[0]
         spread = np.where(self.hinged[:, None, None], np.linalg.inv(with_mean), np.eye(levels))
@@ -66,6 +74,8 @@ class ColumnSupports:
         on = self.hinged.copy()
         for rod in self.line.rods:
             on[rod.nodes] = True
+        for moved in self.moved:
+            on[moved.nodes] = True
         return on
 
     def reactions(self, nodal: np.ndarray, load_factor: float) -> dict[str, np.ndarray]:
@@ -97,23 +107,37 @@ def into_forces(bases: np.ndarray, nodal: np.ndarray) -> np.ndarray:
     return (bases.swapaxes(1, 2) @ nodal.reshape(*bases.shape[:2], 1)).reshape(nodal.shape)
 
 
-def of_scene(scene: Scene, columns: Columns, clamp: str) -> ColumnSupports:
-    """The supports of a scene. Raises ValueError for an unknown clamp."""
+def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = ()) -> ColumnSupports:
+    """The supports of a scene; rods: of its actuators. Raises ValueError for an unknown clamp."""
     if clamp not in CLAMPS:
         raise ValueError(f"clamp = {clamp!r}: known are {', '.join(CLAMPS)}")
-    on_edge = {str(support.edge): columns.edge(support.edge) for support in scene.supports}
+    on_edge = {str(on.edge): columns.edge(on.edge) for on in (*scene.supports, *scene.actuators)}
     line = shell_supports.of_scene(scene, columns.plan_nodes, on_edge)
+    line = edge_motion.hold(line, scene, columns.plan_nodes, on_edge)
+    moved = tuple(edge_motion.of_scene(scene, columns.plan_nodes, on_edge))
     edges, hinged = {}, np.zeros(len(columns.plan_nodes), dtype=bool)
-    for support in scene.supports:
-        nodes, axes = line.edges[support.edge]
+
+    def face(nodes: np.ndarray, axes: np.ndarray | list[int], turns: bool) -> np.ndarray:
+        """What a support holds of the columns of its nodes; turns: the director is free."""
         held = np.zeros((len(columns.plan_nodes), columns.levels, 3), dtype=bool)
         held[nodes[:, None], columns.layers, axes] = True
+        if not turns:
+            held[nodes, :, : 2 if clamp == "shell-like" else 3] = True
+        return held
+
+    for support in scene.supports:
+        nodes, axes = line.edges[support.edge]
+        held = face(nodes, axes, isinstance(support, Symmetric) or not holds_director(support))
         if isinstance(support, Symmetric):
             held[nodes[:, None], :, axes] = True
-        elif holds_director(support):
-            held[nodes, :, : 2 if clamp == "shell-like" else 3] = True
-        else:
+        elif not holds_director(support):
             hinged[nodes] = True
         edges[str(support.edge)] = held
+    for actuator in scene.actuators:
+        if isinstance(actuator, EdgeMotion):
+            edges[str(actuator.edge)] = face(on_edge[actuator.edge], [0, 1, 2], False)
+    for rod in rods:
+        if rod.base is not None:
+            edges[rod.edge] = face(rod.line[[rod.base]], [0, 1, 2], False)
     none = np.zeros((len(columns.plan_nodes), columns.levels, 3), dtype=bool)
-    return ColumnSupports(line, columns, np.logical_or.reduce([none, *edges.values()]), edges, hinged)
+    return ColumnSupports(line, columns, np.logical_or.reduce([none, *edges.values()]), edges, hinged, moved)

@@ -38,3 +38,31 @@ class Pattern:
     def vector(self, element_vectors: np.ndarray) -> np.ndarray:
         """Sum of element vectors (m, k) as a vector (size,)."""
         return np.bincount(self.unknowns.ravel()[self._free], element_vectors.ravel()[self._free], self.size)
+
+
+class Union:
+    """An assembled matrix and further element matrices in one, of a pattern found at the first sum."""
+
+    def __init__(self, size: int):
+        self.size = size
+        self._slots: np.ndarray | None = None
+        self._columns = self._starts = np.zeros(0, dtype=np.int32)
+
+    def matrix(self, first: csr_matrix, entries: list[tuple[np.ndarray, np.ndarray]]) -> csr_matrix:
+        """The sum (size, size) of a matrix of the first unknowns and of element matrices (m, k, k), each with
+        its unknowns (m, k), −1 where held."""
+        kept = [(number[:, :, None] >= 0) & (number[:, None, :] >= 0) for number, _ in entries]
+        if self._slots is None:
+            lines = np.repeat(np.arange(first.shape[0]), np.diff(first.indptr)).astype(np.int64)
+            keys = [lines * self.size + first.indices]
+            for (number, _), free in zip(entries, kept, strict=True):
+                keys.append((number[:, :, None].astype(np.int64) * self.size + number[:, None, :])[free])
+            key, self._slots = np.unique(np.concatenate(keys), return_inverse=True)
+            self._columns = (key % self.size).astype(np.int32)
+            starts = np.arange(self.size + 1, dtype=np.int64) * self.size
+            self._starts = np.searchsorted(key, starts).astype(np.int32)
+        parts = [first.data, *(matrix[free] for (_, matrix), free in zip(entries, kept, strict=True))]
+        data = np.bincount(self._slots, np.concatenate(parts), len(self._columns))
+        joined = csr_matrix((data, self._columns, self._starts), shape=(self.size, self.size))
+        joined.has_canonical_format = True
+        return joined

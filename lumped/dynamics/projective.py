@@ -24,7 +24,8 @@ from lumped.linear import Factor, ReducedSystem
 
 ITERATIONS = 12
 REMEMBERED = 8
-CLOSE = 1e-10  # correction relative to the sheet's side at which the iterations end early
+CLOSE = 1e-6  # correction relative to the first one, by the work it does, at which iterations end early
+OVERSHOT = 0.5  # of the slope a change begins with, that it may end with in the other direction
 
 
 class Projective(Integrator):
@@ -51,26 +52,34 @@ class Projective(Integrator):
             self._factor, self._made_for = self._matrix(h), h
         held = system.place(time) - system.place(state.time) - h * system.place_rate(state.time)
         inertial = state.u + h * state.v + held
-        u = inertial + h * h * state.a
-        history: list[tuple[np.ndarray, np.ndarray]] = []  # latest changes of unknowns and of the gradient
-        last: tuple[np.ndarray, np.ndarray] | None = None
-        for _ in range(self._iterations):
-            rate = (u - state.u) / h
+
+        def gradient_at(u: np.ndarray) -> np.ndarray:
             pull: np.ndarray = (system.mass @ (u - inertial).ravel()).reshape(-1, 3) / h**2
-            gradient = system.problem.reduce(pull - system.unbalanced(u, rate, time))
-            if last is not None:
-                change = gradient - last[1]
-                if change @ last[0] > 0.0:
-                    history = [*history[1 - REMEMBERED :], (last[0], change)]
+            return system.problem.reduce(pull - system.unbalanced(u, (u - state.u) / h, time))
+
+        u, gradient = inertial, gradient_at(inertial)
+        history: list[tuple[np.ndarray, np.ndarray]] = []  # latest changes of unknowns and of the gradient
+        looks, first = 1, 0.0
+        while looks < self._iterations:
             move = -_two_loops(gradient, history, self._factor)
-            last = move, gradient
-            correction = system.problem.expand(move)
-            u = u + correction
-            length = float(np.abs(correction).max())
-            if not np.isfinite(length):
-                raise StepFailed("a number overflowed")
-            if length < CLOSE * system.problem.size:
+            slope = float(move @ gradient)
+            first = max(first, -slope)
+            if -slope <= CLOSE**2 * first:
                 break
+            share = 1.0
+            while True:
+                there = u + system.problem.expand(share * move)
+                met, looks = gradient_at(there), looks + 1
+                after_it = float(move @ met)
+                if not np.isfinite(after_it):
+                    raise StepFailed("a number overflowed")
+                if after_it <= -OVERSHOT * slope or looks >= self._iterations:
+                    break
+                share *= slope / (slope - after_it)
+            taken, change = share * move, met - gradient
+            if change @ taken > 0.0:
+                history = [*history[1 - REMEMBERED :], (taken, change)]
+            u, gradient = there, met
         v = (u - state.u) / h
         after = State(time, u, v, (u - inertial) / h**2)
         power, _ = system.damping_force(u, v)

@@ -7,7 +7,8 @@ each other: no stiffening by stretching, no shortening by bending. Loads act on 
 along +z, an edge moment m as −m on the tilt towards the outward normal. Actuators are linearised about the
 flat sheet (`plate_rods`, `edge_motion`), and their forces' moments taken there. So is a curved support: with
 s from the edge's middle w = κ s²/2 and the tilt along the edge is −κ s, none across it; the mid-line's
-shortening is of second order. Source: Hughes, The Finite Element Method (2000), ch. 5. SI units.
+shortening is of second order. A clamp tilted by τ holds a director's tilt of −τ towards the outward normal.
+Source: Hughes, The Finite Element Method (2000), ch. 5. SI units.
 """
 
 from __future__ import annotations
@@ -33,6 +34,7 @@ from fem_reference.shell_supports import Supports
 from fem_reference.sparsity import Pattern
 from scenes import (
     EDGES,
+    Clamped,
     Curved,
     EdgeLoad,
     FieldMesh,
@@ -190,6 +192,11 @@ def constrain(
             s = plate.nodes[on, along] - rod_middle(support, scene.supports, scene.sheet)
             values[on, W] = support.curvature * s**2 / 2.0
             values[on, TILT_X + along] = -support.curvature * s
+        elif isinstance(support, Clamped) and support.tilt != 0.0:
+            edge = EDGES[support.edge]
+            values[on_edge[support.edge], TILT_X + edge.normal_axis] = (
+                -support.tilt * edge.outward[edge.normal_axis]
+            )
     for moved in edge_motion.of_scene(scene, plate.nodes, on_edge):
         displacement, turn = moved.small_change()
         values[moved.nodes] = np.column_stack([displacement, np.tile(turn[:2], (len(moved.nodes), 1))])

@@ -5,7 +5,12 @@ measured from the middle of the edge along e and the middle and its tangent unmo
 
     φ(s) = φ(0) + e sin(κs)/κ + e_z (1 − cos κs)/κ,    d(s) = e_z cos κs − e sin κs.
 
-With load factor λ the rod is bent to λκ. Where two supports share a corner both hold what they hold.
+A clamp tilted by τ leaves φ = X and turns the director, with n out of the sheet,
+
+    d = e_z cos τ − n sin τ.
+
+With load factor λ the rod is bent to λκ and the clamp tilted by λτ. Where two supports share a corner both
+hold what they hold.
 """
 
 from __future__ import annotations
@@ -15,7 +20,7 @@ from typing import Protocol
 
 import numpy as np
 
-from scenes import EDGES, Curved, Scene, Symmetric, held_axes, holds_director, rod_middle
+from scenes import EDGES, Clamped, Curved, Scene, Symmetric, held_axes, holds_director, rod_middle
 
 
 class Driver(Protocol):
@@ -48,24 +53,42 @@ class Rod:
 
 
 @dataclass(frozen=True)
+class TiltedClamp:
+    """nodes: (k,) on the edge; axis: 0 or 1, normal to the edge; tilt: of the director away from it [rad]."""
+
+    nodes: np.ndarray
+    axis: int
+    tilt: float
+
+    def change(self, load_factor: float) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement (k, 3) [m], which is zero, and change of director (k, 3) at a load factor."""
+        angle = load_factor * self.tilt
+        turn = np.zeros((len(self.nodes), 3))
+        turn[:, self.axis] = -np.sin(angle)
+        turn[:, 2] = -2.0 * np.sin(angle / 2.0) ** 2
+        return np.zeros_like(turn), turn
+
+
+@dataclass(frozen=True)
 class Supports:
     """What is held: position (n, 3) by component, director (n,); edges: name → nodes and held axes.
 
     tilt: (n, 2), whether the director's component along x or y is held at 0, as on a plane of symmetry;
-    rods, driven: what moves nodes that are held.
+    turning: what turns the directors of held nodes in the plane of its axis and z; driven: what else moves
+    nodes that are held.
     """
 
     position: np.ndarray
     director: np.ndarray
     tilt: np.ndarray
     edges: dict[str, tuple[np.ndarray, np.ndarray]]
-    rods: tuple[Rod, ...]
+    turning: tuple[Rod | TiltedClamp, ...]
     driven: tuple[Driver, ...] = ()
 
     def change(self, load_factor: float) -> np.ndarray:
         """Prescribed change (2, n, 3) of positions [m] and directors; zero where nothing moves them."""
         out = np.zeros((2, len(self.director), 3))
-        for driver in (*self.rods, *self.driven):
+        for driver in (*self.turning, *self.driven):
             out[:, driver.nodes] = driver.change(load_factor)
         return out
 
@@ -87,7 +110,7 @@ def of_scene(scene: Scene, nodes: np.ndarray, on_edge: dict[str, np.ndarray]) ->
     position, director = np.zeros((len(nodes), 3), dtype=bool), np.zeros(len(nodes), dtype=bool)
     tilt = np.zeros((len(nodes), 2), dtype=bool)
     edges: dict[str, tuple[np.ndarray, np.ndarray]] = {}
-    rods = []
+    turning: list[Rod | TiltedClamp] = []
     for support in scene.supports:
         on, axes = on_edge[support.edge], np.array(held_axes(support))
         position[np.ix_(on, axes)] = True
@@ -101,6 +124,9 @@ def of_scene(scene: Scene, nodes: np.ndarray, on_edge: dict[str, np.ndarray]) ->
             middle = (along.min() + along.max()) / 2.0
             if any(isinstance(other, Symmetric) for other in scene.supports):
                 middle = rod_middle(support, scene.supports, scene.sheet)
-            rods.append(Rod(on, along - middle, axis, support.curvature))
+            turning.append(Rod(on, along - middle, axis, support.curvature))
+        if isinstance(support, Clamped) and support.tilt != 0.0:
+            axis = EDGES[support.edge].normal_axis
+            turning.append(TiltedClamp(on, axis, support.tilt * EDGES[support.edge].outward[axis]))
     director |= tilt.all(axis=1)
-    return Supports(position, director, tilt, edges, tuple(rods))
+    return Supports(position, director, tilt, edges, tuple(turning))

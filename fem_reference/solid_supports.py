@@ -11,10 +11,11 @@ bound as the mesh is refined. A clamp holds the edge's face:
 
 A plane of symmetry holds the component across it in the whole face.
 
-The face of a rod bent by λκ follows the rod's director: held values are u = u_rod + ζ (d − e_z); that of an
-edge moved rigidly does likewise. The column that an actuator's base holds is held as a clamp holds it. A
-column's displacements are u = Z q, with q the components that are held or free: along the rod's axes (across
-the edge, along the rod, d), and on a hinged or held edge with the column's mean in place of its middle node.
+The face of a rod bent by λκ follows the rod's director: held values are u = u_rod + ζ (d − e_z); that of a
+tilted clamp and of an edge moved rigidly do likewise. The column that an actuator's base holds is held as a
+clamp holds it. A column's displacements are u = Z q, with q the components that are held or free: along the
+face's axes (across the edge, along it, d), and on a hinged or held edge with the column's mean in place of
+its middle node.
 """
 
 from __future__ import annotations
@@ -55,11 +56,11 @@ class ColumnSupports:
         """Z (n, 3 levels, 3 levels) of every column."""
         levels, middle = self.columns.levels, self.columns.layers
         axes = np.tile(np.eye(3), (len(self.held), 1, 1))
-        for rod in self.line.rods:
-            _, turn = rod.change(load_factor)
-            sine, cosine = -turn[:, rod.axis], 1.0 + turn[:, 2]
-            axes[rod.nodes, rod.axis, rod.axis], axes[rod.nodes, 2, rod.axis] = cosine, sine
-            axes[rod.nodes, rod.axis, 2], axes[rod.nodes, 2, 2] = -sine, cosine
+        for face in self.line.turning:
+            _, turn = face.change(load_factor)
+            sine, cosine = -turn[:, face.axis], 1.0 + turn[:, 2]
+            axes[face.nodes, face.axis, face.axis], axes[face.nodes, 2, face.axis] = cosine, sine
+            axes[face.nodes, face.axis, 2], axes[face.nodes, 2, 2] = -sine, cosine
         for moved in self.moved:
             axes[moved.nodes] = moved.turn(load_factor).as_matrix()
         with_mean = np.eye(levels)
@@ -72,8 +73,8 @@ class ColumnSupports:
     def turned(self) -> np.ndarray:
         """Plan nodes (n,) whose Z is not the identity."""
         on = self.hinged.copy()
-        for rod in self.line.rods:
-            on[rod.nodes] = True
+        for face in self.line.turning:
+            on[face.nodes] = True
         for moved in self.moved:
             on[moved.nodes] = True
         return on

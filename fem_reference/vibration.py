@@ -3,9 +3,9 @@
     K φ = ω² M φ,    f = ω/2π,    φᵀ M φ = 1
 
 K is the model's stiffness at rest and M its consistent mass, rotary inertia included. Loads, weight and
-damping have no part in it, nor have actuators; a curved support counts as a clamp. Lanczos iterations
-(ARPACK) on (K − σM)⁻¹ with the shift σ < 0 below the spectrum, so that a free sheet's singular K needs no
-special care.
+damping have no part in it, nor have actuators; a curved support and a tilted clamp count as upright clamps.
+Lanczos iterations (ARPACK) on (K − σM)⁻¹ with the shift σ < 0 below the spectrum, so that a free sheet's
+singular K needs no special care.
 
 The rigid motions that the supports leave free are counted exactly (the null space of their values at
 the held unknowns); so many lowest modes, whose frequency is zero, are left out and their number is reported.

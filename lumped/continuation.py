@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lumped.calibration import Calibration
-from lumped.equilibrium import COARSE, State, StepFailed, at_rest, follow
+from lumped.equilibrium import COARSE, State, StepFailed, all_rounding, at_rest, follow
 from lumped.linear import SingularMatrixError
 from lumped.loads import Loads, locate
 from lumped.problem import Problem
@@ -68,10 +68,10 @@ def trace(
 ) -> Path:
     """The equilibrium path of a scene, past limit points.
 
-    Without `vary` the scene's own loads and curved supports grow from zero. With it the scene is first
-    solved (on the `branch` asked), then these loads are added and scaled. The path ends when |λ| reaches
-    load_limit, when until(λ, probe displacements [m]) holds, or after `points` points. step: longest arc
-    [m] of the largest mass displacement; default a fiftieth of the longer side.
+    Without `vary` the scene's own loads, curved supports and tilted clamps grow from zero. With it the scene
+    is first solved (on the `branch` asked), then these loads are added and scaled. The path ends when |λ|
+    reaches load_limit, when until(λ, probe displacements [m]) holds, or after `points` points. step: longest
+    arc [m] of the largest mass displacement; default a fiftieth of the longer side.
 
     Raises scenes.SceneError when nothing stops a rigid motion, SingularMatrixError at a singular start.
     """
@@ -155,10 +155,11 @@ def _arc_step(
         problem.note(load_factor, residual, float(np.abs(move).max()))
         if not np.isfinite(residual) or np.abs(u - start.u).max() > 3.0 * arc:
             raise StepFailed("the corrections grow")
-        close = residual < COARSE
+        rounded = all_rounding(problem, u, load_factor, residual, float(np.abs(move).max()))
+        close = rounded or residual < COARSE
         blocks = problem.tangent(u, load_factor, None if close else stresses)
         factor = problem.factor(blocks)
-        if close and residual < TOLERANCE:
+        if rounded or residual < TOLERANCE:
             state = State(
                 u, load_factor, problem.assembly.stresses(u), blocks, factor, problem.negative(factor)
             )

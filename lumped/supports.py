@@ -1,13 +1,14 @@
 """Supports as linear constraints on the masses: u = T q + g(λ), q the free unknowns.
 
-clamped  every layer of the edge's row held
+clamped  every layer of the edge's row held, on a director turned about the mid-line by λτ (λ the load factor)
 hinged   the mean of the layers held: the last layer is minus the sum of the others
 held     the mean of the layers held in the named components
-curved   every layer held on the director of an arc of curvature λκ (λ the load factor)
+curved   every layer held on the director of an arc of curvature λκ
 symmetric  the component across the edge held, in every layer
 
 With s the arc length from the rod's middle, an arc of curvature κ in the plane of the edge's direction e
-and z has mid-line (sin κs/κ) e + ((1 − cos κs)/κ) z and normal cos κs z − sin κs e.
+and z has mid-line (sin κs/κ) e + ((1 − cos κs)/κ) z and normal cos κs z − sin κs e. A clamp of tilt τ on an
+edge with outward normal n has the director cos τ z − sin τ n.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ import scipy.sparse as sp
 
 from lumped.actuators import Coupling
 from lumped.lattice import Lattice
-from scenes import EDGES, Curved, Scene, held_axes, holds_tilt, rod_middle
+from scenes import EDGES, Clamped, Curved, Scene, held_axes, holds_tilt, rod_middle
 
 
 @dataclass(frozen=True)
@@ -99,6 +100,7 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
     transform = sp.csr_array(sp.coo_array(entries, shape=(3 * n, int(free.sum()))))
     bent = [s for s in scene.supports if isinstance(s, Curved)]
+    tilted = [s for s in scene.supports if isinstance(s, Clamped) and s.tilt != 0.0]
 
     def prescribed(load_factor: float) -> np.ndarray:
         g = np.zeros((n, 3))
@@ -106,6 +108,9 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
             masses = lattice.edge_columns(support.edge)
             middle = rod_middle(support, scene.supports, scene.sheet)
             g[masses] = _arc(lattice, support.edge, masses, load_factor * support.curvature, middle)
+        for clamp in tilted:
+            masses = lattice.edge_columns(clamp.edge)
+            g[masses] = _turned(lattice, clamp.edge, masses, load_factor * clamp.tilt)
         return g
 
     return Constraints(transform, prescribed, holders, held, fixed)
@@ -125,3 +130,11 @@ def _arc(lattice: Lattice, edge: str, masses: np.ndarray, curvature: float, midd
     u[..., along] = across - s - height * np.sin(angle)
     u[..., 2] = rise + height * (np.cos(angle) - 1.0)
     return u
+
+
+def _turned(lattice: Lattice, edge: str, masses: np.ndarray, angle: float) -> np.ndarray:
+    """Displacement (m, layers, 3) [m] that puts an edge's layers on a director turned by an angle [rad]."""
+    height = lattice.positions[masses][..., 2, None]
+    return height * (
+        np.array([0.0, 0.0, np.cos(angle) - 1.0]) - np.sin(angle) * np.array(EDGES[edge].outward)
+    )

@@ -1,6 +1,9 @@
 """The kinds of edge support.
 
-clamped  mid-surface and its normal (the director) held where they are in the flat sheet
+clamped  mid-surface and its normal (the director) held; `tilt` τ [rad] turns the clamp about the edge's
+         mid-line, which stays where it is in the flat sheet. With n pointing out of the sheet the director is
+         e_z cos τ − n sin τ: τ > 0 turns what lies beyond the edge towards +z, as `moment_per_length` does,
+         and lets the sheet start off downwards.
 hinged   mid-surface held, director free to turn
 held     the named components of the mid-surface's displacement held
 curved   clamped to a rigid rod bent to `curvature` [1/m] in the plane of the edge and z: arc length kept,
@@ -13,6 +16,7 @@ symmetric  not a support but a cut: the sheet goes on beyond the edge as its own
 
 from __future__ import annotations
 
+from math import pi
 from typing import Annotated, Literal
 
 from pydantic import Field, field_validator
@@ -22,6 +26,7 @@ from scenes.sheet import EDGES, EdgeName, Sheet
 from scenes.tables import OverTime
 
 Component = Literal["x", "y", "z"]
+LARGEST_TILT = pi / 2.0  # rad, of a clamp
 
 
 class Motion(OverTime):
@@ -39,9 +44,17 @@ class _EdgeSupport(Frozen):
 
 
 class Clamped(_EdgeSupport):
-    """Mid-surface and director held."""
+    """Mid-surface and director held, the director turned about the edge by `tilt` [rad]."""
 
     kind: Literal["clamped"] = "clamped"
+    tilt: Number = 0.0
+
+    @field_validator("tilt")
+    @classmethod
+    def _a_quarter_turn_at_most(cls, tilt: Number) -> Number:
+        if abs(tilt) > LARGEST_TILT:
+            raise ValueError(f"{tilt:g} rad is more than π/2 either way, the most a clamp may be turned")
+        return tilt
 
 
 class Hinged(_EdgeSupport):
@@ -116,8 +129,9 @@ def contradiction(supports: tuple[AnySupport, ...]) -> str | None:
     """A sentence saying which two supports cannot both be obeyed, or None.
 
     A bent rod moves its ends along the edge and along z and turns the director there, so nothing else may
-    hold those at a shared corner, but for one plane of symmetry, which its middle lies on; and one edge can
-    be held in one way only.
+    hold those at a shared corner, but for one plane of symmetry, which its middle lies on. A tilted clamp
+    turns the director across its edge, so nothing else may hold that there; an adjacent plane of symmetry
+    holds it along the edge only. And one edge can be held in one way only.
     """
     cuts = [support for support in supports if isinstance(support, Symmetric)]
     for i, first in enumerate(supports):
@@ -126,6 +140,12 @@ def contradiction(supports: tuple[AnySupport, ...]) -> str | None:
                 return f"edge {first.edge} has two supports, {first.kind} and {second.kind}"
             if EDGES[first.edge].normal_axis == EDGES[second.edge].normal_axis:
                 continue
+            for turned, other in ((first, second), (second, first)):
+                if isinstance(turned, Clamped) and turned.tilt != 0.0 and holds_director(other):
+                    return (
+                        f"the clamp on edge {turned.edge} (tilt {turned.tilt:g} rad) turns the director at "
+                        f"the corner where the {other.kind} support on edge {other.edge} holds it otherwise"
+                    )
             for bent, other in ((first, second), (second, first)):
                 if not isinstance(bent, Curved) or bent.curvature == 0.0:
                     continue

@@ -126,6 +126,7 @@ def test_mujocos_clamps_hinges_and_point_loads() -> None:
 def test_mujoco_refuses_what_it_does_not_have() -> None:
     base = scenes.load("one-edge-clamped")
     pulled = base.model_copy(update={"loads": (EdgeLoad(edge="x1", force_per_length=(1.0, 0.0, 0.0)),)})
-    for scene in (scenes.load("curved-edge"), pulled):
+    tilted = base.model_copy(update={"supports": (Clamped(edge="x0", tilt=0.1),)})
+    for scene in (scenes.load("curved-edge"), pulled, tilted):
         solution = models.solve(scene, "mujoco")
         assert solution.status is Status.REFUSED and solution.message

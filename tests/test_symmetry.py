@@ -60,6 +60,7 @@ BRIDGE = scene(
         EdgeLoad(edge="x1", force_per_length=(-0.3, 0.0, -0.5), moment_per_length=0.02),
     ],
 )
+TILTED = scene([Clamped(edge="x0", tilt=0.1), Clamped(edge="x1", tilt=0.1)])
 ROLLED = scene([Curved(edge="x0", curvature=3.0), Curved(edge="x1", curvature=3.0)])
 ONE_EDGE = scenes.load("one-edge-clamped")
 TAPE = scenes.load("curved-edge")
@@ -68,6 +69,7 @@ PARTS = {
     "hinged all around": (ALL_AROUND, (0, 1)),
     "clamped bridge with edge loads": (scene(list(BRIDGE.supports), list(BRIDGE.loads)), (0,)),
     "two rods": (ROLLED, (0, 1)),
+    "clamps tilted alike": (TILTED, (0, 1)),
     "one edge": (ONE_EDGE, (1,)),
     "a rod": (TAPE, (1,)),
 }
@@ -124,6 +126,8 @@ def test_the_mesh_is_that_of_the_whole_sheet() -> None:
         (scene([Clamped(edge="x0")], [EdgeLoad(edge="x1", moment_per_length=0.1)]), ()),
         (scene([Clamped(edge="x0"), Clamped(edge="x1")], [EdgeLoad(edge="x1", moment_per_length=0.1)]), ()),
         (scene([Held(edge="x0", components=("x", "y", "z")), Hinged(edge="x1")]), (1,)),
+        (scene([Clamped(edge="x0", tilt=0.1)]), (1,)),
+        (scene([Clamped(edge="x0", tilt=0.1), Clamped(edge="x1", tilt=-0.1)]), (1,)),
     ],
 )
 def test_planes_of_symmetry_are_those_of_supports_and_loads(asked: Scene, axes: tuple[int, ...]) -> None:
@@ -155,7 +159,7 @@ def test_restored_vectors_mirror() -> None:
     assert above == pytest.approx(below * [1.0, -1.0, 1.0], abs=1e-12)
 
 
-@pytest.mark.parametrize("name", ["hinged all around", "a rod"])
+@pytest.mark.parametrize("name", ["hinged all around", "a rod", "clamps tilted alike"])
 def test_a_plane_of_symmetry_means_the_same_in_the_solid(name: str) -> None:
     asked, axes = PARTS[name]
     axis, sizes = axes[0], {False: [4, 4], True: [4, 4]}

@@ -7,7 +7,7 @@ of equal ones. A clamp is made of two pinned rows, the edge and one beyond it, w
 of the grid; a hinge of the edge's row alone. The static answer is where dynamics come to rest: implicit steps
 (the integrator "discrete") that stop whenever the kinetic energy has passed a peak.
 
-Clamped and hinged edges, gravity and point loads; anything else is refused. Needs the extra [mujoco].
+Upright clamps, hinged edges, gravity and point loads; anything else is refused. Needs the extra [mujoco].
 Source: MuJoCo's documentation, "Deformable objects" and the XML reference of `flexcomp`.
 """
 
@@ -179,6 +179,8 @@ def _to_rest(mujoco: Any, model: Any, data: Any, size: float) -> tuple[int, bool
 def _refusal(scene: Scene) -> str:
     if any(not isinstance(s, Clamped | Hinged) for s in scene.supports) or scene.actuators:
         return "MuJoCo's sheet is held by clamped and hinged edges only"
+    if any(isinstance(s, Clamped) and s.tilt for s in scene.supports):
+        return "MuJoCo's clamps stand upright"
     if any(not isinstance(load, PointLoad) for load in scene.loads):
         return "gravity and point loads only"
     return ""

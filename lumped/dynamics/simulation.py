@@ -1,8 +1,8 @@
 """Dynamics of a lattice from rest: a scene and springs in, a `scenes.History` out.
 
 Gravity, loads and commands act from t = 0 on, loads scaled by their histories. The sheet starts flat and at
-rest; with a curved support it starts in the shape that the support alone gives it. Samples are evenly spaced;
-steps divide their distance.
+rest; with a curved support or a tilted clamp it starts in the shape that the supports alone give it. Samples
+are evenly spaced; steps divide their distance.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from lumped.stability import SAFETY, step_limit
 from lumped.statics import pose, settle
 from lumped.threads import one_blas_thread
 from lumped.vibration import modes
-from scenes import Chain, Curved, History, Scene, Status
+from scenes import Chain, Clamped, Curved, History, Scene, Status
 
 SAMPLES_PER_PERIOD = 100
 STEPS_PER_PERIOD = 200  # of implicit integrators with a fixed step
@@ -250,11 +250,13 @@ def _run(
 
 
 def _start(system: System, springs: Calibration, weights: Weights) -> State:
-    """At rest: flat, or in the shape that curved supports give an unloaded sheet; with the acceleration that
-    loads and commands give it at once."""
+    """At rest: flat, or in the shape that curved supports and tilted clamps give an unloaded sheet; with the
+    acceleration that loads and commands give it at once."""
     u = system.place(0.0)
     scene = system.scene
-    if any(isinstance(support, Curved) and support.curvature for support in scene.supports):
+    if any(
+        (isinstance(s, Curved) and s.curvature) or (isinstance(s, Clamped) and s.tilt) for s in scene.supports
+    ):
         slack = tuple(
             a.model_copy(update={"curvature": 0.0}) if isinstance(a, Chain) else a for a in scene.actuators
         )

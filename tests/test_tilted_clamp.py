@@ -1,0 +1,262 @@
+"""A clamp turned about its edge: rigid turns, beams with turned ends, the models' agreement, refusals."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fem_reference
+import lumped
+import scenes
+from scenes import (
+    EDGES,
+    Clamped,
+    Curved,
+    EdgeMotion,
+    Gravity,
+    Held,
+    Hinged,
+    Material,
+    Scene,
+    SceneError,
+    Sheet,
+    Solution,
+    Status,
+    Symmetric,
+)
+
+SHEET = Sheet(length_x=0.2, length_y=0.1, thickness=0.005)
+MATERIAL = Material(young=2.0e7, poisson=0.3, density=1200.0)
+DOWN = Gravity(acceleration=(0.0, 0.0, -9.81))
+CUTS = (Symmetric(edge="y0"), Symmetric(edge="y1"))
+SEED = scenes.load("one-edge-clamped")
+
+
+def scene(*supports, gravity=None, **changes) -> Scene:
+    return Scene(name="tilted", sheet=SHEET, material=MATERIAL, support=supports, gravity=gravity, **changes)
+
+
+def solve(asked: Scene, model: str, size: tuple[int, int] = (8, 4)) -> Solution:
+    """size: elements, or cells of the lattice, along x and y; the shell's are even, the solid's graded."""
+    if model.startswith("lumped"):
+        springs = lumped.calibrate(asked.sheet, asked.material, (size[0] + 1, size[1] + 1))
+        found = lumped.solve(asked, springs, linear=model == "lumped, linear")
+    elif model.startswith("solid"):
+        clamp = "full" if model == "solid, full" else "shell-like"
+        found = fem_reference.solve(asked, model="solid", elements=size, clamp=clamp)
+    else:
+        even = {"graded": False} if model == "shell" else {}
+        found = fem_reference.solve(asked, model=model, elements=size, **even)
+    assert found.status is Status.CONVERGED, found.message
+    return found
+
+
+def points_of(sheet: Sheet) -> np.ndarray:
+    return np.random.default_rng(2).uniform(0.0, 1.0, (40, 2)) * sheet.lengths
+
+
+def rigid(edge: str, tilt: float, points: np.ndarray) -> np.ndarray:
+    """Of a sheet that turns with its clamp, (n, 3): u = −r (n (cos τ − 1) + e_z sin τ), r from the edge."""
+    at = EDGES[edge]
+    inside = np.abs(points[:, at.normal_axis] - (SHEET.lengths[at.normal_axis] if at.far_end else 0.0))
+    turned = (np.cos(tilt) - 1.0) * np.array(at.outward) + np.sin(tilt) * np.array([0.0, 0.0, 1.0])
+    return -inside[:, None] * turned
+
+
+@pytest.mark.parametrize("model", ["lumped", "shell", "solid", "solid, full"])
+@pytest.mark.parametrize(("edge", "tilt"), [("x0", 0.05), ("x1", -0.6), ("y0", 1.2), ("y1", 1.5)])
+def test_a_weightless_sheet_turns_with_its_clamp(model: str, edge: str, tilt: float) -> None:
+    found = solve(scene(Clamped(edge=edge, tilt=tilt)), model, (4, 2))
+    points = points_of(SHEET)
+    assert np.abs(found.displacement(points) - rigid(edge, tilt, points)).max() < 1e-9 * max(SHEET.lengths)
+
+
+@pytest.mark.parametrize("edge", EDGES)
+def test_the_plate_turns_by_small_angles(edge: str) -> None:
+    found = solve(scene(Clamped(edge=edge, tilt=0.3)), "plate", (4, 2))
+    points = points_of(SHEET)
+    small = 1e6 * rigid(edge, 0.3e-6, points) * [0.0, 0.0, 1.0]
+    assert np.abs(found.displacement(points) - small).max() < 1e-9 * max(SHEET.lengths)
+
+
+@pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
+def test_planes_of_symmetry_let_the_clamp_between_them_turn(model: str) -> None:
+    found = solve(scene(Clamped(edge="x0", tilt=0.4), *CUTS), model, (4, 2))
+    points = points_of(SHEET)
+    assert np.abs(found.displacement(points) - rigid("x0", 0.4, points)).max() < 1e-9 * max(SHEET.lengths)
+
+
+SMALL = 1e-5  # rad: the answers' own nonlinearity is 2 (τ L/h)² = 3e-7 of them
+
+
+def bent_beam(first: float, second: float, x: np.ndarray, shear: float = 0.0) -> np.ndarray:
+    """Deflection of a beam of the sheet's length with ends clamped at slopes −first and +second, w = 0 there.
+
+    Equal tilts bend it to a constant curvature, w = −τ x (1 − x/L); opposite ones (τ, −τ) to the cubic
+    −τ x (1 − x/L)(1 − 2x/L)/(1 + Φ), Φ = 12 D/(κ G h L²) the beam's shear (Timoshenko 1921).
+    """
+    length = SHEET.length_x
+    alike, opposite, s = (first + second) / 2.0, (first - second) / 2.0, x / length
+    w: np.ndarray = -x * (1.0 - s) * (alike + opposite * (1.0 - 2.0 * s) / (1.0 + shear))
+    return w
+
+
+SHEAR = (SHEET.thickness / SHEET.length_x) ** 2 / (1.0 - 0.3**2) * 2.0 * (1.0 + 0.3) / (5.0 / 6.0)
+
+
+@pytest.mark.parametrize(
+    ("model", "within"), [("plate", 1e-9), ("shell", 2e-6), ("solid", 2e-6), ("lumped", 2e-6)]
+)
+def test_ends_tilted_alike_bend_the_strip_to_one_curvature(model: str, within: float) -> None:
+    """Both τ > 0: the strip sags by τ L/4."""
+    found = solve(scene(Clamped(edge="x0", tilt=SMALL), Clamped(edge="x1", tilt=SMALL), *CUTS), model)
+    x = np.linspace(0.0, SHEET.length_x, 9)
+    w = found.displacement(np.column_stack([x, np.full(9, 0.05)]))[:, 2]
+    sag = SMALL * SHEET.length_x / 4.0
+    assert w[4] == pytest.approx(-sag, rel=within)
+    assert w == pytest.approx(bent_beam(SMALL, SMALL, x), abs=within * sag)
+
+
+@pytest.mark.parametrize(
+    ("model", "within"), [("plate", 1e-8), ("shell", 1e-8), ("solid", 1e-3), ("lumped", 5e-3)]
+)
+def test_ends_tilted_opposite_ways_bend_the_strip_to_the_cubic(model: str, within: float) -> None:
+    found = solve(
+        scene(Clamped(edge="x0", tilt=SMALL), Clamped(edge="x1", tilt=-SMALL), *CUTS), model, (16, 2)
+    )
+    x = np.linspace(0.0, SHEET.length_x, 17)
+    w = found.displacement(np.column_stack([x, np.full(17, 0.05)]))[:, 2]
+    exact = bent_beam(SMALL, -SMALL, x, SHEAR)
+    assert w == pytest.approx(exact, abs=within * np.abs(exact).max())
+    slope = (w[9] - w[7]) / (x[9] - x[7])  # +τ/2 in the middle, of end slopes −τ
+    assert slope == pytest.approx((exact[9] - exact[7]) / (x[9] - x[7]), rel=10 * within)
+    assert slope == pytest.approx(SMALL / 2.0, rel=0.02)
+
+
+@pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
+def test_turned_ends_stretch_the_strip_to_second_order_only(model: str) -> None:
+    """½ ∫ w'² dx = τ² L/6 more arc, so that N = E h/(1 − ν²) τ²/6 a width; the linear plate has none."""
+    tilt = 1e-3
+    asked = scene(Clamped(edge="x0", tilt=tilt), Clamped(edge="x1", tilt=tilt), *CUTS)
+    pull = MATERIAL.young * SHEET.thickness / (1.0 - 0.3**2) * tilt**2 / 6.0 * SHEET.length_y
+    assert solve(asked, model, (16, 2)).reactions["x1"][0] == pytest.approx(pull, rel=0.01)
+    assert abs(solve(asked, "plate").reactions["x1"][0]) < 1e-9 * pull
+
+
+def tilted_seed(tilt: float, **material: float) -> Scene:
+    (clamp,) = SEED.supports
+    changed = {"supports": (clamp.model_copy(update={"tilt": tilt}),)}
+    return SEED.model_copy(update=changed | {"material": SEED.material.model_copy(update=material)})
+
+
+def off(u: np.ndarray, reference: np.ndarray) -> float:
+    return float(np.abs(u - reference).max() / np.abs(reference).max())
+
+
+def test_models_agree_on_a_tilted_sheet_under_its_weight() -> None:
+    asked = tilted_seed(0.05)
+    points = asked.probe_points()
+    shell = solve(asked, "shell", (12, 12)).displacement(points)
+    assert off(solve(asked, "lumped", (8, 8)).displacement(points), shell) < 0.007
+    assert off(solve(asked, "solid", (8, 8)).displacement(points), shell) < 0.005
+    assert off(solve(SEED, "shell", (12, 12)).displacement(points), shell) > 0.05  # the tilt counts
+
+
+def test_the_linear_models_agree_on_a_stiff_tilted_sheet() -> None:
+    """Fifty times as stiff, so that it slopes little; only uz, for a linear answer knows no shortening."""
+    asked = tilted_seed(0.01, young=50 * SEED.material.young)
+    points = asked.probe_points()
+    shell = solve(asked, "shell", (12, 12)).displacement(points)[:, 2]
+    for model, size in (("plate", (12, 12)), ("lumped, linear", (8, 8))):
+        assert off(solve(asked, model, size).displacement(points)[:, 2], shell) < 0.007
+
+
+@pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
+@pytest.mark.parametrize(("edge", "axis"), [("x0", (0.0, 1.0, 0.0)), ("y1", (1.0, 0.0, 0.0))])
+def test_a_tilt_is_the_edge_moved_by_that_rotation(model: str, edge: str, axis: tuple) -> None:
+    """Two ways of saying the same, which share no code."""
+    turned = tuple(0.3 * a for a in axis)
+    motion = EdgeMotion(kind="motion", edge=edge, time=(0.0,), rotation=(turned,))
+    points = points_of(SHEET)
+    moved = solve(scene(gravity=DOWN, actuator=(motion,)), model).displacement(points)
+    tilted = solve(scene(Clamped(edge=edge, tilt=0.3), gravity=DOWN), model).displacement(points)
+    assert off(tilted, moved) < 1e-7
+
+
+@pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
+def test_supports_carry_the_weight(model: str) -> None:
+    asked = scene(Clamped(edge="x0", tilt=0.2), Held(edge="x1", components=("z",)), gravity=DOWN)
+    weight = 9.81 * MATERIAL.density * SHEET.thickness * SHEET.length_x * SHEET.length_y
+    found = solve(asked, model)
+    assert sum(found.reactions.values()) == pytest.approx([0.0, 0.0, weight], abs=1e-6 * weight)
+    assert found.reactions["x1"][2] > 0.4 * weight  # what sags at x0 leans on x1
+
+
+@pytest.mark.parametrize("other", [Hinged(edge="y0"), Held(edge="y0", components=("z",))])
+def test_a_corner_shared_with_a_hinge_obeys_both(other: Hinged | Held) -> None:
+    asked = scene(Clamped(edge="x0", tilt=0.2), other, gravity=DOWN)
+    points = points_of(SHEET)
+    shell = solve(asked, "shell", (16, 8)).displacement(points)
+    assert off(solve(asked, "solid", (16, 8)).displacement(points), shell) < 0.02
+    assert off(solve(asked, "lumped", (32, 16)).displacement(points), shell) < 0.02
+
+
+def test_motion_starts_in_the_tilted_shape_and_stays_there() -> None:
+    asked = scene(Clamped(edge="x0", tilt=0.3))
+    run = lumped.simulate(asked, lumped.calibrate(SHEET, MATERIAL, (5, 3)), 0.02)
+    still = rigid("x0", 0.3, asked.probe_points())
+    for place, values in zip(still, run.probes.values(), strict=True):
+        assert np.abs(values - place).max() < 1e-9 * SHEET.length_x
+    assert np.abs(run.energies["kinetic"]).max() < 1e-15
+
+
+def test_a_path_is_traced_to_the_full_tilt() -> None:
+    springs = lumped.calibrate(SHEET, MATERIAL, (5, 3))
+    for gravity in (None, DOWN):
+        asked = scene(Clamped(edge="x0", tilt=0.3), gravity=gravity)
+        path = lumped.trace(asked, springs)
+        assert path.status is Status.CONVERGED and path.load_factors[-1] == 1.0
+        place = lumped.solve(asked, springs).displacement([asked.probes["P4"]])[0]
+        assert path.displacements["P4"][-1] == pytest.approx(place, abs=1e-9 * SHEET.length_x)
+
+
+def test_frequencies_are_those_of_the_flat_sheet() -> None:
+    upright, tilted = scene(Clamped(edge="x0")), scene(Clamped(edge="x0", tilt=0.5))
+    springs = lumped.calibrate(SHEET, MATERIAL, (5, 3))
+    assert np.array_equal(
+        lumped.modes(tilted, springs, 3).frequencies, lumped.modes(upright, springs, 3).frequencies
+    )
+    for model in ("plate", "shell", "solid"):
+        found = [
+            fem_reference.modes(s, model=model, elements=2, count=3).frequencies for s in (upright, tilted)
+        ]
+        assert found[0] == pytest.approx(found[1], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        Clamped(edge="y0"),
+        Clamped(edge="y1", tilt=0.1),
+        Curved(edge="y0", curvature=0.0),
+        Curved(edge="y1", curvature=1.0),
+    ],
+)
+def test_what_holds_the_director_otherwise_at_a_corner_is_refused(other: Clamped | Curved) -> None:
+    tilted = Clamped(edge="x0", tilt=0.1)
+    for pair in ((tilted, other), (other, tilted)):
+        with pytest.raises(ValueError, match="corner") as said:
+            scene(*pair)
+        assert "x0" in str(said.value) and other.edge in str(said.value)
+    upright = other.model_copy(update={"tilt": 0.0} if isinstance(other, Clamped) else {"curvature": 0.0})
+    scene(Clamped(edge="x0"), upright)
+
+
+def test_degrees_are_refused(tmp_path) -> None:
+    text = scenes.catalogue()["one-edge-clamped"].read_text(encoding="utf-8")
+    path = tmp_path / "scene.toml"
+    path.write_text(text.replace('kind = "clamped"', 'kind = "clamped"\ntilt = 5.0'), encoding="utf-8")
+    with pytest.raises(SceneError, match=r"support.0.tilt: 5 rad is more than π/2"):
+        scenes.load(path)
+    path.write_text(text.replace('kind = "clamped"', 'kind = "clamped"\ntilt = 0.05'), encoding="utf-8")
+    assert scenes.load(path).supports == (Clamped(edge="x0", tilt=0.05),)

@@ -7,12 +7,12 @@ tangent K = −∂R/∂q at hand
     adjoint   dJ/dθ = a·∂R/∂θ + ∂J/∂u·dg/dθ,    Kᵀ a = Tᵀ ∂J/∂u        one solve a function J of u
 
 ∂R/∂θ is a central difference of the residual at fixed q. The residual is linear in every spring constant and
-in E, where that is exact to rounding; in the thickness, ν, a layer distance or a curvature its relative error
-is of order 1e-8.
+in E, where that is exact to rounding; in the thickness, ν, a layer distance, a curvature or a tilt its
+relative error is of order 1e-8.
 
 Parameters: the spring constants of `scenes.SpringSet` by name (axial_x, axial_y, … where a direction has its
 own), layer_distance; young, poisson, density, thickness (springs calibrated again by the same method);
-curvature_EDGE, of the curved support or the actuator on that edge.
+curvature_EDGE, of the curved support or the actuator on that edge; tilt_EDGE, of the clamp on it.
 """
 
 from __future__ import annotations
@@ -28,10 +28,11 @@ from lumped.loads import locate
 from lumped.problem import Problem
 from lumped.statics import pose, settle
 from lumped.threads import one_blas_thread
-from scenes import Curved, PerDirection, Scene, SpringSet, Status, require_static
+from scenes import Clamped, Curved, PerDirection, Scene, SpringSet, Status, require_static
+from scenes.supports import contradiction
 
 STEP = 1e-4  # of a parameter, for the difference of residuals
-CURVATURE_STEP = 1e-4  # 1/m, of a curvature, which may be zero
+STEP_OF = {"curvature_": 1e-4, "tilt_": 1e-5}  # 1/m and rad, of parameters that may be zero
 RECALIBRATED = ("consistent", "moduli", "uniform", "cauchy", "axial", "van-gelder", "lloyd")
 
 
@@ -149,7 +150,7 @@ def _rates(
 ) -> tuple[float, np.ndarray, np.ndarray]:
     """Value of a parameter, ∂R/∂θ on the free unknowns (supports' movement included), and dg/dθ (n, 3)."""
     value = _value(scene, springs, name)
-    step = CURVATURE_STEP if name.startswith("curvature_") else STEP * abs(value)
+    step = next((h for kind, h in STEP_OF.items() if name.startswith(kind)), STEP * abs(value))
     if step == 0.0:
         raise ValueError(f"parameter {name!r} is zero here: it has no scale to differentiate on")
     sides = []
@@ -170,6 +171,8 @@ def _value(scene: Scene, springs: Calibration, name: str) -> float:
         return scene.sheet.thickness
     if name.startswith("curvature_"):
         return _bent(scene, name)
+    if name.startswith("tilt_"):
+        return _tilted(scene, name).tilt
     with_spring(springs.springs, name, 1.0)  # refuses unknown names
     return spring_value(springs.springs, name)
 
@@ -186,6 +189,14 @@ def _bent(scene: Scene, name: str) -> float:
     raise ValueError(
         f"parameter {name!r}: edge {edge} has no curved support, nor an actuator of one curvature"
     )
+
+
+def _tilted(scene: Scene, name: str) -> Clamped:
+    edge = name.removeprefix("tilt_")
+    for clamp in scene.supports:
+        if isinstance(clamp, Clamped) and clamp.edge == edge:
+            return clamp
+    raise ValueError(f"parameter {name!r}: edge {edge} has no clamp")
 
 
 def _changed(scene: Scene, springs: Calibration, name: str, value: float) -> tuple[Scene, Calibration]:
@@ -211,6 +222,12 @@ def _changed(scene: Scene, springs: Calibration, name: str, value: float) -> tup
             ),
         }
         return scene.model_copy(update=bent), springs
+    if name.startswith("tilt_"):
+        clamp = _tilted(scene, name)
+        supports = tuple(s.model_copy(update={"tilt": value}) if s is clamp else s for s in scene.supports)
+        if said := contradiction(supports):
+            raise ValueError(f"parameter {name!r}: {said}")
+        return scene.model_copy(update={"supports": supports}), springs
     return scene, replace(springs, springs=with_spring(springs.springs, name, value))
 
 

@@ -96,6 +96,33 @@ def test_curvature_of_a_curved_support():
     assert_close(found, by_differences(scene, springs, change, 4.0, 1e-3))
 
 
+@pytest.mark.parametrize("tilt", [0.0, 0.1, -0.7])
+def test_tilt_of_a_clamp(tilt):
+    scene = scene_of("one-edge-clamped", supports=(Clamped(edge="x0", tilt=tilt),))
+
+    def change(scene, springs, value):
+        return scene.model_copy(update={"supports": (Clamped(edge="x0", tilt=value),)}), springs
+
+    springs = springs_of(scene)
+    found = lumped.sensitivity(scene, springs, ["tilt_x0"]).derivatives["tilt_x0"]
+    assert_close(found, by_differences(scene, springs, change, tilt, 1e-3), 5e-6)
+
+
+def test_a_weightless_sheet_turns_with_its_clamp():
+    """u = −r (n (cos τ − 1) + e_z sin τ) at r from the edge, so that du/dτ = −r (−n sin τ + e_z cos τ)."""
+    scene = scene_of("one-edge-clamped", gravity=None, supports=(Clamped(edge="x0", tilt=0.3),))
+    found = lumped.sensitivity(scene, springs_of(scene), ["tilt_x0"]).derivatives["tilt_x0"]
+    arm = scene.probe_points()[:, 0]
+    expected = np.outer(arm, [-np.sin(0.3), 0.0, -np.cos(0.3)])
+    assert np.abs(found - expected).max() < 1e-9 * arm.max()
+
+
+def test_the_tilt_of_one_of_two_clamps_that_share_a_corner_is_refused():
+    scene = scene_of("two-edges-clamped")
+    with pytest.raises(ValueError, match=r"tilt_x0.*corner"):
+        lumped.sensitivity(scene, springs_of(scene), ["tilt_x0"])
+
+
 def test_follower_loads_have_sensitivities_too():
     scene = scene_of("one-edge-clamped", gravity=None, loads=(EdgeLoad(edge="x1", moment_per_length=0.2),))
     springs = springs_of(scene)
@@ -108,7 +135,7 @@ def test_follower_loads_have_sensitivities_too():
     assert_close(found, by_differences(scene, springs, change, 54.5e6, 5.45e3))
 
 
-@pytest.mark.parametrize("name", ["two-edges-clamped", "curved-edge"])
+@pytest.mark.parametrize("name", ["two-edges-clamped", "one-edge-clamped", "curved-edge"])
 def test_the_adjoint_agrees_with_the_direct_derivatives(name):
     scene = scene_of(name, loads=(PointLoad(at=(0.1, 0.05), force=(0.0, 0.0, 0.01)),))
     springs = springs_of(scene)
@@ -117,6 +144,8 @@ def test_the_adjoint_agrees_with_the_direct_derivatives(name):
     names = ["axial", "diagonal", "cross", "area", "mid_area", "young", "thickness"]
     if name == "curved-edge":
         names.append("curvature_x0")
+    if name == "one-edge-clamped":
+        names.append("tilt_x0")
     direct = lumped.sensitivity(scene, springs, names, points).derivatives
     adjoint = lumped.gradient(scene, springs, names, points, weights)
     for parameter in names:
@@ -131,7 +160,7 @@ def test_scaling_laws():
     assert np.abs(e + rho).max() < 1e-7 * np.abs(e).max()
 
 
-@pytest.mark.parametrize("name", ["magic", "axial_x", "curvature_y1", "shear"])
+@pytest.mark.parametrize("name", ["magic", "axial_x", "curvature_y1", "tilt_y1", "shear"])
 def test_unknown_and_absent_parameters_are_refused(name):
     scene = scene_of("one-edge-clamped", supports=(Clamped(edge="x0"),))
     with pytest.raises(ValueError, match=name):

@@ -1,10 +1,20 @@
 """The highest frequency of a lattice, and the largest stable step of explicit integration.
 
 ω_max² is the largest eigenvalue of M⁻¹K on the free motions (those the actuators' constraints allow), by
-Lanczos; c_max that of M⁻¹C. With ξ = c_max/2ω_max, the damping ratio at ω_max where damping is proportional
-to stiffness and an upper bound of it elsewhere, central differences are stable for
+Lanczos; c_max that of M⁻¹C, and ξ = c_max/2ω_max. A motion of frequency ω and damping c = 2 ξ ω is multiplied
+in a step of velocity Verlet, which looks at the dampers twice, by the matrix of
 
-    h ≤ (2/ω_max) (√(1 + ξ²) − ξ).                 Belytschko, Liu and Moran (2000), section 6.2
+    det = 1 − z + z²/2 − xz/4,   trace = 2 − x − z + z²/2 + xz/4,   x = (ω h)²,  z = c h.
+
+Both its eigenvalues stay within the unit circle as long as |trace| ≤ 1 + det and det ≤ 1 (Jury), that is
+
+    z ≤ 2  and  x ≤ 4 − 2z + z²:   h ≤ (2/ω_max)/(ξ + √(1 − 3ξ²)) for ξ < 1/2,  (1/ω_max)/ξ beyond.
+
+Undamped that is 2/ω_max, and it is never below (2/ω_max)(√(1 + ξ²) − ξ), the limit of central differences with
+the velocity half a step old (Belytschko, Liu and Moran 2000, section 6.2). Where damping is proportional to
+stiffness and mass the slower motions lie within the limit when the fastest does, and the limit is exact.
+Elsewhere every x up to (ω_max h)² may come with every z up to c_max h: then the smallest x of the boundary
+counts, which is 3 from z = 1 on.
 """
 
 from __future__ import annotations
@@ -23,18 +33,29 @@ SAFETY = 0.9  # of the default step: large rotations and tension raise ω_max a 
 
 @dataclass(frozen=True)
 class StepLimit:
-    """ω_max [rad/s], damping ratio ξ there, and the largest stable step [s]."""
+    """ω_max [rad/s], damping ratio ξ there, the largest stable step [s], and whether it is exact."""
 
     frequency: float
     damping_ratio: float
     step: float
+    exact: bool = True
 
     def describe(self) -> str:
         """The limit and where it comes from."""
+        turn = self.frequency * self.step
+        law = "2/ω_max" if self.damping_ratio == 0.0 else f"{turn:.3g}/ω_max"
         return (
-            f"{self.step:.4g} s = (2/ω_max)(√(1 + ξ²) − ξ) with ω_max = {self.frequency:.4g} rad/s "
+            f"{self.step:.4g} s = {law} with ω_max = {self.frequency:.4g} rad/s "
             f"and ξ = {self.damping_ratio:.3g}"
         )
+
+
+def turn_limit(ratio: float, exact: bool = True) -> float:
+    """ω_max h at the limit for a damping ratio ξ at ω_max; exact: for damping in proportion to stiffness and
+    mass, else for dampers of any kind."""
+    if not exact and ratio > 0.5 / math.sqrt(3.0):
+        return min(math.sqrt(3.0), 1.0 / ratio)
+    return 2.0 / (ratio + math.sqrt(1.0 - 3.0 * ratio**2)) if ratio < 0.5 else 1.0 / ratio
 
 
 def step_limit(system: System, u: np.ndarray, time: float = 0.0) -> StepLimit:
@@ -46,7 +67,8 @@ def step_limit(system: System, u: np.ndarray, time: float = 0.0) -> StepLimit:
     if system.damping.present:
         damping = system.matrix(u, nothing, time, 0.0, 1.0, 0.0)
         ratio = _largest(system, damping, u) / (2.0 * frequency)
-    return StepLimit(frequency, ratio, 2.0 / frequency * (math.sqrt(1.0 + ratio**2) - ratio))
+    exact = system.damping.proportional
+    return StepLimit(frequency, ratio, turn_limit(ratio, exact) / frequency, exact)
 
 
 def _largest(system: System, blocks: np.ndarray, u: np.ndarray) -> float:

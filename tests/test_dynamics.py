@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 import lumped
 from lumped.dynamics import INTEGRATORS
 from lumped.dynamics.integrator import StepFailed
-from lumped.stability import step_limit
+from lumped.stability import step_limit, turn_limit
 from scenes import DamperSet, Status
 
 
@@ -90,7 +90,7 @@ def test_observed_order_is_the_declared_one(name, damping):
     asked = scene(damping_time=damping)
     step = ORDER_STEPS[name] * (0.1 if name == "verlet" and damping else 1.0)
     ends = []
-    options = {"iterations": 60} if name == "projective" else {}
+    options = {"tolerance": 1e-4} if name == "projective" else {}
     for h in (step, step / 2, step / 4, step / 8):
         history = lumped.simulate(
             asked, springs(asked, 4), 0.008, integrator=name, step=h, every=0.008, **options
@@ -124,19 +124,32 @@ def amplification(h, ratio):
     return largest(np.linalg.eigvals(np.array(columns).T))
 
 
-@pytest.mark.parametrize("ratio", [0.0, 0.05, 0.3, 2.0])
+@pytest.mark.parametrize("ratio", [0.0, 0.05, 0.3, 0.49, 0.7, 2.0])
 def test_explicit_step_limit_agrees_with_theory(ratio):
     equations, rest = system(scene(gravity=False))
     frequency = step_limit(equations, rest.u).frequency
     equations, rest = system(scene(gravity=False, damping_time=2.0 * ratio / frequency))
     limit = step_limit(equations, rest.u)
-    assert limit.damping_ratio == pytest.approx(ratio, rel=1e-4, abs=1e-12)
-    assert limit.step == pytest.approx(2.0 / frequency * (np.sqrt(1.0 + ratio**2) - ratio), rel=1e-4)
-    steps = np.linspace(0.9, 2.0, 1101) * limit.step
-    own = next(h for h in steps if amplification(h * frequency, ratio) > 1.0 + 1e-9)
-    assert own >= 0.999 * limit.step  # the scheme's own limit lies at the theory's or a little beyond
+    assert limit.damping_ratio == pytest.approx(ratio, rel=1e-4, abs=1e-12) and limit.exact
+    assert amplification(0.9999 * limit.step * frequency, ratio) < 1.0 + 1e-9
+    assert amplification(1.001 * limit.step * frequency, ratio) > 1.0 + 1e-9
+    assert limit.step >= 0.9999 * 2.0 / frequency * (np.sqrt(1.0 + ratio**2) - ratio)  # central differences
     assert not grows(equations, rest, 0.995 * limit.step)
-    assert grows(equations, rest, 1.02 * own)
+    assert grows(equations, rest, 1.02 * limit.step, steps=2000)
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 1.0, 5.0])
+def test_the_limit_for_any_dampers_holds_for_every_damping_up_to_theirs(ratio):
+    """The box of (ω h)² and c h below the limit's corner is stable, and its corner or an edge touches."""
+    turn = turn_limit(ratio, exact=False)
+    assert turn <= turn_limit(ratio)
+    radius = np.array(
+        [[amplification(h, z / 2.0 / h) for h in turn * np.linspace(0.01, 1, 40)] for z in
+         2.0 * ratio * turn * np.linspace(0, 1, 41)]
+    )  # fmt: skip
+    assert radius.max() < 1.0 + 1e-9
+    z = np.linspace(0.0, 2.0 * ratio * 1.01 * turn, 400)
+    assert max(amplification(1.01 * turn, each / 2.02 / turn) for each in z) > 1.0 + 1e-9
 
 
 def test_a_step_above_the_limit_is_refused_with_the_limit_named():

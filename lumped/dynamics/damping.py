@@ -20,7 +20,10 @@ from scenes import Scene
 
 
 class Damping:
-    """Damping forces, (size, 3) [N], on masses and actuators' rows. mass: (n,) [kg]."""
+    """Damping forces, (size, 3) [N], on masses and actuators' rows. mass: (n,) [kg].
+
+    present: whether there are any; proportional: to the stiffness and the masses, in the flat sheet.
+    """
 
     def __init__(self, scene: Scene, assembly: Assembly, mass: np.ndarray):
         self._coupling = assembly.coupling
@@ -47,6 +50,7 @@ class Damping:
             self._cells += [(strain_dampers, c, time * c.stiffness) for c in assembly.strains]
         self._diagonal = assembly.pattern.slots(np.arange(len(mass)), np.arange(len(mass)))
         in_chains = any(getattr(a, "damping_time", 0.0) > 0.0 for a in scene.actuators)
+        self.proportional = scene.dampers is None and not scene.actuators and not len(assembly.directional)
         self.present = bool(some.any() or self._cells or self._rate.any() or in_chains)
 
     def add_force(self, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:

@@ -22,22 +22,28 @@ from lumped.dynamics.integrator import Advance, Integrator, StepFailed
 from lumped.dynamics.system import State, System
 from lumped.linear import Factor, ReducedSystem
 
-ITERATIONS = 12
+ITERATIONS, TOLERANCE = 2000, 1e-3
 REMEMBERED = 8
-CLOSE = 1e-6  # correction relative to the first one, by the work it does, at which iterations end early
+ROUNDING = 1e-16  # correction relative to the sheet's side below which there is nothing to correct
 OVERSHOT = 0.5  # of the slope a change begins with, that it may end with in the other direction
 
 
 class Projective(Integrator):
-    """The local/global scheme."""
+    """The local/global scheme.
+
+    iterations: looks at the forces that a step may take; tolerance: of the corrections, relative to the largest
+    by the work they do.
+    """
 
     name, order = "projective", 1
 
-    def __init__(self, system: System, step: float, iterations: int = ITERATIONS):
+    def __init__(
+        self, system: System, step: float, iterations: int = ITERATIONS, tolerance: float = TOLERANCE
+    ):
         super().__init__(system, step)
         if system.constrained:
             raise ValueError("integrator = 'projective': does not take chains; choose another integrator")
-        self._iterations = iterations
+        self._iterations, self._tolerance = iterations, tolerance
         self._factor: Factor | None = None
         self._made_for = 0.0
 
@@ -46,7 +52,7 @@ class Projective(Integrator):
         self._factor = None
 
     def advance(self, state: State, at_most: float) -> Advance:
-        """One step. Raises StepFailed when a number overflows."""
+        """One step. Raises StepFailed when a number overflows or the iterations end short of the tolerance."""
         system, h, time = self.system, at_most, state.time + at_most
         if self._factor is None or self._made_for != h:
             self._factor, self._made_for = self._matrix(h), h
@@ -60,22 +66,25 @@ class Projective(Integrator):
         u, gradient = inertial, gradient_at(inertial)
         history: list[tuple[np.ndarray, np.ndarray]] = []  # latest changes of unknowns and of the gradient
         looks, first = 1, 0.0
-        while looks < self._iterations:
+        while True:
             move = -_two_loops(gradient, history, self._factor)
-            slope = float(move @ gradient)
-            first = max(first, -slope)
-            if -slope <= CLOSE**2 * first:
+            work = -float(move @ gradient)
+            first = max(first, work)
+            small = np.abs(system.problem.expand(move)).max() <= ROUNDING * system.problem.size
+            if work <= self._tolerance**2 * first or small:
                 break
+            if looks >= self._iterations:
+                raise StepFailed(f"{looks} iterations did not solve a time step: use smaller steps")
             share = 1.0
             while True:
                 there = u + system.problem.expand(share * move)
                 met, looks = gradient_at(there), looks + 1
-                after_it = float(move @ met)
-                if not np.isfinite(after_it):
+                slope = float(move @ met)
+                if not np.isfinite(slope):
                     raise StepFailed("a number overflowed")
-                if after_it <= -OVERSHOT * slope or looks >= self._iterations:
+                if slope <= OVERSHOT * work or looks >= self._iterations:
                     break
-                share *= slope / (slope - after_it)
+                share *= work / (work + slope)
             taken, change = share * move, met - gradient
             if change @ taken > 0.0:
                 history = [*history[1 - REMEMBERED :], (taken, change)]

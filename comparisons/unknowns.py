@@ -1,8 +1,8 @@
 """What can be sought in a scene: its parameters by name, where they sit, and how they are varied.
 
 Each is varied through a dimensionless x, 0 at the scene's own value: parameters above zero by their
-logarithm, value = start·eˣ; Poisson's ratio by x = value − start; a curvature by x = (value − start) · longer
-side.
+logarithm, value = start·eˣ; Poisson's ratio and a clamp's tilt by x = value − start; a curvature by
+x = (value − start) · longer side.
 """
 
 from __future__ import annotations
@@ -12,11 +12,12 @@ from math import exp, inf
 from typing import Any
 
 from comparisons.errors import BadInput
-from scenes import Chain, Curved, Scene
+from scenes import Chain, Clamped, Curved, Scene
+from scenes.supports import LARGEST_TILT, contradiction
 
 _MATERIAL = {"young": "Pa", "poisson": "", "density": "kg/m³", "damping_time": "s", "damping_rate": "1/s"}
 DAMPING = ("damping_time", "damping_rate")
-NAMES = (*_MATERIAL, "thickness", "curvature_EDGE")
+NAMES = (*_MATERIAL, "thickness", "curvature_EDGE", "tilt_EDGE")
 _POISSON = (-0.99, 0.4999)
 
 
@@ -69,9 +70,7 @@ def unknown(scene: Scene, name: str) -> Unknown:
             return Unknown(name, "1/m", values[0], -inf, inf, 1.0 / max(scene.sheet.lengths))
         raise BadInput(f"unknown = '{name}': edge '{edge}' has no support or actuator of one curvature")
     if name.startswith("tilt_"):
-        raise BadInput(
-            f"unknown = '{name}': no support has a tilt that could be sought; clamps stand upright"
-        )
+        return _tilt(scene, name, name.removeprefix("tilt_"))
     raise BadInput(f"unknown = '{name}': cannot be sought; choose from {', '.join(NAMES)}")
 
 
@@ -83,12 +82,29 @@ def _positive(scene: Scene, name: str, unit: str, value: float) -> Unknown:
     return Unknown(name, unit, value, 0.0, inf)
 
 
+def _tilt(scene: Scene, name: str, edge: str) -> Unknown:
+    for clamp in scene.supports:
+        if isinstance(clamp, Clamped) and clamp.edge == edge:
+            turned = put(scene, name, clamp.tilt or LARGEST_TILT)
+            if said := contradiction(turned.supports):
+                raise BadInput(f"unknown = '{name}': cannot be sought here, since {said}")
+            return Unknown(name, "rad", clamp.tilt, -LARGEST_TILT, LARGEST_TILT, step=1.0)
+    raise BadInput(f"unknown = '{name}': edge '{edge}' has no clamp")
+
+
 def put(scene: Scene, name: str, value: float) -> Scene:
     """The scene with the parameter at another value."""
     if name in _MATERIAL:
         return scene.model_copy(update={"material": scene.material.model_copy(update={name: value})})
     if name == "thickness":
         return scene.model_copy(update={"sheet": scene.sheet.model_copy(update={name: value})})
+    if name.startswith("tilt_"):
+        edge = name.removeprefix("tilt_")
+        supports = tuple(
+            s.model_copy(update={"tilt": value}) if s.edge == edge and isinstance(s, Clamped) else s
+            for s in scene.supports
+        )
+        return scene.model_copy(update={"supports": supports})
     edge = name.removeprefix("curvature_")
 
     def bent(holders: tuple[Any, ...]) -> tuple[Any, ...]:

@@ -24,8 +24,8 @@ def command(
         str,
         typer.Option(
             metavar="NAMES",
-            help="young, poisson, density, thickness, curvature_EDGE, damping_time, damping_rate; several "
-            "with commas.",
+            help="young, poisson, density, thickness, curvature_EDGE, tilt_EDGE (of a clamp), damping_time, "
+            "damping_rate; several with commas.",
         ),
     ] = "young",
     model: Annotated[str, typer.Option(metavar="MODEL", help="lumped, shell or solid.")] = "lumped",

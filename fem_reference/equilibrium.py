@@ -29,6 +29,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import LinearOperator, eigs
 
 from fem_reference.linear import DirectSolver, Factor, SingularMatrix
+from fem_reference.threads import one_blas_thread
 from scenes import Iteration, Status
 
 TOLERANCE = 5e-9  # residual, relative to the forces that balance
@@ -95,30 +96,31 @@ def trace(
 
     inspect: shown the path at every equilibrium on the way; a fault, if it finds one, ends it there.
     """
-    path = Path(structure.rest())
-    size, reach = 1.0, FIRST_REACH
-    factor: Factor | None = None
-    while path.load_factor < 1.0:
-        before = path.factorisations
-        try:
-            first = _Predictor(structure, solver, path, min(1.0, path.load_factor + size), reach, factor)
-            factor = first.factor if structure.symmetric else None
-            state = _newton(structure, solver, path, first)
-        except StepFailed as failure:
-            size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
-            if size < SMALLEST_STEP or path.factorisations >= FACTORISATIONS:
-                _give_up(structure, solver, path, failure)
+    with one_blas_thread():
+        path = Path(structure.rest())
+        size, reach = 1.0, FIRST_REACH
+        factor: Factor | None = None
+        while path.load_factor < 1.0:
+            before = path.factorisations
+            try:
+                first = _Predictor(structure, solver, path, min(1.0, path.load_factor + size), reach, factor)
+                factor = first.factor if structure.symmetric else None
+                state = _newton(structure, solver, path, first)
+            except StepFailed as failure:
+                size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
+                if size < SMALLEST_STEP or path.factorisations >= FACTORISATIONS:
+                    _give_up(structure, solver, path, failure)
+                    return path
+                continue
+            grown = first.target - path.load_factor
+            path.state, path.load_factor, factor = state, first.target, None
+            if (fault := inspect(path)) is not None:
+                path.status, path.message = fault
                 return path
-            continue
-        grown = first.target - path.load_factor
-        path.state, path.load_factor, factor = state, first.target, None
-        if (fault := inspect(path)) is not None:
-            path.status, path.message = fault
-            return path
-        easy = path.factorisations - before <= EASY
-        size, reach = (GROWTH * grown, GROWTH * reach) if easy else (grown, reach)
-    path.status, path.message = stability(structure, solver, path)
-    return path
+            easy = path.factorisations - before <= EASY
+            size, reach = (GROWTH * grown, GROWTH * reach) if easy else (grown, reach)
+        path.status, path.message = stability(structure, solver, path)
+        return path
 
 
 class _Predictor:

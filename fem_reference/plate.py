@@ -32,6 +32,7 @@ from fem_reference.rod import Rod
 from fem_reference.shell_rods import hold_bases
 from fem_reference.shell_supports import Supports
 from fem_reference.sparsity import Pattern
+from fem_reference.threads import one_blas_thread
 from scenes import (
     EDGES,
     Clamped,
@@ -101,14 +102,15 @@ def solve(
     free = np.flatnonzero(~np.concatenate([held.ravel(), rods.held]))
     ready = perf_counter()
 
-    stiffness = rods.stiffness(stiffness_matrix(scene, plate, section))
     u = np.concatenate([fields.ravel(), np.zeros(len(rods.held))])
     status, message = Status.CONVERGED, ""
-    try:
-        u[free] = DirectSolver().factor(stiffness[free][:, free]).solve((force - stiffness @ u)[free])
-    except SingularMatrix as error:
-        status, message = Status.SINGULAR, str(error)
-    unbalanced = stiffness @ u - force
+    with one_blas_thread():
+        stiffness = rods.stiffness(stiffness_matrix(scene, plate, section))
+        try:
+            u[free] = DirectSolver().factor(stiffness[free][:, free]).solve((force - stiffness @ u)[free])
+        except SingularMatrix as error:
+            status, message = Status.SINGULAR, str(error)
+        unbalanced = stiffness @ u - force
     done = perf_counter()
 
     size = np.linalg.norm(force) + np.linalg.norm(np.delete(unbalanced, free))

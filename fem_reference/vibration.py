@@ -28,6 +28,7 @@ from fem_reference import plate, shell, solid, solid_supports
 from fem_reference.linear import DirectSolver
 from fem_reference.materials import Section
 from fem_reference.mesh import Elements, divisions, rectangle
+from fem_reference.threads import one_blas_thread
 from scenes import Scene
 
 
@@ -82,14 +83,16 @@ def modes(
     begin = perf_counter()
     scene = scene.model_copy(update={"actuators": ()})
     along_x, along_y = divisions(scene.sheet.lengths, elements)
-    rest = REST_STATES[model](scene, (along_x, along_y), **options)
-    ready = perf_counter()
-    free = np.flatnonzero(~rest.held)
-    rigid = _free_rigid_motions(rest)
-    if not 1 <= count < len(free) - rigid:
-        raise ValueError(f"count = {count}: 1 to {len(free) - rigid - 1} on this mesh")
-    values, vectors = _lowest(rest.stiffness[free][:, free], rest.mass[free][:, free], count + rigid, scene)
-    done = perf_counter()
+    with one_blas_thread():
+        rest = REST_STATES[model](scene, (along_x, along_y), **options)
+        ready = perf_counter()
+        free = np.flatnonzero(~rest.held)
+        rigid = _free_rigid_motions(rest)
+        if not 1 <= count < len(free) - rigid:
+            raise ValueError(f"count = {count}: 1 to {len(free) - rigid - 1} on this mesh")
+        stiffness, mass = (matrix[free][:, free] for matrix in (rest.stiffness, rest.mass))
+        values, vectors = _lowest(stiffness, mass, count + rigid, scene)
+        done = perf_counter()
     shapes = np.zeros((count, rest.held.size))
     shapes[:, free] = vectors[:, rigid:].T
     return Modes(

@@ -1,0 +1,41 @@
+"""References solve on one BLAS thread, whatever is set, and leave the setting as it was."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from threadpoolctl import threadpool_info, threadpool_limits
+
+import fem_reference
+import scenes
+from fem_reference import linear
+
+SCENE = scenes.load("one-edge-clamped")
+
+
+def blas_threads() -> list[int]:
+    return [library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"]
+
+
+@pytest.mark.parametrize("model", ["plate", "shell", "solid", "modes"])
+def test_a_reference_is_solved_on_one_thread(model: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[int] = []
+    factor = linear.DirectSolver.factor
+
+    def watched(self: linear.DirectSolver, matrix: linear.csr_matrix) -> linear.Factor:
+        seen.extend(blas_threads())
+        return factor(self, matrix)
+
+    def answer() -> np.ndarray:
+        if model == "modes":
+            return fem_reference.modes(SCENE, elements=2, count=2).frequencies
+        return fem_reference.solve(SCENE, model=model, elements=2).displacement(SCENE.probe_points())
+
+    alone = answer()
+    monkeypatch.setattr(linear.DirectSolver, "factor", watched)
+    with threadpool_limits(2, user_api="blas"):
+        assert 2 in blas_threads()
+        found = answer()
+        assert 2 in blas_threads()
+    assert seen and set(seen) == {1}
+    assert found == pytest.approx(alone, rel=1e-9, abs=1e-12)

@@ -87,7 +87,7 @@ def _tilt(scene: Scene, name: str, edge: str) -> Unknown:
         if isinstance(clamp, Clamped) and clamp.edge == edge:
             turned = put(scene, name, clamp.tilt or LARGEST_TILT)
             if said := contradiction(turned.supports):
-                raise BadInput(f"unknown = '{name}': cannot be sought here, since {said}")
+                raise BadInput(f"unknown = '{name}': the supports allow no tilt there: {said}")
             return Unknown(name, "rad", clamp.tilt, -LARGEST_TILT, LARGEST_TILT, step=1.0)
     raise BadInput(f"unknown = '{name}': edge '{edge}' has no clamp")
 

@@ -302,7 +302,7 @@ def test_bad_file_leaves_with_2_and_one_line(fault, tmp_path, capsys):
         (("--unknown", "curvature_x0"), ["x0", "no support"]),
         (("--unknown", "damping_time"), ["damping_time", "first guess"]),
         (("--unknown", "tilt_x1"), ["tilt_x1", "x1", "no clamp"]),
-        (("--unknown", "tilt_x0"), ["tilt_x0", "corner", "y0"]),
+        (("--unknown", "tilt_x0"), ["tilt_x0", "no tilt", "corner", "y0"]),
         (("--model", "plate"), ["plate", "shell"]),
         (("--calibration", "fit-static"), ["fit-static"]),
         (("--lumped", "9y"), ["9y"]),

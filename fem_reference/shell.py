@@ -87,7 +87,7 @@ def solve_on(
     ready = perf_counter()
     path = trace(structure, solver, shell_watch.inspector(scene, structure, solver, graded))
     done = perf_counter()
-    status, message = shell_watch.judge(scene, path)
+    status, message = shell_watch.judge(scene, structure, path)
 
     displacement, turn = path.state.change
     forces = structure.forces(path.state, path.load_factor)

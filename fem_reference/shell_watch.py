@@ -2,7 +2,7 @@
 
 inverted   (φ,r × φ,s) · d, positive in the flat sheet, has reached zero at a Gauss point.
 weight     ρ g a/E, the strain of a sheet of side a that hangs by its own weight: beyond 0.05 a linear law of
-           stress and strain means nothing.
+           stress and strain means nothing; nor does it where the mid-surface is stretched by half.
 stretched  In an element of sides b ≥ l the in-plane shear's assumed strains do not see a motion along b
            that goes like P₂(2y/b) across it. It changes along l at the cost of the stretch along b alone,
            so that the bending moment M = D κ along l, doing work 2 M v,x ψ,x, outweighs √(A D) of it where
@@ -22,11 +22,12 @@ import numpy as np
 
 from fem_reference.equilibrium import Fault, Path, stability
 from fem_reference.linear import DirectSolver
-from fem_reference.shell_element import BENDING, GAUSS, shape
+from fem_reference.shell_element import BENDING, GAUSS, MEMBRANE, shape
 from fem_reference.shell_structure import ShellStructure, State
 from scenes import Scene, Status
 
 WEIGHT_LIMIT = 0.05
+MEMBRANE_LIMIT = 0.5
 STRETCH_LIMIT = 5.0
 STRETCHED = Fault(Status.UNSTABLE, "elements are stretched too far for how much they bend: divide it evenly")
 FLAT = 1e-6  # of the element's area in the flat sheet, below which it counts as turned inside out
@@ -65,12 +66,25 @@ def inverted(structure: ShellStructure, state: State) -> Fault | None:
 
 def stretch(structure: ShellStructure, state: State, thickness: float) -> float:
     """The largest (h κ/2) (b/l)² of all elements, κ the curvature along their shorter side."""
-    nodes = structure.element.reference[:, :9, :2]
-    sides = np.stack([np.linalg.norm(nodes[:, a] - nodes[:, b], axis=1) for a, b in ((5, 7), (6, 4))], axis=1)
+    sides = _sides(structure)
     strain = structure.element.strain(structure._gather(state.change))[:, BENDING]
     bent = np.stack([np.abs(strain[:, part]).max(axis=1) for part in (slice(0, 6), slice(6, 12))], axis=1)
     surface = 0.5 * thickness * bent / (0.5 * sides) ** 2
     return float(np.max(surface * (sides[:, ::-1] / sides) ** 2))
+
+
+def membrane_strain(structure: ShellStructure, state: State) -> float:
+    """The mid-surface's largest stretching along an element's sides, √(1 + 2 E) − 1 of Green's strain E."""
+    strain = structure.element.strain(structure._gather(state.change))[:, MEMBRANE]
+    along = np.stack([strain[:, part].mean(axis=1) for part in (slice(0, 6), slice(6, 12))], axis=1)
+    green = along / (0.5 * _sides(structure)) ** 2
+    return float(np.max(np.abs(np.sqrt(np.maximum(1.0 + 2.0 * green, 0.0)) - 1.0)))
+
+
+def _sides(structure: ShellStructure) -> np.ndarray:
+    """Lengths of the elements along r and s, (m, 2) [m]."""
+    nodes = structure.element.reference[:, :9, :2]
+    return np.stack([np.linalg.norm(nodes[:, a] - nodes[:, b], axis=1) for a, b in ((5, 7), (6, 4))], axis=1)
 
 
 def weight_strain(scene: Scene) -> float:
@@ -81,10 +95,11 @@ def weight_strain(scene: Scene) -> float:
     return weight * max(scene.sheet.lengths) / scene.material.young
 
 
-def judge(scene: Scene, path: Path) -> Fault:
-    """The status and message of a path that has ended: strains beyond the model, if the weight means them."""
-    strain = weight_strain(scene)
-    if strain <= WEIGHT_LIMIT or path.status is Status.NON_FINITE:
+def judge(scene: Scene, structure: ShellStructure, path: Path) -> Fault:
+    """The status and message of a path that has ended: strains beyond the model, if it has come to them."""
+    strain, stretched = weight_strain(scene), membrane_strain(structure, path.state)
+    within = strain <= WEIGHT_LIMIT and stretched <= MEMBRANE_LIMIT
+    if within or path.status is Status.NON_FINITE:
         return Fault(path.status, path.message)
-    said = f"ρ g a/E = {strain:.3g}, more than {WEIGHT_LIMIT:g}"
+    said = f"ρ g a/E = {strain:.3g}, the mid-surface stretched by {stretched:.3g} at most"
     return Fault(Status.STRAIN_OUTSIDE_MODEL, "; ".join(filter(None, [said, path.message])))

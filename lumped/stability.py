@@ -10,9 +10,9 @@ Both its eigenvalues stay within the unit circle as long as |trace| ≤ 1 + det 
 
     z ≤ 2  and  x ≤ 4 − 2z + z²:   h ≤ (2/ω_max)/(ξ + √(1 − 3ξ²)) for ξ < 1/2,  (1/ω_max)/ξ beyond.
 
-Undamped that is 2/ω_max, and it is never below (2/ω_max)(√(1 + ξ²) − ξ), the limit of central differences with
-the velocity half a step old (Belytschko, Liu and Moran 2000, section 6.2). Where damping is proportional to
-stiffness and mass the slower motions lie within the limit when the fastest does, and the limit is exact.
+Undamped that is 2/ω_max, and it is never below (2/ω_max)(√(1 + ξ²) − ξ), the limit of central differences
+with the velocity half a step old (Belytschko, Liu and Moran 2000, section 6.2). Where damping is proportional
+to stiffness and mass the slower motions lie within the limit when the fastest does, and the limit is exact.
 Elsewhere every x up to (ω_max h)² may come with every z up to c_max h: then the smallest x of the boundary
 counts, which is 3 from z = 1 on.
 """

@@ -188,7 +188,10 @@ def _judge(scene: Scene, problem: Problem, state: State, notes: list[str]) -> tu
         status = Status.UNSTABLE
         notes.append(f"{state.negative} directions of negative curvature")
     doubts = watch.layers(scene, problem.assembly, state.u)
-    notes.extend(filter(None, [doubts, watch.digits(problem, state)]))
+    rounded = watch.digits(problem, state)
+    if rounded is not None and status is Status.CONVERGED:
+        status = rounded.status
+    notes.extend(filter(None, [doubts, rounded.message if rounded is not None else ""]))
     if not problem.assembly.conservative:
         notes.append("per-direction springs: not central, no energy; solved with an unsymmetric tangent")
     elif not problem.conservative:

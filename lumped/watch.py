@@ -12,8 +12,8 @@ layers     A thin sheet that curves by κ both ways keeps its stretching within 
 
            A grid of cells longer than 2 δ makes it stretch over whole cells instead: what it then finds is
            an equilibrium of this grid, too stiff, and not the sheet's. κ is √|κ₁κ₂|, and a sheet that
-           bends one way only has next to no energy in the layers' mean stretch. Of 50 sheets tried
-           (docs/stability.md) all that were off by more than 5 % for this reason are told, and one more.
+           bends one way only has next to no energy in the layers' mean stretch. In the studies of
+           docs/stability.md all that are off by more than 5 % for this reason are told, and a few others.
 
 Each is said with the place on the sheet where it is worst and what to change.
 """
@@ -81,11 +81,12 @@ def fastest(lattice: Lattice, v: np.ndarray) -> str:
     return place(lattice, int(np.argmax(np.where(np.isfinite(speed), speed, np.inf))))
 
 
-def digits(problem: Problem, state: State) -> str:
-    """A sentence where the rounding of the internal force moves the equilibrium by more than DOUBTFUL."""
+def digits(problem: Problem, state: State) -> Fault | None:
+    """Where the rounding of the internal force moves the equilibrium by more than DOUBTFUL: how far, and
+    `singular` where that is as far as the sheet itself has moved, else `converged`."""
     largest = float(np.abs(state.u).max())
     if state.factor is None or largest == 0.0:
-        return ""
+        return None
     links = problem.assembly.links
     relative = np.linalg.norm(np.diff(state.u[links.nodes], axis=1)[:, 0], axis=1)
     carried = np.zeros((len(state.u), 1))
@@ -94,10 +95,11 @@ def digits(problem: Problem, state: State) -> str:
     moved = [problem.expand(state.factor.solve(problem.reduce(carried * sample))) for sample in noise]
     share = problem.assembly.rounding * float(np.abs(moved).max()) / largest
     if not share > DOUBTFUL:
-        return ""
-    return (
+        return None
+    return Fault(
+        Status.SINGULAR if share > 1.0 else Status.CONVERGED,
         f"rounding may move the masses by {share:.1g} of the largest displacement "
-        f"(condition number {state.factor.condition():.1e}): use fewer, or thicker, cells"
+        f"(condition number {state.factor.condition():.1e}): use fewer, or thicker, cells",
     )
 
 

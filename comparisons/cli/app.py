@@ -22,6 +22,7 @@ VERBS = (
     "tradeoff",
     "transfer",
     "advise",
+    "stability",
     "verify",
     "modes",
 )

@@ -31,8 +31,8 @@ OVERSHOT = 0.5  # of the slope a change begins with, that it may end with in the
 class Projective(Integrator):
     """The local/global scheme.
 
-    iterations: looks at the forces that a step may take; tolerance: of the corrections, relative to the largest
-    by the work they do.
+    iterations: looks at the forces that a step may take; tolerance: of the corrections, relative to the
+    largest by the work they do.
     """
 
     name, order = "projective", 1
@@ -52,7 +52,7 @@ class Projective(Integrator):
         self._factor = None
 
     def advance(self, state: State, at_most: float) -> Advance:
-        """One step. Raises StepFailed when a number overflows or the iterations end short of the tolerance."""
+        """One step. Raises StepFailed when a number overflows or iterations end short of the tolerance."""
         system, h, time = self.system, at_most, state.time + at_most
         if self._factor is None or self._made_for != h:
             self._factor, self._made_for = self._matrix(h), h

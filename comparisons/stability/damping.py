@@ -1,0 +1,152 @@
+"""Study `damping`: from none to a thousand times critical.
+
+The sheet starts in its first mode, 1e-3 of the thickness large; with damping in proportion to the springs
+(`damping_time`) or to the masses (`damping_rate`) its coordinate is that of one oscillator,
+
+    q¨ + 2 ξ ω q˙ + ω² q = 0,
+
+whose exact solution is the reference. Verlet's limit with stiffness-proportional damping falls like
+1/(ω_max ξ_max), and ξ_max = ξ ω_max/ω: beyond 20 000 steps for a period it is refused, with advice.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from comparisons.stability import figure as maps
+from comparisons.stability.equilibria import FALLEN
+from comparisons.stability.study import Cell, Row, Study
+from comparisons.stability.vibrating import FirstMode, follow, start, system, weightless
+from comparisons.tables import Column
+
+RATIOS = (0.0, 0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
+INTEGRATORS = ("generalised-alpha", "midpoint", "projective", "verlet")
+KINDS = ("springs", "masses")
+STEPS_PER_PERIOD, PERIODS = 100, 1
+MOST_STEPS = 20_000
+AMPLITUDE = 1e-3
+
+
+def cells(full: bool) -> list[Cell]:
+    """Damping ratio of the first mode, kind of damping, integrator."""
+    ratios = sorted({*RATIOS, 0.03, 0.3, 3.0, 30.0, 300.0}) if full else RATIOS
+    return [
+        {"integrator": name, "damping_of": kind, "damping_ratio": xi}
+        for name in INTEGRATORS
+        for kind in KINDS
+        for xi in ratios
+    ]
+
+
+def measure(integrator: str, damping_of: str, damping_ratio: float) -> Row:
+    """The largest error of the first mode's coordinate over a period, relative to its start."""
+    import lumped
+    from lumped import dynamics
+    from lumped.dynamics.integrator import StepFailed
+    from lumped.stability import SAFETY, step_limit
+
+    still = weightless()
+    springs = lumped.calibrate(still.sheet, still.material, grid=(5, 5))
+    omega = FirstMode(system(still, springs), springs).omega
+    key, value = ("damping_time", 2.0 / omega) if damping_of == "springs" else ("damping_rate", 2.0 * omega)
+    scene = weightless(**{key: value * damping_ratio})
+    equations = system(scene, springs)
+    mode = FirstMode(equations, springs)
+    step = mode.period / STEPS_PER_PERIOD
+    if integrator == "verlet":
+        step = min(step, SAFETY * step_limit(equations, np.zeros_like(equations.problem.loads.dead)).step)
+    count = int(np.ceil(PERIODS * mode.period / step))
+    if count > MOST_STEPS:
+        said = f"{count} steps of {step:.1e} s for {PERIODS} period: choose an implicit integrator"
+        return {"status": "refused", "message": said, "step": step}
+    step = PERIODS * mode.period / count
+    first = start(equations, AMPLITUDE * scene.sheet.thickness * mode.shape)
+    try:
+        states = follow(dynamics.INTEGRATORS[integrator](equations, step), first, step, count)
+    except StepFailed as failure:
+        return {"status": "diverged", "message": str(failure), "step": step}
+    q = np.array([mode.coordinate(state.u) for state in states])
+    time = step * np.arange(count + 1)
+    error = float(np.abs(q / q[0] - exact(damping_ratio, omega * time)).max())
+    row: Row = {
+        "status": "converged" if np.isfinite(q).all() else "non-finite",
+        "error": error if np.isfinite(error) else None,
+        "iterations": count,
+        "step": step,
+    }
+    if row["error"] is not None and row["error"] > 0.05:
+        row |= _mechanism(equations, mode, integrator, damping_ratio, step, error)
+    return row
+
+
+def _mechanism(equations, mode, integrator: str, damping_ratio: float, step: float, error: float) -> Row:
+    """Resolution, if steps a quarter as long take a third of the error away."""
+    from lumped.dynamics import INTEGRATORS as KNOWN
+    from lumped.dynamics.integrator import StepFailed
+
+    h, count = 0.25 * step, round(4.0 * PERIODS * mode.period / step)
+    first = start(equations, AMPLITUDE * equations.scene.sheet.thickness * mode.shape)
+    try:
+        states = follow(KNOWN[integrator](equations, h), first, h, count)
+    except StepFailed as failure:
+        return {"mechanism": "unknown", "evidence": f"a quarter of the step fails: {failure}"}
+    q = np.array([mode.coordinate(state.u) for state in states])
+    left = float(np.abs(q / q[0] - exact(damping_ratio, mode.omega * h * np.arange(count + 1))).max())
+    kind = "resolution" if left < FALLEN * error else "unknown"
+    return {"mechanism": kind, "evidence": f"a quarter of the step leaves {100 * left:.2g} %"}
+
+
+def exact(ratio: float, phase: np.ndarray) -> np.ndarray:
+    """q/q₀ of the damped oscillator from rest at the phases ω t (n,)."""
+    if ratio < 1.0:
+        turned = np.sqrt(1.0 - ratio**2)
+        swing = np.cos(turned * phase) + ratio / turned * np.sin(turned * phase)
+        return np.asarray(np.exp(-ratio * phase) * swing)
+    if ratio == 1.0:
+        return np.asarray(np.exp(-phase) * (1.0 + phase))
+    root = np.sqrt(ratio**2 - 1.0)
+    slow, fast = 1.0 / (ratio + root), ratio + root
+    return np.asarray((fast * np.exp(-slow * phase) - slow * np.exp(-fast * phase)) / (fast - slow))
+
+
+def draw(figure: Figure, rows: list[Row]) -> None:
+    """A panel a kind of damping: integrators against the damping ratio; critical damping drawn over."""
+    axes = figure.subplots(1, 2, sharey=True)
+    shown = [{**row, "at": max(row["cell"]["damping_ratio"], 1e-3)} for row in rows]
+    for axis, kind in zip(axes, KINDS, strict=True):
+        mine = [row for row in shown if row["cell"]["damping_of"] == kind]
+        if not mine:
+            continue
+        maps.tiles(
+            axis,
+            mine,
+            lambda row: row["at"],
+            lambda row: float(INTEGRATORS.index(row["cell"]["integrator"])),
+            scale=("log", "linear"),
+        )
+        axis.axvline(1.0, **maps.THEORY)
+        axis.set_yticks(range(len(INTEGRATORS)), INTEGRATORS)
+        axis.set_xlabel("damping ratio of the first mode (left end: none)")
+        axis.set_title(f"Damping in proportion to the {kind}")
+    line = Line2D([], [], label="critical damping", **{**maps.THEORY, "zorder": 1})
+    maps.key(figure, [maps.outcome(row) for row in rows], line)
+
+
+STUDY = Study(
+    name="damping",
+    title="Damping from none to a thousand times critical: error of the first mode over a period [%]",
+    says="The first mode's coordinate against the exact damped oscillator, over one period from rest, at a "
+    "hundred steps a period or Verlet's default step. `error` is relative to the start.",
+    cells=cells,
+    measure="comparisons.stability.damping:measure",
+    columns=(
+        Column("integrator"),
+        Column("damping of"),
+        Column("damping ratio", form="g"),
+        Column("step", "s", "s", 1.0, ".2e"),
+    ),
+    draw=draw,
+    size=(7.2, 2.9),
+)

@@ -1,0 +1,140 @@
+"""Study `load`: weights over nine decades, compression past buckling, links pulled to twice their length.
+
+weight       the seed's sheet, one edge clamped, from 1e-6 g to 1e3 g; ρ g a/E = 0.05 ends the model
+reversed     the same weight up and down: mirror images, to rounding
+compression  the clamped-free strip pressed along x up to ten times its Euler load π² E h³/48a² (per width),
+             with a weight that chooses the side. In one load step both models come to the equilibrium that
+             hardly bends, and say that it is not stable
+buckled      the same, the lattice asked for a stable equilibrium
+pull         the free edge pulled in its plane until the sheet doubles in length: a linear strip would at
+             N = E h; strains beyond one half are outside of the model. Before, the two models differ by their
+             laws: springs are linear in the change of length, the shell in Green's strain
+tip          the middle of the free edge pulled by a point force, in units of E h a/10: the lattice spreads it
+             over two cells, the shell's exact answer is infinite under it
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from comparisons.stability import figure as maps
+from comparisons.stability.equilibria import SIDE, compare, lattice, loaded, outcome, sheet
+from comparisons.stability.study import Cell, Row, Study
+from comparisons.tables import Column
+
+SLENDERNESS, POISSON, ONE_G = 0.016, 0.48, 2.0
+GRID = (9, 9)
+IMPERFECTION = 0.02  # load number of the weight that chooses the side a compressed sheet buckles to
+
+
+def cells(full: bool) -> list[Cell]:
+    """A kind of load and its size: in g, in Euler loads, in the pull that doubles the length."""
+    decades = np.arange(-6.0, 3.01, 0.5 if full else 1.0)
+    euler = (0.5, 0.8, 0.95, 1.05, 1.2, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0)
+    pulls = (0.001, 0.01, 0.1, 0.3, 0.6, 1.0, 1.5)
+    found: list[Cell] = [{"kind": "weight", "size": float(10.0**d)} for d in decades]
+    found += [{"kind": kind, "size": size} for kind in ("compression", "buckled") for size in euler]
+    found += [{"kind": kind, "size": size} for kind in ("pull", "tip") for size in pulls]
+    found += [{"kind": "reversed", "size": float(10.0**d)} for d in (-6, -3, 0, 1, 2)]
+    return found
+
+
+def measure(kind: str, size: float) -> Row:
+    """The row of a cell."""
+    from scenes import EdgeLoad, PointLoad
+
+    if kind == "weight":
+        return compare(sheet(SLENDERNESS, ONE_G * size), GRID)
+    if kind == "reversed":
+        return _mirrored(size)
+    scene = sheet(SLENDERNESS, IMPERFECTION)
+    young, h, a = scene.material.young, scene.sheet.thickness, scene.sheet.length_x
+    if kind == "tip":
+        return compare(
+            loaded(scene, PointLoad(at=(a, a / 2.0), force=(0.1 * size * young * h * a, 0.0, 0.0))), GRID
+        )
+    if kind == "pull":
+        force = size * young * h
+    else:
+        force = -size * np.pi**2 * young * h**3 / 12.0 / (4.0 * a**2)
+    scene = loaded(scene, EdgeLoad(edge="x1", force_per_length=(float(force), 0.0, 0.0)))
+    if kind == "buckled":
+        stable = lattice(scene, GRID, branch="stable")
+        return {
+            **outcome(stable),
+            "moved": float(np.abs(stable.displacement(scene.probe_points())).max() / SIDE),
+        }
+    return compare(scene, GRID)
+
+
+def _mirrored(size: float) -> Row:
+    """Weight up against weight down: the lattice's two answers as mirror images."""
+    up, down = sheet(SLENDERNESS, -ONE_G * size), sheet(SLENDERNESS, ONE_G * size)
+    above, below = lattice(up, GRID), lattice(down, GRID)
+    points = down.probe_points()
+    image = above.displacement(points) * np.array([1.0, 1.0, -1.0])
+    there = below.displacement(points)
+    off = float(np.abs(image - there).max() / np.abs(there).max())
+    return {**outcome(above), "error": off, "reference": outcome(below)}
+
+
+def draw(figure: Figure, rows: list[Row]) -> None:
+    """A panel a kind, a strip of tiles a model, the boundary drawn over."""
+    limit = 0.05 * 12.0 * (1.0 - POISSON**2) / SLENDERNESS**2 / ONE_G
+    panels = (
+        ("weight", limit, "Weight [g] of the seed's sheet; beyond the line ρ g a/E > 0.05"),
+        ("compression", 1.0, "Compression / Euler load; band: between a beam's and a wide plate's"),
+        ("pull", 0.5, "Pull on the edge / the pull that doubles the length; line: links half as long again"),
+        ("tip", None, "Pull on a point / (E h a/10)"),
+    )
+    axes = figure.subplots(len(panels), 1, height_ratios=(2, 3, 2, 2))
+    for axis, (kind, end, name) in zip(axes, panels, strict=True):
+        mine = [row for row in rows if row["cell"]["kind"] == kind]
+        strips = [(row, 2.0, maps.percent(row["error"])) for row in mine]
+        for row in (row for row in mine if row.get("reference")):
+            reference = {**row["reference"], "cell": row["cell"]}
+            strips.append((reference, 1.0, str(reference["iterations"])))
+        labels = ["shell: factorisations", "lattice: error [%]"]
+        if kind == "compression":
+            labels.insert(0, 'branch = "stable": u/a [%]')
+            for row in (row for row in rows if row["cell"]["kind"] == "buckled"):
+                strips.append((row, 0.0, maps.percent(row.get("moved"))))
+        if not strips:
+            continue
+        shown = [{**row, "strip": strip, "said": said} for row, strip, said in strips]
+        maps.tiles(
+            axis, shown, lambda r: r["cell"]["size"], lambda r: r["strip"], scale=("log", "linear"),
+            text=lambda r: r["said"],
+        )  # fmt: skip
+        if end is not None:
+            axis.axvline(end, **maps.THEORY)
+        if kind == "compression":
+            axis.axvspan(
+                1.0, 1.0 / (1.0 - POISSON**2), color=maps.THEORY["color"], alpha=0.18, lw=0, zorder=4
+            )
+        axis.set_yticks(range(3 - len(labels), 3), labels)
+        axis.set_xlabel(name)
+    line = Line2D([], [], label="boundary of theory", **{**maps.THEORY, "zorder": 1})
+    ended = [maps.outcome(r) for r in rows] + [r["reference"]["status"] for r in rows if r.get("reference")]
+    maps.key(figure, ended, line)
+
+
+STUDY = Study(
+    name="load",
+    title="Loads: weight, compression and pull (one edge clamped, h/a = 0.016, 9×9×2)",
+    says="Weight from 1e-6 g to 1e3 g; in-plane compression up to ten Euler loads, where one load step ends "
+    'at the equilibrium that hardly bends and says that it is not stable (`buckled`: with branch = "stable", '
+    "which leaves it); a pull on the edge up to one and a half times what doubles the length, and on a point "
+    "of it; weights reversed (`error`: of the mirror image). Boundaries: ρ g a/E = 0.05; the Euler load of "
+    "the clamped-free strip, as a beam and as a wide plate; links stretched by half. Pulled, the two models "
+    "stand for different materials: springs are linear in the change of length, the shell in Green's strain, "
+    "which hardens (a wrong limit, by as much as the strain). Under a point force the shell's exact answer "
+    "is infinite, and each grid and mesh has its own.",
+    cells=cells,
+    measure="comparisons.stability.load:measure",
+    columns=(Column("kind"), Column("size", form="g"), Column("moved", "side", "%", 100.0, ".3g")),
+    draw=draw,
+    size=(7.2, 5.6),
+)

@@ -1,0 +1,122 @@
+"""Study `mass`: neighbouring masses whose ratio reaches a million.
+
+Masses alternate like a chess board, m √r and m/√r. The lightest beside the stiffest link sets ω_max, which
+grows like r^¼; what it costs is steps. The conserving midpoint rule keeps the energy whatever the ratio.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from comparisons.stability import figure as maps
+from comparisons.stability.study import Cell, Row, Study
+from comparisons.stability.vibrating import energy, follow, measured_limit, noise, start, system, weightless
+from comparisons.tables import Column
+
+IMPLICIT_STEPS = 50
+PER_LIMIT = 20.0  # the implicit step over the explicit limit
+
+
+def cells(full: bool) -> list[Cell]:
+    """Ratios from 1 to 1e6 on several grids."""
+    grids = (5, 9, 17, 33) if full else (5, 9, 17)
+    decades = range(7) if full else (0, 2, 4, 6)
+    return [{"masses": n, "ratio": float(10.0**d)} for n in grids for d in decades]
+
+
+def measure(masses: int, ratio: float) -> Row:
+    """Verlet's limit, computed and measured; the energy that the midpoint rule loses in 50 steps."""
+    import lumped
+    from lumped.dynamics import INTEGRATORS
+    from lumped.dynamics.integrator import StepFailed
+    from lumped.stability import step_limit
+
+    scene = weightless()
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(masses, masses))
+
+    def chess(shares: np.ndarray) -> np.ndarray:
+        j, i, _ = np.unravel_index(np.arange(len(shares)), (masses, masses, 2))
+        uneven = shares * np.where((i + j) % 2, np.sqrt(ratio), 1.0 / np.sqrt(ratio))
+        changed: np.ndarray = uneven * shares.sum() / uneven.sum()
+        return changed
+
+    equations = system(scene, springs, mass=chess)
+    limit = step_limit(equations, np.zeros_like(equations.problem.loads.dead))
+    found = measured_limit(equations, limit.step)
+    step = PER_LIMIT * limit.step
+    first = start(equations, noise(equations))
+    row: Row = {"computed": limit.step, "measured": found, "error": abs(found / limit.step - 1.0)}
+    try:
+        last = follow(INTEGRATORS["midpoint"](equations, step), first, step, IMPLICIT_STEPS)[-1]
+    except StepFailed as failure:
+        return {**row, "status": "diverged", "message": f"midpoint: {failure}"}
+    drift = energy(equations, last) / energy(equations, first) - 1.0
+    status = "converged" if np.isfinite([drift, found]).all() else "non-finite"
+    return {**row, "status": status, "iterations": IMPLICIT_STEPS, "energy_drift": drift}
+
+
+def draw(figure: Figure, rows: list[Row]) -> None:
+    """Left: the limit against the ratio. Right: measured over computed, and the midpoint rule's energy."""
+    left, right = figure.subplots(1, 2)
+    drift = right.twinx()
+    for n, colour in zip(
+        sorted({r["cell"]["masses"] for r in rows}), ("#56b4e9", "#0072b2", "#002a4d", "k"), strict=False
+    ):
+        mine = [r for r in rows if r["cell"]["masses"] == n and r["status"] == "converged"]
+        ratio = np.array([r["cell"]["ratio"] for r in mine])
+        left.plot(ratio, [r["computed"] for r in mine], color=maps.THEORY["color"], lw=1.0)
+        left.plot(
+            ratio, [r["measured"] for r in mine], "o", ms=4, mfc="white", mec=colour, label=f"{n}×{n}×2"
+        )
+        right.plot(
+            ratio, [100 * (r["measured"] / r["computed"] - 1) for r in mine], "-o", ms=3, lw=0.8, color=colour
+        )
+        drift.plot(
+            ratio,
+            [max(abs(r["energy_drift"]), 1e-17) for r in mine],
+            "--s",
+            ms=2.5,
+            lw=0.7,
+            mfc="white",
+            color=colour,
+        )
+    left.set(
+        xscale="log", yscale="log", xlabel="ratio of neighbouring masses", ylabel="largest stable step [s]"
+    )
+    left.set_title("Velocity Verlet's limit")
+    right.set(
+        xscale="log",
+        xlabel="ratio of neighbouring masses",
+        ylabel="measured − computed limit [%]",
+        ylim=(-2.5, 2.5),
+    )
+    right.set_title("How well it is foreseen; the midpoint rule's energy")
+    right.axhspan(-2, 2, color="#f0f0f0", lw=0, zorder=0)
+    drift.set(yscale="log", ylabel="energy drift, midpoint (dashed)", ylim=(1e-17, 1e-3))
+    for axis in (left, right):
+        maps.plain(axis)
+    line = Line2D([], [], label="computed, 2/ω_max", **{**maps.THEORY, "zorder": 1})
+    points, labels = left.get_legend_handles_labels()
+    figure.legend(
+        [line, *points], [str(line.get_label()), *labels], loc="outside lower center", ncols=5, frameon=False
+    )
+
+
+STUDY = Study(
+    name="mass",
+    title="Neighbouring masses of unequal size",
+    says="Masses alternate like a chess board. `error`: of the computed limit of velocity Verlet against the "
+    "measured one. The conserving midpoint rule runs at twenty times that limit.",
+    cells=cells,
+    measure="comparisons.stability.mass:measure",
+    columns=(
+        Column("masses", form="d"),
+        Column("ratio", form="g"),
+        Column("computed", "s", "µs", 1e6, ".4g"),
+        Column("measured", "s", "µs", 1e6, ".4g"),
+        Column("energy drift", form=".1e"),
+    ),
+    draw=draw,
+)

@@ -1,0 +1,133 @@
+"""Study `slenderness`: from foil to block, from rigid to hanging; Poisson's ratio from 0 to 0.4999.
+
+One and two adjacent edges clamped, thickness/side against the load number ρ g h a³/D. Boundaries:
+
+    ρ g a/E = 0.05   L = 0.05 · 12 (1 − ν²) (a/h)²: beyond it a linear law of stress and strain means nothing
+    l = 2 δ          cells as long as two of the layers in which a thin sheet clamped at two edges stretches,
+                     δ = √(h/κ)/(12(1−ν²))^¼ with κ ≈ L/8a: L = 32 (h/a)/√(12(1−ν²)) (a/l)²
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from comparisons.stability import figure as maps
+from comparisons.stability.equilibria import compare, sheet
+from comparisons.stability.study import Cell, Row, Study
+from comparisons.tables import Column
+from scenes.sheet import EdgeName
+
+EDGES: dict[int, tuple[EdgeName, ...]] = {1: ("x0",), 2: ("x0", "y0")}
+MASSES = {1: 33, 2: 17}
+NAMES = {1: "one edge clamped", 2: "two edges clamped"}
+POISSON = (0.0, 0.2, 0.3, 1.0 / 3.0, 0.4, 0.48, 0.499, 0.4999)
+SEED = 0.016
+
+
+def cells(full: bool) -> list[Cell]:
+    """Slenderness by load number for both supports, the extremes of slenderness, Poisson's ratio."""
+    slender = (1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1) if full else (1e-4, 1e-3, 0.01, 0.1)
+    loads = (1e-3, 0.1, 1.0, 10.0, 30.0, 100.0, 300.0, 1e3) if full else (1e-3, 1.0, 10.0, 100.0, 1e3)
+    found: list[Cell] = [
+        {"clamped": n, "slenderness": h, "load_number": L} for n in EDGES for h in slender for L in loads
+    ]
+    found += [{"clamped": 1, "slenderness": h, "load_number": 1.0} for h in (1e-6, 1e-5, 0.3, 0.5)]
+    found += [
+        {"clamped": n, "slenderness": SEED, "load_number": 3.0, "poisson": nu}
+        for n in EDGES
+        for nu in POISSON
+    ]
+    return found
+
+
+def measure(clamped: int, slenderness: float, load_number: float, poisson: float = 0.48) -> Row:
+    """The row of a cell; the springs' area stiffness with it, in units of the axial one."""
+    import lumped
+
+    scene = sheet(slenderness, load_number, EDGES[clamped], poisson=poisson)
+    n = MASSES[clamped] if slenderness != SEED else 17
+    row = compare(scene, (n, n), single=load_number == 1.0)
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(n, n)).springs
+    axial: Any = springs.axial
+    area = springs.area / (axial if isinstance(axial, float) else axial.x)
+    return {**row, "masses": n, "area_over_axial": area}
+
+
+def draw(figure: Figure, rows: list[Row]) -> None:
+    """Maps of the lattice and the shell for both supports; Poisson's ratio below."""
+    above_below = figure.add_gridspec(2, 1, height_ratios=(5, 1))
+    axes: Any = above_below[0].subgridspec(2, 2, width_ratios=(7, 5)).subplots(sharey=True)
+    nu = 0.48
+    strength = 12.0 * (1.0 - nu**2)
+    for n, (above, below) in zip(EDGES, axes.T, strict=True):
+        mine = [r for r in rows if r["cell"]["clamped"] == n and "poisson" not in r["cell"]]
+        if not mine:
+            continue
+        place = (lambda r: r["cell"]["slenderness"], lambda r: r["cell"]["load_number"])
+        maps.tiles(above, mine, *place)
+        reached = [{**r["reference"], "error": None} for r in mine if r.get("reference")]
+        for short, row in zip(reached, mine, strict=False):
+            short["cell"] = row["cell"]
+        maps.tiles(below, reached, *place, text=lambda r: str(r["iterations"]))
+        at = np.logspace(-6, 0, 100)
+        for axis in (above, below):
+            axis.plot(at, 0.05 * strength / at**2, **maps.THEORY)
+        if n == 2:
+            cell = 1.0 / (MASSES[2] - 1)
+            above.plot(at, 32.0 * at / np.sqrt(strength) / cell**2, **{**maps.THEORY, "ls": "--"})
+        above.set_title(f"Lattice {MASSES[n]}×{MASSES[n]}×2, {NAMES[n]}")
+        below.set_title(f"Shell, {NAMES[n]}: factorisations")
+        below.set_xlabel("thickness / side")
+        above.tick_params(labelbottom=False)
+    for axis in axes[:, 0]:
+        axis.set_ylabel("load number ρ g h a³/D")
+    strip = figure.add_subplot(above_below[1])
+    soft = [r for r in rows if "poisson" in r["cell"]]
+    if soft:
+        place = (lambda r: POISSON.index(r["cell"]["poisson"]), lambda r: r["cell"]["clamped"])
+        maps.tiles(strip, soft, *place, scale=("linear", "linear"))
+        strip.axvline(POISSON.index(1.0 / 3.0), **{**maps.THEORY, "ls": ":"})
+    strip.set_xticks(range(len(POISSON)), [f"{ratio:.4g}" for ratio in POISSON])
+    strip.set_yticks(list(NAMES), list(NAMES.values()))
+    strip.set_xlabel("Poisson's ratio (h/a = 0.016, L = 3)")
+    strip.set_title("Lattice 17×17×2; left of 1/3 area springs are negative")
+    lines = [
+        Line2D([], [], label="ρ g a/E = 0.05", **{**maps.THEORY, "zorder": 1}),
+        Line2D(
+            [],
+            [],
+            label="cells twice as long as the stretching layer",
+            **{**maps.THEORY, "ls": "--", "zorder": 1},
+        ),
+        Line2D([], [], label="area springs vanish", **{**maps.THEORY, "ls": ":", "zorder": 1}),
+    ]
+    ended = [maps.outcome(r) for r in rows] + [r["reference"]["status"] for r in rows if r.get("reference")]
+    maps.key(figure, ended, *lines)
+
+
+STUDY = Study(
+    name="slenderness",
+    title="Thickness and load: where lattice and shell stand (lattice: error [%])",
+    says="Thickness over side against the load number, one and two adjacent edges clamped, ν = 0.48; then "
+    "ν from 0 to 0.4999 at h/a = 0.016 and L = 3, where `area over axial` turns negative below ν = 1/3; "
+    "`error` against the shell with 12 elements a side. Boundaries: ρ g a/E = 0.05; cells twice as long as "
+    "the layer in which a sheet clamped at two edges stretches.",
+    cells=cells,
+    measure="comparisons.stability.slenderness:measure",
+    columns=(
+        Column("clamped", form="d"),
+        Column("slenderness", form="g"),
+        Column("load number", form="g"),
+        Column("poisson", form=".4g"),
+        Column("masses", form="d"),
+        Column("area over axial", form=".3f"),
+        Column("single error", "", "%", 100.0, ".1e"),
+        Column("single status"),
+    ),
+    draw=draw,
+    size=(7.2, 6.2),
+)

@@ -1,0 +1,51 @@
+"""The cells of studies carried out through a campaign, and their rows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from math import isfinite
+
+from comparisons.campaign import Progress, Run, carry_out
+from comparisons.executors import Pool, processes
+from comparisons.stability.study import Row, Study
+from comparisons.store import Finished, Store
+
+
+def survey(
+    studies: Iterable[Study],
+    store: Store,
+    *,
+    full: bool = False,
+    workers: int = 1,
+    pool: Pool = processes,
+    progress: Callable[[Progress], None] = lambda progress: None,
+) -> list[Row]:
+    """A row per cell of every study, in order; cells that the store has are not measured again.
+
+    full: every cell, the long ones too. A cell that raises is a row with its status (`refused`, `failed` or,
+    where it took its process down, `lost`).
+    """
+    asked = [(study, cell) for study in studies for cell in study.cells(full)]
+    runs = [Run(study.measure, cell, f"{study.name} {_short(cell)}") for study, cell in asked]
+    outcomes = carry_out(runs, store, workers=workers, pool=pool, progress=progress)
+    return [row(study, cell, outcome) for (study, cell), outcome in zip(asked, outcomes, strict=True)]
+
+
+def row(study: Study, cell: dict, outcome: Finished) -> Row:
+    """A cell's row: what was found, with the keys that every row has. What is no number is None, and the
+    row not `converged`."""
+    every = {"error": None, "iterations": None, "seconds": outcome.seconds}
+    fixed = {"study": study.name, "cell": cell, "status": outcome.status, "message": outcome.message}
+    found = {**every, **outcome.row, **fixed}
+    lost = [name for name, value in found.items() if isinstance(value, float) and not isfinite(value)]
+    if lost:
+        found |= dict.fromkeys(lost)
+        if found["status"] == "converged":
+            found |= {"status": "non-finite", "message": f"no number: {', '.join(lost)}"}
+    return found
+
+
+def _short(cell: dict) -> str:
+    return " ".join(
+        f"{key}={value:g}" if isinstance(value, float) else f"{key}={value}" for key, value in cell.items()
+    )

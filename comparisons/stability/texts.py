@@ -1,0 +1,65 @@
+"""A study's table and text: how its cells ended, and every converged one that is off by more than 5 %."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+from comparisons.stability.figure import percent
+from comparisons.stability.study import Row, Study, doubtful
+from comparisons.tables import Column, Table
+
+_COMMON = (
+    Column("status"),
+    Column("error", "", "%", 100.0, ".3g"),
+    Column("iterations", form="d"),
+    Column("seconds", "s", "s", 1.0, ".2f"),
+    Column("reference"),
+    Column("message", prose=True),
+)
+
+
+def table(study: Study, rows: list[Row]) -> Table:
+    """A row per cell: the cell, how it ended, what it cost."""
+    found = []
+    for row in rows:
+        own = tuple({**row, **row["cell"]}.get(column.name.replace(" ", "_")) for column in study.columns)
+        reference = (row.get("reference") or {}).get("status")
+        shown = (row["status"], row["error"], row["iterations"], row["seconds"], reference, row["message"])
+        found.append(own + shown)
+    return Table(study.title, study.columns + _COMMON, tuple(found))
+
+
+def text(study: Study, rows: list[Row]) -> str:
+    """What a study says, in Markdown: how its cells ended, which did not converge, and which did and are off
+    by more than 5 %, with the mechanism."""
+    ended = Counter(row["status"] for row in rows)
+    counted = ", ".join(f"{count} {status}" for status, count in ended.most_common())
+    parts = [f"## {study.name}\n\n{study.says}\n", f"{len(rows)} cells: {counted}.\n"]
+    ended_early = [row for row in rows if row["status"] not in ("converged", "strain-outside-model")]
+    if ended_early:
+        parts.append("Not converged:\n")
+        parts += [f"- {_named(row['cell'])}: {row['status']}, {row['message']}" for row in ended_early]
+        parts.append("")
+    off = [row for row in rows if doubtful(row)]
+    if off:
+        parts.append("Converged, and off by more than 5 %:\n")
+        parts += [f"- {_named(row['cell'])}: {percent(row['error'])} %, {_reason(row)}" for row in off]
+        parts.append("")
+    elif any(row["error"] is not None for row in rows):
+        parts.append("No converged cell is off by more than 5 %.\n")
+    return "\n".join(parts)
+
+
+def unexplained(rows: list[Row]) -> list[Row]:
+    """Converged rows that are off by more than 5 % and have no mechanism."""
+    return [row for row in rows if doubtful(row) and row.get("mechanism", "unknown") == "unknown"]
+
+
+def _reason(row: Row) -> str:
+    said = f"{row.get('mechanism', 'unknown')}: {row.get('evidence', 'no test told')}"
+    return f"{said}; it says: {row['message']}" if row["message"] else said
+
+
+def _named(cell: dict[str, Any]) -> str:
+    return ", ".join(f"{k} {v:g}" if isinstance(v, float) else f"{k} {v}" for k, v in cell.items())

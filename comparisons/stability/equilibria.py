@@ -122,7 +122,7 @@ def mechanism(
     fine = (min(2 * grid[0] - 1, FINEST), min(2 * grid[1] - 1, FINEST))
     finer = lattice(scene, fine, springs=_refined(springs, fine))
     left = distance(scene, finer, truth)
-    if left is not None and left < FALLEN * off:
+    if finer.status is ours.status and left is not None and left < FALLEN * off:
         said = f"{fine[0]}×{fine[1]} masses leave {100 * left:.2g} %"
         return {"mechanism": "resolution", "evidence": said}
     sharper = shell(scene, 2 * elements)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from math import isfinite
 
 from comparisons.campaign import Progress, Run, carry_out
 from comparisons.executors import Pool, processes
@@ -32,17 +31,10 @@ def survey(
 
 
 def row(study: Study, cell: dict, outcome: Finished) -> Row:
-    """A cell's row: what was found, with the keys that every row has. What is no number is None, and the
-    row not `converged`."""
+    """A cell's row: what was found, with the keys that every row has."""
     every = {"error": None, "iterations": None, "seconds": outcome.seconds}
     fixed = {"study": study.name, "cell": cell, "status": outcome.status, "message": outcome.message}
-    found = {**every, **outcome.row, **fixed}
-    lost = [name for name, value in found.items() if isinstance(value, float) and not isfinite(value)]
-    if lost:
-        found |= dict.fromkeys(lost)
-        if found["status"] == "converged":
-            found |= {"status": "non-finite", "message": f"no number: {', '.join(lost)}"}
-    return found
+    return {**every, **outcome.row, **fixed}
 
 
 def _short(cell: dict) -> str:

@@ -1,0 +1,208 @@
+"""Stability studies: their cells, rows and texts, the limits they promise, the command from end to end."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from test_cli import one_line, run
+
+import lumped
+from comparisons.campaign import campaign
+from comparisons.stability import (
+    STUDIES,
+    Study,
+    curved_edge,
+    damping,
+    mass,
+    stiffness,
+    survey,
+    texts,
+    time_step,
+)
+from comparisons.stability.equilibria import compare, mechanism, sheet, shell
+from comparisons.stability.slenderness import MASSES
+from comparisons.stability.slenderness import measure as slender
+from comparisons.tables import Column
+from scenes import EdgeLoad, Status
+
+NAMES = ["time-step", "stiffness", "slenderness", "grid", "load", "damping", "mass", "curved-edge"]
+
+
+def test_the_studies_are_those_asked_for():
+    assert list(STUDIES) == NAMES
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_cells_are_plain_and_distinct_and_the_full_map_has_more(name):
+    study = STUDIES[name]
+    default, full = ([json.dumps(c, sort_keys=True) for c in study.cells(f)] for f in (False, True))
+    assert len(set(default)) == len(default) > 10 and len(set(full)) == len(full) >= len(default)
+    assert set(default) <= set(full)
+
+
+def fake(cells, measure="campaign_tasks:square"):
+    return Study(
+        "fake", "A title", "What is varied.", lambda full: cells, measure, (Column("x"),), lambda f, r: None
+    )
+
+
+def test_every_cell_is_a_row_with_a_status_whatever_happens(tmp_path):
+    with campaign(tmp_path) as store:
+        good = survey([fake([{"x": 2.0}, {"x": 3.0}])], store)
+        bad = survey([fake([{}], f"campaign_tasks:{task}") for task in ("refuse", "fail", "die")], store)
+    assert [(row["study"], row["cell"], row["status"]) for row in good] == [
+        ("fake", {"x": 2.0}, "done"),
+        ("fake", {"x": 3.0}, "done"),
+    ]
+    assert [row["status"] for row in bad] == ["refused", "failed", "lost"]
+    assert all(row["message"] for row in bad)
+    assert all({"error", "iterations", "seconds"} <= row.keys() for row in good + bad)
+
+
+def test_texts_list_what_is_off_with_its_mechanism_and_what_did_not_converge():
+    every = {"study": "fake", "message": "", "iterations": 1, "seconds": 0.1, "status": "converged"}
+    rows = [
+        {**every, "cell": {"x": "off"}, "error": 0.3},
+        {**every, "cell": {"x": "told"}, "error": 0.2, "mechanism": "resolution", "evidence": "halved"},
+        {**every, "cell": {"x": "fine"}, "error": 0.01},
+        {**every, "cell": {"x": "lost"}, "error": None, "status": "diverged", "message": "too far"},
+    ]
+    said = texts.text(fake([]), rows)
+    assert "4 cells: 3 converged, 1 diverged." in said
+    assert "- x lost: diverged, too far" in said
+    assert "- x off: 30 %, unknown: no test told" in said
+    assert "- x told: 20 %, resolution: halved" in said
+    assert "fine" not in said
+    assert [row["cell"]["x"] for row in texts.unexplained(rows)] == ["off"]
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.3, 1.0])
+@pytest.mark.parametrize("vertical", ["4 C", "E l²/h"])
+def test_the_measured_explicit_limit_is_the_computed_one_and_the_default_step_safe(ratio, vertical):
+    row = time_step.measure("verlet", masses=5, vertical=vertical, damping_ratio=ratio, slenderness=0.016)
+    assert row["error"] < 0.02 and row["status"] == "converged" and row["iterations"] >= time_step.SAFE_STEPS
+
+
+def test_uneven_masses_move_the_limit_as_computed():
+    rows = [mass.measure(5, ratio) for ratio in (1.0, 1e6)]
+    assert all(row["error"] < 0.02 and row["status"] == "converged" for row in rows)
+    assert rows[1]["computed"] < 2e-3 * rows[0]["computed"]
+    assert all(abs(row["energy_drift"]) < 1e-8 for row in rows)
+
+
+@pytest.mark.parametrize("integrator", time_step.IMPLICIT)
+def test_implicit_steps_end_in_the_theory_s_error_or_a_status(integrator):
+    steps = (1e-4, 1e-2, 0.1 if integrator == "projective" else 1.0)
+    fine, coarse, far = (time_step.measure(integrator, step=step) for step in steps)
+    assert fine["status"] == "converged" and fine["error"] < 2e-4
+    if integrator == "projective":  # implicit Euler: tan⁻¹(ωh)/ωh, (ωh)²/3
+        assert coarse["error"] == pytest.approx(4.0 * coarse["theory"], rel=0.05)
+    else:
+        assert coarse["error"] == pytest.approx(coarse["theory"], rel=0.05)
+    assert far["status"] == "diverged" or far["mechanism"] == "resolution"
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.3, 1.0, 3.0, 1000.0])
+def test_the_damped_oscillator_is_exact(ratio):
+    times = np.linspace(0.0, 6.0, 13)
+    truth = solve_ivp(
+        lambda t, y: [y[1], -y[0] - 2.0 * ratio * y[1]],
+        (0.0, 6.0),
+        [1.0, 0.0],
+        "Radau",
+        times,
+        rtol=1e-10,
+        atol=1e-12,
+    )
+    assert damping.exact(ratio, times) == pytest.approx(truth.y[0], abs=1e-7)
+
+
+def test_damping_is_followed_from_none_to_a_thousand_times_critical():
+    for ratio in (0.0, 1.0, 1000.0):
+        row = damping.measure("generalised-alpha", "springs", ratio)
+        assert row["status"] == "converged" and row["error"] < 2e-3
+    assert damping.measure("verlet", "springs", 1000.0)["status"] == "refused"
+
+
+@pytest.mark.parametrize("slenderness", [1e-4, 1e-2])
+def test_thin_sheets_converge_and_agree_at_every_load(slenderness):
+    for load in (1e-3, 10.0):
+        row = slender(1, slenderness, load)
+        assert row["status"] == row["reference"]["status"] == "converged"
+        assert row["error"] < 0.05
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("slenderness", [1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1])
+@pytest.mark.parametrize("load", [1e-3, 1.0, 30.0, 300.0, 1e3])
+def test_one_clamped_edge_converges_everywhere_within_the_model(slenderness, load):
+    row = slender(1, slenderness, load)
+    weight = load * slenderness**2 / (12.0 * (1.0 - 0.48**2))
+    ended = "converged" if weight <= 0.05 else "strain-outside-model"
+    assert MASSES[1] == 33
+    assert row["status"] == row["reference"]["status"] == ended
+    assert ended != "converged" or row["error"] < 0.05
+
+
+def test_a_thin_sheet_clamped_twice_is_said_not_to_be_unique_on_the_grid():
+    row = slender(2, 1e-4, 10.0)
+    assert row["error"] > 0.05 and "not unique" in row["message"] and row["mechanism"] == "resolution"
+
+
+def test_single_precision_says_when_it_has_no_digits_left():
+    scene = sheet(1e-5, 1.0)
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(33, 33))
+    single = lumped.solve(scene, springs, precision="single")
+    assert single.status is Status.SINGULAR and "rounding" in single.message
+    assert lumped.solve(scene, springs).status is Status.CONVERGED
+    row = stiffness.measure(young=1e13)
+    assert row["single_status"] == "converged" and row["single_error"] < 1e-5
+
+
+def test_mechanisms():
+    coarse = compare(sheet(0.016, 3.0), (3, 3))
+    assert coarse["error"] > 0.05 and coarse["mechanism"] == "resolution"
+    uneven = stiffness.measure(family="axial", contrast=10.0)
+    assert uneven["mechanism"] == "wrong limit"
+    scene = sheet(0.016, 0.02)
+    force = 1.5 * np.pi**2 * scene.material.young * scene.sheet.thickness**3 / 48.0 / scene.sheet.length_x**2
+    pressed = scene.model_copy(update={"loads": (EdgeLoad(edge="x1", force_per_length=(-force, 0.0, 0.0)),)})
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(9, 9))
+    bent, flat = lumped.solve(pressed, springs, branch="stable"), shell(pressed)
+    assert bent.status is Status.CONVERGED and flat.status is Status.UNSTABLE
+    assert mechanism(pressed, (9, 9), 12, bent, flat)["mechanism"] == "branch"
+
+
+def test_a_curved_clamp_snaps_and_says_where():
+    row = curved_edge.measure(turn=-0.25, load_number=10.0)
+    assert row["status"] == "converged" and "snapped at load factor" in row["message"]
+
+
+def test_command_writes_maps_tables_and_texts_and_resumes(tmp_path, capsys, monkeypatch):
+    for name, study in STUDIES.items():  # each map must be drawn with whatever cells there are
+        few = study.cells(False)[:3]
+        monkeypatch.setitem(STUDIES, name, replace(study, cells=lambda full, few=few: few))
+    asked = ("stability", "--workers", "2", "--out", str(tmp_path))
+    names = [part for name in NAMES for part in ("--study", name.replace("-", " "))]
+    assert run(*asked, *names) == 0
+    said = capsys.readouterr().out
+    for name in NAMES:
+        assert name in said
+        for suffix in ("png", "pdf", "csv"):
+            assert (tmp_path / f"{name}.{suffix}").stat().st_size > 100
+        assert f"## {name}" in (tmp_path / "stability.md").read_text()
+    rows = json.loads((tmp_path / "stability.json").read_text())["rows"]
+    assert len(rows) == 3 * len(NAMES) and all(row["status"] for row in rows)
+    before = (tmp_path / "campaign.sqlite").stat().st_mtime_ns
+    assert run(*asked, "--json") == 0
+    assert json.loads(capsys.readouterr().out)["rows"] == rows
+    assert (tmp_path / "campaign.sqlite").stat().st_mtime_ns == before
+
+
+def test_an_unknown_study_is_refused_in_one_line(capsys):
+    assert run("stability", "--study", "weather") == 2
+    assert "study" in (said := one_line(capsys)) and "weather" in said and "time-step" in said

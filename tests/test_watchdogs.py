@@ -1,0 +1,138 @@
+"""What ends a run early says its status, the place on the sheet, and what to change."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fem_reference
+import lumped
+from comparisons.stability.equilibria import loaded, sheet
+from comparisons.stability.vibrating import start, system
+from fem_reference import shell_watch
+from fem_reference.mesh import rectangle
+from fem_reference.shell import discretise
+from fem_reference.shell_structure import State as ShellState
+from lumped import watch
+from lumped.dynamics import watchdog
+from lumped.dynamics.system import State
+from lumped.statics import pose
+from scenes import EdgeLoad, Scene, Status
+
+HEAVY = sheet(0.016, 1e3)  # statics stand a load number of a thousand, a fall from the flat sheet does not
+
+
+def calibrated(scene: Scene, n: int = 5):
+    return lumped.calibrate(scene.sheet, scene.material, grid=(n, n))
+
+
+@pytest.fixture(scope="module")
+def problem():
+    scene = sheet(0.016, 1.0)
+    return pose(scene, calibrated(scene))
+
+
+def pressed(share: float) -> Scene:
+    """A sheet pressed in its plane by a share of E h."""
+    scene = sheet(0.016, 0.02)
+    force = share * scene.material.young * scene.sheet.thickness
+    return loaded(scene, EdgeLoad(edge="x1", force_per_length=(-force, 0.0, 0.0)))
+
+
+def test_a_whole_lattice_has_nothing_to_say(problem):
+    assert watch.broken(problem.assembly, np.zeros_like(problem.loads.dead)) is None
+
+
+def test_a_collapsed_link_is_told_with_its_place(problem):
+    u = np.zeros_like(problem.loads.dead)
+    lattice = problem.assembly.lattice
+    first, second = lattice.columns()[2, 3:5, 0]
+    u[second] = (lattice.positions[first] - lattice.positions[second]) * (1.0 - 1e-8)
+    fault = watch.broken(problem.assembly, u)
+    assert fault is not None and fault.status is Status.INVERTED
+    assert "no length left" in fault.message and "y = 0.094 m" in fault.message
+
+
+def test_an_inverted_cell_is_told_with_its_place(problem):
+    u = np.zeros_like(problem.loads.dead)
+    lattice = problem.assembly.lattice
+    corner = lattice.columns()[0, 0]
+    u[corner, 2] = -2.2 * lattice.positions[corner, 2]  # four neighbours' layers change places
+    for column in (lattice.columns()[0, 1], lattice.columns()[1, 0], lattice.columns()[1, 1]):
+        u[column, 2] = -2.2 * lattice.positions[column, 2]
+    fault = watch.broken(problem.assembly, u)
+    assert fault is not None and fault.status is Status.INVERTED
+    assert "turned inside out" in fault.message and "x = 0 m, y = 0 m" in fault.message
+
+
+def test_a_number_out_of_range_is_told_with_its_place(problem):
+    u = np.zeros_like(problem.loads.dead)
+    u[problem.assembly.lattice.columns()[4, 4, 1], 2] = np.nan
+    fault = watch.broken(problem.assembly, u)
+    assert fault is not None and fault.status is Status.NON_FINITE and "x = 0.188 m" in fault.message
+
+
+@pytest.mark.parametrize("share", [1.0, 5.0, 50.0])
+def test_a_crushed_sheet_ends_in_a_status(share):
+    scene = pressed(share)
+    solution = lumped.solve(scene, calibrated(scene))
+    assert solution.status is Status.INVERTED
+    assert "load factor" in solution.message and "refine" in solution.message and "x = " in solution.message
+    truth = fem_reference.solve(scene, model="shell", elements=4)
+    assert truth.status in (Status.STEP_LIMIT, Status.INVERTED, Status.UNSTABLE) and truth.message
+    for answer in (solution, truth):
+        assert np.isfinite(answer.mesh.point_data["displacement"]).all()
+
+
+@pytest.mark.parametrize("integrator", ["verlet", "generalised-alpha", "midpoint"])
+def test_a_sheet_that_falls_too_hard_ends_in_a_status(integrator):
+    springs = calibrated(HEAVY)
+    period = 1.0 / lumped.modes(HEAVY, springs, 1).frequencies[0]
+    run = lumped.simulate(HEAVY, springs, 2.0 * period, integrator=integrator)
+    assert run.status in (Status.INVERTED, Status.DIVERGED)
+    assert run.message.startswith("at ") and ("refine" in run.message or "smaller" in run.message)
+    assert all(np.isfinite(u).all() for u in run.probes.values())
+
+
+def test_energy_from_nowhere_is_told_with_time_and_place(problem):
+    scene = sheet(0.016, 1.0)
+    equations = system(scene, calibrated(scene))
+    state = start(equations, np.zeros_like(problem.loads.dead))
+    v = np.zeros_like(state.v)
+    v[equations.assembly.lattice.columns()[2, 4, 0], 2] = 1.0
+    moving = State(0.25, state.u, v, state.a)
+    row = np.array([0.25, 1.0, 1.0, 0.0, 0.0, 0.0])  # time, kinetic, elastic, potential, dissipated, work
+    assert watchdog.bark(equations, moving, row, origin=0.0, round_about=3.0) is None
+    fault = watchdog.bark(equations, moving, row, origin=0.0, round_about=1.0)
+    assert fault is not None and fault.status is Status.DIVERGED
+    assert "0.25 s" in fault.message and "x = 0.188 m, y = 0.094 m" in fault.message
+    row[2] = np.inf
+    fault = watchdog.bark(equations, moving, row, origin=0.0, round_about=1.0)
+    assert fault is not None and fault.status is Status.NON_FINITE
+
+
+def test_a_stagnating_integrator_stops(monkeypatch):
+    monkeypatch.setattr(watchdog, "MOST_STEPS", 3)
+    scene = sheet(0.016, 1.0)
+    run = lumped.simulate(scene, calibrated(scene), 1.0, integrator="generalised-alpha", every=0.5)
+    assert run.status is Status.STEP_LIMIT and "without reaching the next sample" in run.message
+
+
+def test_the_shell_knows_its_mid_surface_s_stretch_and_its_inverted_elements():
+    scene = sheet(0.016, 1.0)
+    structure, nodes = discretise(rectangle(scene.sheet, (2, 3)), scene)
+    change = np.zeros_like(structure.rest().change)
+    change[0][:, 0] = 0.6 * nodes[:, 0]
+    stretched = ShellState(change)
+    assert shell_watch.membrane_strain(structure, stretched) == pytest.approx(0.6, rel=1e-9)
+    assert shell_watch.inverted(structure, stretched) is None
+    change[0][:, 0] = -1.5 * nodes[:, 0]  # a mirror image of half the length
+    fault = shell_watch.inverted(structure, ShellState(change))
+    assert fault is not None and fault.status is Status.INVERTED and "use more elements" in fault.message
+
+
+def test_a_sheet_pulled_out_of_its_model_says_so():
+    truth = fem_reference.solve(pressed(-1.2), model="shell", elements=4)
+    lattice = lumped.solve(pressed(-0.8), calibrated(HEAVY))
+    assert truth.status is lattice.status is Status.STRAIN_OUTSIDE_MODEL
+    assert "stretched by" in truth.message and "link strain" in lattice.message

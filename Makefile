@@ -4,7 +4,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 OUT    ?= demo
 
-.PHONY: help install demo test verify locking transfer tradeoff advisor-study lint clean
+.PHONY: help install demo test verify locking transfer tradeoff advisor-study stability lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
@@ -13,6 +13,7 @@ help:
 	@echo "make transfer  every calibration on every scene of the transfer study (ten minutes; files in $(OUT)/transfer/)"
 	@echo "make tradeoff  error against time on the seed's test 1, with the picture (files in $(OUT)/)"
 	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/; up to half an hour)"
+	@echo "make stability where each solver holds, degrades, refuses or breaks: eight maps (a quarter of an hour; files in $(OUT)/stability/)"
 	@echo "make install   set up only: $(BIN)/sheetbench"
 	@echo "make clean     remove the environment and the demo's files"
 
@@ -51,6 +52,10 @@ tradeoff: install
 
 advisor-study: install
 	@$(BIN)/python -m comparisons.advisor_study --out $(OUT)
+
+stability: install
+	@$(BIN)/sheetbench stability --out $(OUT)/stability
+	@$(BIN)/python -m pytest -m slow tests/test_stability.py
 
 lint: install
 	@$(BIN)/ruff check .

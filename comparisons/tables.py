@@ -42,9 +42,8 @@ class Column:
             return "–"
         if not self.numeric:
             return str(value)
-        return format(value if self.form.endswith("d") else value * self.scale, self.form).replace(
-            "-", "−", 1
-        )
+        scaled = value if self.form.endswith("d") else value * self.scale
+        return format(scaled, self.form).replace("-", "−")
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,8 @@ gregory    Gregory's end-corrected weights 5/12, 13/12, 1, … along each side: 
            error of the edges gone. On the seed's sheet at 9×9×2 the first three frequencies are within 1 %
            instead of 3.5 % (tests/test_vibration.py).
 
-Loads stay tributary: static deflections were calibrated with them.
+Loads stay tributary: static deflections were calibrated with them. With "gregory" weight and inertia are
+therefore shared out differently, and a sheet that falls freely would bend a little.
 Source: Gregory's quadrature, e.g. Hildebrand, Introduction to Numerical Analysis, 5.9.
 """
 

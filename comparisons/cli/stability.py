@@ -19,8 +19,8 @@ def command(
         typer.Option(
             "--study",
             metavar="NAME",
-            help="Only this study, may be repeated: time-step, stiffness, slenderness, grid, load, damping, mass "
-            "or curved-edge. All unless given.",
+            help="Only this study, may be repeated: time-step, stiffness, slenderness, grid, load, damping, "
+            "mass or curved-edge. All unless given.",
             show_default=False,
         ),
     ] = None,

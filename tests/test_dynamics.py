@@ -84,6 +84,12 @@ def test_integrators_agree_with_solve_ivp(reference, name, step):
 ORDER_STEPS = {"verlet": 4e-5, "generalised-alpha": 4e-5, "midpoint": 4e-5, "projective": 1e-4}
 
 
+def test_an_explicit_run_without_an_end_is_refused():
+    asked = scene(damping_time=10.0)
+    with pytest.raises(ValueError, match=r"'verlet': would take \d\.\de\+\d+ steps.*ω_max.*implicit"):
+        lumped.simulate(asked, springs(asked), 1.0, integrator="verlet")
+
+
 @pytest.mark.parametrize("damping", [0.0, 1e-3])
 @pytest.mark.parametrize("name", list(INTEGRATORS))
 def test_observed_order_is_the_declared_one(name, damping):

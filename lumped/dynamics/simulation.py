@@ -36,6 +36,7 @@ from scenes import Chain, Clamped, Curved, History, Scene, Status
 
 SAMPLES_PER_PERIOD = 100
 STEPS_PER_PERIOD = 200  # of implicit integrators with a fixed step
+MOST_DEFAULT_STEPS = 10_000_000  # that an explicit run takes unasked: an hour or more
 SAMPLES_PER_CHECKPOINT = 50
 
 
@@ -72,7 +73,8 @@ def simulate(
     precision: of the internal force (see `lumped.assembly`). options: the integrator's own (`radius`,
     `iterations`).
 
-    Raises ValueError for an unknown integrator, a step above the limit of `verlet`, a folder of another run.
+    Raises ValueError for an unknown integrator, a step above the limit of `verlet`, more than ten million
+    default steps of it, a folder of another run.
     """
     if integrator not in INTEGRATORS:
         raise ValueError(f"integrator = {integrator!r}: unknown; choose from {', '.join(INTEGRATORS)}")
@@ -166,6 +168,12 @@ def _prepare(
         limit = step_limit(system, start.u)
         if step is not None and step > limit.step:
             raise ValueError(f"step = {step:g} s: above the stability limit of verlet, {limit.describe()}")
+        count = duration / (SAFETY * limit.step)
+        if step is None and count > MOST_DEFAULT_STEPS:
+            raise ValueError(
+                f"integrator = 'verlet': would take {count:.1e} steps, its stability limit being "
+                f"{limit.describe()}; choose an implicit integrator, or give a step to insist"
+            )
         step = step if step is not None else SAFETY * limit.step
     wanted = step if step is not None else period / STEPS_PER_PERIOD
     steps = max(int(np.ceil(spacing / wanted - 1e-9)), 1)

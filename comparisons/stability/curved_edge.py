@@ -41,6 +41,12 @@ def measure(turn: float, load_number: float) -> Row:
     return compare(sheet(SLENDERNESS, load_number, supports=supports), GRID, elements=ELEMENTS)
 
 
+def _along(row: Row) -> float:
+    """Where a turn is drawn: at its square root, for small ones to have room."""
+    turn = float(row["cell"]["turn"])
+    return float(np.copysign(np.sqrt(abs(turn)), turn))
+
+
 def _said(row: Row) -> str:
     """The error, and `s` for each snap on the way."""
     snaps = "s" * row["message"].count("snapped")
@@ -57,22 +63,28 @@ def draw(figure: Figure, rows: list[Row]) -> None:
     def at(row: Row) -> float:
         return max(float(row["cell"]["load_number"]), lowest)
 
-    maps.tiles(left, rows, lambda r: r["cell"]["turn"], at, scale=("linear", "log"), text=_said)
+    maps.tiles(left, rows, _along, at, scale=("linear", "log"), text=_said)
     truths = [{**r["reference"], "cell": r["cell"], "error": None} for r in rows if r.get("reference")]
     maps.tiles(
         right,
         truths,
-        lambda r: r["cell"]["turn"],
+        _along,
         at,
         scale=("linear", "log"),
         text=lambda r: str(r["iterations"]),
     )
-    turns = np.linspace(-1.2, 1.2, 200)
+    turns = np.linspace(-1.2, 1.2, 400)
     nu = 0.48
     share = np.where(turns > 0.0, 1.0 - nu, 1.0 + nu)
     for axis in (left, right):
-        axis.plot(turns, np.maximum(2.0 * share * 2.0 * np.pi * np.abs(turns), 1e-3), **maps.THEORY)
-        axis.set_xlabel("turn of the rod: κ a / 2π")
+        axis.plot(
+            np.sign(turns) * np.sqrt(np.abs(turns)),
+            np.maximum(2.0 * share * 2.0 * np.pi * np.abs(turns), 1e-3),
+            **maps.THEORY,
+        )
+        axis.set_xlabel("turn of the rod: κ a / 2π (drawn at its square root)")
+        ticks = np.array([-1.0, -0.5, -0.25, -0.1, 0.0, 0.1, 0.25, 0.5, 1.0])
+        axis.set_xticks(np.sign(ticks) * np.sqrt(np.abs(ticks)), [f"{turn:g}" for turn in ticks])
     left.set_ylabel("load number ρ g h a³/D (lowest row: none)")
     left.set_title(f"Lattice {GRID[0]}×{GRID[1]}×2: error [%]; s: snapped on the way")
     right.set_title(f"Shell {ELEMENTS}×{ELEMENTS}: factorisations")

@@ -192,7 +192,8 @@ def draw(figure: Figure, rows: list[Row]) -> None:
         Line2D([], [], color=maps.DARK, lw=0.9, ls=(0, (4, 2)), label="central differences"),
         *(
             Line2D([], [], ls="", marker="o", mfc="white", mec=c, label=f"{n}×{n}×2")
-            for n, c in list(shades.items())[:3]
+            for n, c in shades.items()
+            if any(row["cell"]["masses"] == n for row in explicit)
         ),
         Line2D([], [], ls="", marker="^", mfc="white", mec=maps.DARK, label="kz = E l²/h"),
         *(

@@ -33,7 +33,7 @@ demo: install
 	@$(BIN)/sheetbench compare two-edges-clamped --lumped 9 --reference shell --out $(OUT)
 
 test: install lint
-	@$(BIN)/python -m pytest
+	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile
 
 verify: install
 	@$(BIN)/sheetbench verify

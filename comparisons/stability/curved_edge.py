@@ -18,7 +18,7 @@ from matplotlib.lines import Line2D
 
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import SIDE, compare, sheet
-from comparisons.stability.study import Cell, Row, Study
+from comparisons.stability.study import Cell, Row, Study, percent
 from comparisons.tables import Column
 
 SLENDERNESS, GRID, ELEMENTS = 0.008, (17, 17), 12
@@ -50,7 +50,7 @@ def _along(row: Row) -> float:
 def _said(row: Row) -> str:
     """The error, and `s` for each snap on the way."""
     snaps = "s" * row["message"].count("snapped")
-    return "\n".join(filter(None, [maps.percent(row["error"]), snaps]))
+    return "\n".join(filter(None, [percent(row["error"]), snaps]))
 
 
 def draw(figure: Figure, rows: list[Row]) -> None:
@@ -95,8 +95,9 @@ def draw(figure: Figure, rows: list[Row]) -> None:
 STUDY = Study(
     name="curved-edge",
     title="A clamp bent up to a full circle, with weight for and against it (h/a = 0.008)",
-    says="The clamped edge bent to a share of a full circle, both ways, under weights up to a load number of "
-    "30. Boundary: L/2 = (1 ± ν)|κ a|, where the weight can carry a tape spring's fold.",
+    says="The clamped edge bent to a share of a full circle, both ways, under its weight, at load numbers up "
+    "to 30 (100 in the full map). Boundary: L/2 = (1 ± ν)|κ a|, where the weight can carry a tape spring's "
+    "fold.",
     cells=cells,
     measure="comparisons.stability.curved_edge:measure",
     columns=(Column("turn", form="g"), Column("load number", form="g")),

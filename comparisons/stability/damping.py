@@ -17,7 +17,7 @@ from matplotlib.lines import Line2D
 
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import FALLEN
-from comparisons.stability.study import Cell, Row, Study
+from comparisons.stability.study import Cell, Row, Study, percent
 from comparisons.stability.vibrating import FirstMode, follow, start, system, weightless
 from comparisons.tables import Column
 
@@ -95,7 +95,7 @@ def _mechanism(equations, mode, integrator: str, damping_ratio: float, step: flo
     q = np.array([mode.coordinate(state.u) for state in states])
     left = float(np.abs(q / q[0] - exact(damping_ratio, mode.omega * h * np.arange(count + 1))).max())
     kind = "resolution" if left < FALLEN * error else "unknown"
-    return {"mechanism": kind, "evidence": f"a quarter of the step leaves {100 * left:.2g} %"}
+    return {"mechanism": kind, "evidence": f"a quarter of the step leaves {percent(left)} %"}
 
 
 def exact(ratio: float, phase: np.ndarray) -> np.ndarray:

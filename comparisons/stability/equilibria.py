@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.displacement import error as probe_error
-from comparisons.stability.study import LARGE, Row
+from comparisons.stability.study import LARGE, Row, percent
 from scenes import Clamped, Gravity, Load, Material, Scene, Sheet, Solution, Status
 from scenes.sheet import EdgeName
 
@@ -123,22 +123,22 @@ def mechanism(
     finer = lattice(scene, fine, springs=_refined(springs, fine))
     left = distance(scene, finer, truth)
     if finer.status is ours.status and left is not None and left < FALLEN * off:
-        said = f"{fine[0]}×{fine[1]} masses leave {100 * left:.2g} %"
+        said = f"{fine[0]}×{fine[1]} masses leave {percent(left)} %"
         return {"mechanism": "resolution", "evidence": said}
     sharper = shell(scene, 2 * elements)
     left = distance(scene, ours, sharper)
     if left is not None and left < FALLEN * off:
         return {
             "mechanism": "resolution",
-            "evidence": f"of the reference: {2 * elements} elements a side leave {100 * left:.2g} %",
+            "evidence": f"of the reference: {2 * elements} elements a side leave {percent(left)} %",
         }
     moved = _there_and_back(scene, grid, springs, ours)
     if moved is not None and moved > LARGE:
-        said = f"back from {BACK_FROM:g} times the load it stands {100 * moved:.2g} % away"
+        said = f"back from {BACK_FROM:g} times the load it stands {percent(moved)} % away"
         return {"mechanism": "branch", "evidence": said}
     kept, left = distance(scene, finer, truth), distance(scene, finer, sharper)
     if kept is not None and left is not None and moved is not None:
-        said = f"{fine[0]}×{fine[1]} masses keep {100 * kept:.2g} %, {100 * left:.2g} % of a finer shell's"
+        said = f"{fine[0]}×{fine[1]} masses keep {percent(kept)} %, {percent(left)} % of a finer shell's"
         return {"mechanism": "wrong limit", "evidence": said}
     return {"mechanism": "unknown", "evidence": f"{fine[0]}×{fine[1]} masses: {finer.status}"}
 

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from comparisons.files import whole
-from comparisons.stability.study import LARGE, Row, Study
+from comparisons.stability.study import LARGE, Row, Study, percent
 
 DPI = 200
 DARK, GREY = "#222222", "#8a8a8a"
@@ -110,17 +110,6 @@ def tiles(
 
 def _mid(edges: np.ndarray, i: int, scale: str) -> float:
     return float(np.sqrt(edges[i] * edges[i + 1]) if scale == "log" else 0.5 * (edges[i] + edges[i + 1]))
-
-
-def percent(error: float | None) -> str:
-    """An error as it stands in a tile."""
-    if error is None:
-        return ""
-    if error < 5e-5:
-        return "0"
-    if error >= 1.0:
-        return f"{100 * error:.0f}"
-    return f"{100 * error:.2f}" if error < 0.01 else f"{100 * error:.2g}"
 
 
 def key(figure: Figure, found: Sequence[str], *lines: Any, columns: int = 4) -> None:

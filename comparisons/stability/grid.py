@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import compare, distance, outcome, sheet, shell
-from comparisons.stability.study import Cell, Row, Study
+from comparisons.stability.study import Cell, Row, Study, percent
 from comparisons.tables import Column
 from scenes.sheet import EdgeName
 
@@ -68,7 +68,7 @@ def _limit(scene: Any, cell: Cell, error: float) -> Row:
     finest = (49, 49)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=finest, method=cell["calibration"])
     left = compare(scene, finest, springs=springs, elements=16, explain=False)["error"]
-    said = f"{finest[0]}×{finest[1]} masses of the same calibration leave {100 * left:.2g} %"
+    said = f"{finest[0]}×{finest[1]} masses of the same calibration leave {percent(left)} %"
     return {"mechanism": "wrong limit" if left > 2.0 / 3.0 * error else "resolution", "evidence": said}
 
 
@@ -90,7 +90,7 @@ def _distorted(scene: Any, distortion: float, seed: int) -> Row:
         regular = distance(scene, solve_on(mesh, scene), shell(scene, 16))
         row |= {
             "mechanism": "resolution",
-            "evidence": f"the regular mesh is off by {100 * (regular or 0.0):.2g} %",
+            "evidence": f"the regular mesh is off by {percent(regular)} %",
         }
     return row
 

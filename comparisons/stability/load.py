@@ -21,7 +21,7 @@ from matplotlib.lines import Line2D
 
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import SIDE, compare, lattice, loaded, outcome, sheet
-from comparisons.stability.study import Cell, Row, Study
+from comparisons.stability.study import Cell, Row, Study, percent
 from comparisons.tables import Column
 
 SLENDERNESS, POISSON, ONE_G = 0.016, 0.48, 2.0
@@ -92,7 +92,7 @@ def draw(figure: Figure, rows: list[Row]) -> None:
     axes = figure.subplots(len(panels), 1, height_ratios=(2, 3, 2, 2))
     for axis, (kind, end, name) in zip(axes, panels, strict=True):
         mine = [row for row in rows if row["cell"]["kind"] == kind]
-        strips = [(row, 2.0, maps.percent(row["error"])) for row in mine]
+        strips = [(row, 2.0, percent(row["error"])) for row in mine]
         for row in (row for row in mine if row.get("reference")):
             reference = {**row["reference"], "cell": row["cell"]}
             strips.append((reference, 1.0, str(reference["iterations"])))
@@ -100,7 +100,7 @@ def draw(figure: Figure, rows: list[Row]) -> None:
         if kind == "compression":
             labels.insert(0, 'branch = "stable": u/a [%]')
             for row in (row for row in rows if row["cell"]["kind"] == "buckled"):
-                strips.append((row, 0.0, maps.percent(row.get("moved"))))
+                strips.append((row, 0.0, percent(row.get("moved"))))
         if not strips:
             continue
         shown = [{**row, "strip": strip, "said": said} for row, strip, said in strips]

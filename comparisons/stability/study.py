@@ -37,3 +37,14 @@ class Study:
 def doubtful(row: Row) -> bool:
     """Whether a row is converged and still off by more than LARGE."""
     return row["status"] == "converged" and row.get("error") is not None and row["error"] > LARGE
+
+
+def percent(error: float | None) -> str:
+    """An error as it stands in a map or a text, in percent and without the sign."""
+    if error is None:
+        return ""
+    if error < 5e-5:
+        return "0"
+    if error >= 1.0:
+        return f"{100 * error:.0f}"
+    return f"{100 * error:.2f}" if error < 0.01 else f"{100 * error:.2g}"

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any
 
-from comparisons.stability.figure import percent
-from comparisons.stability.study import Row, Study, doubtful
+from comparisons.stability.study import Row, Study, doubtful, percent
 from comparisons.tables import Column, Table
 
 _COMMON = (

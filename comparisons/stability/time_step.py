@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from comparisons.stability import figure as maps
-from comparisons.stability.study import Cell, Row, Study
+from comparisons.stability.study import Cell, Row, Study, percent
 from comparisons.stability.vibrating import (
     FirstMode,
     energy,
@@ -139,7 +139,7 @@ def _implicit(integrator: str, step: float) -> Row:
         finer = _implicit(integrator, 0.1 * step)
         left = finer["error"] if finer["status"] == "converged" else None
         if left is not None and left < 2.0 / 3.0 * error:
-            said = f"{turned / (2.0 * np.pi):.2g} periods a step; a tenth of it leaves {100 * left:.2g} %"
+            said = f"{turned / (2.0 * np.pi):.2g} periods a step; a tenth of it leaves {percent(left)} %"
             row |= {"mechanism": "resolution", "evidence": said}
     return row
 

@@ -13,6 +13,7 @@ from typing import Any
 
 from comparisons.errors import BadInput
 from scenes import Chain, Clamped, Curved, Scene
+from scenes.corners import conflict
 from scenes.supports import LARGEST_TILT, contradiction
 
 _MATERIAL = {"young": "Pa", "poisson": "", "density": "kg/m³", "damping_time": "s", "damping_rate": "1/s"}
@@ -86,8 +87,9 @@ def _tilt(scene: Scene, name: str, edge: str) -> Unknown:
     for clamp in scene.supports:
         if isinstance(clamp, Clamped) and clamp.edge == edge:
             turned = put(scene, name, clamp.tilt or LARGEST_TILT)
-            if said := contradiction(turned.supports):
-                raise BadInput(f"unknown = '{name}': the supports allow no tilt there: {said}")
+            said = contradiction(turned.supports)
+            if said := said or conflict(scene.actuators, turned.supports, scene.sheet):
+                raise BadInput(f"unknown = '{name}': supports and actuators allow no tilt there: {said}")
             return Unknown(name, "rad", clamp.tilt, -LARGEST_TILT, LARGEST_TILT, step=1.0)
     raise BadInput(f"unknown = '{name}': edge '{edge}' has no clamp")
 

@@ -3,13 +3,16 @@
 Nodal forces F of the rod on the sheet are those of a line force q with ∫ N q ds = F, of second order along a
 side; couples likewise from the pull on the directors, d × f_d. A segment's share is the force and the moment
 about its middle, on the rod's axis, that it exerts on the sheet [N, N·m]. A prescribed motion is one segment,
-its moment about the edge's middle; chains that act as one share its forces evenly.
+its moment about the edge's middle; chains that act as one share its forces evenly, as motions share those
+of a common corner.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from fem_reference import edge_motion
+from fem_reference.edge_motion import MovedEdge
 from fem_reference.rod import Rod, names
 from fem_reference.shell_element import THREE, THREE_WEIGHTS
 from fem_reference.shell_rods import RoddedShell, RodForces, RodState, of_rods, with_rods
@@ -28,8 +31,8 @@ def wrenches(scene: Scene, structure: RoddedShell, state: State, forces: Forces)
         share = by_segment(rod, nodal, _positions(rod, state.change[0]), director) / len(rod.names)
         found.update({name: share for name in rod.names})
     motions = [n for n, a in zip(names(scene), scene.actuators, strict=True) if isinstance(a, EdgeMotion)]
-    for name, moved in zip(motions, structure.supports.driven, strict=True):
-        found[name] = _of_motion(structure, moved.nodes, state, forces)
+    for name, moved in zip(motions, edge_motion.moved(structure.supports), strict=True):
+        found[name] = _of_motion(structure, moved, state, forces)
     return {name: found[name] for name in names(scene)}
 
 
@@ -41,8 +44,9 @@ def line_forces(structure: RoddedShell, state: State, forces: Forces) -> np.ndar
     return out
 
 
-def _of_motion(structure: RoddedShell, nodes: np.ndarray, state: State, forces: Forces) -> np.ndarray:
-    force, pull = forces.residual[:, nodes]
+def _of_motion(structure: RoddedShell, moved: MovedEdge, state: State, forces: Forces) -> np.ndarray:
+    nodes = moved.nodes
+    force, pull = forces.residual[:, nodes] * moved.part[:, None]
     displacement, turn = state.change[:, nodes]
     position = structure.rest_positions[nodes] + displacement
     director = turn + np.array([0.0, 0.0, 1.0])

@@ -4,7 +4,8 @@ With the middle of the edge at X_m, displacement u and rotation vector θ, at lo
 
     φ = X_m + λ u + R(λθ) (X − X_m),    d = R(λθ) e_z,
 
-linearised, as the plate has it, φ = X + u + θ × (X − X_m), d = e_z + θ × e_z.
+linearised, as the plate has it, φ = X + u + θ × (X − X_m), d = e_z + θ × e_z. A corner belongs to the motion
+and not to a support beside it, which scenes refuse if it contradicts; two motions share its force.
 """
 
 from __future__ import annotations
@@ -20,12 +21,14 @@ from scenes import EdgeMotion, Scene
 
 @dataclass(frozen=True)
 class MovedEdge:
-    """nodes: (k,); arm: X − X_m (k, 3) [m]; displacement (3,) [m]; rotation (3,) [rad]."""
+    """nodes: (k,); arm: X − X_m (k, 3) [m]; displacement (3,) [m]; rotation (3,) [rad]; part: of the force on
+    each node that is this motion's (k,)."""
 
     nodes: np.ndarray
     arm: np.ndarray
     displacement: np.ndarray
     rotation: np.ndarray
+    part: np.ndarray
 
     def change(self, load_factor: float) -> tuple[np.ndarray, np.ndarray]:
         """Displacement (k, 3) [m] and change of director (k, 3) at a load factor."""
@@ -46,28 +49,38 @@ class MovedEdge:
 def of_scene(scene: Scene, nodes: np.ndarray, on_edge: dict[str, np.ndarray]) -> list[MovedEdge]:
     """The moved edges of a scene; nodes: plan positions (n, 2) [m]; on_edge: edge → the nodes on it."""
     found = []
-    for actuator in scene.actuators:
-        if isinstance(actuator, EdgeMotion):
-            on = on_edge[str(actuator.edge)]
-            middle = np.mean(scene.sheet.edge_ends(actuator.edge), axis=0)
-            arm = np.column_stack([nodes[on] - middle, np.zeros(len(on))])
-            last = [
-                np.array(values[-1] if values else (0.0, 0.0, 0.0))
-                for values in (actuator.displacement, actuator.rotation)
-            ]
-            found.append(MovedEdge(on, arm, *last))
+    moving = [actuator for actuator in scene.actuators if isinstance(actuator, EdgeMotion)]
+    movers = np.zeros(len(nodes))
+    for actuator in moving:
+        movers[on_edge[str(actuator.edge)]] += 1.0
+    for actuator in moving:
+        on = on_edge[str(actuator.edge)]
+        middle = np.mean(scene.sheet.edge_ends(actuator.edge), axis=0)
+        arm = np.column_stack([nodes[on] - middle, np.zeros(len(on))])
+        displacement, rotation = (
+            np.array(values[-1] if values else (0.0, 0.0, 0.0))
+            for values in (actuator.displacement, actuator.rotation)
+        )
+        found.append(MovedEdge(on, arm, displacement, rotation, 1.0 / movers[on]))
     return found
 
 
 def hold(supports: Supports, scene: Scene, nodes: np.ndarray, on_edge: dict[str, np.ndarray]) -> Supports:
     """The supports with the moved edges held in position and director, and driven."""
-    moved = of_scene(scene, nodes, on_edge)
-    position, director, edges = supports.position.copy(), supports.director.copy(), dict(supports.edges)
+    moving = of_scene(scene, nodes, on_edge)
+    position, director = supports.position.copy(), supports.director.copy()
+    taken = np.concatenate([np.zeros(0, dtype=int), *(motion.nodes for motion in moving)])
+    edges = {name: (on[~np.isin(on, taken)], axes) for name, (on, axes) in supports.edges.items()}
     named = (str(actuator.edge) for actuator in scene.actuators if isinstance(actuator, EdgeMotion))
-    for edge, motion in zip(named, moved, strict=True):
+    for edge, motion in zip(named, moving, strict=True):
         position[motion.nodes] = True
         director[motion.nodes] = True
         edges[edge] = (motion.nodes, np.arange(3))
     return replace(
-        supports, position=position, director=director, edges=edges, driven=(*supports.driven, *moved)
+        supports, position=position, director=director, edges=edges, driven=(*supports.driven, *moving)
     )
+
+
+def moved(supports: Supports) -> list[MovedEdge]:
+    """The moved edges among what drives the supports, in the order of the scene."""
+    return [driver for driver in supports.driven if isinstance(driver, MovedEdge)]

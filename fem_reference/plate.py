@@ -115,7 +115,7 @@ def solve(
 
     size = np.linalg.norm(force) + np.linalg.norm(np.delete(unbalanced, free))
     fields, nodal = u[: fields.size].reshape(-1, 5), unbalanced[: fields.size].reshape(-1, 5)
-    exerted, line = plate_rods.exerted(scene, rods, u, nodal, plate.nodes)
+    exerted, line = plate_rods.exerted(scene, rods, supports, u, nodal, plate.nodes)
     by_part = energies(scene, plate, u[: fields.size], section)
     settings: dict[str, Any] = {"elements": [along_x, along_y]}
     if hard_edges:

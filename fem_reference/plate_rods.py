@@ -21,9 +21,11 @@ import numpy as np
 from scipy.sparse import block_diag, coo_matrix, csr_matrix
 from skfem import MeshQuad
 
-from fem_reference import actuator_forces, rod
+from fem_reference import actuator_forces, edge_motion, rod
+from fem_reference.edge_motion import MovedEdge
 from fem_reference.rod import Rod
-from scenes import EDGES, Edge, EdgeMotion, Scene
+from fem_reference.shell_supports import Supports
+from scenes import EDGES, EdgeMotion, Scene
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -132,7 +134,12 @@ def of_scene(scene: Scene, mesh: MeshQuad, element_nodes: np.ndarray, nodes: np.
 
 
 def exerted(
-    scene: Scene, rods: PlateRods, u: np.ndarray, unbalanced: np.ndarray, nodes: np.ndarray
+    scene: Scene,
+    rods: PlateRods,
+    supports: Supports,
+    u: np.ndarray,
+    unbalanced: np.ndarray,
+    nodes: np.ndarray,
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Name of an actuator → wrenches (segments, 6) on the flat sheet; the rods' line force (n, 3) [N/m].
 
@@ -145,17 +152,15 @@ def exerted(
         wrench = actuator_forces.by_segment(one.rod, nodal, flat, up)
         found.update({name: wrench / len(one.rod.names) for name in one.rod.names})
         line[on] += actuator_forces.line_force(one.rod, nodal)[0]
-    for name, actuator in zip(rod.names(scene), scene.actuators, strict=True):
-        if isinstance(actuator, EdgeMotion):
-            found[name] = _of_motion(EDGES[actuator.edge], nodes, unbalanced)
+    motions = [n for n, a in zip(rod.names(scene), scene.actuators, strict=True) if isinstance(a, EdgeMotion)]
+    for name, moved in zip(motions, edge_motion.moved(supports), strict=True):
+        found[name] = _of_motion(moved, unbalanced)
     return {name: found[name] for name in rod.names(scene)}, line
 
 
-def _of_motion(edge: Edge, nodes: np.ndarray, unbalanced: np.ndarray) -> np.ndarray:
-    across = nodes[:, edge.normal_axis]
-    on = np.abs(across - (across.max() if edge.far_end else across.min())) < 1e-9 * np.ptp(nodes)
-    force, arm = unbalanced[on, :3], np.column_stack([nodes[on], np.zeros(int(on.sum()))])
-    arm -= 0.5 * (arm.min(axis=0) + arm.max(axis=0))
-    couple = np.column_stack([-unbalanced[on, 4], unbalanced[on, 3], np.zeros(len(arm))])
-    moment = np.cross(arm, force) + couple
+def _of_motion(moved: MovedEdge, unbalanced: np.ndarray) -> np.ndarray:
+    nodal = moved.part[:, None] * unbalanced[moved.nodes]
+    force = nodal[:, :3]
+    couple = np.column_stack([-nodal[:, 4], nodal[:, 3], np.zeros(len(nodal))])
+    moment = np.cross(moved.arm, force) + couple
     return np.concatenate([force.sum(axis=0), moment.sum(axis=0)])[None]

@@ -181,7 +181,8 @@ class RoddedSolid(SolidStructure):
             n for n, a in zip(rod.names(scene), scene.actuators, strict=True) if isinstance(a, EdgeMotion)
         ]
         for name, moved in zip(motions, self.supports.moved, strict=True):
-            nodal, on = self._about_middle(state, forces.residual)[moved.nodes], middle[moved.nodes]
+            nodal = moved.part[:, None] * self._about_middle(state, forces.residual)[moved.nodes]
+            on = middle[moved.nodes]
             arm = on - 0.5 * (on.min(axis=0) + on.max(axis=0))
             moment = np.cross(arm, nodal[:, :3]) + nodal[:, 3:]
             found[name] = np.concatenate([nodal[:, :3].sum(axis=0), moment.sum(axis=0)])[None]

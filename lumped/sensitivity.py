@@ -29,6 +29,7 @@ from lumped.problem import Problem
 from lumped.statics import pose, settle
 from lumped.threads import one_blas_thread
 from scenes import Clamped, Curved, PerDirection, Scene, SpringSet, Status, require_static
+from scenes.corners import conflict
 from scenes.supports import contradiction
 
 STEP = 1e-4  # of a parameter, for the difference of residuals
@@ -225,7 +226,7 @@ def _changed(scene: Scene, springs: Calibration, name: str, value: float) -> tup
     if name.startswith("tilt_"):
         clamp = _tilted(scene, name)
         supports = tuple(s.model_copy(update={"tilt": value}) if s is clamp else s for s in scene.supports)
-        if said := contradiction(supports):
+        if said := contradiction(supports) or conflict(scene.actuators, supports, scene.sheet):
             raise ValueError(f"parameter {name!r}: {said}")
         return scene.model_copy(update={"supports": supports}), springs
     return scene, replace(springs, springs=with_spring(springs.springs, name, value))

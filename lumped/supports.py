@@ -54,13 +54,15 @@ class Constraints:
 
 def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) -> Constraints:
     """The constraints of a scene's supports on a lattice, and of its actuators: u of a bound mass is a linear
-    map of the actuator's rows."""
+    map of the actuator's rows. Columns of edges moved rigidly are the motion's, not the supports'."""
+    moved = np.zeros(lattice.mass_count, dtype=bool) if coupling is None else coupling.moved
     n = lattice.mass_count if coupling is None else coupling.size
     fixed = np.zeros((n, 3), dtype=bool)
     mean_held: dict[tuple[int, int], np.ndarray] = {}  # (last mass of a column, axis) → the column
     holders: dict[str, tuple[np.ndarray, tuple[int, ...]]] = {}
     for support in scene.supports:
         masses = lattice.edge_columns(support.edge)
+        masses = masses[~moved[masses[:, 0]]]
         axes = held_axes(support)
         holders[support.edge] = (masses, axes)
         if holds_tilt(support):
@@ -105,11 +107,11 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
     def prescribed(load_factor: float) -> np.ndarray:
         g = np.zeros((n, 3))
         for support in bent:
-            masses = lattice.edge_columns(support.edge)
+            masses, _ = holders[support.edge]
             middle = rod_middle(support, scene.supports, scene.sheet)
             g[masses] = _arc(lattice, support.edge, masses, load_factor * support.curvature, middle)
         for clamp in tilted:
-            masses = lattice.edge_columns(clamp.edge)
+            masses, _ = holders[clamp.edge]
             g[masses] = _turned(lattice, clamp.edge, masses, load_factor * clamp.tilt)
         return g
 

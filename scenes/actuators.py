@@ -4,7 +4,8 @@ chain   a flexible chain of rigid segments: joints divide the edge evenly and ne
         each has the stiffness EI/ds and the rest angle curvature × ds. The chain alone carries its own
         weight and inertia, and holds the edge's tilt about the rod. `curvature` > 0 lifts the ends towards +z
         (plane "normal" or "spatial") or bends them outwards (plane "inplane").
-motion  the edge moved rigidly as prescribed over time: no chain, no forces of its own
+motion  the edge moved rigidly as prescribed over time: no chain, no forces of its own; a support or motion
+        on a neighbouring edge must agree with it at their corner (`scenes.corners`)
 
 curvature [1/m] is a number, a list with one value a joint (in the order of the edge's axis; a held base adds
 the half-length joints beside it), or a table {time, value}: linear between samples, the last value kept.

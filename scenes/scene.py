@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from pydantic import Field, ValidationError, model_validator
 
+from scenes import corners
 from scenes.actuators import Actuator, Chain, disagreement
 from scenes.loads import Load, PointLoad
 from scenes.quantities import Frozen, PlanPoint
@@ -68,6 +69,8 @@ class Scene(Frozen):
         if said := contradiction(self.supports):
             raise ValueError(f"support: {said}")
         if said := disagreement(self.actuators, {support.edge for support in self.supports}):
+            raise ValueError(f"actuator: {said}")
+        if said := corners.conflict(self.actuators, self.supports, self.sheet):
             raise ValueError(f"actuator: {said}")
         return self
 

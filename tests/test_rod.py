@@ -256,7 +256,7 @@ def test_an_edge_moved_rigidly_takes_a_free_sheet_with_it() -> None:
         kind="motion", edge="y1", time=(0.0, 1.0),
         displacement=((0, 0, 0), (0.01, -0.02, 0.03)), rotation=((0, 0, 0), (0.5, -0.3, 0.2)),
     )  # fmt: skip
-    scene = driven(motion, gravity=None).model_copy(update={"supports": ()})
+    scene = driven(gravity=None).model_copy(update={"supports": (), "actuators": (motion,)})
     solution = shell(scene, 4)
     assert solution.status is Status.CONVERGED
     assert sum(solution.energies.values()) < 1e-12

@@ -1,8 +1,10 @@
 """All actuators of a scene, bound to a lattice: their rows follow those of the masses in the displacement.
 
-A mass that a support holds, in whichever component, stays with its support; one that two actuators on
-neighbouring edges could bind stays with the first. Chains on one edge are one actuator model. An actuator's
-name is its edge, or, where an edge has several, its edge and its number in the scene.
+A mass of an edge moved rigidly follows the motion, whatever else acts on it: scenes refuse what the motion
+would contradict; where two motions share a corner they share its force. Any other mass that a support holds,
+in whichever component, stays with its support; one that two chains on neighbouring edges could bind stays
+with the first. Chains on one edge are one actuator model. An actuator's name is its edge, or, where an edge
+has several, its edge and its number in the scene.
 """
 
 from __future__ import annotations
@@ -39,6 +41,15 @@ class Coupling:
 
     def _each(self) -> list[tuple[Actuator, slice]]:
         return list(zip(self.actuators, self._places, strict=True))
+
+    @property
+    def moved(self) -> np.ndarray:
+        """Masses of edges moved rigidly, (masses,) bool."""
+        moved = np.zeros(self.masses, dtype=bool)
+        for actuator in self.actuators:
+            if isinstance(actuator, RigidMotion):
+                moved[actuator.masses] = True
+        return moved
 
     @property
     def free(self) -> np.ndarray:
@@ -161,9 +172,13 @@ def _at_pairs(actuator: Actuator, dense: np.ndarray) -> np.ndarray:
 
 
 def _actuators(scene: Scene, lattice: Lattice) -> tuple[Actuator, ...]:
-    taken = np.zeros(lattice.mass_count, dtype=bool)
+    motions = [a.edge for a in scene.actuators if isinstance(a, EdgeMotion)]
+    movers = np.zeros(lattice.mass_count, dtype=int)  # motions that a mass follows
+    for edge in motions:
+        movers[lattice.edge_columns(edge)] += 1
+    taken = movers > 0
     for support in scene.supports:
-        taken[lattice.edge_columns(support.edge).ravel()] = True
+        taken[lattice.edge_columns(support.edge)] = True
     names = [str(a.edge) for a in scene.actuators]
     if len(set(names)) < len(names):
         names = [f"{edge}.{i + 1}" for i, edge in enumerate(names)]
@@ -171,12 +186,12 @@ def _actuators(scene: Scene, lattice: Lattice) -> tuple[Actuator, ...]:
     for edge in dict.fromkeys(a.edge for a in scene.actuators):
         here = [(name, a) for name, a in zip(names, scene.actuators, strict=True) if a.edge == edge]
         masses = lattice.edge_columns(edge).ravel()
-        masses = masses[~taken[masses]]
-        taken[masses] = True
         name, only = here[0]
         if isinstance(only, EdgeMotion):
-            found.append(RigidMotion(only, name, scene.sheet, lattice, masses))
+            found.append(RigidMotion(only, name, scene.sheet, lattice, masses, 1.0 / movers[masses]))
             continue
+        masses = masses[~taken[masses]]
+        taken[masses] = True
         chains = [a for _, a in here if not isinstance(a, EdgeMotion)]
         scale = scene.material.young * scene.sheet.thickness
         found.append(Chain(chains, tuple(n for n, _ in here), scene.sheet, lattice, masses, scale))

@@ -16,23 +16,31 @@ from scenes import EdgeMotion, Sheet
 
 
 class RigidMotion:
-    """One prescribed edge motion, as an `Actuator` with a single segment."""
+    """One prescribed edge motion, as an `Actuator` with a single segment; part: its share (m,) in the force
+    on every mass of the edge."""
 
     rows, multipliers, carried = 0, 0, 0.0
 
-    def __init__(self, motion: EdgeMotion, name: str, sheet: Sheet, lattice: Lattice, masses: np.ndarray):
+    def __init__(
+        self,
+        motion: EdgeMotion,
+        name: str,
+        sheet: Sheet,
+        lattice: Lattice,
+        masses: np.ndarray,
+        part: np.ndarray,
+    ):
         self.names: tuple[str, ...] = (name,)
         self.edge: str = motion.edge
         self.masses = masses
         ends = np.array(sheet.edge_ends(motion.edge))
-        self._middle = np.append(ends.mean(axis=0), 0.0)
-        self._arms = lattice.positions[masses] - self._middle
+        self._arms = lattice.positions[masses] - np.append(ends.mean(axis=0), 0.0)
         self._time = np.array(motion.time)
         still = np.zeros((len(motion.time), 3))
         self._displacement = np.array(motion.displacement) if motion.displacement else still
         self._rotation = np.array(motion.rotation) if motion.rotation else still
         self.free, self.pairs, self.mass = np.ones((0, 3), bool), np.ones((0, 0), bool), np.zeros((0, 0))
-        self.binding, self.share = np.zeros((len(masses), 0)), np.ones((1, len(masses)))
+        self.binding, self.share = np.zeros((len(masses), 0)), part[None]
 
     def weight(self, acceleration: np.ndarray) -> np.ndarray:
         """None."""
@@ -81,7 +89,8 @@ class RigidMotion:
         return None
 
     def wrenches(self, positions: np.ndarray, on_masses: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Force and moment about the rest place of the edge's middle."""
-        moment = np.cross(positions - self._middle, on_masses).sum(axis=0)
-        wrench: np.ndarray = np.concatenate([on_masses.sum(axis=0), moment]).reshape(1, 1, 6)
+        """Force and moment about the edge's middle, where it is now."""
+        force = self.share[0][:, None] * on_masses
+        moment = np.cross(positions - positions.mean(axis=0), force).sum(axis=0)
+        wrench: np.ndarray = np.concatenate([force.sum(axis=0), moment]).reshape(1, 1, 6)
         return wrench

@@ -98,7 +98,7 @@ class System:
             if support.motion is None:
                 continue
             now = Drive(1.0, time).value(np.array(support.motion.time), np.array(support.motion.displacement))
-            columns = self.assembly.lattice.edge_columns(support.edge).ravel()
+            columns = self.problem.constraints.holders[support.edge][0].ravel()
             for axis in held_axes(support):
                 mine = columns if holds_director(support) else columns[~fixed[columns, axis]]
                 g[mine, axis] += now[axis]

@@ -1,0 +1,212 @@
+"""An edge moved rigidly beside a support, a chain or another moved edge: refused, or the models agree."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import fem_reference
+import lumped
+import scenes
+from scenes import (
+    Chain,
+    Clamped,
+    Curved,
+    EdgeMotion,
+    Gravity,
+    Held,
+    Hinged,
+    Material,
+    Scene,
+    Sheet,
+    Solution,
+    Status,
+    Symmetric,
+)
+from scenes.supports import Motion
+
+SHEET = Sheet(length_x=0.2, length_y=0.1, thickness=0.005)
+MATERIAL = Material(young=2.0e7, poisson=0.3, density=1200.0)
+DOWN = Gravity(acceleration=(0.0, 0.0, -9.81))
+WEIGHT = 9.81 * 1200.0 * 0.005 * 0.2 * 0.1
+CLAMP = Clamped(edge="x0")
+CORNER = (0.2, 0.0)
+
+
+def motion(edge="x1", displacement=(0.0, 0.0, 0.0), rotation=(0.0, 0.0, 0.0)) -> EdgeMotion:
+    """At its last pose from t = 0 on."""
+    moved = {"displacement": (displacement,), "rotation": (rotation,)}
+    return EdgeMotion(kind="motion", edge=edge, time=(0.0,), **moved)
+
+
+def chain(**changes) -> Chain:
+    data = dict(edge="y0", segments=8, bending_stiffness=0.02, line_density=0.05, radius=2e-3)
+    return Chain(**{**data, **changes})
+
+
+def scene(supports, *actuators, gravity=DOWN) -> Scene:
+    return Scene(
+        name="corner", sheet=SHEET, material=MATERIAL, gravity=gravity, support=supports, actuator=actuators
+    )
+
+
+def solve(asked: Scene, model: str) -> Solution:
+    if model == "lumped":
+        found = lumped.solve(asked, lumped.calibrate(SHEET, MATERIAL, (33, 17)))
+    else:
+        found = fem_reference.solve(asked, model=model, elements=(16, 8))
+    assert found.status is Status.CONVERGED, found.message
+    return found
+
+
+LIFT, PULL, ABOUT_ITSELF = (0.0, 0.0, 0.01), (0.01, 0.0, 0.0), (0.0, 0.3, 0.0)
+TOGETHER = (0.0, 0.2, 0.0)  # rad; edge y0's middle is 0.1 m from x1, the axis of x1's turn
+FOLLOWS = (0.1 * (1.0 - np.cos(0.2)), 0.0, 0.1 * np.sin(0.2))
+COMPATIBLE = {
+    "hinged, turned about its own line": ((CLAMP, Hinged(edge="y0")), motion(rotation=ABOUT_ITSELF)),
+    "held in z, pulled": ((CLAMP, Held(edge="y0", components=("z",))), motion(displacement=PULL)),
+    "clamped, at rest": ((CLAMP, Clamped(edge="y0")), motion()),
+    "symmetric, lifted": ((CLAMP, Symmetric(edge="y0")), motion(displacement=LIFT)),
+    "symmetric, turned about its own line": ((CLAMP, Symmetric(edge="y0")), motion(rotation=ABOUT_ITSELF)),
+    "two motions as one": ((), motion(rotation=TOGETHER), motion("y0", FOLLOWS, TOGETHER)),
+}
+
+
+@pytest.mark.parametrize("name", COMPATIBLE)
+def test_models_agree_where_both_can_be_obeyed(name: str) -> None:
+    """Within 1 % of the largest displacement; the moved edge is where it was put, corners included."""
+    supports, *actuators = COMPATIBLE[name]
+    asked = scene(supports, *actuators)
+    points = np.random.default_rng(3).uniform(0.0, 1.0, (60, 2)) * SHEET.lengths
+    ends = np.array(SHEET.edge_ends("x1"))
+    found = {model: solve(asked, model) for model in ("lumped", "shell", "solid")}
+    truth = found["shell"].displacement(points)
+    for model, solution in found.items():
+        assert np.abs(solution.displacement(points) - truth).max() < 0.01 * np.abs(truth).max(), model
+        moved = next(a for a in actuators if isinstance(a, EdgeMotion)).displacement[0]
+        assert_allclose(solution.displacement(ends), [moved, moved], atol=1e-8 * 0.2, err_msg=model)
+
+
+@pytest.mark.parametrize("name", COMPATIBLE)
+@pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
+def test_a_corner_counts_to_the_motion_alone(name: str, model: str) -> None:
+    """Reactions of the supports and the actuators' forces carry the sheet's weight, none counted twice."""
+    supports, *actuators = COMPATIBLE[name]
+    found = solve(scene(supports, *actuators), model)
+    total = sum(found.reactions[support.edge] for support in supports)
+    total = total + sum(wrenches[:, :3].sum(axis=0) for wrenches in found.actuators.values())
+    size = max(np.abs(f).max() for f in (*found.reactions.values(), *found.actuators.values()))
+    assert_allclose(total, [0.0, 0.0, WEIGHT], atol=1e-5 * max(size, WEIGHT))
+
+
+@pytest.mark.parametrize("name", ["hinged, turned about its own line", "symmetric, lifted"])
+def test_the_plate_is_their_limit_of_small_motions(name: str) -> None:
+    supports, one = COMPATIBLE[name]
+    small = motion(
+        displacement=tuple(1e-4 * np.array(one.displacement[0])),
+        rotation=tuple(1e-4 * np.array(one.rotation[0])),
+    )
+    asked = scene(supports, small, gravity=None)
+    points = np.random.default_rng(3).uniform(0.0, 1.0, (60, 2)) * SHEET.lengths
+    even = fem_reference.solve(asked, model="shell", elements=(16, 8), graded=False).displacement(points)
+    plate = solve(asked, "plate")
+    assert np.abs(plate.displacement(points) - even)[:, 2].max() < 1e-3 * np.abs(even).max()
+    total = sum(plate.reactions[s.edge] for s in supports) + plate.actuators["x1"][0, :3]
+    assert_allclose(total, 0.0, atol=1e-9 * np.abs(plate.actuators["x1"]).max())
+
+
+@pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
+def test_a_chain_goes_where_the_corner_goes_in_whatever_order(model: str) -> None:
+    bound, moved = chain(curvature=2.0), motion(displacement=LIFT)
+    first, second = (solve(scene((CLAMP,), *both), model) for both in ((bound, moved), (moved, bound)))
+    assert_allclose(
+        first.displacement([CORNER, (0.1, 0.0)]), second.displacement([CORNER, (0.1, 0.0)]), atol=1e-9
+    )
+    assert_allclose(first.displacement([CORNER])[0], LIFT, atol=1e-9)
+    assert_allclose(
+        first.actuators["x1"], second.actuators["x1"], atol=1e-6 * np.abs(first.actuators["x1"]).max()
+    )
+
+
+def test_wrenches_are_about_the_middle_of_the_moved_edge() -> None:
+    """Where the middle is now: a free sheet hung from an edge turned by a quarter has no moment about it."""
+    asked = scene((), motion(displacement=(0.0, 0.03, 0.02), rotation=(0.0, np.pi / 2.0, 0.0)))
+    for model in ("lumped", "shell", "solid"):
+        wrench = solve(asked, model).actuators["x1"][0]
+        assert_allclose(wrench, [0.0, 0.0, WEIGHT, 0.0, 0.0, 0.0], atol=1e-3 * WEIGHT * 0.2, err_msg=model)
+
+
+@pytest.mark.parametrize(
+    ("supports", "actuators", "said"),
+    [
+        ((Clamped(edge="y0"),), [motion(displacement=LIFT)], r"moves the corner.*clamped.*y0.*z by 0.01 m"),
+        ((Clamped(edge="y1"),), [motion(rotation=ABOUT_ITSELF)], "turns the director.*clamped.*y1"),
+        ((Curved(edge="y0", curvature=0.0),), [motion(displacement=PULL)], "curved.*y0.*x by 0.01 m"),
+        ((Curved(edge="y0", curvature=2.0),), [motion()], r"rod on edge y0 \(curvature 2 1/m\).*edge x1"),
+        ((Clamped(edge="y0", tilt=0.1),), [motion()], "turns the director.*clamped.*y0"),
+        ((Hinged(edge="y0"),), [motion(displacement=LIFT)], "hinged.*y0.*z by 0.01 m"),
+        ((Hinged(edge="y0"),), [motion(rotation=(0.1, 0.0, 0.0))], "hinged.*y0.*z by 0.00499 m"),
+        ((Held(edge="y0", components=("z",)),), [motion(displacement=LIFT)], "held.*y0.*z by 0.01 m"),
+        ((Symmetric(edge="y0"),), [motion(displacement=(0.0, 0.01, 0.0))], "symmetric.*y by 0.01 m"),
+        ((Symmetric(edge="y0"),), [motion(rotation=(0.1, 0.0, 0.0))], "symmetric.*y0"),
+        ((), [motion(), motion("y0", LIFT)], r"motion on edge x1.*motion on edge y0.*z by 0.01 m"),
+        ((), [motion("y0", rotation=(0.2, 0.0, 0.0)), motion()], "turns the director.*motion on edge x1"),
+        ((), [motion(displacement=LIFT), chain(base="end")], "base.*chain on edge y0.*motion on edge x1"),
+        ((), [chain(edge="x0", base="start"), motion("y0", rotation=(0.1, 0, 0))], "base.*chain.*x0"),
+    ],
+)
+def test_what_cannot_both_be_obeyed_is_refused(supports, actuators, said: str) -> None:
+    with pytest.raises(ValueError, match=said):
+        scene(supports, *actuators)
+
+
+def test_a_motion_is_looked_at_all_the_time() -> None:
+    """Back at rest in the end, or a full turn between two samples: what happens meanwhile counts."""
+    there_and_back = {"time": (0.0, 1.0, 2.0), "displacement": ((0, 0, 0), LIFT, (0, 0, 0))}
+    a_turn = {"time": (0.0, 1.0), "rotation": ((0, 0, 0), (2.0 * np.pi, 0, 0))}
+    for table, at in ((there_and_back, "t = 1 s"), (a_turn, r"t = 0\.")):
+        with pytest.raises(ValueError, match=at):
+            scene((CLAMP, Hinged(edge="y0")), EdgeMotion(kind="motion", edge="x1", **table))
+
+
+def test_a_turn_about_the_corner_itself() -> None:
+    """Obeys the hinge as a pose; on the way there the straight line between two samples does not."""
+    arm = np.array([0.0, -0.05])
+    turned = np.array([[np.cos(0.4), -np.sin(0.4)], [np.sin(0.4), np.cos(0.4)]]) @ arm
+    pose = (*(arm - turned), 0.0)
+    scene((Hinged(edge="y0"),), motion("x1", pose, (0.0, 0.0, 0.4)))
+    table = {"time": (0.0, 1.0), "rotation": ((0, 0, 0), (0, 0, 0.4)), "displacement": ((0, 0, 0), pose)}
+    with pytest.raises(ValueError, match=r"y by 0.000925 m at t = 0\.382 s"):
+        scene((Hinged(edge="y0"),), EdgeMotion(kind="motion", edge="x1", **table))
+
+
+def test_a_support_that_moves_counts_in_dynamics_and_rests_in_statics() -> None:
+    table = {"time": (0.0, 1.0, 2.0), "displacement": ((0, 0, 0), LIFT, (0, 0, 0))}
+    moving = Clamped(edge="y0", motion=Motion(**table))
+    asked = scene((moving,), EdgeMotion(kind="motion", edge="x1", **table), gravity=None)
+    assert not lumped.solve(asked, lumped.calibrate(SHEET, MATERIAL, (5, 3))).displacement([CORNER]).any()
+    with pytest.raises(ValueError, match=r"z by 0.01 m at t = 1 s"):
+        scene((CLAMP, Clamped(edge="y0")), *asked.actuators)
+    stays = {"time": (0.0, 1.0), "displacement": ((0, 0, 0), LIFT)}
+    with pytest.raises(ValueError, match=r"z by 0.01 m in statics, where supports rest"):
+        scene((Clamped(edge="y0", motion=Motion(**stays)),), EdgeMotion(kind="motion", edge="x1", **stays))
+
+
+def test_in_dynamics_too_the_corner_follows_the_motion() -> None:
+    table = {"time": (0.0, 0.02), "displacement": ((0.0, 0.0, 0.0), PULL)}
+    asked = scene((CLAMP, Held(edge="y0", components=("z",))), EdgeMotion(kind="motion", edge="x1", **table))
+    asked = asked.model_copy(update={"probes": {"corner": CORNER, "far": (0.2, 0.1)}})
+    run = lumped.simulate(asked, lumped.calibrate(SHEET, MATERIAL, (9, 5)), 0.02)
+    for place in run.probes.values():
+        assert_allclose(place[:, 0], 0.5 * run.time, atol=1e-12)
+        assert_allclose(place[:, 1:], 0.0, atol=1e-12)
+
+
+def test_a_tilt_that_a_motion_forbids_is_not_sought() -> None:
+    from comparisons.unknowns import BadInput, unknown
+
+    asked = scene((Clamped(edge="y0"),), motion())
+    with pytest.raises(BadInput, match=r"allow no tilt.*x1"):
+        unknown(asked, "tilt_y0")
+    assert scenes.free_rigid_motions(asked) == []

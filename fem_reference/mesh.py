@@ -75,6 +75,17 @@ def _at(axis: int, position: float) -> Callable[[np.ndarray], np.ndarray]:
     return lambda x: np.isclose(x[axis], position, rtol=1e-9, atol=1e-12)
 
 
+def require_upright(mesh: MeshQuad) -> None:
+    """Raises ValueError where the corners of an element do not all turn one way, as in a folded one."""
+    corners = mesh.p[:, mesh.t]  # (2, 4, m)
+    along = np.roll(corners, -1, axis=1) - corners
+    back = np.roll(corners, 1, axis=1) - corners
+    turn = along[0] * back[1] - along[1] * back[0]  # (4, m) [m²]
+    upright = np.all(turn * np.sign(turn[0]) > 0.0, axis=0)
+    if not upright.all():
+        raise ValueError(f"element {int(np.argmin(upright))} of the mesh is inverted or degenerate")
+
+
 def quarters(element_nodes: np.ndarray) -> np.ndarray:
     """Nine-node elements (9, m) as bilinear cells (4 m, 4) for drawing."""
     return element_nodes.T[:, _QUARTERS].reshape(-1, 4)

@@ -26,7 +26,7 @@ from fem_reference import edge_motion, plate_rods, shell_supports
 from fem_reference.linear import DirectSolver, SingularMatrix
 from fem_reference.location import locate
 from fem_reference.materials import Section, section_of
-from fem_reference.mesh import Elements, divisions, quarters, rectangle
+from fem_reference.mesh import Elements, divisions, quarters, rectangle, require_upright
 from fem_reference.plate_element import NODES, TILT_X, PlateElements, W, plate_elements, shape_values
 from fem_reference.rod import Rod
 from fem_reference.shell_rods import hold_bases
@@ -60,7 +60,8 @@ class Plate:
 
     @classmethod
     def on(cls, mesh: MeshQuad) -> Plate:
-        """The plate on any flat mesh of straight-sided quadrilaterals [m]."""
+        """The plate on any flat mesh of straight-sided quadrilaterals [m]; ValueError for folded ones."""
+        require_upright(mesh)
         basis = Basis(mesh, ElementQuad2(), intorder=5)
         return cls(basis, plate_elements(basis))
 
@@ -95,7 +96,27 @@ def solve(
     require_static(scene)
     begin = perf_counter()
     along_x, along_y = divisions(scene.sheet.lengths, elements)
-    plate = Plate.on(rectangle(scene.sheet, (along_x, along_y)))
+    settings: dict[str, Any] = {"elements": [along_x, along_y]}
+    if hard_edges:
+        settings["hard_edges"] = list(hard_edges)
+    if section is not None:
+        settings["section"] = section._asdict()
+    mesh = rectangle(scene.sheet, (along_x, along_y))
+    return solve_on(mesh, scene, f"plate {along_x} × {along_y}", settings, begin, hard_edges, section)
+
+
+def solve_on(
+    mesh: MeshQuad,
+    scene: Scene,
+    label: str = "plate",
+    settings: dict[str, Any] | None = None,
+    begin: float | None = None,
+    hard_edges: tuple[str, ...] = (),
+    section: Section | None = None,
+) -> Solution:
+    """The same on any flat mesh of straight-sided quadrilaterals [m] with boundaries of the edges' names."""
+    begin = perf_counter() if begin is None else begin
+    plate = Plate.on(mesh)
     rods = plate_rods.of_scene(scene, plate.basis.mesh, plate.elements.nodes, plate.nodes)
     supports, held, fields = constrain(scene, plate, hard_edges, rods.rods)
     force = rods.force(loads(scene, plate).ravel())
@@ -117,15 +138,10 @@ def solve(
     fields, nodal = u[: fields.size].reshape(-1, 5), unbalanced[: fields.size].reshape(-1, 5)
     exerted, line = plate_rods.exerted(scene, rods, supports, u, nodal, plate.nodes)
     by_part = energies(scene, plate, u[: fields.size], section)
-    settings: dict[str, Any] = {"elements": [along_x, along_y]}
-    if hard_edges:
-        settings["hard_edges"] = list(hard_edges)
-    if section is not None:
-        settings["section"] = section._asdict()
     return Solution(
         model="plate",
-        label=f"plate {along_x} × {along_y}",
-        settings=settings,
+        label=label,
+        settings=settings or {"elements": mesh.nelements},
         status=status,
         unknowns=len(free),
         iterations=1,

@@ -16,6 +16,7 @@ units.
 from __future__ import annotations
 
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 from skfem import MeshQuad
@@ -24,7 +25,7 @@ from fem_reference import rod, shell_loads, solid_supports
 from fem_reference.equilibrium import trace
 from fem_reference.linear import DirectSolver
 from fem_reference.location import locate
-from fem_reference.mesh import Elements, divisions, rectangle
+from fem_reference.mesh import Elements, divisions, rectangle, require_upright
 from fem_reference.plate_element import shape_values
 from fem_reference.shell_element import GAUSS, GAUSS_WEIGHTS
 from fem_reference.solid_element import Bricks
@@ -55,7 +56,26 @@ def solve(
     require_static(scene)
     begin = perf_counter()
     along_x, along_y = divisions(scene.sheet.lengths, elements)
-    structure = discretise(mesh_of(scene, (along_x, along_y), grading), scene, layers, law, clamp)
+    mesh = mesh_of(scene, (along_x, along_y), grading)
+    settings = {"elements": [along_x, along_y], "grading": grading}
+    return solve_on(
+        mesh, scene, f"solid {along_x} × {along_y} × {layers}", settings, begin, layers, law, clamp
+    )
+
+
+def solve_on(
+    mesh: MeshQuad,
+    scene: Scene,
+    label: str = "solid",
+    settings: dict[str, Any] | None = None,
+    begin: float | None = None,
+    layers: int = 1,
+    law: str = "st-venant-kirchhoff",
+    clamp: str = "shell-like",
+) -> Solution:
+    """The same on columns over any flat mesh of straight-sided quadrilaterals [m]."""
+    begin = perf_counter() if begin is None else begin
+    structure = discretise(mesh, scene, layers, law, clamp)
     solver = DirectSolver(structure.symmetric)
     ready = perf_counter()
     path = trace(structure, solver)
@@ -71,14 +91,8 @@ def solve(
         exerted = structure.wrenches(scene, path.state, forces)
     return Solution(
         model="solid",
-        label=f"solid {along_x} × {along_y} × {layers}",
-        settings={
-            "elements": [along_x, along_y],
-            "layers": layers,
-            "law": law,
-            "clamp": clamp,
-            "grading": grading,
-        },
+        label=label,
+        settings={**(settings or {"elements": mesh.nelements}), "layers": layers, "law": law, "clamp": clamp},
         status=status,
         unknowns=structure.unknowns,
         iterations=path.factorisations,
@@ -112,8 +126,9 @@ def discretise(
     """The discrete solid of a scene on a plan mesh of straight-sided quadrilaterals.
 
     Supports and loads act on the mesh's boundaries of their edges' names; of the scene's sheet only the
-    thickness is used. Raises ValueError for an unknown law or clamp or no layers.
+    thickness is used. Raises ValueError for an unknown law or clamp, no layers or a folded element.
     """
+    require_upright(mesh)
     if law not in LAWS:
         raise ValueError(f"law = {law!r}: known are {', '.join(LAWS)}")
     if layers < 1:

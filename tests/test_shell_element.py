@@ -5,7 +5,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 from skfem import Basis, ElementQuad2, MeshQuad
 
-from fem_reference import shell_loads
+import scenes
+from fem_reference import plate, shell, shell_loads, solid
 from fem_reference.materials import section_of
 from fem_reference.mesh import rectangle
 from fem_reference.shell import discretise
@@ -234,9 +235,14 @@ def test_follower_tangents_are_exact(kind):
     np.testing.assert_allclose(exact, difference, atol=1e-6 * np.abs(exact).max())
 
 
-def test_an_inverted_element_is_refused():
+def test_an_inverted_element_is_refused_by_every_reference():
     mesh = rectangle(SHEET, 2)
     p = mesh.p.copy()
     p[:, mesh.interior_nodes()] += 0.12
-    with pytest.raises(ValueError, match="inverted"):
-        build(MeshQuad(p, mesh.t))
+    folded = MeshQuad(p, mesh.t).with_boundaries(mesh.boundaries)
+    with pytest.raises(ValueError, match="of the mesh is inverted"):
+        build(folded)
+    asked = scenes.load("one-edge-clamped")
+    for solve_on in (plate.solve_on, shell.solve_on, solid.solve_on):
+        with pytest.raises(ValueError, match="of the mesh is inverted"):
+            solve_on(folded, asked)

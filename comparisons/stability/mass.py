@@ -1,7 +1,7 @@
 """Study `mass`: neighbouring masses whose ratio reaches a million.
 
-Masses alternate like a chess board, m √r and m/√r. The lightest beside the stiffest link sets ω_max, which
-grows like r^¼; what it costs is steps. The conserving midpoint rule keeps the energy whatever the ratio.
+Masses alternate like a chess board in the ratio r, their sum kept. The light ones set ω_max, which grows like
+√r; what it costs is steps. The conserving midpoint rule keeps the energy whatever the ratio.
 """
 
 from __future__ import annotations

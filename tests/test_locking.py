@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+import fem_reference
+import scenes
 from comparisons.locking import picture
 from fem_reference.verification import Row, run
 from fem_reference.verification.mindlin_plates import deflection
@@ -35,6 +37,32 @@ def test_solid_within_1_percent_as_it_becomes_incompressible() -> None:
     assert len(rows) == 20
     assert max(row.relative or 0.0 for row in rows) < 0.01
     assert all(row.passed for row in rows)
+
+
+@pytest.mark.parametrize("elements", [16, 24, 32])
+def test_stretched_elements_that_bend_stay_stable(elements: int) -> None:
+    """The soft sheet, whose lowest ω² on all meshes is 110 s⁻²; with the twist k_rs projected on bilinear
+    functions too, elements of sides 10 to 20 : 1 gave its tangent a negative eigenvalue from 22 on."""
+    scene = scenes.load("one-edge-clamped")
+    young = scene.material.young / 10.0
+    scene = scene.model_copy(update={"material": scene.material.model_copy(update={"young": young})})
+    answer = fem_reference.solve(scene, model="shell", elements=elements)
+    assert answer.status is scenes.Status.CONVERGED
+    assert answer.message == "" and answer.settings["graded"]
+    tip = answer.displacement([scene.probes["P4"]])[0]
+    assert tip == pytest.approx([-0.1067945, 1.204e-5, -0.1571709], abs=5e-7)
+
+
+@pytest.mark.parametrize(("elements", "within"), [(8, 0.03), (16, 2e-3)])
+def test_a_thin_sheet_far_from_flat_does_not_lock(elements: int, within: float) -> None:
+    """h/a = 1/627, deflected by 170 h; with the membrane's rs as it stands 0.14 and 1.7e-2 off."""
+    scene = scenes.load("two-edges-clamped")
+    thin = {"sheet": scene.sheet.model_copy(update={"thickness": 3e-4})}
+    thin["material"] = scene.material.model_copy(update={"young": 545e6})
+    answer = fem_reference.solve(scene.model_copy(update=thin), model="shell", elements=elements)
+    assert answer.status is scenes.Status.CONVERGED
+    tip = answer.displacement([(0.188, 0.188)])[0]
+    assert tip == pytest.approx([-7.540e-3, -7.540e-3, -5.0455e-2], abs=within * 5.0455e-2)
 
 
 def test_picture(tmp_path: Path) -> None:

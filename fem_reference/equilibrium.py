@@ -14,6 +14,9 @@ structure far behind, corrections that stagnate; `inspect` may end the whole pat
 structure itself does not vouch for. Where the path ends before the full load, the inertia of the last
 equilibrium's tangent says whether it has lost its uniqueness.
 
+A path whose corrections stop shrinking however short the step has come to a limit point. Given a `settle`, it
+goes on from the stable equilibrium that this finds a little beyond (see `relaxation`): the structure snaps.
+
 At the end the inertia of the true tangent says whether the equilibrium is stable; under follower loads, whose
 tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter of dynamics).
 """
@@ -42,6 +45,9 @@ FACTORISATIONS = 400  # in all
 FIRST_REACH = 8.0  # sizes of the structure that the first linear step may move it
 SMALLEST_STEP = 2.0**-10
 FARTHEST = 1e3  # a step beyond so many sizes of the structure has diverged
+SNAPS = 12  # of one path
+SNAP_STEP = 0.01  # in load factor, past the limit point
+SNAPPING = 4 * FACTORISATIONS  # in all, where the structure snaps
 
 
 class Structure(Protocol):
@@ -68,6 +74,7 @@ class Path:
     load_factor: float = 0.0
     status: Status = Status.STEP_LIMIT
     factorisations: int = 0
+    limit: int = FACTORISATIONS  # of them
     history: list[Iteration] = field(default_factory=list)
     message: str = ""
 
@@ -91,36 +98,100 @@ def trace(
     structure: Structure,
     solver: DirectSolver,
     inspect: Callable[[Path], Fault | None] = lambda path: None,
+    settle: Callable[[Path, float], Any] | None = None,
 ) -> Path:
     """The equilibrium at load factor 1, or the last one on the way with the reason it is the last.
 
     inspect: shown the path at every equilibrium on the way; a fault, if it finds one, ends it there.
+    settle: the stable state of a structure under conservative loads that a path leads to at a load factor
+    beyond a limit point, for the path to go on from; it raises StepFailed where it finds none.
     """
     with one_blas_thread():
         path = Path(structure.rest())
-        size, reach = 1.0, FIRST_REACH
-        factor: Factor | None = None
-        while path.load_factor < 1.0:
-            before = path.factorisations
-            try:
-                first = _Predictor(structure, solver, path, min(1.0, path.load_factor + size), reach, factor)
-                factor = first.factor if structure.symmetric else None
-                state = _newton(structure, solver, path, first)
-            except StepFailed as failure:
-                size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
-                if size < SMALLEST_STEP or path.factorisations >= FACTORISATIONS:
-                    _give_up(structure, solver, path, failure)
-                    return path
-                continue
-            grown = first.target - path.load_factor
-            path.state, path.load_factor, factor = state, first.target, None
-            if (fault := inspect(path)) is not None:
-                path.status, path.message = fault
-                return path
-            easy = path.factorisations - before <= EASY
-            size, reach = (GROWTH * grown, GROWTH * reach) if easy else (grown, reach)
-        path.status, path.message = stability(structure, solver, path)
+        snaps: list[str] = []
+        ended = _follow(structure, solver, path, inspect)
+        while isinstance(ended, StepFailed):
+            tried = ""
+            if settle is not None and structure.symmetric and _at_limit_point(path, ended, len(snaps)):
+                departure = _departure(structure, solver, path)
+                try:
+                    following = _snap(structure, solver, path, inspect, settle)
+                except StepFailed as failure:
+                    tried = f"; relaxed at a load factor {SNAP_STEP:g} higher, {failure}"
+                else:
+                    snaps.append(departure)
+                    ended = following
+                    continue
+            ended = _give_up(structure, solver, path, ended, tried)
+        path.status, said = ended or stability(structure, solver, path)
+        path.message = "; ".join(filter(None, [*snaps, said]))
         return path
+
+
+def _follow(
+    structure: Structure, solver: DirectSolver, path: Path, inspect: Callable[[Path], Fault | None]
+) -> StepFailed | Fault | None:
+    """Lead a path on to load factor 1: what has ended it before, if anything."""
+    size, reach = 1.0, FIRST_REACH
+    factor: Factor | None = None
+    while path.load_factor < 1.0:
+        before = path.factorisations
+        try:
+            first = _Predictor(structure, solver, path, min(1.0, path.load_factor + size), reach, factor)
+            factor = first.factor if structure.symmetric else None
+            state = newton(structure, solver, path, first)
+        except StepFailed as failure:
+            size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
+            if size < SMALLEST_STEP or path.factorisations >= path.limit:
+                return failure
+            continue
+        grown = first.target - path.load_factor
+        path.state, path.load_factor, factor = state, first.target, None
+        if (fault := inspect(path)) is not None:
+            return fault
+        easy = path.factorisations - before <= EASY
+        size, reach = (GROWTH * grown, GROWTH * reach) if easy else (grown, reach)
+    return None
+
+
+def _at_limit_point(path: Path, failure: StepFailed, snaps: int) -> bool:
+    """Whether a path that has ended may snap; one that has not left rest, or has used its factorisations up,
+    has come to no limit point."""
+    stuck = failure.status is Status.STEP_LIMIT and path.load_factor > 0.0
+    return stuck and path.factorisations < path.limit and snaps < SNAPS
+
+
+def _departure(structure: Structure, solver: DirectSolver, path: Path) -> str:
+    """Where a path snaps, and whether it was stable until then."""
+    status, said = stability(structure, solver, path)
+    unstable = f", where {said}" if status is not Status.CONVERGED else ""
+    return f"snapped at load factor {path.load_factor:.4g}{unstable}"
+
+
+def _snap(
+    structure: Structure,
+    solver: DirectSolver,
+    path: Path,
+    inspect: Callable[[Path], Fault | None],
+    settle: Callable[[Path, float], Any],
+) -> StepFailed | Fault | None:
+    """Lead a path past its limit point and on: what has ended it then. Raises StepFailed, the path as it was,
+    if nothing stable was found."""
+    beyond = min(1.0, path.load_factor + SNAP_STEP)
+    path.limit = min(path.factorisations + FACTORISATIONS, SNAPPING)
+    path.state, path.load_factor = settle(path, beyond), beyond
+    path.limit = min(path.factorisations + FACTORISATIONS, SNAPPING)
+    return inspect(path) or _follow(structure, solver, path, inspect)
+
+
+class Start(NamedTuple):
+    """What Newton's method starts from: a state, the load factor it is for, and length and work of the step
+    that has led to it."""
+
+    state: Any
+    target: float
+    length: float
+    work: float
 
 
 class _Predictor:
@@ -162,8 +233,8 @@ class _Predictor:
         self.work = abs(float(step @ rows))
 
 
-def _newton(structure: Structure, solver: DirectSolver, path: Path, first: _Predictor) -> Any:
-    """The equilibrium at a predictor's load factor. Raises StepFailed."""
+def newton(structure: Structure, solver: DirectSolver, path: Path, first: Start | _Predictor) -> Any:
+    """The equilibrium at the load factor of a start. Raises StepFailed."""
     state, target, before = first.state, first.target, np.inf
     works, lengths = [first.work], [first.length]
     for _ in range(ITERATIONS):
@@ -178,8 +249,8 @@ def _newton(structure: Structure, solver: DirectSolver, path: Path, first: _Pred
             return state
         if len(lengths) > BACK and lengths[-1] >= lengths[-1 - BACK]:
             raise StepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
-        if path.factorisations >= FACTORISATIONS:
-            said = f"{FACTORISATIONS} factorisations were not enough"
+        if path.factorisations >= path.limit:
+            said = f"{path.limit} factorisations were not enough"
             raise StepFailed(Status.STEP_LIMIT, said, first.length)
         path.factorisations += 1
         try:
@@ -196,14 +267,17 @@ def _newton(structure: Structure, solver: DirectSolver, path: Path, first: _Pred
     raise StepFailed(Status.STEP_LIMIT, f"no equilibrium in {ITERATIONS} corrections", first.length)
 
 
-def _give_up(structure: Structure, solver: DirectSolver, path: Path, failure: StepFailed) -> None:
-    """Say where the path ended and, from the last equilibrium's tangent, whether it had branched by then."""
-    path.status = failure.status
-    path.message = f"no equilibrium found beyond load factor {path.load_factor:.4g}: {failure}"
+def _give_up(
+    structure: Structure, solver: DirectSolver, path: Path, failure: StepFailed, tried: str
+) -> Fault:
+    """Where the path ended, what was tried beyond and, from the last equilibrium's tangent, whether it had
+    branched by then."""
+    message = f"no equilibrium found beyond load factor {path.load_factor:.4g}: {failure}{tried}"
     if path.load_factor > 0.0:
         status, said = stability(structure, solver, path)
         if status is not Status.CONVERGED:
-            path.message += f"; {said} there: the answer is not unique on this grid"
+            message += f"; {said} there: the answer is not unique on this grid"
+    return Fault(failure.status, message)
 
 
 def stability(structure: Structure, solver: DirectSolver, path: Path) -> tuple[Status, str]:

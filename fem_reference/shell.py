@@ -21,6 +21,7 @@ from fem_reference.linear import DirectSolver
 from fem_reference.location import locate
 from fem_reference.materials import Section, section_of
 from fem_reference.mesh import Elements, divisions, quarters, rectangle
+from fem_reference.relaxation import settler
 from fem_reference.shell_element import Element, shape
 from fem_reference.shell_loads import Line
 from fem_reference.shell_rods import RoddedShell
@@ -85,7 +86,8 @@ def solve_on(
     structure, nodes = discretise(mesh, scene, section)
     solver = DirectSolver(structure.symmetric)
     ready = perf_counter()
-    path = trace(structure, solver, shell_watch.inspector(scene, structure, solver, graded))
+    inspect = shell_watch.inspector(scene, structure, solver, graded)
+    path = trace(structure, solver, inspect, settler(structure, solver))
     done = perf_counter()
     status, message = shell_watch.judge(scene, structure, path)
 

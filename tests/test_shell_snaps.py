@@ -1,0 +1,362 @@
+"""The shell beyond its limit points: where it snaps, to what, and that nothing else has changed."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from scipy.integrate import simpson
+from scipy.optimize import minimize_scalar
+from scipy.sparse import csr_matrix
+
+import scenes
+from comparisons.displacement import error
+from comparisons.stability import equilibria
+from fem_reference import relaxation, shell
+from fem_reference.equilibrium import SNAPS, Path, StepFailed, trace
+from fem_reference.linear import DirectSolver
+from fem_reference.mesh import rectangle
+from fem_reference.relaxation import dragged, potential, relax, settler
+from fem_reference.shell_loads import point_force
+from fem_reference.shell_structure import ShellStructure, State
+from scenes import Chain, Curved, Hinged, Material, Scene, Sheet, Status
+
+SIDE, WIDTH, THICKNESS, YOUNG = 1.0, 0.1, 0.002, 1e7
+SHORTER = 0.002  # shortening of the strip
+RIGIDITY = YOUNG * WIDTH * THICKNESS**3 / 12.0  # E I; ν = 0: a beam
+
+
+def push_of(theta: float, at: float = 0.5) -> float:
+    """Push F [N] at x = at · L on a hinged strip that is buckled, as a function of kL = 2θ.
+
+    E I w'' + P w = −M, M the push's moment in a simple beam, k² = P/E I: with c = L − a, for x < a,
+
+        w = F/P (sin kc sin kx/(k sin kL) − c x/L),
+
+    and beyond a the same from the other end. The ends are closer by Δ = ∫ ½ w'² dx + P L/E A, which is given
+    (Timoshenko & Gere 1961, §1.3). θ = π/2 is the unloaded arch; pushed in the middle, the antisymmetric
+    mode branches off at θ = π, where F = 4 (4 π²) E I/L² √(Δ/3L).
+    """
+    k, force = 2.0 * theta / SIDE, 4.0 * theta**2 * RIGIDITY / SIDE**2
+    square = 0.0
+    for near, far in ((at * SIDE, (1 - at) * SIDE), ((1 - at) * SIDE, at * SIDE)):
+        x = np.linspace(0.0, near, 2001)
+        share = 0.5 / np.cos(theta) if at == 0.5 else np.sin(k * far) / np.sin(k * SIDE)
+        square += float(simpson((share * np.cos(k * x) - far / SIDE) ** 2, x=x))
+    bent = SHORTER - force * SIDE / (YOUNG * WIDTH * THICKNESS)
+    return force * float(np.sqrt(2.0 * bent / square))
+
+
+def limit(at: float = 0.5) -> float:
+    """The largest push [N] on the path that the arch takes without branching."""
+    last = 4.5 if at == 0.5 else 0.999 * np.pi
+    return -float(minimize_scalar(lambda t: -push_of(t, at), bounds=(1.8, last), method="bounded").fun)
+
+
+BRANCHING, LIMIT = push_of(np.pi), limit()
+
+
+@dataclass(frozen=True)
+class Shortening:
+    """The strip's ends brought closer, at every load factor."""
+
+    nodes: np.ndarray
+    outward: np.ndarray
+    shorter: float
+
+    def change(self, load_factor: float) -> tuple[np.ndarray, np.ndarray]:
+        out = np.zeros((len(self.nodes), 3))
+        out[:, 0] = -0.5 * self.shorter * self.outward
+        return out, np.zeros_like(out)
+
+
+class Strip(ShellStructure):
+    """A strip between hinges, shortened, that sets out from a given state."""
+
+    start: State
+
+    def rest(self) -> State:
+        return self.start
+
+
+def height(shorter: float) -> float:
+    """Of the buckled strip: w = b sin πx/L, b² = 4 L Δ/π², but for what it is compressed."""
+    return 2.0 / np.pi * float(np.sqrt((shorter - np.pi**2 * THICKNESS**2 / (12.0 * SIDE)) * SIDE))
+
+
+def strip(at: float = 0.5, shorter: float = SHORTER, bent: float = 0.0) -> Strip:
+    """Pushed down at x = at, with 1.5 times the limit load at load factor 1; pressed together, bent by so
+    much of the buckled shape."""
+    scene = Scene(
+        name="strip",
+        sheet=Sheet(length_x=SIDE, length_y=WIDTH, thickness=THICKNESS),
+        material=Material(young=YOUNG, poisson=0.0, density=1000.0),
+        supports=(Hinged(edge="x0"), Hinged(edge="x1")),
+    )
+    mesh = rectangle(scene.sheet, (12, 1), graded=False)
+    plain, nodes = shell.discretise(mesh, scene)
+    ends = np.flatnonzero(plain.supports.position.any(axis=1))
+    supports = plain.supports
+    driver = Shortening(ends, np.sign(nodes[ends, 0] - SIDE / 2), shorter)
+    object.__setattr__(supports, "driven", (driver,))
+    point = np.array([at * SIDE, WIDTH / 2])
+    dead = point_force(mesh, plain.element_nodes, len(nodes), point, np.array([0.0, 0.0, -1.5 * LIMIT]))
+    out = Strip(plain.element, plain.element_nodes, supports, dead, [])
+    change = np.zeros((2, len(nodes), 3))
+    change[0, :, 0] = -shorter * (nodes[:, 0] / SIDE - 0.5)
+    phase, high = np.pi * nodes[:, 0] / SIDE, bent * height(shorter)
+    change[0, :, 2] = high * np.sin(phase)
+    slope = np.arctan(high * np.pi / SIDE * np.cos(phase))
+    change[1, :, 0], change[1, :, 2] = -np.sin(slope), np.cos(slope) - 1.0
+    out.start = State(change)
+    return out
+
+
+@pytest.fixture(scope="module")
+def arch() -> State:
+    """The strip buckled upwards."""
+    bent = strip(bent=1.0)
+    return relax(bent, DirectSolver(), Path(bent.start), 0.0)
+
+
+def mirrored(change: np.ndarray) -> np.ndarray:
+    """The same on the other side of z = 0."""
+    return change * np.array([[[1.0, 1.0, -1.0]], [[-1.0, -1.0, 1.0]]])
+
+
+def pushed(arch: State, at: float = 0.5, settles: bool = True) -> tuple[Strip, Path]:
+    structure, solver = strip(at), DirectSolver()
+    structure.start = arch
+    return structure, trace(structure, solver, settle=settler(structure, solver) if settles else None)
+
+
+def left_at(path: Path) -> float:
+    """The load factor of a path's one snap."""
+    (found,) = places(path.message)
+    return found
+
+
+def test_the_arch_is_the_elastica(arch):
+    assert arch.change[0, :, 2].max() == pytest.approx(height(SHORTER), rel=2e-3)
+
+
+def test_a_compressed_strip_leaves_the_saddle_for_the_buckled_state():
+    shorter = 1.5 * np.pi**2 * THICKNESS**2 / (12.0 * SIDE)
+    flat = strip(shorter=shorter)
+    path = Path(flat.start)
+    buckled = relax(flat, DirectSolver(), path, 0.0)
+    assert np.abs(buckled.change[0, :, 2]).max() == pytest.approx(height(shorter), rel=5e-3)
+    assert 0 < path.factorisations < 100
+
+
+def test_a_buckled_strip_snaps_at_its_limit_load_to_the_mirrored_state(arch):
+    """Pushed in the middle it stays symmetric past the branching, as the path does, up to the limit load."""
+    _, stopped = pushed(arch, settles=False)
+    assert stopped.status is Status.STEP_LIMIT
+    _, path = pushed(arch)
+    assert path.status is Status.CONVERGED and path.load_factor == 1.0
+    assert left_at(path) == pytest.approx(stopped.load_factor, rel=1e-3)
+    assert 1.5 * LIMIT * left_at(path) == pytest.approx(LIMIT, rel=0.01)
+    assert "where the tangent has 1 negative" in path.message and LIMIT > 1.4 * BRANCHING
+    _, other = pushed(State(mirrored(arch.change)))
+    assert other.message == "" and other.status is Status.CONVERGED
+    assert path.state.change == pytest.approx(other.state.change, abs=1e-7)
+    assert len(path.history) >= path.factorisations / 2
+
+
+def test_pushed_beside_its_middle_a_stable_path_snaps_at_its_limit_load(arch):
+    _, path = pushed(arch, at=0.6)
+    assert path.status is Status.CONVERGED
+    assert 1.5 * LIMIT * left_at(path) == pytest.approx(limit(0.6), rel=0.01)
+    assert "where" not in path.message  # stable until then
+    assert path.state.change[0, :, 2].min() < -0.9 * arch.change[0, :, 2].max()
+
+
+def rod_scene(turn: float, load_number: float) -> Scene:
+    """A sheet on a rod bent to a share of a circle, under its weight."""
+    rod = Curved(edge="x0", curvature=float(2.0 * np.pi * turn / equilibria.SIDE))
+    return equilibria.sheet(0.008, load_number, supports=(rod,))
+
+
+def chained() -> Scene:
+    scene = scenes.load("one-edge-clamped")
+    rod = Chain(
+        edge="x1", segments=8, bending_stiffness=2e-3, line_density=0.05, radius=1.5e-3, curvature=4.0
+    )
+    return scene.model_copy(update={"actuators": (rod,)})
+
+
+@pytest.fixture(scope="module")
+def taped() -> Scene:
+    """Bent down to a quarter of a circle, under a weight that folds it."""
+    return rod_scene(-0.25, 10.0)
+
+
+def places(message: str) -> list[float]:
+    """The load factors of the snaps that a message names."""
+    parts = message.split("snapped at load factor ")[1:]
+    return [float(part.split(",")[0].split(";")[0]) for part in parts]
+
+
+def test_a_tape_spring_snaps_as_the_lattice_does(taped):
+    ours = equilibria.lattice(taped, (17, 17))
+    truth = shell.solve(taped, elements=6)
+    assert truth.status is Status.CONVERGED and truth.load_factor == 1.0
+    assert places(truth.message) == pytest.approx(places(ours.message), rel=0.05)
+    points = taped.probe_points()
+    assert error(ours.displacement(points), truth.displacement(points)) < 0.05
+    assert truth.iterations <= len(truth.history) + 40
+
+
+@pytest.mark.parametrize("scene", [rod_scene(0.1, 3.0), chained()], ids=["shell", "rods"])
+def test_the_potential_is_that_of_the_residual_and_a_drag_begins_with_none(scene):
+    """Along free positions, by central differences; a dragged sheet is, where it begins, the sheet itself."""
+    structure, _ = shell.discretise(rectangle(scene.sheet, (3, 3), graded=True), scene)
+    generator, factor = np.random.default_rng(3), 0.7
+    free = ~structure.supports.position
+    change = generator.normal(0.0, 1e-3, structure.rest().change.shape)
+    way = np.zeros_like(change)
+    way[0][free] = generator.normal(0.0, 1.0, int(free.sum()))
+    rest, step = structure.rest(), 1e-6
+    ahead, behind = (
+        potential(structure, replace(rest, change=change + sign * step * way), factor)[0]
+        for sign in (1.0, -1.0)
+    )
+    state = replace(rest, change=change)
+    residual = structure.forces(state, factor).residual
+    assert (ahead - behind) / (2.0 * step) == pytest.approx(float(np.sum(residual * way)), rel=1e-6)
+    slow = dragged(structure, state, factor, 3.0).forces(state, factor).residual
+    assert slow == pytest.approx(residual, rel=1e-9, abs=1e-9 * np.abs(residual).max())
+
+
+def test_no_step_of_the_creep_raises_the_potential(taped, monkeypatch):
+    structure, _ = shell.discretise(rectangle(taped.sheet, (6, 6), graded=True), taped)
+    solver = DirectSolver()
+    path = trace(structure, solver)
+    energies = []
+    measured = relaxation._Creep._accepts
+
+    def accepts(self, state):
+        taken = measured(self, state)
+        if taken:
+            energies.append(potential(structure, state, self.load_factor)[0])
+        return taken
+
+    monkeypatch.setattr(relaxation._Creep, "_accepts", accepts)
+    before, state = path.factorisations, path.state
+    relax(structure, solver, path, path.load_factor + 0.01)
+    assert path.state is state and path.factorisations > before
+    assert len(energies) > 5 and energies[-1] < energies[0]
+    assert np.diff(energies).max() <= 1e-12 * np.abs(energies).max()
+
+
+@pytest.mark.parametrize("name", ["curved-edge", "two-edges-clamped"])
+def test_a_path_that_reaches_the_full_load_is_the_same_to_the_last_digit(name):
+    scene = scenes.load(name)
+    structure, _ = shell.discretise(rectangle(scene.sheet, (4, 4), graded=True), scene)
+    with_it = trace(structure, DirectSolver(), settle=settler(structure, DirectSolver()))
+    without = trace(structure, DirectSolver())
+    assert np.array_equal(with_it.state.change, without.state.change)
+    assert with_it.factorisations == without.factorisations
+    assert (with_it.status, with_it.message) == (Status.CONVERGED, "")
+
+
+@dataclass
+class Balance:
+    residual: float
+    size: float = 1.0
+
+
+@dataclass
+class Humps:
+    """One unknown u with force f(u) = λ: from every whole u it rises by a quarter, then falls back."""
+
+    rise: float
+    symmetric: bool = True
+
+    def rest(self):
+        return 0.0
+
+    def forces(self, u, load_factor):
+        part = u - np.floor(u)
+        return Balance(self.rise * np.floor(u) + part - part**2 - load_factor)
+
+    def imbalance(self, u, forces):
+        return abs(forces.residual)
+
+    def gap(self, u, load_factor):
+        return 0.0
+
+    def system(self, u, forces, load_factor, mixed=True):
+        slope = 1.0 - 2.0 * (u - np.floor(u))
+        return csr_matrix(([slope], ([0], [0]))), np.array([-forces.residual])
+
+    def advance(self, u, forces, load_factor, step):
+        return u + step[0]
+
+    def length(self, start, end):
+        return abs(end - start)
+
+
+def foothold(path: Path, load_factor: float, rise: float) -> float:
+    """u on the rising half of the next hump."""
+    hump = np.floor(path.state) + 1.0
+    path.factorisations += 1
+    return float(hump + 0.5 - np.sqrt(0.25 - (load_factor - rise * hump)))
+
+
+def nothing(path: Path, load_factor: float) -> float:
+    raise StepFailed(Status.STEP_LIMIT, "it creeps no further", 0.0)
+
+
+def test_snaps_are_bounded():
+    rise = 0.02
+    path = trace(Humps(rise), DirectSolver(), settle=lambda *where: foothold(*where, rise))
+    assert len(places(path.message)) == SNAPS
+    assert path.status is Status.STEP_LIMIT and "no equilibrium found beyond" in path.message
+    found = places(path.message)
+    assert found[0] == pytest.approx(0.25, abs=2e-3) and np.all(np.diff(found) > 0.0)
+
+
+def test_where_nothing_is_found_status_and_place_stay_and_a_clause_says_what_was_tried():
+    stopped = trace(Humps(0.2), DirectSolver())
+    path = trace(Humps(0.2), DirectSolver(), settle=nothing)
+    assert stopped.status is Status.STEP_LIMIT
+    assert (path.status, path.state, path.load_factor) == (stopped.status, stopped.state, stopped.load_factor)
+    assert path.message == f"{stopped.message}; relaxed at a load factor 0.01 higher, it creeps no further"
+
+
+def test_follower_loads_do_not_snap():
+    path = trace(Humps(0.2, symmetric=False), DirectSolver(symmetric=False), settle=nothing)
+    assert path.status is Status.STEP_LIMIT
+    assert "snapped" not in path.message and "relaxed" not in path.message
+
+
+# Rod's turn, load number, load factors of the snaps: 12 elements a side.
+TAPES = [
+    (-0.25, 10.0, [0.589]),
+    (0.25, 30.0, [0.893]),
+    (0.5, 30.0, [0.205]),
+    (-0.5, 30.0, [0.597]),
+    (-0.1, 100.0, [0.754, 0.830]),
+    (-0.25, 100.0, [0.653]),
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("turn, load_number, snaps", TAPES)
+def test_tape_springs_snap_to_where_the_lattice_does(turn, load_number, snaps):
+    scene = rod_scene(turn, load_number)
+    truth = shell.solve(scene, elements=12)
+    assert truth.status is Status.CONVERGED and truth.load_factor == 1.0
+    assert places(truth.message) == pytest.approx(snaps, rel=0.05)
+    ours = equilibria.lattice(scene, (33, 33))
+    points = scene.probe_points()
+    assert error(ours.displacement(points), truth.displacement(points)) < 0.05
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("slenderness", [1e-4, 3e-4])
+def test_foils_reach_the_full_load_though_their_wrinkles_are_the_meshs(slenderness):
+    truth = shell.solve(equilibria.sheet(slenderness, 1e3, ("x0", "y0")), elements=12)
+    assert truth.load_factor == 1.0 and truth.status in (Status.CONVERGED, Status.UNSTABLE)
+    assert len(places(truth.message)) >= 1

@@ -46,17 +46,25 @@ def spacing(count: int, layer: int) -> np.ndarray:
     return np.concatenate([[0.0], np.cumsum(size)]) / size.sum()
 
 
-def rectangle(sheet: Sheet, elements: Elements, graded: bool = False, cuts: Collection[str] = ()) -> MeshQuad:
+def rectangle(
+    sheet: Sheet,
+    elements: Elements,
+    graded: bool = False,
+    cuts: Collection[str] = (),
+    reach: float = 1.0,
+) -> MeshQuad:
     """A mesh of the sheet whose boundaries carry the edges' names.
 
-    cuts: edges that are planes of symmetry; the mesh is then that of the whole sheet, cut there.
+    cuts: edges that are planes of symmetry; the mesh is then that of the whole sheet, cut there. reach: share
+    of the elements along the shorter side over which a graded mesh's sizes grow; the others are equal.
 
     Uniform; or graded towards all edges, where a clamp that ends at a free edge has a singularity and
     a thick sheet has boundary layers: the same number of elements, a far smaller error.
     """
     counts = divisions(sheet.lengths, elements)
     cut = [[name for name in cuts if EDGES[name].normal_axis == axis] for axis in (0, 1)]
-    layer = min(n << len(at) for n, at in zip(counts, cut, strict=True)) if graded else 1
+    across = min(n << len(at) for n, at in zip(counts, cut, strict=True))
+    layer = max(1, round(reach * across)) if graded else 1
     x, y = (length * _part(n, layer, at) for length, n, at in zip(sheet.lengths, counts, cut, strict=True))
     mesh = MeshQuad.init_tensor(x, y)
     ends = {name: sheet.lengths[edge.normal_axis] * edge.far_end for name, edge in EDGES.items()}

@@ -10,6 +10,11 @@ singular K needs no special care.
 The rigid motions that the supports leave free are counted exactly (the null space of their values at
 the held unknowns); so many lowest modes, whose frequency is zero, are left out and their number is reported.
 
+Plate and shell are divided finer towards the edges, over `REACH` of their elements: there the clamps' ends
+have singularities, but modes have waves in the middle too. Of the first ten frequencies of the seed's sheet
+on 16 × 16 elements the largest error, against 64 × 64, falls from 0.31 % (one edge clamped) and 0.23 % (two)
+of even elements to 0.05 and 0.09 %; graded over all elements it is 0.04 and 0.14 %, more on coarse meshes.
+
 Masses: plate and shell, ρh on the displacements and ρh³/12 on the director's rotations; solid, ρ. SI units.
 """
 
@@ -23,13 +28,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.sparse import bsr_matrix, csr_matrix
 from scipy.sparse.linalg import LinearOperator, eigsh
+from skfem import MeshQuad
 
 from fem_reference import plate, shell, solid, solid_supports
 from fem_reference.linear import DirectSolver
 from fem_reference.materials import Section
 from fem_reference.mesh import Elements, divisions, rectangle
 from fem_reference.threads import one_blas_thread
-from scenes import Scene
+from scenes import Scene, Symmetric
+
+REACH = 0.375  # of the grading
 
 
 class RestState(NamedTuple):
@@ -74,7 +82,8 @@ def modes(
 ) -> Modes:
     """The `count` lowest elastic modes; a scene without supports is a free sheet.
 
-    options: the model's own; of plate and shell `section`, as in their `solve`.
+    options: the model's own; of plate and shell `section`, as in their `solve`, and `graded`, whether they
+    are divided finer towards the edges (they are unless told otherwise).
 
     Raises ValueError for an unknown model or a count that the mesh cannot give.
     """
@@ -135,8 +144,15 @@ def _free_rigid_motions(rest: RestState) -> int:
     return 6 - int(np.sum(singular > 1e-9))
 
 
-def _plate_at_rest(scene: Scene, elements: tuple[int, int], section: Section | None = None) -> RestState:
-    model = plate.Plate.on(rectangle(scene.sheet, elements))
+def _mesh(scene: Scene, elements: tuple[int, int], graded: bool) -> MeshQuad:
+    cuts = [support.edge for support in scene.supports if isinstance(support, Symmetric)]
+    return rectangle(scene.sheet, elements, graded, cuts, REACH)
+
+
+def _plate_at_rest(
+    scene: Scene, elements: tuple[int, int], section: Section | None = None, graded: bool = True
+) -> RestState:
+    model = plate.Plate.on(_mesh(scene, elements, graded))
     _, held, _ = plate.constrain(scene, model)
     x, y = (model.nodes - model.nodes.mean(axis=0)).T
     rigid = np.zeros((6, len(x), 5))
@@ -154,13 +170,15 @@ def _plate_at_rest(scene: Scene, elements: tuple[int, int], section: Section | N
     )
 
 
-def _shell_at_rest(scene: Scene, elements: tuple[int, int], section: Section | None = None) -> RestState:
+def _shell_at_rest(
+    scene: Scene, elements: tuple[int, int], section: Section | None = None, graded: bool = True
+) -> RestState:
     """The tangent of the shell that nothing holds or loads; the last two fields turn the director."""
     bare = scene.model_copy(update={"supports": (), "loads": (), "actuators": (), "gravity": None})
-    structure, _ = shell.discretise(rectangle(scene.sheet, elements), bare, section)
+    structure, _ = shell.discretise(_mesh(scene, elements, graded), bare, section)
     rest = structure.rest()
     stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
-    return _plate_at_rest(scene, elements)._replace(stiffness=stiffness)
+    return _plate_at_rest(scene, elements, graded=graded)._replace(stiffness=stiffness)
 
 
 def _solid_at_rest(

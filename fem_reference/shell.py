@@ -37,7 +37,8 @@ def solve(
 
     graded: finer towards the edges, uniform otherwise (see `mesh.rectangle`); where the sheet bends more than
     stretched elements stand, it is divided evenly after all, and the message says so. section: stiffness per
-    width, from material and thickness unless given.
+    width, from material and thickness unless given. Past limit points under conservative loads the path goes
+    on (see `relaxation`), and the message says at which load factors the sheet snapped.
     Raises scenes.SceneError if the supports leave a rigid motion free.
     """
     require_static(scene)

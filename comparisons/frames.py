@@ -1,4 +1,8 @@
-"""Whole displacements of a run over time: a PVD/VTU series, and an animation of the sheet as GIF."""
+"""Whole displacements of a run over time: a PVD/VTU series, and an animation of the sheet as GIF.
+
+The axes of chains are lines in both; a file's point data `actuator` is 0 on the lattice and 1, 2, … on the
+axes, in the order of their edges in the scene.
+"""
 
 from __future__ import annotations
 
@@ -17,11 +21,30 @@ PIXELS, COLOURS, PER_SECOND, MOST = 480, 96, 12, 50
 
 @dataclass(frozen=True)
 class Frame:
-    """One moment of a run, as far as drawing needs a solution: sampled displacement and a mesh."""
+    """One moment of a run, as far as drawing needs a solution: sampled displacement and a mesh.
+
+    axes: rest places and displacements (p, 3) [m] of the points where the segments of each chain end.
+    """
 
     mesh: FieldMesh
     grid: tuple[int, int, int]
     lengths: tuple[float, float]
+    axes: tuple[tuple[np.ndarray, np.ndarray], ...] = ()
+
+    def with_axes(self) -> FieldMesh:
+        """The mesh with the axes as more points and lines."""
+        points, displacement, cells = [self.mesh.points], [self.mesh.point_data["displacement"]], []
+        of, first = [np.zeros(len(self.mesh.points), dtype=int)], len(self.mesh.points)
+        for number, (rest, u) in enumerate(self.axes, 1):
+            points.append(rest)
+            displacement.append(u)
+            of.append(np.full(len(rest), number))
+            cells.append(
+                ("line", first + np.column_stack([np.arange(len(rest) - 1), np.arange(1, len(rest))]))
+            )
+            first += len(rest)
+        fields = {"displacement": np.concatenate(displacement), "actuator": np.concatenate(of)}
+        return FieldMesh(np.concatenate(points), [*self.mesh.cells, *cells], fields)
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
         """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m]: bilinear between the masses."""
@@ -42,15 +65,12 @@ def frames(scene: Scene, history: History) -> list[tuple[float, Frame]]:
     grid = tuple(history.settings["grid"])
     kept = history.extra["frames"]
     times = history.extra["frame_times"][: len(kept)]
-    return [
-        (
-            float(t),
-            Frame(
-                FieldMesh(mesh.points, mesh.cells, {"displacement": np.array(u)}), grid, scene.sheet.lengths
-            ),
-        )
-        for t, u in zip(times, kept, strict=True)
-    ]
+    found = []
+    for number, (time, u) in enumerate(zip(times, kept, strict=True)):
+        moved = FieldMesh(mesh.points, mesh.cells, {"displacement": np.array(u)})
+        axes = tuple((rest, over_time[number]) for rest, over_time in history.extra["axes"].values())
+        found.append((float(time), Frame(moved, grid, scene.sheet.lengths, axes)))
+    return found
 
 
 def write_series(path: Path, shown: list[tuple[float, Frame]]) -> None:
@@ -59,7 +79,7 @@ def write_series(path: Path, shown: list[tuple[float, Frame]]) -> None:
     lines = ['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1">', "  <Collection>"]
     for number, (time, frame) in enumerate(shown):
         name = f"{number:04d}.vtu"
-        write_mesh(inside / name, frame.mesh)
+        write_mesh(inside / name, frame.with_axes() if frame.axes else frame.mesh)
         lines.append(f'    <DataSet timestep="{time!r}" part="0" file="{inside.name}/{name}"/>')
     write_text(path, "\n".join([*lines, "  </Collection>", "</VTKFile>", ""]))
 
@@ -75,7 +95,8 @@ def animate(path: Path, scene: Scene, shown: list[tuple[float, Frame]]) -> None:
     shown = shown[:: -(-len(shown) // MOST)]
     plan = plan_mesh(scene.sheet, 16).points[:, :2]
     flat = np.column_stack([plan, np.zeros(len(plan))])
-    seen = np.vstack([flat, *(flat + frame.displacement(plan) for _, frame in shown)])
+    sheets = [flat + frame.displacement(plan) for _, frame in shown]
+    seen = np.vstack([flat, *sheets, *(rest + u for _, frame in shown for rest, u in frame.axes)])
     heights = [1e3 * frame.mesh.point_data["displacement"][:, 2] for _, frame in shown]
     limits = (min(float(h.min()) for h in heights), max(float(h.max()) for h in heights) + 1e-9)
     images = []
@@ -83,6 +104,8 @@ def animate(path: Path, scene: Scene, shown: list[tuple[float, Frame]]) -> None:
         held: Any = frame
         stage = Stage(scene, held, 1.0)
         stage.lattice(frame.mesh, height, limits, HEIGHTS)
+        for rest, u in frame.axes:
+            stage.chain(rest + u)
         pixels, _ = stage.take(seen, np.empty((0, 3)))
         image = Image.fromarray(pixels)
         image = image.resize((PIXELS, round(PIXELS * image.height / image.width)), Image.Resampling.LANCZOS)

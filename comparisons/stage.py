@@ -17,7 +17,7 @@ from scenes import EDGES, FieldMesh, Scene, Sheet, Solution, holds_director
 
 PIXELS, MARGIN = 1800, 0.04  # width of the image; margin as a share of it
 ELEVATION, TURN = 27.0, 24.0  # degrees above the plane, and aside from the free side's direction
-DARK, GREY, PALE, OUTLINE = "#20252b", "#7d848c", "#c9ced4", "#a9afb6"
+DARK, GREY, PALE, OUTLINE, ROD = "#20252b", "#7d848c", "#c9ced4", "#a9afb6", "#c8553d"
 
 
 class Stage:
@@ -46,6 +46,15 @@ class Stage:
         ball = pyvista.Sphere(radius=min(0.15 * self.size / np.sqrt(len(points)), 0.011 * self.size))
         balls = masses.glyph(geom=ball, scale=False, orient=False)
         self.plotter.add_mesh(balls, smooth_shading=True, specular=0.3, **_coloured(limits, colours))
+
+    def chain(self, points: np.ndarray) -> None:
+        """The axis of a chain through the ends of its segments (p, 3), with a ball at each."""
+        line = pyvista.lines_from_points(points)
+        self.plotter.add_mesh(line.tube(radius=0.006 * self.size), color=ROD, specular=0.2)
+        balls = pyvista.PolyData(points).glyph(
+            geom=pyvista.Sphere(radius=0.01 * self.size), scale=False, orient=False
+        )
+        self.plotter.add_mesh(balls, color=ROD, smooth_shading=True, specular=0.2)
 
     def surface(
         self, solution: Solution, values: np.ndarray, limits: tuple[float, float], colours: str, lines: int

@@ -167,3 +167,21 @@ def test_memory_does_not_grow_with_the_duration(tmp_path):
     peak(0.1)
     assert peak(1.6) < peak(0.2) + 20_000  # bytes; 1400 more samples are 370 kB
     assert (tmp_path / "1.6" / "samples.bin").stat().st_size > 300_000
+
+
+def test_chains_are_in_the_files_of_a_run(tmp_path):
+    """Their axes are lines after the lattice's points; they move with the edge that they hold."""
+    arguments = ["simulate", "actuated-edge", "--lumped", "5", "--duration", "0.1", "--every", "0.02"]
+    assert leaves_with(0, [*arguments, "--out", str(tmp_path)])
+    history = json.loads((tmp_path / "history.json").read_text())
+    mesh = meshio.read(sorted((tmp_path / "frames").glob("*.vtu"))[-1])
+    axis = mesh.point_data["actuator"] == 1
+    assert axis.sum() == 9 and np.sum(mesh.point_data["actuator"] == 0) == 50
+    assert mesh.points[axis] == pytest.approx(np.array([[0.188, 0.188 * i / 8, 0.0] for i in range(9)]))
+    moved = mesh.point_data["displacement"][axis]
+    for probe, points in (("P4", [-1]), ("P3", [4])):
+        assert moved[points].mean(axis=0) == pytest.approx(history["probes"][probe][-1], abs=2e-6)
+    lines = np.vstack([cells.data for cells in mesh.cells if cells.type == "line"])
+    ends = lines[np.isin(lines, np.flatnonzero(axis)).all(axis=1)]
+    places = (mesh.points + mesh.point_data["displacement"])[ends]
+    assert np.linalg.norm(np.diff(places, axis=1)[:, 0], axis=1) == pytest.approx(8 * [0.188 / 8], rel=1e-6)

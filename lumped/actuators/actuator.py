@@ -40,7 +40,8 @@ class Actuator(Protocol):
     constraints; pairs: (rows, rows) bool, rows that appear together in tangent, damping or mass.
     masses: (m,) bound masses; binding: (m, rows); share: (segments, m) part of each mass's force that
     counts to each segment; mass: (rows, rows) [kg], for each of the three axes; carried: force [N] whose
-    rounding the residual cannot fall below.
+    rounding the residual cannot fall below; axis: rest places (p, 3) [m] of the points where its segments
+    end, which its first rows displace.
     """
 
     names: tuple[str, ...]
@@ -54,6 +55,7 @@ class Actuator(Protocol):
     share: np.ndarray
     mass: np.ndarray
     carried: float
+    axis: np.ndarray
 
     def weight(self, acceleration: np.ndarray) -> np.ndarray:
         """Dead force (rows, 3) [N] of a uniform acceleration on the rows."""

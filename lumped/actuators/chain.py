@@ -55,6 +55,7 @@ class Chain:
         start = np.append(np.array(sheet.edge_ends(first.edge)[0]), self.offset)
         axes = np.array([along, UP, edge.outward])
         self.frames = frames = Frames(first, start, sheet.lengths[edge.along_axis], axes)
+        self.axis = frames.rest[: frames.points]
         self.multipliers = frames.constraints
         self.rows = frames.coordinates + frames.multiplier_rows
         multipliers = np.arange(3 * frames.multiplier_rows).reshape(-1, 3) < self.multipliers

@@ -77,6 +77,15 @@ class Coupling:
         """Dead forces (rows, 3) [N] of a uniform acceleration on the actuators' rows."""
         return np.concatenate([np.empty((0, 3)), *(a.weight(acceleration) for a in self.actuators)])
 
+    def axes(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Of every edge with chains: the rows of the points where their segments end, (p,), and the points'
+        rest places (p, 3) [m]; of several chains on an edge the mean of their axes."""
+        return {
+            actuator.edge: (place.start + np.arange(len(points)), points)
+            for actuator, place in self._each()
+            if len(points := actuator.axis)
+        }
+
     def driven(self, drive: Drive) -> np.ndarray:
         """Prescribed displacement (size, 3) [m] of the bound masses."""
         moved = np.zeros((self.size, 3))

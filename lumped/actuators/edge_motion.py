@@ -20,6 +20,7 @@ class RigidMotion:
     on every mass of the edge."""
 
     rows, multipliers, carried = 0, 0, 0.0
+    axis = np.zeros((0, 3))
 
     def __init__(
         self,

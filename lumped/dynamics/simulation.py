@@ -69,7 +69,8 @@ def simulate(
     of samples, 1/100 of the lowest period unless given; no step is longer, and what a load's history does
     within a step may go unseen. store: a folder to stream to; a run that was stopped
     goes on from there. frames: whole displacements to keep, evenly over the run, in `extra`: "frames"
-    (n, masses, 3), "frame_times" (n,) and the "mesh" they belong to. progress: called with the time reached.
+    (n, masses, 3), "frame_times" (n,), the "mesh" they belong to and "axes", of each edge with chains the
+    rest places (p, 3) and displacements (n, p, 3) [m] of its axis. progress: called with the time reached.
     precision: of the internal force (see `lumped.assembly`). options: the integrator's own (`radius`,
     `iterations`).
 
@@ -110,17 +111,22 @@ def simulate(
         "frames": frames,
         "columns": [[kind, name, list(shape)] for kind, name, shape in sampling.columns],
     }
-    kept: FolderStore | MemoryStore = MemoryStore(sampling.width, masses)
+    axes = system.coupling.axes() if system.coupling is not None else {}
+    drawn = np.concatenate([np.arange(masses), *(rows for rows, _ in axes.values())])
+    if axes:
+        asked["axes"] = {edge: len(rows) for edge, (rows, _) in axes.items()}
+    kept: FolderStore | MemoryStore = MemoryStore(sampling.width, len(drawn))
     if store is not None:
-        kept = FolderStore(store, sampling.width, masses, {**asked, "samples": plan.samples})
+        kept = FolderStore(store, sampling.width, len(drawn), {**asked, "samples": plan.samples})
     # kernels are compiled, or loaded, in the set-up
     system.matrix(start.u, start.v, 0.0, 1.0, 1.0, 1.0)
     system.average_elastic(start.u, start.u, 0.0)
     ready = clock.perf_counter()
     with one_blas_thread():
-        status, message, steps = _run(system, method, plan, sampling, kept, start, shown, progress)
+        status, message, steps = _run(system, method, plan, sampling, kept, start, shown, drawn, progress)
     done = clock.perf_counter()
     parts = sampling.split(kept.samples())
+    whole = kept.frames()
     return History(
         label=f"lumped {nx}×{ny}×{layers} {springs.method}",
         integrator=integrator,
@@ -136,7 +142,10 @@ def simulate(
         setup_seconds=ready - began,
         solve_seconds=done - ready,
         extra={
-            "frames": kept.frames(),
+            "frames": whole[:, :masses],
+            "axes": {
+                edge: (rest, whole[:, np.searchsorted(drawn, rows)]) for edge, (rows, rest) in axes.items()
+            },
             "frame_times": plan.every * np.array(sorted(shown)),
             "mesh": field_mesh(system.problem, start.u, np.zeros_like(start.u)),
         },
@@ -195,10 +204,13 @@ def _run(
     kept: FolderStore | MemoryStore,
     state: State,
     shown: set[int],
+    drawn: np.ndarray,
     progress: Callable[[float], None] | None,
 ) -> tuple[Status, str, int]:
-    """Take the run to its end, or from its last checkpoint to its end; status, message and steps taken."""
-    masses = system.assembly.lattice.mass_count
+    """Take the run to its end, or from its last checkpoint to its end; status, message and steps taken.
+
+    shown: the samples at which to keep a frame; drawn: the rows of the displacement that make one.
+    """
     done, steps, dissipated, work, round_about, origin = 0, 0, 0.0, 0.0, 0.0, 0.0
     checkpoint = kept.resume()
     if checkpoint is not None:
@@ -213,7 +225,7 @@ def _run(
         origin = float(row[1:4].sum())
         kept.sample(row)
         if 0 in shown:
-            kept.frame(state.u[:masses])
+            kept.frame(state.u[drawn])
     while done < plan.samples:
         goal = (done + 1) * plan.every
         try:
@@ -239,7 +251,7 @@ def _run(
             return fault.status, fault.message, steps
         done += 1
         if done in shown:
-            kept.frame(state.u[:masses])
+            kept.frame(state.u[drawn])
         if done % SAMPLES_PER_CHECKPOINT == 0:
             method.forget()
             own = {f"method_{key}": value for key, value in method.memory().items() if value is not None}

@@ -1,7 +1,7 @@
 """Where a run's samples go: to memory, or to a folder that grows while the run goes on and can be resumed.
 
 A folder holds `run.json` (what was asked, and the columns), `samples.bin` (rows of float64, one a sample),
-`frames.bin` (displacements (masses, 3) float64, one a frame) and `checkpoint.npz`, replaced as a whole.
+`frames.bin` (displacements (rows, 3) float64, one a frame) and `checkpoint.npz`, replaced as a whole.
 Rows after the last checkpoint are dropped on resuming and computed again, so that a resumed run gives the
 same file to the last bit. Memory does not grow with the duration.
 """
@@ -19,8 +19,8 @@ import numpy as np
 class MemoryStore:
     """Samples in memory; nothing to resume."""
 
-    def __init__(self, width: int, masses: int):
-        self._width, self._masses = width, masses
+    def __init__(self, width: int, rows: int):
+        self._width, self._rows = width, rows
         self._samples: list[np.ndarray] = []
         self._frames: list[np.ndarray] = []
 
@@ -29,7 +29,7 @@ class MemoryStore:
         self._samples.append(row)
 
     def frame(self, displacement: np.ndarray) -> None:
-        """Keep one frame (masses, 3)."""
+        """Keep one frame (rows, 3)."""
         self._frames.append(displacement.copy())
 
     def checkpoint(self, content: dict[str, Any]) -> None:
@@ -44,15 +44,15 @@ class MemoryStore:
         return np.array(self._samples).reshape(-1, self._width)
 
     def frames(self) -> np.ndarray:
-        """All frames, (n, masses, 3)."""
-        return np.array(self._frames).reshape(-1, self._masses, 3)
+        """All frames, (n, rows, 3)."""
+        return np.array(self._frames).reshape(-1, self._rows, 3)
 
 
 class FolderStore:
     """Samples in a folder. asked: JSON-able description of the run; a folder of another run is refused."""
 
-    def __init__(self, folder: Path, width: int, masses: int, asked: dict[str, Any]):
-        self.folder, self._width, self._masses = folder, width, masses
+    def __init__(self, folder: Path, width: int, rows: int, asked: dict[str, Any]):
+        self.folder, self._width, self._rows = folder, width, rows
         folder.mkdir(parents=True, exist_ok=True)
         about, text = folder / "run.json", json.dumps(asked, sort_keys=True)
         if about.exists() and json.loads(about.read_text(encoding="utf-8")) != json.loads(text):
@@ -68,7 +68,7 @@ class FolderStore:
         self._append("samples.bin", row)
 
     def frame(self, displacement: np.ndarray) -> None:
-        """Append one frame (masses, 3)."""
+        """Append one frame (rows, 3)."""
         self._append("frames.bin", displacement)
 
     def checkpoint(self, content: dict[str, Any]) -> None:
@@ -94,8 +94,8 @@ class FolderStore:
         return self._mapped("samples.bin", (self._width,))
 
     def frames(self) -> np.ndarray:
-        """All frames, (n, masses, 3), mapped from the file."""
-        return self._mapped("frames.bin", (self._masses, 3))
+        """All frames, (n, rows, 3), mapped from the file."""
+        return self._mapped("frames.bin", (self._rows, 3))
 
     def _append(self, name: str, values: np.ndarray) -> None:
         with (self.folder / name).open("ab") as file:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from scenes import FieldMesh, Solution, Status
+from scenes import Clamped, FieldMesh, Solution, Status
 
 
 class Strip:
@@ -10,15 +10,19 @@ class Strip:
     settings = {"plane_strain": False}  # noqa: RUF012
 
     def solve(self, scene, settings):
-        sheet, material = scene.sheet, scene.material
+        sheet, material, gravity = scene.sheet, scene.material, scene.gravity
+        foreign = scene.loads or scene.actuators or scene.supports != (Clamped(edge="x0"),)
+        if foreign or gravity is None or any(gravity.acceleration[:2]):
+            raise ValueError("strip: knows a sheet clamped at x0 under its own weight along z, no more")
         rigidity = material.young * sheet.thickness**3 / 12
         if settings["plane_strain"]:
             rigidity /= 1 - material.poisson**2
-        weight, length = material.density * sheet.thickness * scene.gravity.acceleration[2], sheet.length_x
+        load = material.density * sheet.thickness * gravity.acceleration[2] * gravity.last_factor
+        length = sheet.length_x
 
         def displacement(points):
             x = points[:, 0]
-            w = weight * x**2 * (6 * length**2 - 4 * length * x + x**2) / (24 * rigidity)
+            w = load * x**2 * (6 * length**2 - 4 * length * x + x**2) / (24 * rigidity)
             return np.column_stack([0 * x, 0 * x, w])
 
         mesh = FieldMesh(np.zeros((1, 3)), [("vertex", np.array([[0]]))], {"displacement": np.zeros((1, 3))})

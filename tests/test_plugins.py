@@ -14,7 +14,7 @@ from test_cli import one_line, run
 import scenes
 from comparisons import models, plugins
 from comparisons.errors import BadInput
-from scenes import Clamped, EdgeLoad, Hinged, PointLoad, Status
+from scenes import Chain, Clamped, EdgeLoad, FactorTable, Hinged, PointLoad, Status
 
 DOCS = Path(__file__).parent.parent / "docs"
 ENTRY = "[sheetbench.models]\nstrip = plugin:MODEL\nabsent = no_such_module:MODEL\nhalf = plugin:np\n"
@@ -44,6 +44,27 @@ def test_the_example_of_the_docs_answers_like_a_beam(installed: None) -> None:
     tip = -material.density * sheet.thickness * 9.81 * sheet.length_x**4 / (8 * rigidity)
     assert solution.displacement(scene.probe_points())[3, 2] == pytest.approx(tip)
     assert models.solve(scene, "strip").settings == {"plane_strain": False}
+
+
+def test_the_example_takes_a_history_and_refuses_what_it_does_not_know(installed: None) -> None:
+    scene = scenes.load("one-edge-clamped")
+    (clamp,), gravity = scene.supports, scene.gravity
+    assert gravity is not None
+    waning = gravity.model_copy(update={"history": FactorTable(time=(0.0, 1.0), factor=(1.0, 0.5))})
+    whole = models.solve(scene, "strip").displacement(scene.probe_points())
+    half = models.solve(scene.model_copy(update={"gravity": waning}), "strip")
+    np.testing.assert_allclose(half.displacement(scene.probe_points()), 0.5 * whole, rtol=1e-12)
+    chain = Chain(edge="x1", segments=2, bending_stiffness=1.0, line_density=1.0, radius=1e-3)
+    for update in (
+        {"loads": (PointLoad(at=(0.1, 0.1), force=(0.0, 0.0, 1.0)),)},
+        {"supports": (clamp, Hinged(edge="x1"))},
+        {"supports": (Clamped(edge="x0", tilt=0.1),)},
+        {"actuators": (chain,)},
+        {"gravity": None},
+        {"gravity": gravity.model_copy(update={"acceleration": (1.0, 0.0, -9.81)})},
+    ):
+        with pytest.raises(ValueError, match="strip: knows"):
+            models.solve(scene.model_copy(update=update), "strip")
 
 
 def test_a_plugin_stands_in_the_same_table_and_on_the_same_front(

@@ -4,14 +4,15 @@ A converged lattice that is off by more than 5 % is tested, until one test tells
 
     resolution   half the cell size (or a reference of twice as many elements) takes a third of the error
                  away, or more
-    branch       the same lattice, loaded by half as much again and brought back, ends elsewhere: several
-                 equilibria, and the two models found different ones
+    branch       the same lattice, loaded by half as much again and brought back, ends elsewhere, or one of
+                 the two has snapped: several equilibria, and the models found different ones
     wrong limit  the refined lattice keeps its error against the refined shell, and has no other branch: the
                  springs, or the law of strain where strains are large, stand for another sheet
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -136,11 +137,19 @@ def mechanism(
     if moved is not None and moved > LARGE:
         said = f"back from {BACK_FROM:g} times the load it stands {percent(moved)} % away"
         return {"mechanism": "branch", "evidence": said}
+    if (snaps := _snaps(ours)) or _snaps(truth):
+        said = f"snapped at load factors {snaps or 'none'}, the reference at {_snaps(truth) or 'none'}"
+        return {"mechanism": "branch", "evidence": said}
     kept, left = distance(scene, finer, truth), distance(scene, finer, sharper)
     if kept is not None and left is not None and moved is not None:
         said = f"{fine[0]}×{fine[1]} masses keep {percent(kept)} %, {percent(left)} % of a finer shell's"
         return {"mechanism": "wrong limit", "evidence": said}
     return {"mechanism": "unknown", "evidence": f"{fine[0]}×{fine[1]} masses: {finer.status}"}
+
+
+def _snaps(solution: Solution) -> str:
+    """Where it snapped on the way: load factors as its message has them."""
+    return ", ".join(re.findall(r"snapped at load factor ([\d.e+-]+\d)", solution.message))
 
 
 def _refined(springs: Any, grid: tuple[int, int]) -> Any:

@@ -13,7 +13,7 @@ help:
 	@echo "make transfer  every calibration on every scene of the transfer study (ten minutes; files in $(OUT)/transfer/)"
 	@echo "make tradeoff  error against time on the seed's test 1, with the picture (files in $(OUT)/)"
 	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/; up to half an hour)"
-	@echo "make stability where each solver holds, degrades, refuses or breaks: eight maps (ten minutes; files in $(OUT)/stability/)"
+	@echo "make stability where each solver holds, degrades, refuses or breaks: eight maps (six minutes; files in $(OUT)/stability/)"
 	@echo "make install   set up only: $(BIN)/sheetbench"
 	@echo "make clean     remove the environment and the demo's files"
 

@@ -35,10 +35,17 @@ class Constraints:
     holders: dict[str, tuple[np.ndarray, tuple[int, ...]]]
     held: np.ndarray
     fixed: np.ndarray
+    coupling: Coupling | None = None
 
     def reactions(self, residual: np.ndarray) -> tuple[dict[str, np.ndarray], np.ndarray]:
         """Force [N] of each support on the sheet, (3,) by edge, and of all supports on each mass, (n, 3),
-        from internal minus external force (n, 3). A mass held by several counts equally to each."""
+        from internal minus external force (n, 3). A mass held by several counts equally to each; a corner's
+        masses carry what holds the end of a chain there."""
+        if self.coupling is not None and self.coupling.corners():
+            residual = residual.copy()
+            for chain, place, end, column in self.coupling.corners():
+                exerted = residual[place] + chain.binding.T @ residual[chain.masses]
+                residual[column] += chain.corner_force(end, exerted) / len(column)
         on_masses = np.where(self.held, residual, 0.0)
         holders = np.zeros_like(residual)
         for masses, axes in self.holders.values():
@@ -113,9 +120,11 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
         for clamp in tilted:
             masses, _ = holders[clamp.edge]
             g[masses] = _turned(lattice, clamp.edge, masses, load_factor * clamp.tilt)
+        if coupling is not None:
+            coupling.follow(g)
         return g
 
-    return Constraints(transform, prescribed, holders, held, fixed)
+    return Constraints(transform, prescribed, holders, held, fixed, coupling)
 
 
 def _arc(lattice: Lattice, edge: str, masses: np.ndarray, curvature: float, middle: float) -> np.ndarray:

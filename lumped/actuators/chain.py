@@ -13,6 +13,11 @@ n_i, and beyond the outermost. (The nearest n_i alone would tilt masses at ends 
 error of first order.) A mass at a joint belongs to both neighbours, a segment without masses is bound to
 nothing. Chains of a pair are one kinematic chain on the mean of their axes, each with its own joints, mass
 and offset.
+
+Where an end is a corner whose position and director another edge holds, so are the chain's end point and, by
+a joint of half length, the bending and the twist of its end segment, which may turn about the director. The
+joint has the curvature of the one beside it. Masses before the middle of that segment are at their height
+along what lies between the corner's director and n_i.
 """
 
 from __future__ import annotations
@@ -33,7 +38,8 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 class Chain:
-    """One or several chains on one edge, as an `Actuator`. scale: σ [N/m], like the sheet's E h."""
+    """One or several chains on one edge, as an `Actuator`. scale: σ [N/m], like the sheet's E h; corners: its
+    ends (0 the start, 1 the end) where another edge holds position and director."""
 
     def __init__(
         self,
@@ -43,6 +49,7 @@ class Chain:
         lattice: Lattice,
         masses: np.ndarray,
         scale: float,
+        corners: tuple[int, ...] = (),
     ):
         first = chains[0]
         self.edge: str = first.edge
@@ -54,7 +61,7 @@ class Chain:
         self._beside = offsets - self.offset
         start = np.append(np.array(sheet.edge_ends(first.edge)[0]), self.offset)
         axes = np.array([along, UP, edge.outward])
-        self.frames = frames = Frames(first, start, sheet.lengths[edge.along_axis], axes)
+        self.frames = frames = Frames(first, start, sheet.lengths[edge.along_axis], axes, corners)
         self.axis = frames.rest[: frames.points]
         self.multipliers = frames.constraints
         self.rows = frames.coordinates + frames.multiplier_rows
@@ -177,9 +184,35 @@ class Chain:
         """Force on the points that the base holds."""
         if self.frames.base == "free":
             return None
-        points = self.frames.points
-        force: np.ndarray = exerted[:points][~self.free[:points, 0]].sum(axis=0)
+        force: np.ndarray = exerted[self.frames.base_points].sum(axis=0)
         return force
+
+    def place_corner(self, end: int, layers: np.ndarray, moved: np.ndarray) -> np.ndarray:
+        """Displacement (rows, 3) [m] that follows a corner's layers at the heights (l,), moved by (l, 3)."""
+        frames, spread = self.frames, layers - layers.mean()
+        tilt = spread @ moved / (spread @ spread)
+        y = np.zeros((self.rows, 3))
+        y[frames.corner_row[end]] = frames.length * tilt
+        y[frames.end_point(end)] = moved.mean(axis=0) + (self.offset - layers.mean()) * tilt
+        y[: frames.coordinates][self.free[: frames.coordinates]] = 0.0
+        return y
+
+    def corner_force(self, end: int, exerted: np.ndarray) -> np.ndarray:
+        """Force (3,) [N] that holds the point at a corner, from what is exerted on the rows."""
+        force: np.ndarray = np.where(self.free, 0.0, exerted)[self.frames.end_point(end)]
+        return force
+
+    def corner_wrenches(self, exerted: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """As `wrenches`, what the chain passes on to the corners that hold it, (segments, 6) a member."""
+        frames = self.frames
+        total = np.zeros((frames.segments, 6))
+        place = frames.rest + y[: frames.coordinates]
+        for end in frames.corners:
+            segment, row = frames.end_segment(end), frames.corner_row[end]
+            force, couple = self.corner_force(end, exerted), np.cross(place[row], exerted[row])
+            arm = place[frames.end_point(end)] - 0.5 * (place[segment] + place[segment + 1])
+            total[segment] -= np.concatenate([force, np.cross(arm, force) + couple])
+        return np.tile(total / len(self.names), (len(self.names), 1, 1))
 
     def wrenches(self, positions: np.ndarray, on_masses: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Force and moment about the middle of each segment's axis; chains of a pair share them evenly."""
@@ -197,8 +230,12 @@ class Chain:
         command = self._chains[member].curvature
         if isinstance(command, CurvatureTable):
             value = drive.value(np.array(command.time), np.array(command.value))
-            return np.full(len(self.frames.joints), float(value))
-        return drive.load_factor * np.broadcast_to(np.array(command, float), (len(self.frames.joints),))
+            return np.full(len(self.frames.share), float(value))
+        if not isinstance(command, tuple):
+            return drive.load_factor * np.full(len(self.frames.share), float(command))
+        if not command:
+            return np.zeros(len(self.frames.share))  # one segment: no joint to have a value
+        return drive.load_factor * np.array(command, float)[self.frames.command]
 
     def _bind(self, along: np.ndarray, height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Binding of masses at arc length and height (m,), and their share in each segment."""
@@ -218,6 +255,13 @@ class Chain:
             before = min(max(int(np.floor(p - 0.5)), 0), max(frames.segments - 2, 0))
             after = min(before + 1, frames.segments - 1)
             lever = (z - self.offset) / frames.length
+            end = 0 if p < 0.5 * frames.segments else 1
+            inside = p if end == 0 else frames.segments - p  # from the nearer end, in ds
+            if end in frames.corners and inside < 0.5:
+                director = frames.points + frames.end_segment(end)
+                binding[i, director] += lever * 2.0 * inside
+                binding[i, frames.corner_row[end]] += lever * (1.0 - 2.0 * inside)
+                continue
             binding[i, frames.points + before] += lever * (1.5 - (p - before))
             binding[i, frames.points + after] += lever * (p - before - 0.5)
         return binding, share

@@ -3,8 +3,11 @@
 A mass of an edge moved rigidly follows the motion, whatever else acts on it: scenes refuse what the motion
 would contradict; where two motions share a corner they share its force. Any other mass that a support holds,
 in whichever component, stays with its support; one that two chains on neighbouring edges could bind stays
-with the first. Chains on one edge are one actuator model. An actuator's name is its edge, or, where an edge
-has several, its edge and its number in the scene.
+with the first. A chain that ends at a corner whose director a support holds is held there too, unless the
+support moves over time: with an end that moves so the integrators do not keep the balance of energy. There,
+and beside an edge moved rigidly, the sheet alone holds it. Chains on one edge are one
+actuator model. An actuator's name is its edge, or, where an edge has several, its edge and its number in the
+scene.
 """
 
 from __future__ import annotations
@@ -17,7 +20,7 @@ from lumped.actuators.actuator import Actuator, Drive
 from lumped.actuators.chain import Chain
 from lumped.actuators.edge_motion import RigidMotion
 from lumped.lattice import Lattice
-from scenes import EdgeMotion, Scene
+from scenes import EDGES, EdgeMotion, Scene, holds_director
 
 
 class Coupling:
@@ -28,6 +31,7 @@ class Coupling:
         self._positions = lattice.positions
         self.actuators: tuple[Actuator, ...] = _actuators(scene, lattice)
         ends = np.cumsum([lattice.mass_count, *(a.rows for a in self.actuators)])
+        self._layers = {edge: lattice.edge_columns(edge) for edge in EDGES}
         self._places = [slice(int(a), int(b)) for a, b in pairwise(ends)]
         self.size = int(ends[-1])
         self.multipliers = sum(a.multipliers for a in self.actuators)
@@ -85,6 +89,24 @@ class Coupling:
             for actuator, place in self._each()
             if len(points := actuator.axis)
         }
+
+    def corners(self) -> list[tuple[Chain, slice, int, np.ndarray]]:
+        """Ends of chains held at corners: chain, its place, end (0 or 1), the corner's masses (layers,)."""
+        return [
+            (actuator, place, end, self._layers[actuator.edge][-end])
+            for actuator, place in self._each()
+            if isinstance(actuator, Chain)
+            for end in actuator.frames.corners
+        ]
+
+    def follow(self, placed: np.ndarray) -> None:
+        """Put chains' ends and what is bound to them where their corners are put, in `placed` (size, 3)."""
+        moved: dict[int, np.ndarray] = {}
+        for chain, place, end, column in self.corners():
+            y = chain.place_corner(end, self._positions[column, 2], placed[column])
+            moved[place.start] = moved.get(place.start, 0.0) + y
+            placed[place] = moved[place.start]
+            placed[chain.masses] = chain.binding @ moved[place.start]
 
     def driven(self, drive: Drive) -> np.ndarray:
         """Prescribed displacement (size, 3) [m] of the bound masses."""
@@ -171,6 +193,9 @@ class Coupling:
         for actuator, place in self._each():
             positions = self._positions[actuator.masses] + u[actuator.masses]
             wrenches = actuator.wrenches(positions, on_masses[actuator.masses], u[place])
+            if isinstance(actuator, Chain) and actuator.frames.corners:
+                exerted = on_masses[place] + actuator.binding.T @ on_masses[actuator.masses]
+                wrenches = wrenches + actuator.corner_wrenches(exerted, u[place])
             found.update(zip(actuator.names, wrenches, strict=True))
         return found
 
@@ -203,5 +228,15 @@ def _actuators(scene: Scene, lattice: Lattice) -> tuple[Actuator, ...]:
         taken[masses] = True
         chains = [a for _, a in here if not isinstance(a, EdgeMotion)]
         scale = scene.material.young * scene.sheet.thickness
-        found.append(Chain(chains, tuple(n for n, _ in here), scene.sheet, lattice, masses, scale))
+        corners = tuple(end for end in (0, 1) if _corner_is_held(scene, edge, end))
+        labels = tuple(n for n, _ in here)
+        found.append(Chain(chains, labels, scene.sheet, lattice, masses, scale, corners))
     return tuple(found)
+
+
+def _corner_is_held(scene: Scene, edge: str, end: int) -> bool:
+    """Whether a support on the neighbouring edge at an end of this one holds position and director there."""
+    beside = f"{'xy'[EDGES[edge].along_axis]}{end}"
+    moved = any(isinstance(actuator, EdgeMotion) and actuator.edge == beside for actuator in scene.actuators)
+    here = [support for support in scene.supports if support.edge == beside and support.motion is None]
+    return not moved and any(holds_director(support) for support in here)

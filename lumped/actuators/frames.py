@@ -10,7 +10,16 @@ lengths), then the multipliers, three a row. Everything the chain needs is then 
 
 The mass matrix is constant, a mass offset from a segment is a constant linear map of its rows, and mean
 values give differences exactly, which the conserving integrator needs. A held base is a frame that does not
-move. Source: Betsch and Steinmann (2001), García de Jalón's natural coordinates.
+move.
+
+An end may be held at a corner whose director n_c is held too: a row n_c (times ds) a held end, before the
+multipliers, and a joint of half length (but for "inplane") between n_c and the end's segment,
+
+    corner      n_c·b = 0;  "inplane": n_c·b = n_c·t = 0;   measures n_c·t, 0, n_c·n
+
+so that the segment may turn about n_c. Chains are inextensible, untwisted and, in a plane, straight across
+it: what one anchor holds so, another must not hold again (`_slides`). Source: Betsch and Steinmann (2001),
+García de Jalón's natural coordinates.
 """
 
 from __future__ import annotations
@@ -25,21 +34,39 @@ T, N, B = range(3)
 class Frames:
     """Geometry of one chain. axes: the undeformed t, n, b as rows of a (3, 3) matrix; start: (3,) [m].
 
+    corners: ends (0, 1) held at a corner.
+
     quantities: the constraints (first `constraints` of them), then three measures a joint.
     gradient and products below are with respect to the coordinate rows only, (coordinates, 3).
     """
 
-    def __init__(self, chain: Chain, start: np.ndarray, length: float, axes: np.ndarray):
+    def __init__(
+        self,
+        chain: Chain,
+        start: np.ndarray,
+        length: float,
+        axes: np.ndarray,
+        corners: tuple[int, ...] = (),
+    ):
         count = chain.segments
         self.segments, self.length, self.axes, self.base = count, length / count, axes, chain.base
         self.points = count + 1
-        self.coordinates = self.points + 2 * count
+        based = {"start": 0, "end": 1}.get(chain.base)
+        self.corners = tuple(end for end in corners if end != based)
+        self.corner_row = {end: self.points + 2 * count + k for k, end in enumerate(self.corners)}
+        self.coordinates = self.points + 2 * count + len(self.corners)
         points = start + self.length * np.arange(self.points)[:, None] * axes[T]
         directors = [np.tile(self.length * axes[kind], (count, 1)) for kind in (N, B)]
-        self.rest = np.concatenate([points, *directors])
+        normals = np.tile(self.length * axes[N], (len(self.corners), 1))
+        self.rest = np.concatenate([points, *directors, normals])
         self.free = np.ones((self.coordinates, 3), dtype=bool)
         self.joints, held = self._joints(chain)
         self.free[held] = False
+        self.base_points = [row for row in held if row < self.points]
+        for end in self.corners:
+            self.free[self.corner_row[end]] = False
+            kinds = [kind for kind in (T, N, B) if not self._slides(chain, end, kind)]
+            self.free[self.end_point(end), np.abs(axes[kinds]).argmax(axis=1)] = False
         rigid = [i for i in range(count) if not self._held(i)]
         terms: list[tuple[int, int, int, float]] = []
         target: list[float] = []
@@ -55,21 +82,33 @@ class Frames:
         for before, after, _ in self.joints:
             for products in _JOINT_CONSTRAINTS[chain.plane]:
                 quantity(0.0, *((self._vector(before, p), self._vector(after, q), w) for p, q, w in products))
+        for end in self.corners:
+            if chain.base == "free" and end == self.corners[0]:
+                for kind in (T, B) if chain.plane == "inplane" else (B,):
+                    quantity(0.0, (self._corner(end), self._vector(self.end_segment(end), kind), 1.0))
         self.constraints = len(target)
         for before, after, _ in self.joints:
             for first in (N, B):
                 weight = float(first in _MEASURED[chain.plane])
                 quantity(0.0, (self._vector(before, first), self._vector(after, T), weight))
             quantity(0.0, (self._vector(before, T), self._vector(after, T), 1.0))
+        hinged = () if chain.plane == "inplane" else self.corners
+        for end in hinged:
+            corner, segment = self._corner(end), self.end_segment(end)
+            quantity(0.0, (corner, self._vector(segment, T), 1.0 if end == 0 else -1.0))
+            quantity(0.0, (corner, self._vector(segment, B), 0.0))
+            quantity(0.0, (corner, self._vector(segment, N), 1.0))
         self.target = np.array(target)
         index = np.array([term[:3] for term in terms])
         self._quantity, self._first, self._second = index.T
         self._weight = np.array([term[3] for term in terms])
         self._map = self._linear_map()
-        ground = np.zeros((3 * count + 3, 3))
-        ground[3 * count :] = axes
+        ground = np.zeros((3 * count + 3 + len(self.corners), 3))
+        ground[3 * count : 3 * count + 3] = axes
         self._constant = ground + self._map @ self.rest
-        self.share = np.array([share for _, _, share in self.joints])
+        self.share = np.array([share for _, _, share in self.joints] + [0.5] * len(hinged))
+        ends = [0 if end == 0 else len(self.joints) - 1 for end in hinged]
+        self.command = np.array([*range(len(self.joints)), *ends], dtype=int)  # whose curvature a joint has
 
     @property
     def multiplier_rows(self) -> int:
@@ -77,7 +116,8 @@ class Frames:
         return -(-self.constraints // 3)
 
     def vectors(self, y: np.ndarray) -> np.ndarray:
-        """t, n, b of the segments and the ground, (3 segments + 3, 3), at coordinate displacements y."""
+        """t, n, b of the segments and the ground, then every n_c, (3 segments + 3 + corners, 3), at
+        coordinate displacements y."""
         v: np.ndarray = self._constant + self._map @ y[: self.coordinates]
         return v
 
@@ -122,6 +162,28 @@ class Frames:
             whole[: self.coordinates, row] |= by_row[c]
         return whole
 
+    def end_point(self, end: int) -> int:
+        """The point at an end (0 or 1)."""
+        return end * self.segments
+
+    def end_segment(self, end: int) -> int:
+        """The segment at an end (0 or 1)."""
+        return end * (self.segments - 1)
+
+    def _corner(self, end: int) -> int:
+        return 3 * self.segments + 3 + self.corners.index(end)
+
+    def _slides(self, chain: Chain, end: int, kind: int) -> bool:
+        """Whether an end's point is left free along t, n or b, where another anchor holds it already; along
+        t both of two ends are, for symmetry."""
+        based = chain.base != "free"
+        if kind == T:
+            return based or len(self.corners) == 2
+        again = based or end != self.corners[0]
+        return (chain.plane == "inplane" and kind == N and again) or (
+            chain.plane == "normal" and kind == B and based
+        )
+
     def _vector(self, frame: int, kind: int) -> int:
         return 3 * self.segments + kind if frame == self.segments else kind * self.segments + frame
 
@@ -146,13 +208,15 @@ class Frames:
         return inner, []
 
     def _linear_map(self) -> np.ndarray:
-        """(3 segments + 3, coordinates): frames from rows, a unit a row of length ds."""
+        """(3 segments + 3 + corners, coordinates): frames from rows, a unit a row of length ds."""
         count = self.segments
-        out = np.zeros((3 * count + 3, self.coordinates))
+        out = np.zeros((3 * count + 3 + len(self.corners), self.coordinates))
         i = np.arange(count)
         out[i, i + 1], out[i, i] = 1.0 / self.length, -1.0 / self.length
         for kind in (N, B):
             out[kind * count + i, self.points + (kind - 1) * count + i] = 1.0 / self.length
+        for end, row in self.corner_row.items():
+            out[self._corner(end), row] = 1.0 / self.length
         return out
 
 

@@ -13,21 +13,10 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from comparisons.files import whole
 from comparisons.pareto import grouped
+from comparisons.plot_style import GREY, STYLE
 from comparisons.tradeoff import Tradeoff
 
 WIDTH, HEIGHT, DPI = 7.2, 3.9, 200  # inches: the text width of a two-column paper
-DARK, GREY = "#222222", "#8a8a8a"
-STYLE: Any = {
-    "font.family": "DejaVu Sans",
-    "font.size": 7.5,
-    "axes.edgecolor": GREY,
-    "axes.linewidth": 0.6,
-    "axes.labelcolor": DARK,
-    "text.color": DARK,
-    "xtick.color": DARK,
-    "ytick.color": DARK,
-    "pdf.fonttype": 42,
-}
 MARKERS = {"lumped": "o", "plate": "v", "shell": "s", "solid": "D"}
 # Okabe and Ito's colours, which everyone tells apart; lattices take the first ones in turn.
 REFERENCE_COLOURS = {"plate": "#8a8a8a", "shell": "#222222", "solid": "#a0522d"}

@@ -17,7 +17,7 @@ from matplotlib.lines import Line2D
 
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import FALLEN
-from comparisons.stability.study import Cell, Row, Study, percent
+from comparisons.stability.study import LARGE, Cell, Row, Study, percent
 from comparisons.stability.vibrating import FirstMode, follow, start, system, weightless
 from comparisons.tables import Column
 
@@ -76,7 +76,7 @@ def measure(integrator: str, damping_of: str, damping_ratio: float) -> Row:
         "iterations": count,
         "step": step,
     }
-    if row["error"] is not None and row["error"] > 0.05:
+    if row["error"] is not None and row["error"] > LARGE:
         row |= _mechanism(equations, mode, integrator, damping_ratio, step, error)
     return row
 

@@ -13,24 +13,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from comparisons.files import whole
+from comparisons.plot_style import GREY, STYLE
 from comparisons.stability.study import LARGE, Row, Study, percent
 
 DPI = 200
-DARK, GREY = "#222222", "#8a8a8a"
-STYLE: Any = {
-    "font.family": "DejaVu Sans",
-    "font.size": 7.5,
-    "axes.edgecolor": GREY,
-    "axes.linewidth": 0.6,
-    "axes.titlesize": 8,
-    "axes.titleweight": "bold",
-    "axes.titlelocation": "left",
-    "text.color": DARK,
-    "axes.labelcolor": DARK,
-    "xtick.color": DARK,
-    "ytick.color": DARK,
-    "pdf.fonttype": 42,
-}
+MAP_STYLE = {**STYLE, "axes.titlesize": 8, "axes.titleweight": "bold", "axes.titlelocation": "left"}
 # Light enough to write on; told apart in grey and by those who do not see red and green alike.
 OUTCOMES = {
     "within 1 %": "#a8d5c2",
@@ -53,7 +40,7 @@ THEORY: Any = {"color": "#b2182b", "lw": 1.3, "zorder": 5}
 
 def picture(study: Study, rows: list[Row], paths: list[Path]) -> None:
     """Write a study's map to every path, in the format of its suffix."""
-    with matplotlib.rc_context(STYLE):
+    with matplotlib.rc_context(MAP_STYLE):
         figure = Figure(figsize=study.size, layout="constrained")
         study.draw(figure, rows)
         figure.suptitle(study.title, x=0.01, ha="left", fontsize=9, fontweight="bold")

@@ -13,6 +13,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from comparisons.plot_style import DARK, GREY
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import compare, distance, outcome, sheet
 from comparisons.stability.study import LARGE, Cell, Row, Study, percent
@@ -149,20 +150,20 @@ def draw(figure: Figure, rows: list[Row]) -> None:
     right.set_title("Distorted elements (references)")
     for axis in (left, middle, right):
         maps.plain(axis)
-        axis.axhline(5.0, color=maps.GREY, lw=0.6, ls=":")
+        axis.axhline(5.0, color=GREY, lw=0.6, ls=":")
     lines = [
         Line2D([], [], color=c, marker="o", ms=3, label=f"{name}, {n} clamped")
         for (name, n), c in colours.items()
     ]
     lines += [
-        Line2D([], [], ls="", marker=marker, ms=3, mfc="white", color=maps.DARK, label=model)
+        Line2D([], [], ls="", marker=marker, ms=3, mfc="white", color=DARK, label=model)
         for model, marker in zip(MODELS, "^os", strict=True)
     ]
     lines += [
         Line2D([], [], label="second order", **{**maps.THEORY, "zorder": 1}),
         Line2D([], [], label="elements may fold over", **{**maps.THEORY, "ls": "--", "zorder": 1}),
         Line2D([], [], ls="", marker="x", color=maps.OUTCOMES["diverged"], label="refused"),
-        Line2D([], [], ls="", marker="o", mfc=maps.OUTCOMES["unstable"], mec=maps.DARK, label="unstable"),
+        Line2D([], [], ls="", marker="o", mfc=maps.OUTCOMES["unstable"], mec=DARK, label="unstable"),
     ]
     figure.legend(handles=lines, loc="outside lower center", ncols=5, frameon=False, fontsize=6.8)
 

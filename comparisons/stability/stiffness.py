@@ -14,6 +14,7 @@ from dataclasses import replace
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from comparisons.plot_style import DARK
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import compare, sheet
 from comparisons.stability.study import Cell, Row, Study
@@ -76,7 +77,7 @@ def draw(figure: Figure, rows: list[Row]) -> None:
             lambda r: float(FAMILIES.index(r["cell"]["family"])),
             scale=("log", "linear"),
         )
-        bottom.axvline(1.0, color=maps.DARK, lw=0.8, ls=":")
+        bottom.axvline(1.0, color=DARK, lw=0.8, ls=":")
     bottom.set_yticks(range(len(FAMILIES)), [name.replace("_", " ") for name in FAMILIES])
     bottom.set_xlabel("stiffness of one family over its calibrated value")
     bottom.set_title("One family out of proportion: error [%]")

@@ -15,8 +15,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from comparisons.plot_style import DARK, GREY
 from comparisons.stability import figure as maps
-from comparisons.stability.study import Cell, Row, Study, percent
+from comparisons.stability.equilibria import FALLEN
+from comparisons.stability.study import LARGE, Cell, Row, Study, percent
 from comparisons.stability.vibrating import (
     FirstMode,
     energy,
@@ -135,10 +137,10 @@ def _implicit(integrator: str, step: float) -> Row:
         "amplitude_decay": float(1.0 - (size[-1] / size[0]) ** (1.0 / periods)) if finite else None,
         "energy_drift": float(drift / max(periods, 1.0)) if finite else None,
     }
-    if error is not None and error > 0.05:
+    if error is not None and error > LARGE:
         finer = _implicit(integrator, 0.1 * step)
         left = finer["error"] if finer["status"] == "converged" else None
-        if left is not None and left < 2.0 / 3.0 * error:
+        if left is not None and left < FALLEN * error:
             said = f"{turned / (2.0 * np.pi):.2g} periods a step; a tenth of it leaves {percent(left)} %"
             row |= {"mechanism": "resolution", "evidence": said}
     return row
@@ -153,7 +155,7 @@ def draw(figure: Figure, rows: list[Row]) -> None:
     xi = np.logspace(-2.3, 2.0, 120)
     central = 2.0 * (np.sqrt(1.0 + xi**2) - xi)
     left.plot(xi, [turn_limit(x) for x in xi], **maps.THEORY)
-    left.plot(xi, central, color=maps.DARK, lw=0.9, ls=(0, (4, 2)))
+    left.plot(xi, central, color=DARK, lw=0.9, ls=(0, (4, 2)))
     shades = {5: "#56b4e9", 9: "#0072b2", 17: "#002a4d", 33: "#000000"}
     for row in explicit:
         at = max(row["ratio_at_limit"], 5e-3)
@@ -189,18 +191,18 @@ def draw(figure: Figure, rows: list[Row]) -> None:
         maps.plain(axis)
     handles = [
         Line2D([], [], label="computed limit; (ωh)²/12", **{**maps.THEORY, "zorder": 1}),
-        Line2D([], [], color=maps.DARK, lw=0.9, ls=(0, (4, 2)), label="central differences"),
+        Line2D([], [], color=DARK, lw=0.9, ls=(0, (4, 2)), label="central differences"),
         *(
             Line2D([], [], ls="", marker="o", mfc="white", mec=c, label=f"{n}×{n}×2")
             for n, c in shades.items()
             if any(row["cell"]["masses"] == n for row in explicit)
         ),
-        Line2D([], [], ls="", marker="^", mfc="white", mec=maps.DARK, label="kz = E l²/h"),
+        Line2D([], [], ls="", marker="^", mfc="white", mec=DARK, label="kz = E l²/h"),
         *(
             Line2D([], [], color=c, label=n)
             for n, c in zip(IMPLICIT, ("#0072b2", "#009e73", "#e69f00"), strict=True)
         ),
-        Line2D([], [], color=maps.GREY, ls="--", marker="s", ms=2.5, mfc="white", label="loss of amplitude"),
+        Line2D([], [], color=GREY, ls="--", marker="s", ms=2.5, mfc="white", label="loss of amplitude"),
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=5, frameon=False, fontsize=6.5)
 

@@ -51,7 +51,7 @@ tradeoff: install
 	  --out $(OUT)
 
 advisor-study: install
-	@$(BIN)/python -m comparisons.advisor_study --out $(OUT)
+	@$(BIN)/python -m comparisons.advice.validation --out $(OUT)
 
 stability: install
 	@$(BIN)/sheetbench stability --out $(OUT)/stability

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from scenes import Clamped, FieldMesh, Solution, Status
+from sheetbench.scenes import Clamped, FieldMesh, Solution, Status
 
 
 class Strip:

@@ -9,12 +9,12 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-from scenes import Scene, Solution
+from sheetbench.scenes import Scene, Solution
 
 MODELS = {
-    "plate": "fem_reference.plate",
-    "shell": "fem_reference.shell",
-    "solid": "fem_reference.solid",
+    "plate": "fem_reference.plate.statics",
+    "shell": "fem_reference.shell.statics",
+    "solid": "fem_reference.solid.statics",
 }
 
 __all__ = ["MODELS", "modes", "solve"]

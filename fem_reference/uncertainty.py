@@ -27,8 +27,8 @@ from typing import Any
 import numpy as np
 
 from fem_reference import solve
-from fem_reference.mesh import divisions
-from scenes import Scene, Solution, Status
+from fem_reference.surface.mesh import divisions
+from sheetbench.scenes import Scene, Solution, Status
 
 SAFETY, CAUTION = 1.25, 3.0  # factors F of safety
 LEAST_ORDER, LARGEST_ORDER = 0.5, 2.0

@@ -30,12 +30,15 @@ from scipy.sparse import bsr_matrix, csr_matrix
 from scipy.sparse.linalg import LinearOperator, eigsh
 from skfem import MeshQuad
 
-from fem_reference import plate, shell, solid, solid_supports
-from fem_reference.linear import DirectSolver
-from fem_reference.materials import Section
-from fem_reference.mesh import Elements, divisions, rectangle
-from fem_reference.threads import one_blas_thread
-from scenes import Scene, Symmetric
+from fem_reference.plate import statics as plate
+from fem_reference.shell import statics as shell
+from fem_reference.solid import statics as solid
+from fem_reference.solid import supports as solid_supports
+from fem_reference.solving.linear import DirectSolver
+from fem_reference.solving.threads import one_blas_thread
+from fem_reference.surface.materials import Section
+from fem_reference.surface.mesh import Elements, divisions, rectangle
+from sheetbench.scenes import Scene, Symmetric
 
 REACH = 0.375  # of the grading
 

@@ -1,11 +1,11 @@
 """The spring lattice: topology, springs and cells, calibration, statics, vibration, dynamics."""
 
-from lumped.buckling import buckling_loads
 from lumped.calibration import CALIBRATIONS, Calibration, calibrate, given
-from lumped.continuation import Path, trace
 from lumped.dynamics import INTEGRATORS, simulate
 from lumped.sensitivity import Sensitivity, gradient, sensitivity
-from lumped.statics import solve
+from lumped.statics.buckling import buckling_loads
+from lumped.statics.continuation import Path, trace
+from lumped.statics.solver import solve
 from lumped.vibration import Modes, modes
 
 __all__ = [

@@ -16,12 +16,14 @@ from typing import Literal, TypeVar
 
 import numpy as np
 
-from lumped import cells, springs, strains
 from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.moduli import family_stiffness, strain_stiffness
-from scenes import Sheet
+from lumped.springs import areas as cells
+from lumped.springs import links as springs
+from lumped.springs import strains
+from sheetbench.scenes import Sheet
 
 Precision = Literal["double", "single"]
 

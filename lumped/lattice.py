@@ -20,7 +20,7 @@ from typing import Literal
 
 import numpy as np
 
-from scenes import Sheet
+from sheetbench.scenes import Sheet
 
 Grid = tuple[int, int, int]
 Weights = Literal["tributary", "full"]

@@ -23,7 +23,7 @@ from lumped.actuators import Drive
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
 from lumped.masses import masses
-from scenes import EDGES, EdgeLoad, FactorTable, PointLoad, Pressure, Scene
+from sheetbench.scenes import EDGES, EdgeLoad, FactorTable, PointLoad, Pressure, Scene
 
 
 def locate(lattice: Lattice, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

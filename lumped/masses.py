@@ -17,7 +17,7 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.lattice import Distribution, Lattice
-from scenes import Scene
+from sheetbench.scenes import Scene
 
 
 def masses(scene: Scene, lattice: Lattice, distribution: Distribution = "tributary") -> np.ndarray:

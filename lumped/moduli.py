@@ -26,7 +26,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lumped.lattice import STEPS
-from scenes import Material, PerDirection, Sheet, SpringSet
+from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
 
 SHEAR_CORRECTION = 5.0 / 6.0
 

@@ -21,16 +21,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from sheetbench.scenes.corners import conflict
+from sheetbench.scenes.supports import contradiction
 
 from lumped.calibration import Calibration, calibrate
-from lumped.equilibrium import State
+from lumped.linear.threads import one_blas_thread
 from lumped.loads import locate
-from lumped.problem import Problem
-from lumped.statics import pose, settle
-from lumped.threads import one_blas_thread
-from scenes import Clamped, Curved, PerDirection, Scene, SpringSet, Status, require_static
-from scenes.corners import conflict
-from scenes.supports import contradiction
+from lumped.statics.equilibrium import State
+from lumped.statics.problem import Problem
+from lumped.statics.solver import pose, settle
+from sheetbench.scenes import Clamped, Curved, PerDirection, Scene, SpringSet, Status, require_static
 
 STEP = 1e-4  # of a parameter, for the difference of residuals
 STEP_OF = {"curvature_": 1e-4, "tilt_": 1e-5}  # 1/m and rad, of parameters that may be zero

@@ -21,7 +21,7 @@ import scipy.sparse as sp
 
 from lumped.actuators import Coupling
 from lumped.lattice import Lattice
-from scenes import EDGES, Clamped, Curved, Scene, held_axes, holds_tilt, rod_middle
+from sheetbench.scenes import EDGES, Clamped, Curved, Scene, held_axes, holds_tilt, rod_middle
 
 
 @dataclass(frozen=True)

@@ -16,10 +16,10 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from lumped.calibration import Calibration
 from lumped.lattice import Distribution
+from lumped.linear.threads import one_blas_thread
 from lumped.masses import masses
-from lumped.statics import pose
-from lumped.threads import one_blas_thread
-from scenes import Scene, free_rigid_motions
+from lumped.statics.solver import pose
+from sheetbench.scenes import Scene, free_rigid_motions
 
 DENSE = 600  # unknowns below which all eigenvalues are computed
 

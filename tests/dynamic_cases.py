@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 import lumped
-import scenes
 from lumped.dynamics.simulation import _start
 from lumped.dynamics.system import System
-from lumped.statics import pose
+from lumped.statics.solver import pose
+from sheetbench import scenes
 
 ROD = {"edge": "x1", "segments": 8, "bending_stiffness": 0.05, "line_density": 0.05, "radius": 1.5e-3}
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from scenes import FieldMesh, Scene, Solution, Status
+from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 
 
 def solution(scene: Scene, model: str = "lumped", size: float = -0.01, **changes: Any) -> Solution:

@@ -8,14 +8,14 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import lumped
-import scenes
 from lumped.actuators import Drive
 from lumped.actuators.chain import Chain
 from lumped.lattice import build
-from lumped.statics import pose, settle
-from lumped.threads import one_blas_thread
-from scenes import Chain as ChainData
-from scenes import Sheet
+from lumped.linear.threads import one_blas_thread
+from lumped.statics.solver import pose, settle
+from sheetbench import scenes
+from sheetbench.scenes import Chain as ChainData
+from sheetbench.scenes import Sheet
 
 SHEET = Sheet(length_x=0.2, length_y=0.3, thickness=0.01)
 LATTICE = build(SHEET, (4, 7, 2), 0.008)

@@ -9,15 +9,15 @@ import pytest
 from test_cli import one_line, run
 
 import fem_reference
-import scenes
-from comparisons import advisor_study
-from comparisons.advisor import Advice, advise
-from comparisons.advisor_study import scenes_at_random, study
-from comparisons.campaign import campaign
-from comparisons.displacement import error
-from comparisons.models import solve
-from comparisons.scales import scales
-from scenes import Clamped, Gravity, Scene
+from comparisons.advice import validation as advisor_study
+from comparisons.advice.advisor import Advice, advise
+from comparisons.advice.scales import scales
+from comparisons.advice.validation import scenes_at_random, study
+from comparisons.comparison.comparison import error
+from comparisons.models.registry import solve
+from comparisons.runs.campaign import campaign
+from sheetbench import scenes
+from sheetbench.scenes import Clamped, Gravity, Scene
 
 
 def actual_error(advice: Advice, elements: int = 16) -> float:

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 import lumped
-import scenes
 from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration.calibration import report
-from scenes import Material, PerDirection, SpringSet
+from sheetbench import scenes
+from sheetbench.scenes import Material, PerDirection, SpringSet
 
 SEED = scenes.load("two-edges-clamped")
 RIGIDITY = 54.5e6 * 0.003**3 / 12 / (1 - 0.48**2)

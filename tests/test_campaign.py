@@ -14,10 +14,10 @@ from pathlib import Path
 import campaign_tasks
 import pytest
 
-from comparisons.campaign import Progress, Run, campaign, carry_out
-from comparisons.errors import BadInput
-from comparisons.executors import cluster
-from comparisons.store import FILE, Store
+from comparisons.runs.campaign import Progress, Run, campaign, carry_out
+from comparisons.runs.executors import cluster
+from comparisons.runs.store import FILE, Store
+from sheetbench.scenes.errors import BadInput
 
 TASKS = Path(campaign_tasks.__file__).parent
 
@@ -116,7 +116,7 @@ def test_kill_9_loses_nothing_that_had_finished_and_leaves_no_worker(tmp_path: P
     script = (
         f"import sys; sys.path.insert(0, {str(TASKS)!r})\n"
         "from pathlib import Path\n"
-        "from comparisons.campaign import Run, campaign, carry_out\n"
+        "from comparisons.runs.campaign import Run, campaign, carry_out\n"
         "if __name__ == '__main__':\n"
         f"    runs = [Run('campaign_tasks:log', {{'x': x, 'path': {str(log)!r}, 'seconds': 0.2}})"
         " for x in range(8)]\n"

@@ -12,10 +12,10 @@ import fake_solutions
 import pytest
 from test_scenes import BAD, LOOSE, written
 
-import scenes
-from comparisons import displacement
 from comparisons.cli import main
-from scenes import Scene, Solution, Status
+from comparisons.comparison import comparison as displacement
+from sheetbench import scenes
+from sheetbench.scenes import Scene, Solution, Status
 
 HEAVY = ("numpy", "scipy", "pydantic", "matplotlib", "pyvista", "vtkmodules", "numba", "skfem", "meshio")
 

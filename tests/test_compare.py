@@ -9,13 +9,14 @@ import fake_solutions
 import numpy as np
 import pytest
 
-import scenes
-from comparisons import displacement, summary
-from comparisons.displacement import Comparison, compare
-from comparisons.errors import BadInput
-from comparisons.files import to_json
-from comparisons.grids import default_grid, near_square, parse_grid
-from scenes import Scene, Sheet, Status
+from comparisons.comparison import comparison as displacement
+from comparisons.comparison import tables as summary
+from comparisons.comparison.comparison import Comparison, compare
+from comparisons.models.grids import default_grid, near_square, parse_grid
+from comparisons.report.files import to_json
+from sheetbench import scenes
+from sheetbench.scenes import Scene, Sheet, Status
+from sheetbench.scenes.errors import BadInput
 
 SMALL = {"grid": (5, 5, 2), "elements": 4}
 

@@ -10,8 +10,8 @@ from scipy.integrate import solve_ivp
 import lumped
 from lumped.dynamics import INTEGRATORS
 from lumped.dynamics.integrator import StepFailed
-from lumped.stability import step_limit, turn_limit
-from scenes import DamperSet, Status
+from lumped.dynamics.step_limit import step_limit, turn_limit
+from sheetbench.scenes import DamperSet, Status
 
 
 def largest(values):

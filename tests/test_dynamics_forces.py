@@ -6,7 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_lattice_mechanics import ALL, assembly_of, dense, derivative, state
 
-from lumped import area_dampers, conserving, dampers, strain_dampers, strains
+from lumped.dynamics import discrete_gradients as conserving
+from lumped.springs import area_dampers, strain_dampers, strains
+from lumped.springs import link_dampers as dampers
 
 GRIDS = [(3, 4, 2), (3, 3, 3)]
 

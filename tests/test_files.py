@@ -13,11 +13,13 @@ import numpy as np
 import pytest
 import pyvista
 
-import scenes
-from comparisons import calibration, files, rendering, vtk
-from comparisons.displacement import Comparison, compare
-from comparisons.output import Output
-from scenes import Scene
+from comparisons.calibration import tables as calibration
+from comparisons.comparison.comparison import Comparison, compare
+from comparisons.comparison.output import Output
+from comparisons.report import files, vtk
+from comparisons.report import offscreen as rendering
+from sheetbench import scenes
+from sheetbench.scenes import Scene
 
 
 @pytest.fixture(scope="module")

@@ -7,10 +7,10 @@ import pytest
 
 import fem_reference
 import lumped
-import scenes
 from lumped.calibration import ModalTarget, StaticTarget, identifiability
 from lumped.sensitivity import with_spring
 from lumped.vibration import frequency_slopes
+from sheetbench import scenes
 
 TRAINING = [scenes.load(name) for name in ("one-edge-clamped", "two-edges-clamped")]
 SHEET, MATERIAL = TRAINING[0].sheet, TRAINING[0].material

@@ -5,9 +5,9 @@ import json
 import pytest
 from test_cli import run
 
-import scenes
-from comparisons import targets
-from comparisons.models import calibrate
+from comparisons.models import training as targets
+from comparisons.models.registry import calibrate
+from sheetbench import scenes
 
 SCENE = scenes.load("two-edges-clamped")
 

@@ -11,7 +11,7 @@ import lumped
 from lumped.actuators import Drive
 from lumped.actuators.chain import Chain as Bound
 from lumped.lattice import build
-from scenes import Chain, Clamped, Curved, Gravity, Material, Scene, Sheet, Solution, Status
+from sheetbench.scenes import Chain, Clamped, Curved, Gravity, Material, Scene, Sheet, Solution, Status
 
 SHEET = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
 RUBBER = Material(young=54.5e6, poisson=0.48, density=1678.0)

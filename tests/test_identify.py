@@ -6,16 +6,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
+from sheetbench.scenes.seed import seed_displacements
 from test_cli import one_line, run
 
 import fem_reference
 import lumped
-import scenes
-from comparisons import surface
-from comparisons.identification import identify
-from comparisons.measurements import Displacements, Surface, read
-from comparisons.prediction import NotReached
-from scenes.seed import seed_displacements
+from comparisons.identification import surface
+from comparisons.identification.identification import identify
+from comparisons.identification.measurements import Displacements, Surface, read
+from comparisons.identification.prediction import NotReached
+from sheetbench import scenes
 
 SCENE = scenes.load("two-edges-clamped")
 SIDE = np.linspace(0.188 / 8, 0.188, 8)

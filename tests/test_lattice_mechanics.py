@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from lumped.assembly import Assembly
 from lumped.calibration.calibration import report
 from lumped.loads import Loads
-from scenes import Clamped, EdgeLoad, Material, PerDirection, Pressure, Scene, Sheet, SpringSet
+from sheetbench.scenes import Clamped, EdgeLoad, Material, PerDirection, Pressure, Scene, Sheet, SpringSet
 
 SHEET = Sheet(length_x=0.2, length_y=0.3, thickness=0.01)
 MATERIAL = Material(young=1e6, poisson=0.3, density=1000.0)

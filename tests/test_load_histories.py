@@ -10,13 +10,13 @@ from test_lattice_mechanics import ALL, MATERIAL, SHEET, assembly_of, dense, der
 
 import fem_reference
 import lumped
-import scenes
-from comparisons.scales import scales
-from comparisons.symmetry import half, planes
+from comparisons.advice.scales import scales
+from comparisons.models.symmetry import half, planes
 from lumped.dynamics import INTEGRATORS
 from lumped.dynamics.simulation import SAMPLES_PER_CHECKPOINT
 from lumped.loads import Loads
-from scenes import Clamped, EdgeLoad, FactorTable, Pressure, Scene, Status
+from sheetbench import scenes
+from sheetbench.scenes import Clamped, EdgeLoad, FactorTable, Pressure, Scene, Status
 
 TIP = (0.188, 0.094)
 RAMP = {"time": [0.0, 0.02, 0.05], "factor": [0.0, 1.0, -0.4]}

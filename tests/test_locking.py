@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 
 import fem_reference
-import scenes
-from comparisons.locking import picture
+from comparisons.verification.locking import picture
 from fem_reference.verification import Row, run
 from fem_reference.verification.mindlin_plates import deflection
 from fem_reference.verification.rows import relatively
+from sheetbench import scenes
 
 
 @pytest.mark.parametrize("model", ["plate", "shell"])

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import lumped
-import scenes
-from scenes import EdgeLoad, Held, Material, PointLoad, Scene, Sheet, Status
+from sheetbench import scenes
+from sheetbench.scenes import EdgeLoad, Held, Material, PointLoad, Scene, Sheet, Status
 
 SIDE, THICKNESS, YOUNG, POISSON = 0.2, 0.001, 1e7, 0.3
 RIGIDITY = YOUNG * THICKNESS**3 / 12 / (1 - POISSON**2)

@@ -5,7 +5,7 @@ import pytest
 
 import fem_reference
 import lumped
-import scenes
+from sheetbench import scenes
 
 CURVED = ("curved-edge", "curved-edge-down")
 

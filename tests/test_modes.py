@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-import scenes
 from fem_reference.vibration import modes
-from scenes import Material, Scene, Sheet
+from sheetbench import scenes
+from sheetbench.scenes import Material, Scene, Sheet
 
 STEEL = Material(young=200e9, poisson=0.3, density=8000.0)
 NAFEMS = Sheet(length_x=10.0, length_y=10.0, thickness=0.05)

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import scenes
-from comparisons import modes
 from comparisons.cli import main
+from comparisons.modes import spectra as modes
+from sheetbench import scenes
 
 
 def run(*arguments: str) -> int:

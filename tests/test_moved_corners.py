@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from sheetbench.scenes.supports import Motion
 
 import fem_reference
 import lumped
-import scenes
-from scenes import (
+from sheetbench import scenes
+from sheetbench.scenes import (
     Chain,
     Clamped,
     Curved,
@@ -24,7 +25,6 @@ from scenes import (
     Status,
     Symmetric,
 )
-from scenes.supports import Motion
 
 SHEET = Sheet(length_x=0.2, length_y=0.1, thickness=0.005)
 MATERIAL = Material(young=2.0e7, poisson=0.3, density=1200.0)
@@ -204,7 +204,7 @@ def test_in_dynamics_too_the_corner_follows_the_motion() -> None:
 
 
 def test_a_tilt_that_a_motion_forbids_is_not_sought() -> None:
-    from comparisons.unknowns import BadInput, unknown
+    from comparisons.identification.unknowns import BadInput, unknown
 
     asked = scene((Clamped(edge="y0"),), motion())
     with pytest.raises(BadInput, match=r"allow no tilt.*x1"):

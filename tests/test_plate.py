@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from skfem import Functional, MeshQuad
 
-import scenes
-from fem_reference import plate
-from fem_reference.linear import DirectSolver
-from fem_reference.plate_element import TILT_X, TILT_Y, UX, UY, W
-from scenes import EDGES, Material, Scene, Sheet, Status
+from fem_reference.plate import statics as plate
+from fem_reference.plate.element import TILT_X, TILT_Y, UX, UY, W
+from fem_reference.solving.linear import DirectSolver
+from sheetbench import scenes
+from sheetbench.scenes import EDGES, Material, Scene, Sheet, Status
 
 MATERIAL = Material(young=1.0e7, poisson=0.3, density=1000.0)
 

@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 from test_cli import one_line, run
 
-import scenes
-from comparisons import models, plugins
-from comparisons.errors import BadInput
-from scenes import Chain, Clamped, EdgeLoad, FactorTable, Hinged, PointLoad, Status
+from comparisons.models import plugins
+from comparisons.models import registry as models
+from sheetbench import scenes
+from sheetbench.scenes import Chain, Clamped, EdgeLoad, FactorTable, Hinged, PointLoad, Status
+from sheetbench.scenes.errors import BadInput
 
 DOCS = Path(__file__).parent.parent / "docs"
 ENTRY = "[sheetbench.models]\nstrip = plugin:MODEL\nabsent = no_such_module:MODEL\nhalf = plugin:np\n"

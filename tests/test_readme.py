@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-import scenes
 from comparisons.cli.app import VERBS
-from comparisons.displacement import compare
+from comparisons.comparison.comparison import compare
+from sheetbench import scenes
 
 ROOT = Path(__file__).parent.parent
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")

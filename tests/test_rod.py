@@ -9,16 +9,16 @@ import pytest
 
 import fem_reference
 import lumped
-import scenes
-from fem_reference import rod
-from fem_reference.mesh import rectangle
-from fem_reference.shell import discretise
-from fem_reference.shell_rods import RoddedShell, RodState, with_rods
-from fem_reference.solid import discretise as discretise_solid
-from fem_reference.solid_rods import RoddedSolid
-from fem_reference.solid_rods import RodState as SolidRodState
-from fem_reference.solid_supports import into_forces, vectors
-from scenes import (
+from fem_reference.shell.rods import RoddedShell, RodState, with_rods
+from fem_reference.shell.statics import discretise
+from fem_reference.solid.rods import RoddedSolid
+from fem_reference.solid.rods import RodState as SolidRodState
+from fem_reference.solid.statics import discretise as discretise_solid
+from fem_reference.solid.supports import into_forces, vectors
+from fem_reference.surface import rod
+from fem_reference.surface.mesh import rectangle
+from sheetbench import scenes
+from sheetbench.scenes import (
     Chain,
     Clamped,
     Curved,

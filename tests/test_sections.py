@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import fem_reference
-import scenes
-from fem_reference.materials import Section, section_of
-from scenes import Clamped, PointLoad, Sheet
+from fem_reference.surface.materials import Section, section_of
+from sheetbench import scenes
+from sheetbench.scenes import Clamped, PointLoad, Sheet
 
 SCENE = scenes.load("two-edges-clamped")
 POINTS = SCENE.probe_points()

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import lumped
-import scenes
 from lumped.sensitivity import spring_parameters, with_spring
-from scenes import Clamped, EdgeLoad, PointLoad
+from sheetbench import scenes
+from sheetbench.scenes import Clamped, EdgeLoad, PointLoad
 
 GRID = (7, 7)
 

@@ -8,8 +8,8 @@ from analytical_shell import CLAMPED_PLATE, END_SHEAR, HEAVY_ELASTICA, SLIT_ANNU
 from skfem import MeshQuad, MeshQuad2
 
 import fem_reference
-from fem_reference.shell import solve_on
-from scenes import Clamped, EdgeLoad, Gravity, Material, Scene, Sheet, Status
+from fem_reference.shell.statics import solve_on
+from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Material, Scene, Sheet, Status
 
 
 def strip(length, width=1.0, thickness=0.1, young=1.2e6, **asked) -> Scene:

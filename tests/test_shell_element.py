@@ -5,15 +5,18 @@ import pytest
 from scipy.spatial.transform import Rotation
 from skfem import Basis, ElementQuad2, MeshQuad
 
-import scenes
-from fem_reference import plate, shell, shell_loads, solid
-from fem_reference.materials import section_of
-from fem_reference.mesh import rectangle
-from fem_reference.shell import discretise
-from fem_reference.shell_element import Element
-from fem_reference.shell_loads import FollowerMoment, FollowerPressure, Line
-from fem_reference.shell_structure import State
-from scenes import Clamped, EdgeLoad, Gravity, Hinged, Material, Pressure, Scene, Sheet
+from fem_reference.plate import statics as plate
+from fem_reference.shell import statics as shell
+from fem_reference.shell.element import Element
+from fem_reference.shell.statics import discretise
+from fem_reference.shell.structure import State
+from fem_reference.solid import statics as solid
+from fem_reference.surface import loads as shell_loads
+from fem_reference.surface.loads import FollowerMoment, FollowerPressure, Line
+from fem_reference.surface.materials import section_of
+from fem_reference.surface.mesh import rectangle
+from sheetbench import scenes
+from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Hinged, Material, Pressure, Scene, Sheet
 
 SHEET = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
 RUBBER = Material(young=54.5e6, poisson=0.48, density=1678.0)

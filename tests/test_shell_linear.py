@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_matrix, random_array
 
-import fem_reference.linear
-import fem_reference.shell
-import scenes
-from fem_reference.equilibrium import nearest_to_zero, trace
-from fem_reference.linear import DirectSolver, SingularMatrix
-from scenes import Status
+import fem_reference.shell.statics
+import fem_reference.solving.linear
+from fem_reference.solving.equilibrium import nearest_to_zero, trace
+from fem_reference.solving.linear import DirectSolver, SingularMatrix
+from sheetbench import scenes
+from sheetbench.scenes import Status
 
 
 def indefinite(n=120, negative=17) -> csr_matrix:
@@ -44,9 +44,9 @@ def test_refuses_what_it_cannot_solve(use_rslab, entry):
 
 def test_the_shell_does_without_rslab(monkeypatch):
     scene = scenes.load("two-edges-clamped")
-    with_it = fem_reference.shell.solve(scene, 4)
-    monkeypatch.setattr(fem_reference.linear, "rslab", None)
-    without = fem_reference.shell.solve(scene, 4)
+    with_it = fem_reference.shell.statics.solve(scene, 4)
+    monkeypatch.setattr(fem_reference.solving.linear, "rslab", None)
+    without = fem_reference.shell.statics.solve(scene, 4)
     assert without.status is Status.CONVERGED and without.message == ""
     assert without.iterations == with_it.iterations
     points = scene.probe_points()

@@ -5,9 +5,9 @@ import pytest
 from analytical_shell import SEED
 
 import fem_reference
-import scenes
-from fem_reference.mesh import rectangle
-from scenes import (
+from fem_reference.surface.mesh import rectangle
+from sheetbench import scenes
+from sheetbench.scenes import (
     Clamped,
     Curved,
     EdgeLoad,

@@ -8,17 +8,18 @@ from scipy.integrate import simpson
 from scipy.optimize import minimize_scalar
 from scipy.sparse import csr_matrix
 
-import scenes
-from comparisons.displacement import error
+from comparisons.comparison.comparison import error
 from comparisons.stability import equilibria
-from fem_reference import relaxation, shell
-from fem_reference.equilibrium import SNAPS, Path, StepFailed, trace
-from fem_reference.linear import DirectSolver
-from fem_reference.mesh import rectangle
-from fem_reference.relaxation import dragged, potential, relax, settler
-from fem_reference.shell_loads import point_force
-from fem_reference.shell_structure import ShellStructure, State
-from scenes import Chain, Curved, Hinged, Material, Scene, Sheet, Status
+from fem_reference.shell import statics as shell
+from fem_reference.shell.structure import ShellStructure, State
+from fem_reference.solving import pseudo_transient as relaxation
+from fem_reference.solving.equilibrium import SNAPS, Path, StepFailed, trace
+from fem_reference.solving.linear import DirectSolver
+from fem_reference.solving.pseudo_transient import dragged, potential, relax, settler
+from fem_reference.surface.loads import point_force
+from fem_reference.surface.mesh import rectangle
+from sheetbench import scenes
+from sheetbench.scenes import Chain, Curved, Hinged, Material, Scene, Sheet, Status
 
 SIDE, WIDTH, THICKNESS, YOUNG = 1.0, 0.1, 0.002, 1e7
 SHORTER = 0.002  # shortening of the strip

@@ -15,8 +15,8 @@ import pytest
 from dynamic_cases import scene, springs
 
 import lumped
-from comparisons import histories
 from comparisons.cli import main
+from comparisons.motion import history as histories
 
 HERE = Path(__file__).parent
 RUN = ["simulate", "two-edges-settling", "--lumped", "4", "--duration", "0.1"]

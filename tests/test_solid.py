@@ -6,14 +6,15 @@ import numpy as np
 import pytest
 from skfem import ElementHex2, MeshQuad
 
-import scenes
-from fem_reference import shell, solid
-from fem_reference.linear import DirectSolver
-from fem_reference.solid_element import Bricks, geometric, reference, shape
-from fem_reference.solid_materials import LAWS, lame
-from fem_reference.solid_structure import State
-from fem_reference.solid_supports import into_forces, vectors
-from scenes import Material, Scene, Sheet, Status
+from fem_reference.shell import statics as shell
+from fem_reference.solid import statics as solid
+from fem_reference.solid.element import Bricks, geometric, reference, shape
+from fem_reference.solid.materials import LAWS, lame
+from fem_reference.solid.structure import State
+from fem_reference.solid.supports import into_forces, vectors
+from fem_reference.solving.linear import DirectSolver
+from sheetbench import scenes
+from sheetbench.scenes import Material, Scene, Sheet, Status
 
 TABLE = {  # issue 2: probe → component → millimetres, three independent codes
     "two-edges-clamped": {"P1": {2: -2.456}, "P2": {2: -6.102}, "P4": {0: -0.405, 1: -0.405, 2: -13.504}},

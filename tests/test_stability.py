@@ -11,7 +11,8 @@ from scipy.integrate import solve_ivp
 from test_cli import one_line, run
 
 import lumped
-from comparisons.campaign import campaign
+from comparisons.report.table import Column
+from comparisons.runs.campaign import campaign
 from comparisons.stability import (
     STUDIES,
     Study,
@@ -26,8 +27,7 @@ from comparisons.stability import (
 from comparisons.stability.equilibria import compare, mechanism, sheet, shell
 from comparisons.stability.slenderness import MASSES
 from comparisons.stability.slenderness import measure as slender
-from comparisons.tables import Column
-from scenes import EdgeLoad, Status
+from sheetbench.scenes import EdgeLoad, Status
 
 NAMES = ["time-step", "stiffness", "slenderness", "grid", "load", "damping", "mass", "curved-edge"]
 

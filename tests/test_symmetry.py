@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 import fem_reference
-import scenes
-from comparisons import models
-from comparisons.errors import BadInput
-from comparisons.symmetry import half, planes, whole
-from scenes import (
+from comparisons.models import registry as models
+from comparisons.models.symmetry import half, planes, whole
+from sheetbench import scenes
+from sheetbench.scenes import (
     Clamped,
     Curved,
     EdgeLoad,
@@ -27,6 +26,7 @@ from scenes import (
     Status,
     Symmetric,
 )
+from sheetbench.scenes.errors import BadInput
 
 SHEET = Sheet(length_x=0.188, length_y=0.25, thickness=0.003)
 MATERIAL = Material(young=54.5e6, poisson=0.48, density=1678.0)

@@ -7,8 +7,8 @@ import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
 import fem_reference
-import scenes
-from fem_reference import linear
+from fem_reference.solving import linear
+from sheetbench import scenes
 
 SCENE = scenes.load("one-edge-clamped")
 

@@ -7,8 +7,8 @@ import pytest
 
 import fem_reference
 import lumped
-import scenes
-from scenes import (
+from sheetbench import scenes
+from sheetbench.scenes import (
     EDGES,
     Clamped,
     Curved,

@@ -15,16 +15,18 @@ import pytest
 from test_campaign import rows_in, wait_for
 from test_cli import one_line, run
 
-import scenes
-from comparisons import candidates, tables, timing
-from comparisons.campaign import campaign
-from comparisons.candidates import Candidate, lattices, parse_model, series
-from comparisons.dynamic_tradeoff import dynamic_tradeoff, oscillation
-from comparisons.errors import BadInput
-from comparisons.files import to_json
-from comparisons.pareto import front, grouped, order
-from comparisons.store import FILE
-from scenes import Scene, Sheet
+from comparisons.models import candidate as candidates
+from comparisons.models.candidate import Candidate, lattices, parse_model, series
+from comparisons.report import table as tables
+from comparisons.report.files import to_json
+from comparisons.runs.campaign import campaign
+from comparisons.runs.store import FILE
+from comparisons.tradeoff import timing
+from comparisons.tradeoff.motion import dynamic_tradeoff, oscillation
+from comparisons.tradeoff.pareto import front, grouped, order
+from sheetbench import scenes
+from sheetbench.scenes import Scene, Sheet
+from sheetbench.scenes.errors import BadInput
 
 SMALL = [
     *("tradeoff", "two-edges-clamped", "--lumped", "3,5", "--calibration", "consistent,uniform"),

@@ -8,10 +8,10 @@ import pytest
 from test_cli import one_line, run
 
 import lumped  # noqa: F401  (rslab is to be imported by the thread that lives longest)
-from comparisons.campaign import campaign
-from comparisons.transfer import FITTED, transfer
-from comparisons.transfer_scenes import TRAINING, transfer_scenes
-from comparisons.transfer_tables import tables
+from comparisons.runs.campaign import campaign
+from comparisons.transfer.scenes import TRAINING, transfer_scenes
+from comparisons.transfer.study import FITTED, transfer
+from comparisons.transfer.tables import tables
 
 SCENES = transfer_scenes()
 SEED = list(TRAINING)

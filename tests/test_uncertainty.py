@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 
 import fem_reference
-import scenes
-from comparisons import displacement, summary
-from comparisons.displacement import compare
-from comparisons.files import to_json
+from comparisons.comparison import comparison as displacement
+from comparisons.comparison import tables as summary
+from comparisons.comparison.comparison import compare
+from comparisons.report.files import to_json
 from fem_reference.uncertainty import coarser, estimate, of_solutions, solve_with_bar
-from scenes import Scene, Solution, Status
+from sheetbench import scenes
+from sheetbench.scenes import Scene, Solution, Status
 
 SIZES = [1 / 16, 1 / 12, 1 / 8]
 

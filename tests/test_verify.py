@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from comparisons import verification
 from comparisons.cli import main
+from comparisons.verification import tables as verification
 from fem_reference.verification import CASES, Case, Row, run
 from fem_reference.verification.rows import absolutely, relatively
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import lumped
-from scenes import Clamped, Material, Scene, Sheet
+from sheetbench.scenes import Clamped, Material, Scene, Sheet
 
 SIDE, YOUNG, DENSITY = 1.0, 1e9, 1000.0
 # ω a² √(ρh/D), converged thin plate, ν = 0.3 (Leissa 1973 set-ups)

@@ -9,15 +9,15 @@ import fem_reference
 import lumped
 from comparisons.stability.equilibria import loaded, sheet
 from comparisons.stability.vibrating import start, system
-from fem_reference import shell_watch
-from fem_reference.mesh import rectangle
-from fem_reference.shell import discretise
-from fem_reference.shell_structure import State as ShellState
-from lumped import watch
+from fem_reference.shell import validity as shell_watch
+from fem_reference.shell.statics import discretise
+from fem_reference.shell.structure import State as ShellState
+from fem_reference.surface.mesh import rectangle
 from lumped.dynamics import watchdog
 from lumped.dynamics.system import State
-from lumped.statics import pose
-from scenes import EdgeLoad, Scene, Status
+from lumped.statics import validity as watch
+from lumped.statics.solver import pose
+from sheetbench.scenes import EdgeLoad, Scene, Status
 
 HEAVY = sheet(0.016, 1e3)  # statics stand a load number of a thousand, a fall from the flat sheet does not
 

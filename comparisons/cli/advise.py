@@ -25,14 +25,14 @@ def command(
 
     A few quick solves measure this machine and this scene. Exit status 3 where what is asked cannot be had.
     """
-    from comparisons import advice_tables as tables
-    from comparisons.advisor import advise, checked_tolerance
+    from comparisons.advice import tables
+    from comparisons.advice.advisor import advise, checked_tolerance
     from comparisons.cli import console
     from comparisons.cli.app import NOT_CONVERGED
-    from comparisons.displacement import load_static
-    from comparisons.errors import BadInput
-    from comparisons.files import folder, to_json, write_text
-    from comparisons.manifest import manifest
+    from comparisons.comparison.comparison import load_static
+    from comparisons.report.files import folder, to_json, write_text
+    from comparisons.runs.manifest import manifest
+    from sheetbench.scenes.errors import BadInput
 
     asked = load_static(scene)
     if budget is not None and not budget > 0.0:

@@ -28,7 +28,7 @@ VERBS = (
 )
 BAD_INPUT = 2
 NOT_CONVERGED = 3
-_OURS = ("scenes", "lumped", "fem_reference", "comparisons")
+_OURS = ("sheetbench", "lumped", "fem_reference", "comparisons")
 
 app = typer.Typer(
     help="How good is your spring lattice? Lumped-mass models of soft sheets beside finite elements.",

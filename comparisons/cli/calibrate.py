@@ -11,7 +11,7 @@ from comparisons.cli.options import Json, Out, command_line
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
-    from scenes import Material, Scene, Sheet
+    from sheetbench.scenes import Material, Scene, Sheet
 
 Quantities = TypeVar("Quantities", bound="BaseModel")
 DENSITY = 1000.0  # kg/m³
@@ -53,14 +53,14 @@ def command(
     The fitted methods train on the SCENE; without one, on the sheet under its own weight with one edge and
     with two adjacent edges clamped.
     """
-    from comparisons import calibration as report
-    from comparisons import summary
+    from comparisons.calibration import tables as report
     from comparisons.cli import console
-    from comparisons.errors import BadInput
-    from comparisons.files import folder, to_json, write_text
-    from comparisons.grids import parse_grid
-    from comparisons.manifest import record
-    from comparisons.models import calibrate
+    from comparisons.comparison import tables as summary
+    from comparisons.models.grids import parse_grid
+    from comparisons.models.registry import calibrate
+    from comparisons.report.files import folder, to_json, write_text
+    from comparisons.runs.manifest import record
+    from sheetbench.scenes.errors import BadInput
 
     if toml and json:
         raise BadInput("--toml and --json: choose one")
@@ -113,7 +113,7 @@ def command(
 
 def _sides(text: str | None) -> dict[str, float]:
     """Sides along x and y [m] of `0.188` or `0.188x0.3`; none of no text."""
-    from comparisons.errors import BadInput
+    from sheetbench.scenes.errors import BadInput
 
     if text is None:
         return {}
@@ -128,8 +128,8 @@ def _sides(text: str | None) -> dict[str, float]:
 
 def _training(name: str, sheet: Sheet, material: Material) -> list[Scene]:
     """The named scene with this sheet and material, for a fitted method to train on."""
-    import scenes
-    from comparisons.displacement import load_static
+    from comparisons.comparison.comparison import load_static
+    from sheetbench import scenes
 
     scene = load_static(name)
     changed = {"sheet": sheet.model_dump(), "material": material.model_dump(), "probes": {}}
@@ -140,8 +140,8 @@ def _sheet_and_material(
     scene: str | None, sheet: dict[str, float | None], material: dict[str, float | None]
 ) -> tuple[Sheet, Material]:
     """The scene's sheet and material with what is given put in its place, or those of the options alone."""
-    import scenes
-    from comparisons.errors import BadInput
+    from sheetbench import scenes
+    from sheetbench.scenes.errors import BadInput
 
     sheet_data: dict[str, Any] = {}
     material_data: dict[str, Any] = {"density": DENSITY}
@@ -169,7 +169,7 @@ def _checked(kind: type[Quantities], data: dict[str, Any]) -> Quantities:
     """The validated object, or BadInput naming the first option that is out of bounds."""
     from pydantic import ValidationError
 
-    from comparisons.errors import BadInput
+    from sheetbench.scenes.errors import BadInput
 
     try:
         return kind.model_validate(data)

@@ -9,7 +9,7 @@ import typer
 from comparisons.cli.options import Json, Out, Scene, command_line
 
 if TYPE_CHECKING:
-    from comparisons.displacement import Comparison
+    from comparisons.comparison.comparison import Comparison
 
 
 def command(
@@ -60,15 +60,15 @@ def command(
     out: Out = None,
 ) -> None:
     """Solve a scene with the lattice and with a reference, and show what differs and what it cost."""
-    from comparisons.advisor import advise, check_auto
+    from comparisons.advice.advisor import advise, check_auto
     from comparisons.cli import console
     from comparisons.cli.app import NOT_CONVERGED
-    from comparisons.displacement import compare, load_static
-    from comparisons.files import folder, to_json
-    from comparisons.grids import parse_grid
-    from comparisons.output import Output
-    from comparisons.summary import complaints
-    from scenes import Solution
+    from comparisons.comparison.comparison import compare, load_static
+    from comparisons.comparison.output import Output
+    from comparisons.comparison.tables import complaints
+    from comparisons.models.grids import parse_grid
+    from comparisons.report.files import folder, to_json
+    from sheetbench.scenes import Solution
 
     asked = load_static(scene)
     grid = parse_grid(lumped, "--lumped") if lumped is not None else None
@@ -128,8 +128,8 @@ def command(
 
 
 def _show(comparison: Comparison) -> None:
-    from comparisons import summary
     from comparisons.cli import console
+    from comparisons.comparison import tables as summary
 
     scene = comparison.scene
     console.heading(scene.name, scene.title)

@@ -12,8 +12,8 @@ from rich.table import Table as RichTable
 from rich.text import Text
 
 if TYPE_CHECKING:
-    from comparisons.campaign import Progress
-    from comparisons.tables import Table
+    from comparisons.report.table import Table
+    from comparisons.runs.campaign import Progress
 
 out = Console(highlight=False)
 err = Console(stderr=True, highlight=False)

@@ -54,16 +54,16 @@ def command(
 
     The search starts from the scene's own values. All lengths are in metres and in the scene's axes.
     """
-    from comparisons import identification_tables as tables
     from comparisons.cli import console
     from comparisons.cli.app import NOT_CONVERGED
-    from comparisons.displacement import load_static
-    from comparisons.files import folder, to_json, write_text
-    from comparisons.grids import parse_grid
-    from comparisons.identification import identify
-    from comparisons.manifest import manifest
-    from comparisons.measurements import read
-    from comparisons.prediction import NotReached
+    from comparisons.comparison.comparison import load_static
+    from comparisons.identification import tables
+    from comparisons.identification.identification import identify
+    from comparisons.identification.measurements import read
+    from comparisons.identification.prediction import NotReached
+    from comparisons.models.grids import parse_grid
+    from comparisons.report.files import folder, to_json, write_text
+    from comparisons.runs.manifest import manifest
 
     asked = load_static(scene)
     data = read(measured, asked)

@@ -33,12 +33,12 @@ def command(
     out: Out = None,
 ) -> None:
     """List the natural frequencies of the lattice and of a reference about the undeformed sheet."""
-    from comparisons import modes
     from comparisons.cli import console
-    from comparisons.files import folder, to_json, write_text
-    from comparisons.grids import parse_grid
-    from comparisons.manifest import manifest
-    from scenes import load
+    from comparisons.models.grids import parse_grid
+    from comparisons.modes import spectra as modes
+    from comparisons.report.files import folder, to_json, write_text
+    from comparisons.runs.manifest import manifest
+    from sheetbench.scenes import load
 
     asked = load(scene)
     target = folder(out) if out is not None else None

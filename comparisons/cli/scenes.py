@@ -7,10 +7,10 @@ from comparisons.cli.options import Json, Out
 
 def command(json: Json = False, out: Out = None) -> None:
     """List the scenes that come with sheetbench; --out copies their files, to start from."""
-    import scenes
     from comparisons.cli import console
-    from comparisons.files import folder, to_json, write_text
-    from comparisons.tables import Column, Table
+    from comparisons.report.files import folder, to_json, write_text
+    from comparisons.report.table import Column, Table
+    from sheetbench import scenes
 
     files = scenes.catalogue()
     loaded = {name: scenes.load(name) for name in files}

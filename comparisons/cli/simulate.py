@@ -10,8 +10,8 @@ import typer
 from comparisons.cli.options import Json, Out, Scene, command_line
 
 if TYPE_CHECKING:
-    from comparisons.histories import Measured
-    from scenes import History
+    from comparisons.motion.history import Measured
+    from sheetbench.scenes import History
 
 FRAMES = 100
 
@@ -50,13 +50,13 @@ def command(
     out: Out = None,
 ) -> None:
     """Simulate the lattice from rest. With --out the run streams to a folder; the same command resumes it."""
-    import scenes
-    from comparisons import histories
     from comparisons.cli import console
     from comparisons.cli.app import NOT_CONVERGED
-    from comparisons.files import folder, to_json
-    from comparisons.grids import parse_grid
-    from comparisons.models import simulate
+    from comparisons.models.grids import parse_grid
+    from comparisons.models.registry import simulate
+    from comparisons.motion import history as histories
+    from comparisons.report.files import folder, to_json
+    from sheetbench import scenes
 
     asked = scenes.load(scene)
     truth = histories.read_measured(measured, list(asked.probes)) if measured is not None else {}
@@ -109,10 +109,11 @@ def command(
 
 def _write(out, asked, history: History, truth: dict[str, Measured], animate: bool, progress):
     """Write the run's files; their names, and why there is no animation if one was asked for."""
-    from comparisons import frames, histories
-    from comparisons.files import to_json, write_text
-    from comparisons.manifest import manifest
-    from comparisons.rendering import why_not
+    from comparisons.motion import frames
+    from comparisons.motion import history as histories
+    from comparisons.report.files import to_json, write_text
+    from comparisons.report.offscreen import why_not
+    from comparisons.runs.manifest import manifest
 
     progress("writing files …")
     settings = {"integrator": history.integrator, **history.settings}

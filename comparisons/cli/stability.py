@@ -41,13 +41,13 @@ def command(
     import os
     from tempfile import TemporaryDirectory
 
-    from comparisons.campaign import campaign
     from comparisons.cli import console
     from comparisons.cli.app import NOT_CONVERGED
-    from comparisons.errors import require_choice
-    from comparisons.executors import pool_of
-    from comparisons.files import folder, to_json
+    from comparisons.report.files import folder, to_json
+    from comparisons.runs.campaign import campaign
+    from comparisons.runs.executors import pool_of
     from comparisons.stability import STUDIES, survey, texts
+    from sheetbench.scenes.errors import require_choice
 
     names = [name.strip().replace(" ", "-") for name in study or STUDIES]
     for name in names:
@@ -82,8 +82,8 @@ def command(
 
 def _write(target: Path, studies: list[Study], rows: list[Row]) -> list[str]:
     """Maps, tables and texts; their names."""
-    from comparisons.files import to_json, write_text
-    from comparisons.manifest import record
+    from comparisons.report.files import to_json, write_text
+    from comparisons.runs.manifest import record
     from comparisons.stability import texts
     from comparisons.stability.figure import picture
 

@@ -10,7 +10,7 @@ import typer
 from comparisons.cli.options import Json, Out, Scene, command_line
 
 if TYPE_CHECKING:
-    from comparisons.tradeoff import Tradeoff
+    from comparisons.tradeoff.statics import Tradeoff
 
 
 def command(
@@ -73,16 +73,16 @@ def command(
     import os
     from tempfile import TemporaryDirectory
 
-    from comparisons import tradeoff_tables as tables
-    from comparisons.campaign import campaign
-    from comparisons.candidates import Candidate, items, lattices, parse_model, references
     from comparisons.cli import console
     from comparisons.cli.app import NOT_CONVERGED
-    from comparisons.displacement import load_static
-    from comparisons.errors import BadInput
-    from comparisons.executors import pool_of
-    from comparisons.files import folder, to_json
-    from comparisons.tradeoff import tradeoff
+    from comparisons.comparison.comparison import load_static
+    from comparisons.models.candidate import Candidate, items, lattices, parse_model, references
+    from comparisons.report.files import folder, to_json
+    from comparisons.runs.campaign import campaign
+    from comparisons.runs.executors import pool_of
+    from comparisons.tradeoff import tables
+    from comparisons.tradeoff.statics import tradeoff
+    from sheetbench.scenes.errors import BadInput
 
     if duration is not None:
         _motion(scene, duration, grid, items(integrator), workers or os.cpu_count() or 1, json, out)
@@ -146,14 +146,14 @@ def _motion(
     """The trade of a motion: integrators and steps."""
     from tempfile import TemporaryDirectory
 
-    import scenes
-    from comparisons.campaign import campaign
     from comparisons.cli import console
-    from comparisons.dynamic_tradeoff import dynamic_tradeoff
-    from comparisons.errors import BadInput
-    from comparisons.files import folder, to_json, write_text
-    from comparisons.grids import parse_grid
-    from comparisons.manifest import manifest
+    from comparisons.models.grids import parse_grid
+    from comparisons.report.files import folder, to_json, write_text
+    from comparisons.runs.campaign import campaign
+    from comparisons.runs.manifest import manifest
+    from comparisons.tradeoff.motion import dynamic_tradeoff
+    from sheetbench import scenes
+    from sheetbench.scenes.errors import BadInput
 
     if not duration > 0.0:
         raise BadInput(f"--duration = {duration:g}: seconds, more than 0")
@@ -186,10 +186,10 @@ def _motion(
 
 def _write(found: Tradeoff, out: Path) -> list[str]:
     """The trade-off's files; their names."""
-    from comparisons import tradeoff_tables as tables
-    from comparisons.files import to_json, write_text
-    from comparisons.manifest import manifest
-    from comparisons.tradeoff_figure import draw
+    from comparisons.report.files import to_json, write_text
+    from comparisons.runs.manifest import manifest
+    from comparisons.tradeoff import tables
+    from comparisons.tradeoff.figure import draw
 
     shown = [tables.rows(found), tables.orders(found)]
     settings = {"reference": found.reference["settings"]}

@@ -10,7 +10,7 @@ import typer
 from comparisons.cli.options import Json, Out, command_line
 
 if TYPE_CHECKING:
-    from comparisons.transfer import Transfer
+    from comparisons.transfer.study import Transfer
 
 
 def command(
@@ -51,15 +51,15 @@ def command(
     import os
     from tempfile import TemporaryDirectory
 
-    from comparisons import transfer_tables as tables
-    from comparisons.campaign import campaign
-    from comparisons.candidates import items
     from comparisons.cli import console
     from comparisons.cli.app import NOT_CONVERGED
-    from comparisons.errors import require_choice
-    from comparisons.files import folder, to_json
-    from comparisons.transfer import METHODS, PARTS, transfer
-    from comparisons.transfer_scenes import transfer_scenes
+    from comparisons.models.candidate import items
+    from comparisons.report.files import folder, to_json
+    from comparisons.runs.campaign import campaign
+    from comparisons.transfer import tables
+    from comparisons.transfer.scenes import transfer_scenes
+    from comparisons.transfer.study import METHODS, PARTS, transfer
+    from sheetbench.scenes.errors import require_choice
 
     chosen = {
         "methods": (items(methods) if methods is not None else list(METHODS), METHODS),
@@ -102,8 +102,8 @@ def command(
 
 def _grids(text: str) -> list[int]:
     """Masses a side. Raises BadInput unless every one is 4 n + 1 and they grow."""
-    from comparisons.candidates import items
-    from comparisons.errors import BadInput
+    from comparisons.models.candidate import items
+    from sheetbench.scenes.errors import BadInput
 
     try:
         sizes = [int(part) for part in items(text)]
@@ -116,9 +116,9 @@ def _grids(text: str) -> list[int]:
 
 def _write(found: Transfer, out: Path) -> list[str]:
     """The study's files; their names."""
-    from comparisons import manifest
-    from comparisons import transfer_tables as tables
-    from comparisons.files import to_json, write_text
+    from comparisons.report.files import to_json, write_text
+    from comparisons.runs import manifest
+    from comparisons.transfer import tables
 
     made = manifest.machine()
     footer = (

@@ -26,13 +26,13 @@ def command(
     out: Out = None,
 ) -> None:
     """Check the references against published values, one row each: exit status 3 unless all pass."""
-    from comparisons import verification
     from comparisons.cli import console
     from comparisons.cli.app import NOT_CONVERGED
-    from comparisons.errors import BadInput, require_choice
-    from comparisons.files import folder, to_json, write_text
-    from comparisons.manifest import record
+    from comparisons.report.files import folder, to_json, write_text
+    from comparisons.runs.manifest import record
+    from comparisons.verification import tables as verification
     from fem_reference.verification import CASES, run
+    from sheetbench.scenes.errors import BadInput, require_choice
 
     for name in case or ():
         require_choice("case", name, CASES)
@@ -50,7 +50,7 @@ def command(
         write_text(target / "verification.md", table.to_markdown())
         write_text(target / "manifest.json", to_json(record(command_line())))
         if locking:
-            from comparisons.locking import picture
+            from comparisons.verification.locking import picture
 
             picture(target / "locking.png", rows)
     if json:

@@ -16,10 +16,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import SIDE, compare, sheet
 from comparisons.stability.study import Cell, Row, Study, percent
-from comparisons.tables import Column
 
 SLENDERNESS, GRID, ELEMENTS = 0.008, (17, 17), 12
 
@@ -34,7 +34,7 @@ def cells(full: bool) -> list[Cell]:
 
 def measure(turn: float, load_number: float) -> Row:
     """The row of a cell: a rod bent to `turn` of a full circle."""
-    from scenes import Curved
+    from sheetbench.scenes import Curved
 
     curvature = 2.0 * np.pi * turn / SIDE
     supports = (Curved(edge="x0", curvature=float(curvature)),)

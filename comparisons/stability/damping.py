@@ -15,11 +15,11 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import FALLEN
 from comparisons.stability.study import LARGE, Cell, Row, Study, percent
 from comparisons.stability.vibrating import FirstMode, follow, start, system, weightless
-from comparisons.tables import Column
 
 RATIOS = (0.0, 0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
 INTEGRATORS = ("generalised-alpha", "midpoint", "projective", "verlet")
@@ -45,7 +45,7 @@ def measure(integrator: str, damping_of: str, damping_ratio: float) -> Row:
     import lumped
     from lumped import dynamics
     from lumped.dynamics.integrator import StepFailed
-    from lumped.stability import SAFETY, step_limit
+    from lumped.dynamics.step_limit import SAFETY, step_limit
 
     still = weightless()
     springs = lumped.calibrate(still.sheet, still.material, grid=(5, 5))

@@ -17,11 +17,11 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from sheetbench.scenes.sheet import EdgeName
 
-from comparisons.displacement import error as probe_error
+from comparisons.comparison.comparison import error as probe_error
 from comparisons.stability.study import LARGE, Row, percent
-from scenes import Clamped, Gravity, Load, Material, Scene, Sheet, Solution, Status
-from scenes.sheet import EdgeName
+from sheetbench.scenes import Clamped, Gravity, Load, Material, Scene, Sheet, Solution, Status
 
 SIDE, GRAVITY = 0.188, 9.81  # of the seed's sheet, of the Earth
 ELEMENTS = 12
@@ -160,9 +160,9 @@ def _refined(springs: Any, grid: tuple[int, int]) -> Any:
 def _there_and_back(scene: Scene, grid: tuple[int, int], springs: Any, ours: Solution) -> float | None:
     """How far from `ours`, in its largest probe displacement, the lattice ends after a larger load."""
     import lumped
-    from lumped.equilibrium import at_rest, follow
     from lumped.loads import locate
-    from lumped.statics import pose
+    from lumped.statics.equilibrium import at_rest, follow
+    from lumped.statics.solver import pose
 
     problem = pose(scene, springs or lumped.calibrate(scene.sheet, scene.material, grid=grid))
     beyond, why = follow(problem, at_rest(problem), BACK_FROM)

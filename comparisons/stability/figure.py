@@ -12,8 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
-from comparisons.files import whole
-from comparisons.plot_style import GREY, STYLE
+from comparisons.report.files import whole
+from comparisons.report.style import GREY, STYLE
 from comparisons.stability.study import LARGE, Row, Study, percent
 
 DPI = 200

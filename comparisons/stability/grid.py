@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from sheetbench.scenes.sheet import EdgeName
 
-from comparisons.plot_style import DARK, GREY
+from comparisons.report.style import DARK, GREY
+from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import compare, distance, outcome, sheet
 from comparisons.stability.study import LARGE, Cell, Row, Study, percent
-from comparisons.tables import Column
-from scenes.sheet import EdgeName
 
 SLENDERNESS, LOAD = 0.016, 3.0
 EDGES: dict[int, tuple[EdgeName, ...]] = {1: ("x0",), 2: ("x0", "y0")}
@@ -82,8 +82,10 @@ def _limit(scene: Any, cell: Cell, error: float) -> Row:
 def _distorted(scene: Any, model: str, distortion: float, seed: int) -> Row:
     """A reference on a mesh with its inner nodes moved at random, against itself on a fine regular one."""
     import fem_reference
-    from fem_reference import plate, shell, solid
-    from fem_reference.mesh import rectangle
+    from fem_reference.plate import statics as plate
+    from fem_reference.shell import statics as shell
+    from fem_reference.solid import statics as solid
+    from fem_reference.surface.mesh import rectangle
 
     on: dict[str, Any] = {"plate": plate.solve_on, "shell": shell.solve_on, "solid": solid.solve_on}
     mesh = rectangle(scene.sheet, (DISTORTED, DISTORTED))

@@ -19,10 +19,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import SIDE, compare, lattice, loaded, outcome, sheet
 from comparisons.stability.study import Cell, Row, Study, percent
-from comparisons.tables import Column
 
 SLENDERNESS, POISSON, ONE_G = 0.016, 0.48, 2.0
 GRID = (9, 9)
@@ -43,7 +43,7 @@ def cells(full: bool) -> list[Cell]:
 
 def measure(kind: str, size: float) -> Row:
     """The row of a cell."""
-    from scenes import EdgeLoad, PointLoad
+    from sheetbench.scenes import EdgeLoad, PointLoad
 
     if kind == "weight":
         return compare(sheet(SLENDERNESS, ONE_G * size), GRID)

@@ -10,10 +10,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.study import Cell, Row, Study
 from comparisons.stability.vibrating import energy, follow, measured_limit, noise, start, system, weightless
-from comparisons.tables import Column
 
 IMPLICIT_STEPS = 50
 PER_LIMIT = 20.0  # the implicit step over the explicit limit
@@ -31,7 +31,7 @@ def measure(masses: int, ratio: float) -> Row:
     import lumped
     from lumped.dynamics import INTEGRATORS
     from lumped.dynamics.integrator import StepFailed
-    from lumped.stability import step_limit
+    from lumped.dynamics.step_limit import step_limit
 
     scene = weightless()
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(masses, masses))

@@ -14,11 +14,11 @@ from dataclasses import replace
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from comparisons.plot_style import DARK
+from comparisons.report.style import DARK
+from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import compare, sheet
 from comparisons.stability.study import Cell, Row, Study
-from comparisons.tables import Column
 
 SLENDERNESS, SCALED_LOAD, CONTRAST_LOAD = 0.016, 10.0, 3.0
 FAMILIES = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")

@@ -8,7 +8,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from comparisons.tables import Column
+from comparisons.report.table import Column
 
 Row = dict[str, Any]
 Cell = dict[str, Any]

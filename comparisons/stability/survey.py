@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from comparisons.campaign import Progress, Run, carry_out
-from comparisons.executors import Pool, processes
+from comparisons.runs.campaign import Progress, Run, carry_out
+from comparisons.runs.executors import Pool, processes
+from comparisons.runs.store import Finished, Store
 from comparisons.stability.study import Row, Study
-from comparisons.store import Finished, Store
 
 
 def survey(

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any
 
+from comparisons.report.table import Column, Table
 from comparisons.stability.study import Row, Study, doubtful, percent
-from comparisons.tables import Column, Table
 
 _COMMON = (
     Column("status"),

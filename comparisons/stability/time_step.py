@@ -1,9 +1,9 @@
 """Study `time-step`: which steps the integrators stand, and what steps cost in energy, period and amplitude.
 
-Explicit: velocity Verlet's limit by bisection, over the one that `lumped.stability` computes. The limit of
-central differences with the velocity half a step old, (2/ω_max)(√(1+ξ²) − ξ), is drawn beside it: the
-scheme corrects the velocity once and stands up to 1.6 times as much. Implicit: steps from 1e-6 s to 1 s on a
-first mode of 1e-3 of the thickness; trapezoidal theory asks for a period error of (ωh)²/12.
+Explicit: velocity Verlet's limit by bisection, over the one that `lumped.dynamics.step_limit` computes. The
+limit of central differences with the velocity half a step old, (2/ω_max)(√(1+ξ²) − ξ), is drawn beside it:
+the scheme corrects the velocity once and stands up to 1.6 times as much. Implicit: steps from 1e-6 s to 1 s
+on a first mode of 1e-3 of the thickness; trapezoidal theory asks for a period error of (ωh)²/12.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from comparisons.plot_style import DARK, GREY
+from comparisons.report.style import DARK, GREY
+from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import FALLEN
 from comparisons.stability.study import LARGE, Cell, Row, Study, percent
@@ -28,7 +29,6 @@ from comparisons.stability.vibrating import (
     system,
     weightless,
 )
-from comparisons.tables import Column
 
 IMPLICIT = ("generalised-alpha", "midpoint", "projective")
 AMPLITUDE = 1e-3  # of the thickness
@@ -64,7 +64,7 @@ def _explicit(
     masses: int, vertical: str, damping_ratio: float, slenderness: float, precision: str = "double"
 ) -> Row:
     import lumped
-    from lumped.stability import SAFETY, step_limit
+    from lumped.dynamics.step_limit import SAFETY, step_limit
 
     scene = weightless(slenderness)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(masses, masses))
@@ -99,7 +99,7 @@ def _explicit(
 
 
 def _gravity() -> Any:
-    from scenes import Gravity
+    from sheetbench.scenes import Gravity
 
     return Gravity(acceleration=(0.0, 0.0, -9.81))
 
@@ -148,7 +148,7 @@ def _implicit(integrator: str, step: float) -> Row:
 
 def draw(figure: Figure, rows: list[Row]) -> None:
     """Left: measured limits over the computed ones against damping. Right: period error and decay."""
-    from lumped.stability import turn_limit
+    from lumped.dynamics.step_limit import turn_limit
 
     left, right = figure.subplots(1, 2)
     explicit = [row for row in rows if row["cell"]["integrator"] == "verlet" and "measured" in row]

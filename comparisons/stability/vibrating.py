@@ -16,8 +16,8 @@ from lumped.calibration import Calibration
 from lumped.dynamics.integrator import Integrator, StepFailed
 from lumped.dynamics.system import State, System
 from lumped.dynamics.watchdog import GROWN
-from lumped.watch import fastest
-from scenes import Scene
+from lumped.statics.validity import fastest
+from sheetbench.scenes import Scene
 
 STEPS, GROWTH, SHARPNESS = 600, 10.0, 1e-3
 SMALL = 1e-6
@@ -38,7 +38,7 @@ def system(
 ) -> System:
     """The equations of motion. mass: changes the lumped masses (n,) [kg]."""
     from lumped.masses import masses
-    from lumped.statics import pose
+    from lumped.statics.solver import pose
 
     problem = pose(scene, springs, precision=precision)
     shares = masses(scene, problem.assembly.lattice)

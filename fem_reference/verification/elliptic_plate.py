@@ -18,14 +18,15 @@ from collections.abc import Iterator
 import numpy as np
 from skfem import ElementHex2, MeshQuad, MeshQuad2
 
-from fem_reference import shell_loads, solid
-from fem_reference.linear import DirectSolver
-from fem_reference.shell_element import GAUSS, GAUSS_WEIGHTS
-from fem_reference.solid_element import shape
-from fem_reference.solid_materials import lame
-from fem_reference.solid_mesh import Columns
+from fem_reference.shell.element import GAUSS, GAUSS_WEIGHTS
+from fem_reference.solid import statics as solid
+from fem_reference.solid.element import shape
+from fem_reference.solid.materials import lame
+from fem_reference.solid.mesh import Columns
+from fem_reference.solving.linear import DirectSolver
+from fem_reference.surface import loads as shell_loads
 from fem_reference.verification.rows import Row, relatively
-from scenes import Material, Scene, Sheet
+from sheetbench.scenes import Material, Scene, Sheet
 
 TOLERANCE = 1e-2
 RADIAL, AROUND, LAYERS = 8, 12, 6

@@ -15,7 +15,7 @@ import numpy as np
 
 from fem_reference.verification.rows import Row, mesh_change, relatively
 from fem_reference.verification.strip import strip, tip
-from scenes import Gravity
+from sheetbench.scenes import Gravity
 
 TOLERANCE = 2e-3
 ELEMENTS = {"shell": 16, "solid": 16}

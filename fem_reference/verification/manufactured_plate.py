@@ -19,11 +19,12 @@ from collections.abc import Callable, Iterator
 import numpy as np
 from skfem import Basis, Functional
 
-from fem_reference import plate, shell
-from fem_reference.linear import DirectSolver
-from fem_reference.mesh import rectangle
+from fem_reference.plate import statics as plate
+from fem_reference.shell import statics as shell
+from fem_reference.solving.linear import DirectSolver
+from fem_reference.surface.mesh import rectangle
 from fem_reference.verification.rows import Row, absolutely
-from scenes import EDGES, Clamped, Material, Scene, Sheet
+from sheetbench.scenes import EDGES, Clamped, Material, Scene, Sheet
 
 ORDER, SLACK = 3.0, 0.15
 LARGEST = {"deflection": 5e-4, "tilt": 1.2e-3}  # error on the finest mesh

@@ -15,13 +15,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fem_reference import solid
-from fem_reference.linear import DirectSolver
-from fem_reference.mesh import rectangle
-from fem_reference.solid_element import reference, shape
-from fem_reference.solid_materials import lame
+from fem_reference.solid import statics as solid
+from fem_reference.solid.element import reference, shape
+from fem_reference.solid.materials import lame
+from fem_reference.solving.linear import DirectSolver
+from fem_reference.surface.mesh import rectangle
 from fem_reference.verification.rows import Row, absolutely
-from scenes import Material, Scene, Sheet
+from sheetbench.scenes import Material, Scene, Sheet
 
 ORDER, SLACK = 3.0, 0.15
 LARGEST = 1e-3  # error on the finest mesh

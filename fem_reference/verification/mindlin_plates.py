@@ -12,9 +12,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from fem_reference import solve
-from fem_reference.materials import bending_stiffness
+from fem_reference.surface.materials import bending_stiffness
 from fem_reference.verification.rows import Row, absolutely, relatively
-from scenes import EDGES, Clamped, Gravity, Hinged, Material, Scene, Sheet, Status
+from sheetbench.scenes import EDGES, Clamped, Gravity, Hinged, Material, Scene, Sheet, Status
 
 TOLERANCE = 3e-3
 ELEMENTS = 16

@@ -13,10 +13,10 @@ from functools import partial
 
 import numpy as np
 
-from fem_reference.materials import bending_stiffness
+from fem_reference.surface.materials import bending_stiffness
 from fem_reference.verification.rows import Row, mesh_change, relatively
 from fem_reference.vibration import modes
-from scenes import Clamped, Material, Scene, Sheet
+from sheetbench.scenes import Clamped, Material, Scene, Sheet
 
 CONVERGED, BOUND = 3e-3, 1.5e-2  # tolerances
 ELEMENTS = 16

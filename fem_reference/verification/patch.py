@@ -14,12 +14,14 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 from skfem import MeshQuad
 
-from fem_reference import plate, shell, solid
-from fem_reference.mesh import rectangle
-from fem_reference.shell_structure import State as ShellState
-from fem_reference.solid_structure import State as SolidState
+from fem_reference.plate import statics as plate
+from fem_reference.shell import statics as shell
+from fem_reference.shell.structure import State as ShellState
+from fem_reference.solid import statics as solid
+from fem_reference.solid.structure import State as SolidState
+from fem_reference.surface.mesh import rectangle
 from fem_reference.verification.rows import Row, absolutely
-from scenes import Material, Scene, Sheet
+from sheetbench.scenes import Material, Scene, Sheet
 
 ROUNDING = 1e-8
 ELEMENTS, MOVED = 3, 0.25  # inner vertices move by up to so much of an element

@@ -15,7 +15,7 @@ import numpy as np
 
 from fem_reference.verification.rows import Row, mesh_change, relatively
 from fem_reference.verification.strip import strip, tip
-from scenes import EdgeLoad
+from sheetbench.scenes import EdgeLoad
 
 TOLERANCE = 2e-3
 ELEMENTS = 16

@@ -13,9 +13,9 @@ from collections.abc import Iterator
 import numpy as np
 from skfem import MeshQuad, MeshQuad2
 
-from fem_reference import shell
+from fem_reference.shell import statics as shell
 from fem_reference.verification.rows import Row, mesh_change, relatively
-from scenes import Clamped, EdgeLoad, Material, Scene, Sheet, Status
+from sheetbench.scenes import Clamped, EdgeLoad, Material, Scene, Sheet, Status
 
 TOLERANCE = 5e-3
 RADIAL, AROUND = 6, 48

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from fem_reference import solve
-from scenes import Clamped, Material, Scene, Sheet, Status
+from sheetbench.scenes import Clamped, Material, Scene, Sheet, Status
 
 
 def strip(length: float, width: float, thickness: float, young: float, **asked: Any) -> Scene:

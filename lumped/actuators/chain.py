@@ -25,14 +25,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from sheetbench.scenes.actuators import CurvatureTable
 
 from lumped.actuators import joints
 from lumped.actuators.actuator import Drive
 from lumped.actuators.frames import B, Frames, N
 from lumped.lattice import Lattice
-from scenes import EDGES, Sheet
-from scenes import Chain as ChainData
-from scenes.actuators import CurvatureTable
+from sheetbench.scenes import EDGES, Sheet
+from sheetbench.scenes import Chain as ChainData
 
 UP = np.array([0.0, 0.0, 1.0])
 

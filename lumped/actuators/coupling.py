@@ -20,7 +20,7 @@ from lumped.actuators.actuator import Actuator, Drive
 from lumped.actuators.chain import Chain
 from lumped.actuators.edge_motion import RigidMotion
 from lumped.lattice import Lattice
-from scenes import EDGES, EdgeMotion, Scene, holds_director
+from sheetbench.scenes import EDGES, EdgeMotion, Scene, holds_director
 
 
 class Coupling:

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from lumped.actuators.actuator import Drive
 from lumped.lattice import Lattice
-from scenes import EdgeMotion, Sheet
+from sheetbench.scenes import EdgeMotion, Sheet
 
 
 class RigidMotion:

@@ -26,7 +26,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from scenes import Chain
+from sheetbench.scenes import Chain
 
 T, N, B = range(3)
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from lumped import moduli
 from lumped.lattice import Distribution, Grid
-from scenes import Material, Sheet, SpringSet
+from sheetbench.scenes import Material, Sheet, SpringSet
 
 
 @dataclass(frozen=True)

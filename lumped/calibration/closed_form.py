@@ -14,9 +14,10 @@ gaps of `lumped.moduli`, and a third of it at most goes to the furthest diagonal
     C = (D − σ' lz² (G − δ))/(σ lz²),
 
 of which diagonals take the share f = min(1, 1/(r² − 1)) of C66 (r ≥ 1; more would ask for negative links
-along the cell, see `lumped.strains`), shear springs the rest, area springs C12 − f C66, axial links what is
-left of C11 and C22. What the sheet's A has beyond L C + (L − 1)(G − δ) goes to the mid-surface: m to A12, the
-rest to strain springs, with lz the least for which none is negative. On square cells all of those vanish.
+along the cell, see `lumped.springs.strains`), shear springs the rest, area springs C12 − f C66, axial links
+what is left of C11 and C22. What the sheet's A has beyond L C + (L − 1)(G − δ) goes to the mid-surface: m to
+A12, the rest to strain springs, with lz the least for which none is negative. On square cells all of those
+vanish.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ import math
 import numpy as np
 
 from lumped.moduli import Moduli, shear_gaps
-from scenes import PerDirection, SpringSet
+from sheetbench.scenes import PerDirection, SpringSet
 
 
 def closed_form(asked: Moduli, spacing: tuple[float, float], layers: int) -> SpringSet | None:

@@ -8,7 +8,7 @@ from lumped.calibration.closed_form import closed_form
 from lumped.calibration.least_squares import bounded_least_squares
 from lumped.calibration.uniform import require_positive
 from lumped.lattice import Grid
-from scenes import Material, Sheet
+from sheetbench.scenes import Material, Sheet
 
 
 def consistent(

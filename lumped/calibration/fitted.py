@@ -23,7 +23,7 @@ from lumped.calibration.consistent import consistent
 from lumped.calibration.identifiability import Identifiability, identifiability
 from lumped.calibration.targets import ModalTarget, StaticTarget, Target
 from lumped.lattice import Distribution, Grid
-from scenes import Material, Sheet, SpringSet
+from sheetbench.scenes import Material, Sheet, SpringSet
 
 PRIOR = {"fit-static": 1e-3, "fit-modal": 1e-1}
 KEPT = ("vertical", "layer_distance")

@@ -19,7 +19,7 @@ from lumped import moduli
 from lumped.calibration.calibration import Calibration, plan_spacing, report
 from lumped.calibration.uniform import require_positive
 from lumped.lattice import Grid
-from scenes import Material, PerDirection, Sheet, SpringSet
+from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
 
 WEIGHTS = {"D": 1.0, "S": 1.0, "A": 0.3}
 PAIRS = ("axial", "cross", "mid_stretch")

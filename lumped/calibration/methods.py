@@ -12,7 +12,7 @@ from lumped.calibration.targets import Target
 from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
 from lumped.calibration.uniform import uniform
 from lumped.lattice import Grid
-from scenes import Material, Scene, Sheet
+from sheetbench.scenes import Material, Scene, Sheet
 
 CALIBRATIONS: dict[str, Method] = {
     "consistent": consistent,

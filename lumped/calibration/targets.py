@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scenes import Scene
+from sheetbench.scenes import Scene
 
 
 @dataclass(frozen=True)

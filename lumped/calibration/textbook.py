@@ -29,7 +29,7 @@ from lumped.calibration.calibration import Calibration, plan_spacing, report
 from lumped.calibration.closed_form import closed_form
 from lumped.calibration.uniform import require_positive
 from lumped.lattice import Grid
-from scenes import Material, PerDirection, Sheet, SpringSet
+from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
 
 CAUCHY_POISSON = 1.0 / 3.0
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from lumped import moduli
 from lumped.calibration.calibration import Calibration, plan_spacing, report
 from lumped.lattice import Grid
-from scenes import Material, Sheet, SpringSet
+from sheetbench.scenes import Material, Sheet, SpringSet
 
 
 def uniform(

@@ -1,9 +1,9 @@
 """The dampers of a scene on a lattice: link dampers, area dampers, mass-proportional damping.
 
-Every link's damper acts along the link (`lumped.dampers`). Its coefficient is that of the scene's [dampers]
-table by family, or else damping_time × k; area and strain springs have dampers with damping_time only
-(`lumped.area_dampers`, `lumped.strain_dampers`), since the table has no entry for them. damping_rate × m v
-acts on every mass. What has a zero coefficient is not assembled.
+Every link's damper acts along the link (`lumped.springs.link_dampers`). Its coefficient is that of the
+scene's [dampers] table by family, or else damping_time × k; area and strain springs have dampers with
+damping_time only (`lumped.springs.area_dampers`, `lumped.springs.strain_dampers`), since the table has no
+entry for them. damping_rate × m v acts on every mass. What has a zero coefficient is not assembled.
 """
 
 from __future__ import annotations
@@ -12,11 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from lumped import area_dampers, dampers, strain_dampers
 from lumped.assembly import Assembly, Cells
 from lumped.lattice import Lattice
 from lumped.moduli import family_stiffness
-from scenes import Scene
+from lumped.springs import area_dampers, strain_dampers
+from lumped.springs import link_dampers as dampers
+from sheetbench.scenes import Scene
 
 
 class Damping:

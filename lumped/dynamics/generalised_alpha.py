@@ -19,7 +19,7 @@ import numpy as np
 
 from lumped.dynamics.integrator import Advance, Integrator, Newton, StepFailed
 from lumped.dynamics.system import State, System
-from lumped.linear import SingularMatrixError
+from lumped.linear.solver import SingularMatrixError
 
 ERROR = 1e-6  # of a step, relative to the largest displacement so far
 CLOSE = 1e-11  # last correction relative to the sheet's side

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from lumped.dynamics.system import State, System
-from lumped.linear import Factor
+from lumped.linear.solver import Factor
 
 CORRECTIONS = 20
 STALE = 0.2  # ratio of successive corrections above which the factors are made anew

@@ -20,7 +20,7 @@ import numpy as np
 from lumped.assembly import Cells
 from lumped.dynamics.integrator import Advance, Integrator, StepFailed
 from lumped.dynamics.system import State, System
-from lumped.linear import Factor, ReducedSystem
+from lumped.linear.solver import Factor, ReducedSystem
 
 ITERATIONS, TOLERANCE = 2000, 1e-3
 REMEMBERED = 8

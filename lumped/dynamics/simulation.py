@@ -23,16 +23,16 @@ from lumped.dynamics.generalised_alpha import GeneralisedAlpha
 from lumped.dynamics.integrator import Integrator, StepFailed
 from lumped.dynamics.integrators import INTEGRATORS
 from lumped.dynamics.sampling import Sampling
+from lumped.dynamics.step_limit import SAFETY, step_limit
 from lumped.dynamics.store import FolderStore, MemoryStore
 from lumped.dynamics.system import State, System
 from lumped.dynamics.verlet import Verlet
-from lumped.fields import field_mesh
 from lumped.lattice import Weights
-from lumped.stability import SAFETY, step_limit
-from lumped.statics import pose, settle
-from lumped.threads import one_blas_thread
+from lumped.linear.threads import one_blas_thread
+from lumped.statics.fields import field_mesh
+from lumped.statics.solver import pose, settle
 from lumped.vibration import modes
-from scenes import Chain, Clamped, Curved, History, Scene, Status
+from sheetbench.scenes import Chain, Clamped, Curved, History, Scene, Status
 
 SAMPLES_PER_PERIOD = 100
 STEPS_PER_PERIOD = 200  # of implicit integrators with a fixed step

@@ -16,12 +16,14 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
-from lumped import conserving, springs, strains
 from lumped.actuators import Drive
+from lumped.dynamics import discrete_gradients as conserving
 from lumped.dynamics.damping import Damping
 from lumped.masses import masses
-from lumped.problem import Problem
-from scenes import Scene, held_axes, holds_director
+from lumped.springs import links as springs
+from lumped.springs import strains
+from lumped.statics.problem import Problem
+from sheetbench.scenes import Scene, held_axes, holds_director
 
 INSTANT = 1e-7  # s, over which velocities of prescribed motions are taken
 

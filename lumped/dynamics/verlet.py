@@ -4,7 +4,7 @@
 
 The elastic forces are computed once a step; the damping forces twice, with the predicted and with the final
 velocity, since they at hand from half a step before would leave the scheme of first order. Undamped it is
-stable for ω h ≤ 2, damped as `lumped.stability` has it. Constraints as in RATTLE.
+stable for ω h ≤ 2, damped as `lumped.dynamics.step_limit` has it. Constraints as in RATTLE.
 """
 
 from __future__ import annotations

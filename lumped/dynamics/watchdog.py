@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.dynamics.system import State, System
-from lumped.watch import Fault, broken, fastest
-from scenes import Status
+from lumped.statics.validity import Fault, broken, fastest
+from sheetbench.scenes import Status
 
 GROWN = 1.0  # energy from nowhere, relative to the energy that went round, that counts as divergence
 MOST_STEPS = 100_000  # of an adaptive integrator between two samples

@@ -1,0 +1,1 @@
+"""Which model is the cheapest that is good enough for a scene."""

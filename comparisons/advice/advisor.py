@@ -1,0 +1,254 @@
+"""The cheapest model that is good enough for a scene, or the most accurate one in a given time.
+
+Scales (`comparisons.advice.scales`) decide what may be left out; a few quick solves
+(`comparisons.advice.probing`) decide the rest. A model is adequate if its distance from the judge plus the
+judge's error bar is within the tolerance; where the bar leaves that open the judge is refined. Predicted
+error: the distance; predicted time: as measured here.
+
+What is left out is said, and what the scene needs: "bending" always; "transverse shear" and "membrane
+stiffening" where they hold a share of the energy; "large displacements" where the linear answer is off; and
+"actuators" where there are some. A static question needs no dynamics.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from comparisons.advice.probing import Probing, Trial
+from comparisons.advice.scales import Scales, scales
+from comparisons.models.candidate import Candidate
+from sheetbench.scenes import Scene, require_static
+from sheetbench.scenes.errors import BadInput
+
+NEGLIGIBLE = 0.25  # of the tolerance: an effect smaller than that is left out
+LINEAR_LOAD_NUMBER = 2.0  # beyond which no linear model is worth trying
+STEEP = 0.1  # of the tolerance: the finest error bar a decision may hang on
+
+
+@dataclass(frozen=True)
+class Advice:
+    """What to solve, and why. error, seconds: predicted for the choice; bar: of the judge.
+
+    choice is None, with `message` saying why, where no model converges or none in `budget` is known.
+    """
+
+    scene: Scene
+    tolerance: float | None
+    budget: float | None
+    choice: Candidate | None
+    error: float | None
+    bar: float
+    seconds: float | None
+    needs: tuple[str, ...]
+    left_out: tuple[str, ...]
+    scales: Scales
+    probing_seconds: float
+    tried: tuple[dict[str, Any], ...] = field(repr=False)
+    message: str = ""
+
+    @property
+    def reason(self) -> str:
+        """The advice in a sentence."""
+        if self.error is None or self.seconds is None:
+            return self.message
+        said = f"predicted error {100 * self.error:.2g} % ± {100 * self.bar:.2g} % in {_time(self.seconds)}"
+        return f"{said}; {self.message}" if self.message else said
+
+    @property
+    def met(self) -> bool:
+        """Whether what was asked can be had: the tolerance, within the budget if there is one."""
+        if self.choice is None or self.error is None or self.seconds is None:
+            return False
+        accurate = self.tolerance is None or self.error + self.bar <= self.tolerance
+        return accurate and (self.budget is None or self.seconds <= self.budget)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench advise`."""
+        choice = None
+        if self.choice is not None:
+            choice = {"model": self.choice.model, "settings": self.choice.settings}
+        return {
+            "scene": self.scene.name,
+            "tolerance": self.tolerance,
+            "budget": self.budget,
+            "choice": choice,
+            "predicted": {"error": self.error, "uncertainty": self.bar, "solve_seconds": self.seconds},
+            "met": self.met,
+            "needs": list(self.needs),
+            "left_out": list(self.left_out),
+            "scales": self.scales.as_dict(),
+            "probing_seconds": self.probing_seconds,
+            "tried": list(self.tried),
+            "message": self.message,
+        }
+
+
+def advise(scene: Scene, tolerance: float | None = 0.01, budget: float | None = None) -> Advice:
+    """The cheapest model predicted to meet `tolerance` (a fraction), or the most accurate in `budget` [s].
+
+    With both, the cheapest that meets the tolerance; where that takes longer, the most accurate in time, and
+    `met` is false. Raises SceneError for a scene without a static answer.
+    """
+    require_static(scene)
+    probing = Probing(scene)
+    sizes = scales(scene)
+    resolution = tolerance or 0.01
+    for _ in range(3):
+        probing.refine()
+    while not probing.judge.usable and probing.refine():
+        pass
+    if not probing.judge.usable:
+        said = probing.judge.solution
+        reason = f"the shell finds no stable equilibrium: {said.status}: {said.message}"
+        return _advice(probing, sizes, tolerance, budget, None, resolution, reason)
+    linear = not scene.actuators and sizes.load_number <= LINEAR_LOAD_NUMBER
+    candidates = probing.candidates(linear)
+    for candidate in candidates[:3]:
+        probing.trial(candidate)
+    if linear:  # each family's rate
+        probing.trial(probing.candidate("lumped", 4, linear=True))
+        probing.trial(probing.candidate("plate", 4))
+    chosen = _cheapest(probing, candidates, tolerance) if tolerance is not None else None
+    message = ""
+    if tolerance is not None and chosen is None:
+        message = f"no model here is within {100 * tolerance:g} % for certain; this is the most accurate one"
+    if budget is not None and (chosen is None or chosen.seconds > budget):
+        chosen = _most_accurate(probing, candidates, budget)
+        message = f"no model solves this in {budget:g} s" if chosen is None else ""
+        if tolerance is not None and chosen is not None:
+            message = (
+                f"{100 * tolerance:g} % takes longer than {budget:g} s; this is the most accurate in time"
+            )
+    elif chosen is None:
+        chosen = probing.judge
+    return _advice(probing, sizes, tolerance, budget, chosen, resolution, message)
+
+
+def check_auto(auto: bool, tolerance: float | None, given: dict[str, Any]) -> None:
+    """Raise BadInput for options of `compare` that leave the advisor no choice to make."""
+    if tolerance is not None:
+        if not auto:
+            raise BadInput(f"--tolerance = {tolerance:g}: goes with --auto")
+        checked_tolerance(tolerance)
+    for option, value in given.items():
+        if auto and value is not None:
+            raise BadInput(f"--auto and {option}: choose one")
+
+
+def checked_tolerance(tolerance: float) -> float:
+    """The tolerance. Raises BadInput unless it is a fraction above 0 and below 1."""
+    if not 0.0 < tolerance < 1.0:
+        raise BadInput(f"--tolerance = {tolerance:g}: a fraction between 0 and 1, as 0.01 for one percent")
+    return tolerance
+
+
+def _cheapest(probing: Probing, candidates: list[Candidate], tolerance: float) -> Trial | None:
+    """The quickest candidate that is certainly within the tolerance."""
+    found: Trial | None = None
+    left = list(candidates)
+    while left:
+        left.sort(key=probing.predicted_seconds)
+        candidate = left.pop(0)
+        if found is not None and probing.predicted_seconds(candidate) > 1.3 * found.seconds:
+            return found
+        trial = probing.trial(candidate)
+        if _adequate(probing, trial, tolerance) and (found is None or trial.seconds < found.seconds):
+            found = trial
+    return found
+
+
+def _adequate(probing: Probing, trial: Trial, tolerance: float) -> bool:
+    """Whether a trial is within the tolerance; the judge is refined until that is certain."""
+    while True:
+        error, bar = probing.error(trial), probing.uncertainty
+        if error + bar <= tolerance:
+            return True
+        if error - bar > tolerance or bar <= STEEP * tolerance or not trial.usable:
+            return False
+        if not probing.refine():
+            return False
+
+
+def _most_accurate(probing: Probing, candidates: list[Candidate], budget: float) -> Trial | None:
+    """The candidate of least error among those that take no longer than the budget [s]."""
+    found: Trial | None = None
+    for candidate in candidates:
+        if probing.predicted_seconds(candidate) > 1.5 * budget:
+            continue
+        trial = probing.trial(candidate)
+        better = found is None or probing.error(trial) < probing.error(found)
+        if trial.usable and trial.seconds <= budget and better:
+            found = trial
+    return found
+
+
+def _advice(
+    probing: Probing,
+    sizes: Scales,
+    tolerance: float | None,
+    budget: float | None,
+    chosen: Trial | None,
+    resolution: float,
+    message: str,
+) -> Advice:
+    needs, left_out = _effects(probing, chosen, resolution)
+    tried = tuple(
+        {
+            "model": trial.candidate.model,
+            "settings": trial.candidate.settings,
+            "status": str(trial.solution.status),
+            "error": probing.error(trial) if trial.usable else None,
+            "solve_seconds": trial.seconds,
+        }
+        for trial in probing.trials.values()
+    )
+    return Advice(
+        scene=probing.scene,
+        tolerance=tolerance,
+        budget=budget,
+        choice=chosen.candidate if chosen is not None else None,
+        error=probing.error(chosen) if chosen is not None else None,
+        bar=probing.uncertainty,
+        seconds=chosen.seconds if chosen is not None else None,
+        needs=needs,
+        left_out=left_out,
+        scales=sizes,
+        probing_seconds=probing.seconds,
+        tried=tried,
+        message=message,
+    )
+
+
+def _effects(
+    probing: Probing, chosen: Trial | None, tolerance: float
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """What the scene needs of a model, and what is left out of the chosen one."""
+    needs, left_out = ["bending"], ["dynamics: the question is static"]
+    small = NEGLIGIBLE * tolerance
+    energies = probing.judge.solution.energies
+    total = sum(energies.values()) or 1.0
+    for name, part in (("transverse shear", "shear"), ("membrane stiffening", "membrane")):
+        share = energies.get(part, 0.0) / total
+        if share > small:
+            needs.append(name)
+        else:
+            left_out.append(f"{name}: {100 * share:.1g} % of the energy")
+    linear = probing.trial(probing.candidate("plate", 4))
+    off = probing.error(linear)
+    if off > tolerance:
+        needs.append("large displacements")
+    elif chosen is not None and (
+        chosen.candidate.settings.get("linear") or chosen.candidate.model == "plate"
+    ):
+        left_out.append(f"nonlinearity: the linear answer is {100 * off:.1g} % off")
+    if probing.scene.actuators:
+        needs.append("actuators")
+    if chosen is not None and probing.planes:
+        part = "a quarter" if len(probing.planes) == 2 else "half"
+        left_out.append(f"all but {part} of the sheet: the scene is symmetric")
+    return tuple(needs), tuple(left_out)
+
+
+def _time(seconds: float) -> str:
+    return f"{1e3 * seconds:.2g} ms" if seconds < 1.0 else f"{seconds:.2g} s"

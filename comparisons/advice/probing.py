@@ -1,0 +1,152 @@
+"""Quick solves of a scene that tell what each model would get wrong and cost here.
+
+The judge is the shell on three meshes of rising fineness with the grid convergence index as its error bar,
+made finer only as long as a decision hangs on it. Times are this machine's, on warm code; those of models
+that were not solved follow t = c N^p through the two solved ones nearest in unknowns.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from statistics import median
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from comparisons.comparison.comparison import comparable, error
+from comparisons.models import registry as models
+from comparisons.models.candidate import Candidate
+from comparisons.models.grids import near_square
+from comparisons.models.symmetry import planes
+from sheetbench.scenes import Scene, Solution, Status
+
+JUDGES = (4, 6, 8, 12, 16, 24, 32)  # elements along the shorter side
+FIRST = 3  # of them are always solved
+CELLS = {"lumped": (2, 4, 6, 8, 12, 16, 24, 32), "plate": (2, 4, 8), "shell": (2, 3, 4, 6, 8, 12, 16, 24)}
+UNKNOWNS = {"lumped": 6.0, "plate": 20.0, "shell": 20.0}  # a cell or element
+EXPONENT = 1.1  # of time in unknowns, where one solve only is known
+REPEATS = 3
+
+
+@dataclass
+class Trial:
+    """A candidate that was solved: its answer and its median time [s]."""
+
+    candidate: Candidate
+    solution: Solution
+    seconds: float
+
+    @property
+    def usable(self) -> bool:
+        """Whether the answer is a stable equilibrium under the whole load."""
+        return self.solution.status is Status.CONVERGED and comparable(self.solution)
+
+
+class Probing:
+    """The solves of a scene so far."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.points = scene.probe_points()
+        self.planes = planes(scene)
+        self.trials: dict[str, Trial] = {}
+        self.judges: list[int] = []
+        self.seconds = 0.0
+
+    def candidate(self, model: str, cells: int, **settings: Any) -> Candidate:
+        """A model with that many cells along the shorter side, cut where the scene is symmetric."""
+        along = list(near_square(self.scene.sheet, cells))
+        for axis in self.planes:
+            along[axis] += along[axis] % 2
+        if model == "lumped":
+            settings |= {"grid": [along[0] + 1, along[1] + 1, 2], "calibration": "consistent"}
+        else:
+            settings["elements"] = along
+        if self.planes:
+            settings["symmetry"] = True
+        return Candidate(model, settings)
+
+    def candidates(self, linear: bool) -> list[Candidate]:
+        """What may be chosen: lattices and shells; the linear lattice and the plate where `linear`."""
+        found = [self.candidate("lumped", n) for n in CELLS["lumped"]]
+        found += [self.candidate("shell", n) for n in CELLS["shell"]]
+        if linear:
+            found += [self.candidate("lumped", n, linear=True) for n in CELLS["lumped"]]
+            found += [self.candidate("plate", n) for n in CELLS["plate"]]
+        return found
+
+    def trial(self, candidate: Candidate, repeats: int = REPEATS) -> Trial:
+        """The candidate's answer and time; solved once, whoever asks."""
+        key = repr(candidate)
+        if key not in self.trials:
+            began = perf_counter()
+            with threadpool_limits(1):  # as campaigns measure
+                solution = models.solve(self.scene, candidate.model, **candidate.settings)
+                times = [solution.solve_seconds]
+                while solution.solve_seconds < 0.2 and len(times) < repeats:
+                    again = models.solve(self.scene, candidate.model, **candidate.settings)
+                    times.append(again.solve_seconds)
+            self.trials[key] = Trial(candidate, solution, median(times))
+            self.seconds += perf_counter() - began
+        return self.trials[key]
+
+    def refine(self) -> bool:
+        """Solve the judge on its next mesh. False where there is none left, or it does not converge."""
+        if len(self.judges) == len(JUDGES):
+            return False
+        cells = JUDGES[len(self.judges)]
+        self.judges.append(cells)
+        return self.trial(self._judge(cells), repeats=1).usable
+
+    @property
+    def judge(self) -> Trial:
+        """The judge on its finest mesh so far."""
+        return self.trial(self._judge(self.judges[-1]))
+
+    @property
+    def uncertainty(self) -> float:
+        """Error bar of the judge, in the design's measure of error."""
+        from fem_reference.uncertainty import estimate
+
+        finest = self.judges[:-4:-1]
+        trials = [self.trial(self._judge(cells)) for cells in finest]
+        answers = [trial.solution.displacement(self.points) for trial in trials if trial.usable]
+        if len(answers) < len(finest) or len(answers) < 2:
+            return float("inf")
+        bars = estimate(answers, [1.0 / cells for cells in finest])
+        return bars.error
+
+    def error(self, trial: Trial) -> float:
+        """Error of a trial against the judge; infinite for an answer that is none."""
+        if not trial.usable:
+            return float("inf")
+        found = error(trial.solution.displacement(self.points), self.judge.solution.displacement(self.points))
+        return 0.0 if found is None else found
+
+    def predicted_seconds(self, candidate: Candidate) -> float:
+        """Time of a candidate: as measured, or by the rates of its family."""
+        if repr(candidate) in self.trials:
+            return self.trials[repr(candidate)].seconds
+        family = [t for t in self.trials.values() if t.candidate.series == candidate.series]
+        size = unknowns(candidate)
+        if not family:
+            return size * 1e-5
+        family.sort(key=lambda t: abs(np.log(unknowns(t.candidate) / size)))
+        near = family[0]
+        exponent = EXPONENT
+        if len(family) > 1:
+            ratio = unknowns(near.candidate) / unknowns(family[1].candidate)
+            exponent = float(np.clip(np.log(near.seconds / family[1].seconds) / np.log(ratio), 0.3, 1.6))
+        return near.seconds * float(size / unknowns(near.candidate)) ** exponent
+
+    def _judge(self, cells: int) -> Candidate:
+        return self.candidate("shell", cells)
+
+
+def unknowns(candidate: Candidate) -> float:
+    """Unknowns of a candidate, about."""
+    size = candidate.settings.get("grid") or candidate.settings["elements"]
+    cells = (size[0] - 1) * (size[1] - 1) if "grid" in candidate.settings else size[0] * size[1]
+    return UNKNOWNS[candidate.model] * cells

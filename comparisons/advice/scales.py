@@ -1,0 +1,58 @@
+"""What a scene's numbers say before anything is solved.
+
+    slenderness   h/a, a the shorter side
+    load number   q a³/D, q the load per area (weight; point and edge loads spread over the sheet) and
+                  D = E h³/12(1 − ν²): a strip held at one end would slope by about a sixth of it, in radians
+    strain        q a/(E h), how much the load would stretch a strip that it hangs from
+
+The moduli report of a calibration says how far a lattice's own stiffness is from the sheet's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sheetbench.scenes import EDGES, EdgeLoad, PointLoad, Pressure, Scene
+
+
+@dataclass(frozen=True)
+class Scales:
+    """The dimensionless numbers of a scene; load: per area [Pa]."""
+
+    slenderness: float
+    load: float
+    load_number: float
+    strain: float
+
+    def as_dict(self) -> dict[str, float]:
+        """For JSON."""
+        return dict(vars(self))
+
+
+def scales(scene: Scene) -> Scales:
+    """The scales of a scene."""
+    sheet, material = scene.sheet, scene.material
+    side, area = min(sheet.lengths), float(np.prod(sheet.lengths))
+    rigidity = material.young * sheet.thickness**3 / (12.0 * (1.0 - material.poisson**2))
+    load = 0.0
+    if scene.gravity is not None:
+        acceleration = abs(scene.gravity.last_factor) * float(np.linalg.norm(scene.gravity.acceleration))
+        load += material.density * sheet.thickness * acceleration
+    for acting in scene.loads:
+        factor = abs(acting.last_factor)
+        if isinstance(acting, PointLoad):
+            load += factor * float(np.linalg.norm(acting.force)) / area
+        elif isinstance(acting, EdgeLoad):
+            length = sheet.lengths[EDGES[acting.edge].along_axis]
+            load += factor * float(np.linalg.norm(acting.force_per_length)) * length / area
+            load += factor * abs(acting.moment_per_length) * length / area / side
+        elif isinstance(acting, Pressure):
+            load += factor * abs(acting.value)
+    return Scales(
+        slenderness=sheet.thickness / side,
+        load=load,
+        load_number=load * side**3 / rigidity,
+        strain=load * side / (material.young * sheet.thickness),
+    )

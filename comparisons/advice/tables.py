@@ -1,0 +1,48 @@
+"""Advice as people read it: what was tried, what to solve, what the scene needs and what is left out."""
+
+from __future__ import annotations
+
+from comparisons.advice.advisor import Advice
+from comparisons.models.candidate import series
+from comparisons.report.table import Column, Table
+
+
+def tried(advice: Advice) -> Table:
+    """A row per probing solve, the quickest first; the choice is marked."""
+    chosen = None if advice.choice is None else (advice.choice.model, advice.choice.settings)
+    rows = [
+        (
+            series(row["model"], row["settings"]),
+            "×".join(str(n) for n in row["settings"].get("grid") or row["settings"]["elements"]),
+            row["solve_seconds"],
+            row["error"],
+            "yes" if (row["model"], row["settings"]) == chosen else "",
+            row["status"],
+        )
+        for row in sorted(advice.tried, key=lambda row: float(row["solve_seconds"]))
+    ]
+    columns = (
+        Column("model", prose=True),
+        Column("size"),
+        Column("solve", "s", "ms", 1e3, ".2f"),
+        Column("error", "", "%", 100.0, ".2g"),
+        Column("choice"),
+        Column("status", prose=True),
+    )
+    return Table("Quick solves; errors are distances from the finest one", columns, tuple(rows))
+
+
+def sentences(advice: Advice) -> list[str]:
+    """The advice and its reasons, a sentence a line."""
+    scales = advice.scales
+    said = [
+        f"load number q a³/D = {scales.load_number:.3g}, h/a = {scales.slenderness:.3g}, "
+        f"q a/(E h) = {scales.strain:.2g}",
+        f"needs {', '.join(advice.needs)}",
+        *(f"leaves out {left}" for left in advice.left_out),
+        f"{advice.reason} (probing took {advice.probing_seconds:.2g} s)",
+    ]
+    if advice.choice is not None:
+        settings = ", ".join(f"{name} = {value}" for name, value in advice.choice.settings.items())
+        said.append(f"Solve {advice.choice.model} with {settings}.")
+    return said

@@ -1,0 +1,286 @@
+"""Validation of the advisor on scenes drawn at random: is the tolerance met, and is the choice the cheapest?
+
+Drawn (seeded): shorter side 0.05 to 0.5 m, the other up to 2.5 times that, h/a 0.003 to 0.05, ν 0 to 0.49,
+load number ρ g h a³/D 0.03 to 100 (as far as ρ g a/E ≤ 0.03), ten arrangements of supports with clamped,
+hinged and curved edges, and a point load of up to the sheet's weight on every fourth scene. A scene whose
+fine shell finds no stable equilibrium is outside the range and replaced by the next.
+
+The truth is a shell with 32 elements along the shorter side. Cost is compared with `timing` rows of the same
+scene: the choice as advised beside `ROWS`, whole sheets all of them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from sheetbench.scenes.supports import AnySupport
+
+from comparisons.advice.advisor import advise
+from comparisons.comparison.comparison import error
+from comparisons.models.candidate import Candidate, lattices, references
+from comparisons.models.registry import solve
+from comparisons.report.files import folder, to_json, write_text
+from comparisons.report.table import Column, Table
+from comparisons.runs.campaign import Progress, Run, campaign, carry_out
+from comparisons.runs.executors import processes
+from comparisons.runs.manifest import record
+from comparisons.runs.store import Finished, Store
+from comparisons.tradeoff import timing
+from sheetbench.scenes import Clamped, Curved, Gravity, Hinged, Material, PointLoad, Scene, Sheet, Status
+
+SEED = 7
+TOLERANCES = (0.005, 0.01, 0.02, 0.05)
+TRUTH = 32  # elements along the shorter side
+GRAVITY = 9.81
+LARGEST_STRAIN = 0.03
+WITHIN = 2.0  # times the cheapest adequate row's time
+
+
+def scenes_at_random(seed: int = SEED) -> Iterator[Scene]:
+    """Scenes without end, the same for the same seed."""
+    random = np.random.default_rng(seed)
+    number = 0
+    while True:
+        short, aspect = _log(random, 0.05, 0.5), random.uniform(1.0, 2.5)
+        sides = (short, short * aspect) if random.random() < 0.5 else (short * aspect, short)
+        thickness, poisson = short * _log(random, 0.003, 0.05), random.uniform(0.0, 0.49)
+        density, load_number = random.uniform(900.0, 2000.0), _log(random, 0.03, 100.0)
+        young = 12.0 * (1.0 - poisson**2) * density * GRAVITY * short**3 / (load_number * thickness**2)
+        young = max(young, density * GRAVITY * max(sides) / LARGEST_STRAIN)
+        curvature = random.choice([-1.0, 1.0]) * random.uniform(0.1, 0.75) / sides[1]
+        supports = _arrangements(curvature)[random.integers(10)]
+        at = tuple(float(random.uniform(0.2, 0.9) * side) for side in sides)
+        weight = density * GRAVITY * thickness * sides[0] * sides[1]
+        pull = (0.0, 0.0, float(random.uniform(-1.0, 1.0) * weight))
+        loads = (PointLoad(at=(at[0], at[1]), force=pull),) if number % 4 == 3 else ()
+        yield Scene(
+            name=f"random-{number}",
+            sheet=Sheet(length_x=sides[0], length_y=sides[1], thickness=thickness),
+            material=Material(young=young, poisson=poisson, density=density),
+            gravity=Gravity(acceleration=(0.0, 0.0, -GRAVITY)),
+            support=supports,
+            load=loads,
+        )
+        number += 1
+
+
+def _log(random: np.random.Generator, low: float, high: float) -> float:
+    return float(np.exp(random.uniform(np.log(low), np.log(high))))
+
+
+def _arrangements(curvature: float) -> list[tuple[AnySupport, ...]]:
+    one, other, left, right = (Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1"))
+    return [
+        (one,),
+        (left,),
+        (one, left),
+        (one, other),
+        (left, right),
+        (one, left, other),
+        (one, other, left, right),
+        tuple(Hinged(edge=edge) for edge in ("x0", "x1", "y0", "y1")),
+        (one, Hinged(edge="x1")),
+        (Curved(edge="x0", curvature=float(curvature)),),
+    ]
+
+
+def rows(scene: Scene) -> list[Candidate]:
+    """The dozen rows that the choice is to stand up to."""
+    found = lattices(scene.sheet, ["3", "5", "9", "17"], ["consistent"])
+    found += lattices(scene.sheet, ["5"], ["uniform"])
+    return [*found, *references("plate", ["4"]), *references("shell", ["2", "3", "4", "6", "8", "12"])]
+
+
+def truth(scene: dict[str, Any], elements: int) -> dict[str, Any]:
+    """Task: what the fine shell says at the probes."""
+    asked = Scene.model_validate(scene)
+    solution = solve(asked, "shell", elements=elements)
+    return {
+        "status": str(solution.status),
+        "message": solution.message,
+        "displacement": solution.displacement(asked.probe_points()),
+    }
+
+
+def advice(scene: dict[str, Any], tolerance: float) -> dict[str, Any]:
+    """Task: the advice, and what its choice says at the probes."""
+    asked = Scene.model_validate(scene)
+    given = advise(asked, tolerance)
+    if given.choice is None:
+        return {"status": "none", "message": given.message}
+    solution = solve(asked, given.choice.model, **given.choice.settings)
+    document = given.as_dict()
+    return {
+        "status": str(solution.status),
+        "displacement": solution.displacement(asked.probe_points()),
+        **{
+            key: document[key]
+            for key in ("choice", "predicted", "met", "needs", "probing_seconds", "message")
+        },
+    }
+
+
+@dataclass(frozen=True)
+class Study:
+    """cases: one dictionary per scene and tolerance; skipped: scenes outside the range, and why."""
+
+    cases: tuple[dict[str, Any], ...]
+    skipped: dict[str, str]
+
+    @property
+    def met(self) -> float:
+        """Share of the cases in which the choice is within the tolerance of the truth."""
+        return float(np.mean([case["actual_error"] <= case["tolerance"] for case in self.cases]))
+
+    @property
+    def within(self) -> float:
+        """Share, among cases with an adequate row, that cost at most `WITHIN` times the cheapest one."""
+        ratios = [case["cost_ratio"] for case in self.cases if case.get("cost_ratio") is not None]
+        return float(np.mean([ratio <= WITHIN for ratio in ratios])) if ratios else float("nan")
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        ratios = [case["cost_ratio"] for case in self.cases if case.get("cost_ratio") is not None]
+        return {
+            "met": self.met,
+            "within_factor_2": self.within,
+            "cases": list(self.cases),
+            "compared": len(ratios),
+            "skipped": self.skipped,
+        }
+
+    def table(self) -> Table:
+        """A row per tolerance."""
+        found = []
+        for tolerance in sorted({case["tolerance"] for case in self.cases}):
+            part = Study(tuple(c for c in self.cases if c["tolerance"] == tolerance), {})
+            off = [c["actual_error"] for c in part.cases]
+            ratios = [c["cost_ratio"] for c in part.cases if c.get("cost_ratio") is not None]
+            typical = float(np.median(ratios)) if ratios else None
+            found.append(
+                (tolerance, len(off), part.met, max(off), float(np.median(off)), part.within, typical)
+            )
+        columns = (
+            Column("tolerance", "", "%", 100.0, ".3g"),
+            Column("cases", form="d"),
+            Column("met", "", "%", 100.0, ".1f"),
+            Column("largest error", "", "%", 100.0, ".3g"),
+            Column("median error", "", "%", 100.0, ".3g"),
+            Column("within twice the cheapest", "", "%", 100.0, ".1f"),
+            Column("median of time over the cheapest", "", "", 1.0, ".2f"),
+        )
+        return Table("The advisor on random scenes", columns, tuple(found))
+
+
+def study(
+    store: Store,
+    count: int = 60,
+    compared: int = 20,
+    tolerances: tuple[float, ...] = TOLERANCES,
+    workers: int = 1,
+    seed: int = SEED,
+    elements: int = TRUTH,
+    progress: Callable[[Progress], None] = lambda progress: None,
+) -> Study:
+    """The advisor on `count` scenes; on the first `compared` of them its cost beside that of `rows`."""
+
+    def runs(task: str, asked: list[tuple[Scene, dict[str, Any]]], timed: bool) -> list[Finished]:
+        wanted = [
+            Run(
+                f"comparisons.advice.validation:{task}",
+                {"scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True), **rest},
+                f"{task} {scene.name}",
+                timed,
+            )
+            for scene, rest in asked
+        ]
+        return carry_out(wanted, store, workers=workers, pool=processes, progress=progress)
+
+    endless, inside, skipped = scenes_at_random(seed), list[tuple[Scene, Finished]](), dict[str, str]()
+    while len(inside) < count:
+        drawn = [next(endless) for _ in range(count - len(inside))]
+        for scene, outcome in zip(
+            drawn, runs("truth", [(s, {"elements": elements}) for s in drawn], False), strict=True
+        ):
+            if outcome.status == Status.CONVERGED:
+                inside.append((scene, outcome))
+            else:
+                skipped[scene.name] = f"{outcome.status}: {outcome.message}"
+    asked = [(scene, {"tolerance": tolerance}) for scene, _ in inside for tolerance in tolerances]
+    given = runs("advice", asked, True)
+    fine = {scene.name: outcome for scene, outcome in inside}
+    cases = [_case(scene, rest, fine, found) for (scene, rest), found in zip(asked, given, strict=True)]
+    for scene, outcome in inside[:compared]:
+        mine = [case for case in cases if case["scene"] == scene.name and case["choice"] is not None]
+        _compare_costs(scene, outcome, mine, store, progress)
+    return Study(tuple(cases), skipped)
+
+
+def _case(scene: Scene, rest: dict[str, Any], fine: dict[str, Finished], found: Finished) -> dict[str, Any]:
+    row = found.row
+    off = None
+    if "displacement" in row:
+        off = error(np.array(row["displacement"]), np.array(fine[scene.name].row["displacement"]))
+    return {
+        "scene": scene.name,
+        **rest,
+        "choice": row.get("choice"),
+        "predicted": row.get("predicted"),
+        "actual_error": float("inf") if off is None else off,
+        "probing_seconds": row.get("probing_seconds"),
+        "message": found.message or row.get("message", ""),
+    }
+
+
+def _compare_costs(
+    scene: Scene,
+    outcome: Finished,
+    cases: list[dict[str, Any]],
+    store: Store,
+    progress: Callable[[Progress], None],
+) -> None:
+    """Adds "cost_ratio" to the cases of a scene: the choice's time over that of the cheapest adequate row."""
+    chosen = [Candidate(case["choice"]["model"], case["choice"]["settings"]) for case in cases]
+    asked = [timing.run(scene, c.model, c.settings) for c in [*rows(scene), *chosen]]
+    found = carry_out(asked, store, progress=progress)
+    dozen, mine = found[: -len(chosen)], found[-len(chosen) :]
+    truth_displacement = np.array(outcome.row["displacement"])
+    for case, own in zip(cases, mine, strict=True):
+        adequate = [
+            run.row["solve_seconds"]["median"]
+            for run in dozen
+            if run.status == Status.CONVERGED
+            and (error(np.array(list(run.row["probes"].values())), truth_displacement) or 1.0)
+            <= case["tolerance"]
+        ]
+        case["actual_seconds"] = own.row["solve_seconds"]["median"]
+        case["cost_ratio"] = case["actual_seconds"] / min(adequate) if adequate else None
+
+
+def main() -> None:
+    """`python -m comparisons.advice.validation --out DIR`: the whole study, resumable."""
+    from comparisons.cli import console
+
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0] if __doc__ else None)
+    parser.add_argument("--out", type=Path, default=Path("advisor-study"))
+    parser.add_argument("--scenes", type=int, default=60)
+    parser.add_argument("--compared", type=int, default=20)
+    parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
+    asked = parser.parse_args()
+    with campaign(folder(asked.out)) as store, console.campaign_progress() as progress:
+        found = study(store, asked.scenes, asked.compared, workers=asked.workers, progress=progress)
+    table = found.table()
+    write_text(asked.out / "advisor.json", to_json({**record(["advisor_study"]), **found.as_dict()}))
+    write_text(asked.out / "advisor.md", table.to_markdown())
+    console.show(table)
+    console.note(f"met {100 * found.met:.1f} %; within twice the cheapest row {100 * found.within:.1f} %")
+
+
+if __name__ == "__main__":
+    main()

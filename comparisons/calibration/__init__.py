@@ -1,0 +1,1 @@
+"""Which k belongs to E: the springs of a calibration and the moduli that they meet."""

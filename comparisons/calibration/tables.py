@@ -1,0 +1,104 @@
+"""Spring constants for a sheet, as tables and as the [springs] table of a scene."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING, Any
+
+from comparisons.report.table import Column, Table
+
+if TYPE_CHECKING:
+    from lumped import Calibration
+
+_UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
+_MEANINGS = {
+    "axial": "ka, along x and y in a layer",
+    "diagonal": "kd, diagonal in a layer",
+    "vertical": "kz, through the thickness",
+    "cross": "kdT, between layers, along x and y",
+    "cross_diagonal": "kddT, between layers, diagonal",
+    "area": "area spring of a cell in a layer",
+    "mid_area": "area spring of a mid-surface cell",
+    "shear": "strain spring of a cell in a layer, in-plane shear",
+    "mid_shear": "strain spring of a mid-surface cell, in-plane shear",
+    "mid_stretch": "strain spring of a mid-surface cell, stretching",
+}
+
+
+def document(calibration: Calibration) -> dict[str, Any]:
+    """The JSON document of `sheetbench calibrate`; of a fit also what the data tell of each spring.
+
+    fit: residual, the largest relative miss of the targets; half_widths, of the springs' 95 % intervals as
+    shares of themselves, of area springs as shares of the diagonal's stiffness (null: not seen by the data).
+    """
+    from lumped.calibration.fitted import FittedCalibration
+
+    found = calibration.as_dict()
+    if isinstance(calibration, FittedCalibration):
+        known = calibration.identifiability
+        found["fit"] = {
+            "residual": calibration.residual,
+            "half_widths": known.half_widths if known else {},
+            "singular_values": known.singular_values if known else [],
+        }
+    return found
+
+
+def fit(calibration: dict[str, Any]) -> Table:
+    """A row per spring that was fitted: its 95 % interval. `calibration` as `document` gives it."""
+    rows = tuple(
+        (
+            name,
+            "of the diagonal" if name in ("area", "mid_area") else "of itself",
+            width if width < inf else None,
+        )
+        for name, width in calibration["fit"]["half_widths"].items()
+    )
+    columns = (Column("spring"), Column("share"), Column("±", "", "%", 100.0, ".2f"))
+    return Table("What the data tell of each spring: 95 % intervals", columns, rows)
+
+
+def springs(calibration: dict[str, Any]) -> Table:
+    """A row per family, and per direction where they differ; `calibration` as its `as_dict` gives it."""
+    rows = []
+    for name, value in calibration["springs"].items():
+        directions = value if isinstance(value, dict) else {"": value}
+        rows += [(f"{name} {axis}".strip(), _MEANINGS.get(name, ""), k) for axis, k in directions.items()]
+    columns = (
+        Column("spring"),
+        Column("what it is", prose=True),
+        Column("stiffness", "N/m", "N/m", 1.0, ".6g"),
+    )
+    return Table("Spring constants", columns, tuple(rows))
+
+
+def moduli(calibration: dict[str, Any]) -> Table:
+    """A row per modulus: what the sheet asks and what the lattice has."""
+    rows = []
+    for row in calibration["moduli"]:
+        asked, got = row["asked"], row["got"]
+        off = (got - asked) / asked if asked else None
+        rows.append((row["name"], _UNITS.get(row["name"][:1], ""), asked, got, off))
+    columns = (
+        Column("modulus"),
+        Column("unit"),
+        Column("asked", form=".6g"),
+        Column("got", form=".6g"),
+        Column("off by", "", "%", 100.0, "z.2f"),
+    )
+    return Table("Moduli of the sheet and of the lattice", columns, tuple(rows))
+
+
+def to_toml(calibration: dict[str, Any]) -> str:
+    """The [springs] table for pasting into a scene; all digits."""
+    lines = ["[springs]"]
+    for name, value in calibration["springs"].items():
+        lines.append(f"{name} = {_toml(value)}")
+    lines.append(f"layer_distance = {_toml(calibration['layer_distance'])}")
+    return "\n".join(lines) + "\n"
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{axis} = {_toml(k)}" for axis, k in value.items()) + " }"
+    return repr(float(value))

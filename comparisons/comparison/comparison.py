@@ -1,0 +1,231 @@
+"""Displacements of a lattice beside those of a reference.
+
+With u the displacement of a model and u_ref that of the reference at the same plan points,
+
+    error     largest |component of (u − u_ref)| over the probes / largest |component of u_ref| over them
+    relative  |u − u_ref| / |u_ref| at one probe
+
+Both are fractions, and None where they have no meaning: the reference does not move there by more than
+round-off, a number is not finite, or one of the two models did not reach the full load.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from comparisons.comparison.error_bar import CHEAP, ErrorBar, error_bar
+from comparisons.models.candidate import Candidate
+from comparisons.models.grids import Grid
+from comparisons.models.registry import check_lattice, check_reference, has_own_springs, solve
+from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static
+
+COMPANION = "lumped-uniform"
+ROUND_OFF = 1e-9  # of the largest displacement at a probe
+
+
+def error(displacement: np.ndarray, reference: np.ndarray) -> float | None:
+    """The error of displacements (n, 3) against a reference's (n, 3), as the module defines it."""
+    return _ratio(float(np.max(np.abs(displacement - reference))), float(np.max(np.abs(reference))))
+
+
+def relative(displacement: np.ndarray, reference: np.ndarray, least: float = 0.0) -> float | None:
+    """The relative difference of a displacement (3,) from the reference's (3,), if that exceeds `least`."""
+    size = float(np.linalg.norm(reference))
+    return _ratio(float(np.linalg.norm(displacement - reference)), size) if size > least else None
+
+
+def _ratio(difference: float, size: float) -> float | None:
+    ratio = difference / size if size > 0 else np.nan
+    return ratio if np.isfinite(ratio) else None
+
+
+def comparable(solution: Solution) -> bool:
+    """Whether the solution is an equilibrium under the whole load, stable and physical or not."""
+    equilibria = (Status.CONVERGED, Status.UNSTABLE, Status.STRAIN_OUTSIDE_MODEL)
+    return solution.status in equilibria and solution.load_factor == 1.0
+
+
+@dataclass(frozen=True)
+class Difference:
+    """How far one model is from another at one probe, as a fraction of the other's displacement there.
+
+    distinguishable: whether that is more than the other's own error bar; None where there is no bar.
+    """
+
+    probe: str
+    of: str
+    against: str
+    relative: float | None
+    distinguishable: bool | None = None
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Solutions of one scene: the chosen lattice first, the reference second, then what is shown alongside.
+
+    Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
+    reference's mesh leaves uncertain, where that was asked for.
+    """
+
+    scene: Scene
+    solutions: tuple[Solution, ...]
+    bar: ErrorBar | None = None
+
+    @property
+    def reference(self) -> Solution:
+        """The solution that the others are measured against."""
+        return self.solutions[1]
+
+    @property
+    def converged(self) -> bool:
+        """Whether the chosen lattice and the reference both reached a stable equilibrium."""
+        return all(solution.status is Status.CONVERGED for solution in self.solutions[:2])
+
+    def probes(self, solution: Solution) -> dict[str, np.ndarray]:
+        """Displacement (3,) [m] at each probe."""
+        values = solution.displacement(self.scene.probe_points())
+        return dict(zip(self.scene.probes, values, strict=True))
+
+    def error(self, solution: Solution) -> float | None:
+        """The solution's error against the reference."""
+        if solution is self.reference or not (comparable(solution) and comparable(self.reference)):
+            return None
+        points = self.scene.probe_points()
+        return error(solution.displacement(points), self.reference.displacement(points))
+
+    @property
+    def differences(self) -> tuple[Difference, ...]:
+        """The relative difference of every other model from the reference at every probe."""
+        truth = self.probes(self.reference)
+        least = ROUND_OFF * max(float(np.linalg.norm(u)) for u in truth.values())
+        found = []
+        for solution in self.solutions:
+            if solution is self.reference:
+                continue
+            both = comparable(solution) and comparable(self.reference)
+            for name, value in self.probes(solution).items():
+                off = relative(value, truth[name], least) if both else None
+                told_apart = None
+                if self.bar is not None and off is not None:
+                    told_apart = bool(np.linalg.norm(value - truth[name]) > self.bar.at(name))
+                found.append(Difference(name, solution.model, self.reference.model, off, told_apart))
+        return tuple(found)
+
+    def distinguishable(self, solution: Solution) -> bool | None:
+        """Whether a solution's error is above the reference's own; None where either is not known."""
+        off = self.error(solution)
+        return None if self.bar is None or off is None else off > self.bar.error
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench compare`: metres, newtons, seconds."""
+        return {
+            "scene": self.scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+            "solutions": [self._solution_as_dict(solution) for solution in self.solutions],
+            "differences": [vars(difference) for difference in self.differences],
+            "errors": [
+                {
+                    "of": solution.model,
+                    "against": self.reference.model,
+                    "error": self.error(solution),
+                    "distinguishable": self.distinguishable(solution),
+                }
+                for solution in self.solutions
+                if solution is not self.reference
+            ],
+        }
+
+    def _solution_as_dict(self, solution: Solution) -> dict[str, Any]:
+        bar = self.bar if solution is self.reference else None
+        return {
+            "model": solution.model,
+            "label": solution.label,
+            "settings": solution.settings,
+            "status": str(solution.status),
+            "advice": solution.status.advice,
+            "message": solution.message,
+            "load_factor": solution.load_factor,
+            "unknowns": solution.unknowns,
+            "iterations": solution.iterations,
+            "solve_seconds": solution.solve_seconds,
+            "setup_seconds": solution.setup_seconds,
+            "probes": self.probes(solution),
+            "reactions": solution.reactions,
+            "energies": solution.energies,
+            **({} if bar is None else {"uncertainty": bar.as_dict()}),
+        }
+
+
+def compare(
+    scene: Scene | str | Path,
+    *,
+    grid: Grid | None = None,
+    calibration: str | None = None,
+    k: float | None = None,
+    layer_distance: float | None = None,
+    reference: str = "shell",
+    elements: int = 16,
+    uncertainty: bool | None = None,
+    choice: Candidate | None = None,
+    starting: Callable[[str], None] = lambda model: None,
+    finished: Callable[[Solution], None] = lambda solution: None,
+) -> Comparison:
+    """Solve a scene with the lattice and with a reference, and put the answers side by side.
+
+    grid: masses along x and y, and layers; by default nine along the shorter side. calibration: by default
+    `consistent`, and then the uniform calibration is solved too and shown alongside as `lumped-uniform`;
+    where `k` [N/m] is given the default is `uniform`, and where the scene brings its own [springs] they are
+    used alone. layer_distance [m]. elements: along the shorter side. uncertainty: find the reference's error
+    bar on coarser meshes too; for the plate and the shell it is unless False, for others if True. choice: a
+    model that takes the lattice's place (`comparisons.advice.advisor`); a name that the reference has is
+    changed. `starting` and `finished` are called before and after each model, so that a caller can show
+    progress and keep what is done.
+
+    Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
+    solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.
+    """
+    if not isinstance(scene, Scene):
+        scene = load_static(scene)
+    require_static(scene)
+    check_lattice(calibration, k, layer_distance)
+    check_reference(reference, elements)
+    asked: dict[str, Any] = {"grid": grid, "layer_distance": layer_distance, "k": k}
+    asked["calibration"] = "uniform" if calibration is None and k is not None else calibration
+
+    def run(model: str, name: str, **settings: Any) -> Solution:
+        starting(name)
+        solution = solve(scene, model, **settings)
+        solution = solution if solution.model == name else replace(solution, model=name)
+        finished(solution)
+        return solution
+
+    if choice is not None:
+        first = run(choice.model, _apart(choice.model, reference), **choice.settings)
+    else:
+        first = run("lumped", "lumped", **asked)
+    solutions = [first, run(reference, reference, elements=elements)]
+    if choice is None and asked["calibration"] is None and not has_own_springs(scene, **asked):
+        solutions.append(run("lumped", COMPANION, **{**asked, "calibration": "uniform"}))
+    bar = None
+    if (reference in CHEAP if uncertainty is None else uncertainty) and comparable(solutions[1]):
+        starting(f"{reference} on coarser meshes")
+        bar = error_bar(scene, solutions[1], elements, lambda n: solve(scene, reference, elements=n))
+    return Comparison(scene, tuple(solutions), bar)
+
+
+def _apart(model: str, reference: str) -> str:
+    return model if model != reference else f"{model}-advised"
+
+
+def load_static(scene: str | Path) -> Scene:
+    """The scene of a catalogue name or file, refused by that name if its supports leave it free to move."""
+    loaded = load(scene)
+    try:
+        require_static(loaded)
+    except SceneError as error:
+        raise SceneError(f"{scene}: {error}") from None
+    return loaded

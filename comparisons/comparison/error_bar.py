@@ -1,0 +1,90 @@
+"""What the reference's own mesh leaves uncertain in a comparison: an error bar at every probe.
+
+The reference is solved on coarser meshes too (`fem_reference.uncertainty`); a model that differs from it by
+less than its bar is not distinguishable from it. The time that takes is reported apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sheetbench.scenes import Scene, Solution
+
+if TYPE_CHECKING:
+    from fem_reference.uncertainty import Uncertainty
+
+CHEAP = ("plate", "shell")  # references whose error bar is found unless told otherwise
+
+
+@dataclass(frozen=True)
+class ErrorBar:
+    """The uncertainty of a reference at the probes of a scene.
+
+    elements: along the shorter side, the finest mesh first; solve_seconds: of the coarser meshes.
+    """
+
+    uncertainty: Uncertainty
+    names: tuple[str, ...]
+    elements: tuple[int, ...]
+    solve_seconds: float
+
+    @property
+    def error(self) -> float:
+        """The largest bar over the largest displacement: a bar for `error`."""
+        return self.uncertainty.error
+
+    def at(self, probe: str) -> float:
+        """Length of the bar [m] of the displacement at a probe: a bar for `relative`, times |u_ref|."""
+        return float(np.linalg.norm(self.uncertainty.bar[self.names.index(probe)]))
+
+    def note(self, model: str) -> str:
+        """The bar in words."""
+        found, meshes = self.uncertainty, ", ".join(str(n) for n in self.elements)
+        if len(self.elements) == 2:
+            why = "order 2 assumed, factor 3: two meshes show none"
+        elif np.isfinite(found.overall_order) and found.trusted.all():
+            why = f"observed order {found.overall_order:.1f}"
+        elif found.trusted.all():
+            why = "no change but rounding"
+        else:
+            swing = int(np.sum(~found.trusted))
+            why = f"{swing} of {found.trusted.size} components show no order: 3 × their range instead"
+        return f"{model}: ± {100.0 * self.error:.2g} % by its mesh ({meshes} elements; {why})."
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON: lengths in metres, orders null where there is none."""
+        found = self.uncertainty
+        return {
+            "error": self.error,
+            "order": found.overall_order,
+            "elements": list(self.elements),
+            "probes": dict(zip(self.names, found.bar, strict=True)),
+            "orders": dict(zip(self.names, found.order, strict=True)),
+            "extrapolated": dict(zip(self.names, found.extrapolated, strict=True)),
+            "trusted": bool(found.trusted.all()),
+            "solve_seconds": self.solve_seconds,
+            "method": "grid convergence index (Roache), factor 1.25, or 3 where no order shows",
+        }
+
+
+def error_bar(
+    scene: Scene, finest: Solution, elements: int, solve: Callable[[int], Solution]
+) -> ErrorBar | None:
+    """The bar of a reference's solution on `elements`; `solve` answers on other numbers of elements.
+
+    None where fewer than two meshes have an answer.
+    """
+    from fem_reference.uncertainty import coarser, mesh_size, of_solutions
+
+    meshes = coarser(elements)
+    solutions = [finest, *(solve(n) for n in meshes[1:])]
+    sizes = [mesh_size(scene, n) for n in meshes]
+    found = of_solutions(solutions, sizes, scene.probe_points())
+    if found is None:
+        return None
+    used = tuple(meshes[sizes.index(size)] for size in found.sizes)
+    return ErrorBar(found, tuple(scene.probes), used, sum(s.solve_seconds for s in solutions[1:]))

@@ -1,0 +1,151 @@
+"""The picture of a comparison: the lattice, the reference, and their difference on the deformed sheet.
+
+The sheets are drawn at true scale unless they move too little to see; lengths are in millimetres.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
+
+from comparisons.comparison.comparison import Comparison
+from comparisons.report.files import whole
+from comparisons.report.stage import DARK, GREY, Stage
+from comparisons.report.vtk import plan_mesh
+from sheetbench.scenes import Scene, Solution
+
+WIDTH, DPI = 7.2, 170  # inches: the text width of a two-column paper
+VISIBLE, DRAWN = 0.02, 0.08  # of the longer side: what moves less than the first is drawn as the second
+HEIGHTS, DIFFERENCES = "viridis", "magma_r"
+FONT: Any = {"font.family": "DejaVu Sans", "font.size": 7.5, "text.color": DARK, "axes.labelcolor": DARK}
+MODEL_NAMES = {
+    "lumped": "Lumped lattice",
+    "plate": "Mindlin plate",
+    "shell": "Reissner–Mindlin shell",
+    "solid": "Solid",
+}
+
+
+def picture(path: Path, comparison: Comparison) -> None:
+    """Write the picture as PNG. Needs off-screen drawing: ask `report.offscreen.why_not` first."""
+    with matplotlib.rc_context(FONT), whole(path) as partial:
+        compose(comparison).savefig(partial, dpi=DPI, facecolor="white", pil_kwargs={"optimize": True})
+
+
+def compose(comparison: Comparison) -> Figure:
+    """The figure with its three panels."""
+    scene = comparison.scene
+    lattice, reference = comparison.solutions[:2]
+    plan = plan_mesh(scene.sheet).points[:, :2]
+    truth = reference.displacement(plan)
+    difference = 1e3 * np.linalg.norm(lattice.displacement(plan) - truth, axis=1)
+    masses = 1e3 * lattice.mesh.point_data["displacement"][:, 2]
+    heights = 1e3 * truth[:, 2]
+    height_limits = _limits(np.concatenate([heights, masses]))
+    difference_limits = (0.0, float(difference.max()) or 1.0)
+    scale = exaggeration(scene, [lattice, reference])
+
+    left, middle, right = (Stage(scene, reference, scale) for _ in range(3))
+    if any(kind == "line" for kind, _ in lattice.mesh.cells):
+        left.lattice(lattice.mesh, masses, height_limits, HEIGHTS)
+    else:
+        shown_heights = 1e3 * lattice.displacement(plan)[:, 2]
+        left.surface(lattice, shown_heights, height_limits, HEIGHTS, _elements(lattice))
+    middle.surface(reference, heights, height_limits, HEIGHTS, _elements(reference))
+    right.surface(reference, difference, difference_limits, DIFFERENCES, 0)
+    flat = np.column_stack([plan, np.zeros(len(plan))])
+    seen = np.vstack([flat, left.deformed(reference, plan), left.deformed(lattice, plan)])
+    probes = scene.probe_points()
+    shown = ((left, lattice), (middle, reference), (right, reference))
+    shots = [stage.take(seen, stage.deformed(solution, probes)) for stage, solution in shown]
+
+    figure, axes, bars = _layout(shots[0][0].shape[0] / shots[0][0].shape[1])
+    titles = [
+        MODEL_NAMES.get(lattice.model.removesuffix("-advised"), lattice.model),
+        MODEL_NAMES.get(reference.model, reference.model),
+        "Difference",
+    ]
+    error = comparison.error(lattice)
+    said = "" if error is None else f"error at the probes {100 * error:.2f} %"
+    for axis, (image, pixels), title, subtitle in zip(
+        axes, shots, titles, (lattice.label, reference.label, said), strict=True
+    ):
+        _panel(axis, image, title, subtitle)
+        _name_probes(axis, pixels, list(scene.probes))
+    _colour_bar(figure, bars[0], HEIGHTS, height_limits, "$u_z$  [mm]")
+    _colour_bar(figure, bars[1], DIFFERENCES, difference_limits, "|$u$ − $u_{ref}$|  [mm]")
+    drawn = "drawn at true scale" if scale == 1.0 else f"displacements drawn {scale:g} times as large"
+    figure.text(0.5, 0.975, f"{scene.title or scene.name}  ({drawn})", ha="center", va="top", fontsize=8)
+    return figure
+
+
+def exaggeration(scene: Scene, solutions: list[Solution]) -> float:
+    """1, or the round number by which displacements too small to see are enlarged."""
+    plan = plan_mesh(scene.sheet, 16).points[:, :2]
+    largest = max(float(np.abs(solution.displacement(plan)).max()) for solution in solutions)
+    longer = max(scene.sheet.lengths)
+    if largest == 0.0 or largest >= VISIBLE * longer:
+        return 1.0
+    wanted = DRAWN * longer / largest
+    power = 10.0 ** np.floor(np.log10(wanted))
+    return float(max(step * power for step in (1, 2, 5) if step * power <= wanted))
+
+
+def _limits(values: np.ndarray) -> tuple[float, float]:
+    low, high = float(values.min()), float(values.max())
+    return (low, high) if high > low else (low - 0.5, high + 0.5)
+
+
+def _elements(solution: Solution) -> int:
+    """Cells to mark along the shorter side: the solution's own where they are few enough to see."""
+    return min(np.min(solution.settings.get("elements", 16)), 16)
+
+
+def _layout(aspect: float) -> tuple[Figure, list[Axes], list[Axes]]:
+    """Three panels of height / width `aspect`, a colour bar below the first two and one below the third."""
+    panel = WIDTH / 3
+    top, bottom = 0.56, 0.46
+    height = panel * aspect + top + bottom
+    figure = Figure(figsize=(WIDTH, height))
+    axes = [figure.add_axes((i / 3, bottom / height, 1 / 3, panel * aspect / height)) for i in range(3)]
+    bars = [
+        figure.add_axes((x, 0.3 / height, width, 0.07 / height)) for x, width in ((0.17, 1 / 3), (0.72, 0.23))
+    ]
+    return figure, axes, bars
+
+
+def _panel(axis: Axes, image: np.ndarray, title: str, subtitle: str) -> None:
+    axis.imshow(image, interpolation="lanczos")
+    axis.set_axis_off()
+    axis.set_title(title, fontsize=8.5, fontweight="bold", pad=12)
+    below: dict[str, Any] = {
+        "xycoords": "axes fraction",
+        "textcoords": "offset points",
+        "ha": "center",
+        "va": "bottom",
+    }
+    axis.annotate(subtitle, (0.5, 1.0), (0.0, 2.5), fontsize=6.5, color=GREY, **below)
+
+
+def _name_probes(axis: Axes, pixels: np.ndarray, names: list[str]) -> None:
+    for (x, y), name in zip(pixels, names, strict=True):
+        axis.plot(x, y, "o", markersize=3, markerfacecolor="white", markeredgecolor=DARK, markeredgewidth=0.7)
+        near_edge = x > 0.93 * axis.get_xlim()[1]
+        offset, side = ((-4, -8), "right") if near_edge else ((3.5, 3.5), "left")
+        label = axis.annotate(name, (x, y), offset, textcoords="offset points", ha=side, fontsize=6.5)
+        label.set_path_effects([withStroke(linewidth=1.8, foreground="white")])
+
+
+def _colour_bar(figure: Figure, axis: Axes, colours: str, limits: tuple[float, float], label: str) -> None:
+    bar = figure.colorbar(ScalarMappable(Normalize(*limits), colours), cax=axis, orientation="horizontal")
+    bar.outline.set_visible(False)
+    bar.set_label(label, labelpad=1.5)
+    bar.ax.tick_params(length=2, width=0.5, pad=1.5, labelsize=6.5)

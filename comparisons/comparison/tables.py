@@ -1,0 +1,137 @@
+"""The tables of a comparison: displacement at the probes, cost and error of each model, support forces."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from comparisons.comparison.comparison import Comparison
+from comparisons.report.table import Column, Table
+from sheetbench.scenes import Material, Sheet, Solution, Status
+
+_MODEL = Column("model")
+
+
+def _millimetres(name: str) -> Column:
+    return Column(name, "m", "mm", 1e3, "z.3f")
+
+
+def displacements(comparison: Comparison) -> Table:
+    """A row per probe and model, the reference first; ±: its own error bar, by its mesh."""
+    relative = {(d.probe, d.of): d.relative for d in comparison.differences}
+    probes = {solution.model: comparison.probes(solution) for solution in comparison.solutions}
+    ordered = sorted(comparison.solutions, key=lambda solution: solution is not comparison.reference)
+    bars = {}
+    if comparison.bar is not None:
+        size = {probe: float(np.linalg.norm(u)) for probe, u in probes[comparison.reference.model].items()}
+        bars = {probe: comparison.bar.at(probe) / size[probe] for probe in size if size[probe] > 0.0}
+    rows = [
+        (
+            probe,
+            x,
+            y,
+            s.model,
+            *(float(u) for u in probes[s.model][probe]),
+            relative.get((probe, s.model)),
+            bars.get(probe) if s is comparison.reference else None,
+        )
+        for probe, (x, y) in comparison.scene.probes.items()
+        for s in ordered
+    ]
+    columns = (
+        Column("probe"),
+        Column("x", "m", "mm", 1e3, ".4g"),
+        Column("y", "m", "mm", 1e3, ".4g"),
+        _MODEL,
+        _millimetres("ux"),
+        _millimetres("uy"),
+        _millimetres("uz"),
+        Column("off by", "", "%", 100.0, "z.2f"),
+        Column("±", "", "%", 100.0, ".2g"),
+    )
+    return Table("Displacement of the mid-surface", columns, tuple(rows))
+
+
+def costs(comparison: Comparison) -> Table:
+    """A row per model: what it is, what it cost, how far it is from the reference."""
+    rows = [
+        (
+            s.model,
+            s.label,
+            s.unknowns,
+            s.iterations,
+            s.setup_seconds,
+            s.solve_seconds,
+            comparison.error(s),
+            standing(s),
+        )
+        for s in comparison.solutions
+    ]
+    columns = (
+        _MODEL,
+        Column("what it is", prose=True),
+        Column("unknowns", form="d"),
+        Column("factorisations", form="d"),
+        Column("set-up", "s", "s", 1.0, "z.2f"),
+        Column("solve", "s", "ms", 1e3, ".1f"),
+        Column("error", "", "%", 100.0, "z.2f"),
+        Column("status", prose=True),
+    )
+    return Table("Cost and error of each model", columns, tuple(rows))
+
+
+def reactions(comparison: Comparison) -> Table:
+    """A row per supported edge and model: the force of the support on the sheet."""
+    rows = [
+        (edge, s.model, *(float(f) for f in force))
+        for s in comparison.solutions
+        for edge, force in s.reactions.items()
+    ]
+    forces = tuple(Column(name, "N", "N", 1.0, "z.4f") for name in ("Fx", "Fy", "Fz"))
+    return Table("Force of each support on the sheet", (Column("edge"), _MODEL, *forces), tuple(sorted(rows)))
+
+
+def standing(solution: Solution) -> str:
+    """The status, with the share of the load that was reached if it is not all of it."""
+    reached = "" if solution.load_factor == 1.0 else f" at {100 * solution.load_factor:.0f} % of the load"
+    return f"{solution.status}{reached}"
+
+
+def complaints(comparison: Comparison) -> list[str]:
+    """A sentence for every model that did not converge: what happened and what can be done."""
+    return [
+        ": ".join(part for part in (s.model, standing(s), s.message, s.status.advice) if part)
+        for s in comparison.solutions
+        if s.status is not Status.CONVERGED
+    ]
+
+
+def sheet(sheet: Sheet, material: Material) -> str:
+    """The sheet and its material in a line."""
+    sides = " × ".join(f"{1e3 * length:g}" for length in (*sheet.lengths, sheet.thickness))
+    young = f"{material.young / 1e6:g} MPa"
+    return f"{sides} mm, E = {young}, ν = {material.poisson:g}, ρ = {material.density:g} kg/m³"
+
+
+def uncertainty(comparison: Comparison) -> list[str]:
+    """The reference's error bar in words, and the models that differ from it by less."""
+    if comparison.bar is None:
+        return []
+    said = [comparison.bar.note(comparison.reference.model)]
+    for solution in comparison.solutions:
+        if comparison.distinguishable(solution) is False:
+            said.append(f"{solution.model}: not distinguishable from {comparison.reference.model}.")
+            continue
+        found = (d for d in comparison.differences if d.of == solution.model)
+        if close := [difference.probe for difference in found if difference.distinguishable is False]:
+            named = f"not distinguishable from {comparison.reference.model} at {', '.join(close)}"
+            said.append(f"{solution.model}: {named}.")
+    return said
+
+
+def explanation(comparison: Comparison) -> str:
+    """What the percentages mean, in words."""
+    ref = f"u_{comparison.reference.model}"
+    return (
+        f"off by: |u − {ref}| / |{ref}| at the probe. "
+        f"error: largest component of u − {ref} over the probes / largest component of {ref}."
+    )

@@ -1,0 +1,1 @@
+"""Which parameters belong to measured displacements, and how sure that is."""

@@ -1,0 +1,329 @@
+"""The inverse question: parameters of a scene from what was measured of its sheet.
+
+Least squares in the unknowns' x (`comparisons.identification.unknowns`),
+
+    min Σ r²,   r = u_model − u_measured at every measured component, or
+                r = n · (φ_model − P) + offset, the distance along the surface's normal, at every cloud point,
+
+by a trust region (SciPy's `least_squares`), from the values that the scene gives. Every measured component
+weighs the same: the noise is taken to be independent and equally large in all of them. Then x ± t s √C_ii,
+with s² = r·r/(m − n), C = (Jᵀ J)⁻¹ and Student's t, is a 95 % interval. It does not know of the model's own
+errors; of a lattice's, one Gauss–Newton step on cells half as large gives the measure (`refined`).
+Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import inf
+from typing import Any
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from comparisons.identification import surface
+from comparisons.identification.measurements import Displacements, Measured, Surface
+from comparisons.identification.prediction import (
+    NotReached,
+    Prediction,
+    Predictor,
+    lattice,
+    motion,
+    reference,
+)
+from comparisons.identification.unknowns import DAMPING, Unknown, unknown
+from comparisons.models.grids import Grid, default_grid, near_square
+from comparisons.models.registry import check_lattice, check_reference
+from lumped.calibration import FITTED, identifiability
+from sheetbench.scenes import Scene, require_static
+from sheetbench.scenes.errors import BadInput
+
+MODELS = ("lumped", "shell", "solid")
+REFUSED = 1e3  # residual, in units of the data, where the model has no answer: the step is shortened
+SMALLEST = 1e-10  # change of x, or of the sum of squares, that ends the search
+EVALUATIONS = 60
+POOR = 0.05  # standard deviation of the residuals, of the largest measurement: more than noise usually is
+
+
+@dataclass(frozen=True)
+class Found:
+    """An unknown's value, its 95 % interval, the value the search started from, the unit, and about where a
+    lattice with cells half as large would put it (None: not asked)."""
+
+    value: float
+    interval: tuple[float, float]
+    start: float
+    unit: str
+    refined: float | None = None
+
+
+@dataclass(frozen=True)
+class Identification:
+    """unknowns: name → Found; residuals [m], model less measured: (n, 3) of displacements, nan where nothing
+    was measured, or (n,) along the normals at cloud points; noise: s [m]; relative: the largest residual over
+    the largest measurement; converged: whether the search ended at a minimum."""
+
+    scene: Scene
+    measured: Measured
+    model: str
+    settings: dict[str, Any]
+    unknowns: dict[str, Found]
+    residuals: np.ndarray
+    noise: float
+    relative: float
+    evaluations: int
+    converged: bool
+    warnings: tuple[str, ...]
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench identify`: SI units, null where nothing was measured."""
+        return {
+            "scene": self.scene.name,
+            "model": self.model,
+            "settings": self.settings,
+            "unknowns": {
+                name: {
+                    "value": u.value,
+                    "interval": list(u.interval),
+                    "refined": u.refined,
+                    "start": u.start,
+                    "unit": u.unit,
+                }
+                for name, u in self.unknowns.items()
+            },
+            "residuals": self.residuals,
+            "points": self.measured.points,
+            "noise": self.noise,
+            "relative": self.relative,
+            "evaluations": self.evaluations,
+            "converged": self.converged,
+            "warnings": list(self.warnings),
+        }
+
+
+def identify(
+    scene: Scene,
+    measured: Measured,
+    names: Sequence[str],
+    *,
+    model: str = "lumped",
+    grid: Grid | None = None,
+    calibration: str | None = None,
+    elements: int = 16,
+    offset: float = 0.0,
+    refine: bool = True,
+    progress: Callable[[str], None] = lambda text: None,
+) -> Identification:
+    """The unknowns of these names, from measurements.
+
+    grid, calibration: of the lattice; elements: of a reference; offset [m]: where a cloud was taken along the
+    surface's normal, 0 on the mid-surface. refine: whether to look at a finer lattice too (not for motions).
+    progress: told of every evaluation.
+
+    Raises BadInput for names, models and data that do not go together, and NotReached where the model has no
+    stable answer with the scene's own values.
+    """
+    require_static(scene)
+    unknowns = tuple(unknown(scene, name) for name in names)
+    _check(measured, unknowns, model, calibration, elements)
+    predict, settings, axes = _predictor(scene, measured, model, grid, calibration, elements)
+    misfit = _misfit(measured, axes, offset)
+    kept: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
+    count = 0
+
+    def at(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        nonlocal count
+        key = x.tobytes()
+        if key not in kept:
+            kept[key] = misfit(predict(unknowns, x, _asked(measured, axes)))
+            count += 1
+            size = float(np.sqrt(np.mean(kept[key][0] ** 2)))
+            values = ", ".join(f"{u.name} = {u.value(z):.6g}" for u, z in zip(unknowns, x, strict=True))
+            progress(f"{values}: off by {100 * size:.3g} % of the largest measurement")
+        return kept[key]
+
+    def residuals(x: np.ndarray) -> np.ndarray:
+        try:
+            return at(x)[0]
+        except NotReached as error:
+            progress(f"no answer there: {error}")
+            return np.full_like(first, REFUSED)
+
+    first = at(np.zeros(len(unknowns)))[0]
+    if len(first) <= len(unknowns):
+        raise BadInput(f"{len(first)} measured numbers cannot give intervals of {len(unknowns)} unknowns")
+    low, high = np.array([u.bounds() for u in unknowns]).T
+    best = least_squares(
+        residuals,
+        np.zeros(len(unknowns)),
+        jac=lambda x: at(x)[1],
+        bounds=(low, high),
+        xtol=SMALLEST,
+        ftol=SMALLEST,
+        gtol=1e-12,
+        max_nfev=EVALUATIONS,
+    )
+    final, slopes = at(best.x)
+    known = identifiability([u.name for u in unknowns], slopes, final)
+    steps: Sequence[float | None] = [None] * len(unknowns)
+    if refine and model == "lumped" and not _moving(measured):
+        progress("looking at cells half as large")
+        steps = _refinement(scene, measured, unknowns, best.x, settings, calibration, offset)
+    found = {
+        u.name: Found(
+            u.value(x),
+            u.interval(x, known.half_widths[u.name]),
+            u.start,
+            u.unit,
+            None if step is None else u.value(x + step),
+        )
+        for u, x, step in zip(unknowns, best.x, steps, strict=True)
+    }
+    noise = float(np.sqrt(final @ final / (len(final) - len(unknowns))))
+    warnings = [
+        *known.warnings,
+        *(
+            f"{u.name} ended at a bound of what is allowed: the data pull it further"
+            for u, active in zip(unknowns, best.active_mask, strict=True)
+            if active
+        ),
+    ]
+    warnings += [
+        f"{u.name} would be {found[u.name].refined:.4g} on cells half as large: the grid's error is not "
+        "small beside the interval"
+        for u, step in zip(unknowns, steps, strict=True)
+        if step is not None
+        and known.half_widths[u.name] < inf
+        and abs(step) > known.half_widths[u.name] / 3.0
+    ]
+    if noise > POOR:
+        warnings.append(
+            f"a poor fit, off by {100 * noise:.2g} % of the largest measurement: no value of "
+            f"{', '.join(names)} explains these data; look at frame, supports and model"
+        )
+    return Identification(
+        scene=scene,
+        measured=measured,
+        model=model,
+        settings=settings,
+        unknowns=found,
+        residuals=_per_point(measured, final),
+        noise=measured.scale * noise,
+        relative=float(np.abs(final).max()),
+        evaluations=count,
+        converged=best.status > 0,
+        warnings=tuple(warnings),
+    )
+
+
+def _refinement(
+    scene: Scene,
+    measured: Measured,
+    unknowns: tuple[Unknown, ...],
+    x: np.ndarray,
+    settings: dict[str, Any],
+    calibration: str | None,
+    offset: float,
+) -> list[float | None]:
+    """The Gauss–Newton step of x on a lattice with cells half as large; None where that has no answer."""
+    nx, ny, layers = settings["grid"]
+    finer = (2 * nx - 1, 2 * ny - 1, layers)
+    predict, _, axes = _predictor(scene, measured, "lumped", finer, calibration, 0)
+    try:
+        residuals, slopes = _misfit(measured, axes, offset)(predict(unknowns, x, _asked(measured, axes)))
+    except NotReached:
+        return [None] * len(unknowns)
+    step: list[float | None] = np.linalg.lstsq(slopes, -residuals)[0].tolist()
+    return step
+
+
+def _moving(measured: Measured) -> bool:
+    return isinstance(measured, Displacements) and measured.time is not None
+
+
+def _check(
+    measured: Measured,
+    unknowns: tuple[Unknown, ...],
+    model: str,
+    calibration: str | None,
+    elements: int,
+) -> None:
+    names = [u.name for u in unknowns]
+    repeated = {name for name in names if names.count(name) > 1}
+    if not names or repeated:
+        raise BadInput(f"unknown = '{','.join(names)}': name each once, and at least one")
+    if model not in MODELS:
+        raise BadInput(f"model = '{model}': unknown, choose one of {', '.join(MODELS)}")
+    if model == "lumped":
+        check_lattice(calibration, None, None)
+        if calibration in FITTED:
+            raise BadInput(f"calibration = '{calibration}': its springs do not follow from what is sought")
+    else:
+        check_reference(model, elements)
+    moving = _moving(measured)
+    still = [name for name in names if name in DAMPING]
+    if still and not moving:
+        raise BadInput(
+            f"unknown = '{still[0]}': an equilibrium does not depend on it; it takes a measured motion, "
+            "a CSV with a column time [s]"
+        )
+    if moving and model != "lumped":
+        raise BadInput(f"model = '{model}': a measured motion (column time) is followed by the lattice only")
+
+
+def _predictor(
+    scene: Scene,
+    measured: Measured,
+    model: str,
+    grid: Grid | None,
+    calibration: str | None,
+    elements: int,
+) -> tuple[Predictor, dict[str, Any], tuple[np.ndarray, np.ndarray]]:
+    """The predictor, its settings, and the plan grid on which it gives a whole surface."""
+    if model == "lumped":
+        grid = grid or default_grid(scene.sheet)
+        settings = {"grid": list(grid), "calibration": calibration or "consistent"}
+        axes = surface.plan_grid(scene.sheet.lengths, grid[:2])
+        if isinstance(measured, Displacements) and measured.time is not None:
+            return motion(scene, grid, calibration, measured.time), settings, axes
+        return lattice(scene, grid, calibration), settings, axes
+    along_x, along_y = near_square(scene.sheet, elements)
+    axes = surface.plan_grid(scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
+    return reference(scene, model, elements), {"elements": [along_x, along_y]}, axes
+
+
+def _asked(measured: Measured, axes: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
+    return surface.plan_points(axes) if isinstance(measured, Surface) else measured.points
+
+
+def _misfit(
+    measured: Measured, axes: tuple[np.ndarray, np.ndarray], offset: float
+) -> Callable[[Prediction], tuple[np.ndarray, np.ndarray]]:
+    """From a prediction to residuals (m,) and their slopes (m, n), as shares of the largest measurement."""
+    scale = measured.scale
+
+    def of_points(predicted: Prediction) -> tuple[np.ndarray, np.ndarray]:
+        assert isinstance(measured, Displacements)
+        given = measured.measured
+        slopes = np.stack([slope[given] for slope in predicted.slopes], axis=1)
+        return (predicted.displacement - measured.displacement)[given] / scale, slopes / scale
+
+    def of_surface(predicted: Prediction) -> tuple[np.ndarray, np.ndarray]:
+        found = surface.feet(axes, surface.Field(axes, predicted.displacement), measured.points)
+        slopes = [
+            np.einsum("nc,nc->n", found.normals, surface.Field(axes, slope).at(found.points))
+            for slope in predicted.slopes
+        ]
+        return (offset - found.distances) / scale, np.stack(slopes, axis=1) / scale
+
+    return of_points if isinstance(measured, Displacements) else of_surface
+
+
+def _per_point(measured: Measured, residuals: np.ndarray) -> np.ndarray:
+    """Residuals [m] in the shape of the measurements."""
+    if isinstance(measured, Surface):
+        return residuals * measured.scale
+    out = np.full(measured.displacement.shape, np.nan)
+    out[measured.measured] = residuals * measured.scale
+    return out

@@ -1,0 +1,121 @@
+"""What a model says of the measured points, and how that changes with the unknowns.
+
+statics through the lattice     exact derivatives (`lumped.sensitivity`)
+statics through a reference     central differences of whole solutions
+motion from rest, the lattice   central differences of whole runs (`lumped.simulate`), cubic in time between
+                                samples
+
+A predictor is called with unknowns, their x (see `comparisons.identification.unknowns`) and plan points (n,
+2) [m], and answers with displacements (n, 3) [m] and their slopes by x. It raises NotReached where the model
+has no stable equilibrium, or its run ended early.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from comparisons.identification.unknowns import Unknown, put
+from comparisons.models.grids import Grid, default_grid
+from comparisons.models.registry import calibrate, solve_reference
+from sheetbench.scenes import Scene, Status
+
+STATIC_STEP = 1e-3  # in x, for differences of solutions that are accurate to about 1e-9
+MOTION_STEP = 1e-2  # in x, for differences of runs, accurate to about 1e-5
+
+
+class NotReached(ArithmeticError):
+    """The model has no answer here; the text says how it ended."""
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """displacement: (n, 3) [m]; slopes: by x of each unknown, (n, 3) [m], in their order."""
+
+    displacement: np.ndarray
+    slopes: list[np.ndarray]
+
+
+Predictor = Callable[[Sequence[Unknown], np.ndarray, np.ndarray], Prediction]
+
+
+def set_in(scene: Scene, unknowns: Sequence[Unknown], x: np.ndarray) -> Scene:
+    """The scene with every unknown at its x."""
+    for one, at in zip(unknowns, x, strict=True):
+        scene = put(scene, one.name, one.value(at))
+    return scene
+
+
+def lattice(scene: Scene, grid: Grid | None, calibration: str | None) -> Predictor:
+    """Statics through the lattice."""
+    import lumped
+
+    grid = grid or default_grid(scene.sheet)
+
+    def predict(unknowns: Sequence[Unknown], x: np.ndarray, points: np.ndarray) -> Prediction:
+        here = set_in(scene, unknowns, x)
+        springs = calibrate(here.sheet, here.material, grid=grid, calibration=calibration)
+        try:
+            found = lumped.sensitivity(here, springs, [u.name for u in unknowns], points)
+        except ValueError as error:
+            raise NotReached(str(error)) from None
+        slopes = [found.derivatives[u.name] * u.slope(at) for u, at in zip(unknowns, x, strict=True)]
+        return Prediction(found.displacement, slopes)
+
+    return predict
+
+
+def reference(scene: Scene, model: str, elements: int) -> Predictor:
+    """Statics through a finite-element reference."""
+
+    def displacement(here: Scene, points: np.ndarray) -> np.ndarray:
+        solution = solve_reference(here, model=model, elements=elements)
+        if solution.status is not Status.CONVERGED:
+            raise NotReached(f"{solution.label}: {solution.status}: {solution.status.advice}")
+        return solution.displacement(points)
+
+    return _by_differences(scene, displacement, STATIC_STEP)
+
+
+def motion(scene: Scene, grid: Grid | None, calibration: str | None, time: np.ndarray) -> Predictor:
+    """Motion of the lattice from rest; row i of the points is asked at time[i] [s]."""
+    from scipy.interpolate import CubicSpline
+
+    import lumped
+
+    grid = grid or default_grid(scene.sheet)
+
+    def displacement(here: Scene, points: np.ndarray) -> np.ndarray:
+        places, which = np.unique(points, axis=0, return_inverse=True)
+        probes = {f"m{i}": (float(x), float(y)) for i, (x, y) in enumerate(places)}
+        here = here.model_copy(update={"probes": probes})
+        springs = calibrate(here.sheet, here.material, grid=grid, calibration=calibration)
+        run = lumped.simulate(here, springs, float(time.max()))
+        if run.status is not Status.CONVERGED:
+            raise NotReached(f"{run.label}: {run.status}: {run.message}")
+        moved = CubicSpline(run.time, np.stack([run.probes[name] for name in probes], axis=1))(time)
+        rows: np.ndarray = moved[np.arange(len(time)), which.ravel()]
+        return rows
+
+    return _by_differences(scene, displacement, MOTION_STEP)
+
+
+def _by_differences(
+    scene: Scene, displacement: Callable[[Scene, np.ndarray], np.ndarray], step: float
+) -> Predictor:
+    def predict(unknowns: Sequence[Unknown], x: np.ndarray, points: np.ndarray) -> Prediction:
+        slopes: list[Any] = []
+        for i, one in enumerate(unknowns):
+            ends = np.clip([x[i] - step, x[i] + step], *one.bounds())
+            sides = []
+            for end in ends:
+                moved = x.copy()
+                moved[i] = end
+                sides.append(displacement(set_in(scene, unknowns, moved), points))
+            slopes.append((sides[1] - sides[0]) / (ends[1] - ends[0]))
+        return Prediction(displacement(set_in(scene, unknowns, x), points), slopes)
+
+    return predict

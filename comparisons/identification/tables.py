@@ -1,0 +1,71 @@
+"""The tables of `sheetbench identify`: the unknowns with their intervals, and what does not fit, by point."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from comparisons.identification.identification import Identification
+from comparisons.identification.measurements import Displacements
+from comparisons.report.table import Column, Table
+
+SHOWN = 20  # residuals on the terminal; all of them are in the files
+
+_X, _Y, _Z = (Column(name, "m", "mm", 1e3, "z.2f") for name in "xyz")
+_PARTS = tuple(Column(f"off in {part}", "m", "mm", 1e3, "z.4f") for part in ("ux", "uy", "uz"))
+
+
+def unknowns(found: Identification) -> Table:
+    """A row per unknown; values in the SI unit named."""
+    rows = tuple(
+        (name, u.unit, u.value, *u.interval, u.refined, u.start) for name, u in found.unknowns.items()
+    )
+    names = ("value", "from", "to", "on finer cells", "started at")
+    shown = tuple(Column(name, form=".6g") for name in names)
+    return Table("What was sought, with its 95 % interval", (Column("unknown"), Column("unit"), *shown), rows)
+
+
+def residuals(found: Identification) -> Table:
+    """A row per measured point: model less measurement, or distance of the point from the surface."""
+    return _residuals(found, np.arange(len(found.residuals)), "Model less measurement")
+
+
+def worst(found: Identification) -> Table:
+    """The rows of `residuals` that fit least, at most SHOWN of them, in the order of the file."""
+    if len(found.residuals) <= SHOWN:
+        return residuals(found)
+    size = np.nan_to_num(np.abs(found.residuals)).reshape(len(found.residuals), -1).max(axis=1)
+    rows = np.sort(np.argsort(size)[-SHOWN:])
+    return _residuals(
+        found, rows, f"Model less measurement: the {SHOWN} points of {len(size)} that fit least"
+    )
+
+
+def _residuals(found: Identification, rows: np.ndarray, caption: str) -> Table:
+    points = found.measured.points
+    if isinstance(found.measured, Displacements):
+        time = found.measured.time
+        timed = () if time is None else (Column("t", "s", "s", 1.0, ".4f"),)
+        of = [
+            (
+                *(() if time is None else (float(time[i]),)),
+                *map(float, points[i]),
+                *map(float, found.residuals[i]),
+            )
+            for i in rows
+        ]
+        return Table(caption, (*timed, _X, _Y, *_PARTS), tuple(of))
+    columns = (_X, _Y, _Z, Column("distance", "m", "mm", 1e3, "z.4f"))
+    return Table(caption, columns, tuple((*map(float, points[i]), float(found.residuals[i])) for i in rows))
+
+
+def explanation(found: Identification) -> str:
+    """What was fitted with what, how well, and what the interval assumes."""
+    largest = found.measured.scale
+    size = "×".join(map(str, found.settings.get("grid") or found.settings["elements"]))
+    return (
+        f"{found.model} {size}: residuals have a standard deviation of {1e3 * found.noise:.3g} mm, "
+        f"{100 * found.noise / largest:.3g} % of the largest measurement, and reach "
+        f"{100 * found.relative:.3g} %. The interval takes them for independent noise of one size; "
+        "it does not know of the model's own errors. on finer cells: about where a lattice with cells half "
+        "as large would put the value."
+    )

@@ -1,0 +1,1 @@
+"""Who answers: models by name, candidates (a model with its settings), plug-ins, symmetry, grids."""

@@ -1,0 +1,225 @@
+"""The one place that knows both solvers: a name and settings in, a Solution out.
+
+The solvers are imported when they are first used, so that asking for help stays quick. `solve` warms a
+model up first: what a process pays once, to import and compile, counts as set-up and not as solving.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import cache, partial
+from math import isfinite
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+from comparisons.models import plugins
+from comparisons.models.grids import Grid, default_grid, near_square
+from comparisons.models.symmetry import half, planes, whole
+from sheetbench.scenes import History, Material, Scene, Sheet, Solution, load
+from sheetbench.scenes.errors import BadInput, require_choice
+
+if TYPE_CHECKING:
+    from lumped import Calibration
+
+REFERENCES = ("plate", "shell", "solid")
+
+
+def calibrate(
+    sheet: Sheet,
+    material: Material,
+    *,
+    grid: Grid | None = None,
+    calibration: str | None = None,
+    k: float | None = None,
+    layer_distance: float | None = None,
+    training: Sequence[Scene] | None = None,
+) -> Calibration:
+    """Springs of a lattice; by default consistent ones for nine masses along the shorter side.
+
+    k [N/m] and layer_distance [m] are the calibration's own options; training: the scenes that a fitted
+    one is fitted to, see `comparisons.models.training`. Raises BadInput for a name that is not a calibration
+    or lengths that are not above zero, and ValueError for options it does not take.
+    """
+    import lumped
+    from lumped.calibration import FITTED
+
+    check_lattice(calibration, k, layer_distance)
+    method = calibration or "consistent"
+    grid = grid or default_grid(sheet)
+    if method in FITTED and k is None:
+        from comparisons.models.training import fitted
+
+        return fitted(sheet, material, grid, method, layer_distance, training)
+    return lumped.calibrate(sheet, material, grid=grid, method=method, k=k, layer_distance=layer_distance)
+
+
+def check_lattice(calibration: str | None, k: float | None, layer_distance: float | None) -> None:
+    """Raise BadInput for a calibration that does not exist, or k or layer_distance not above zero."""
+    import lumped
+
+    if calibration is not None:
+        require_choice("calibration", calibration, lumped.CALIBRATIONS)
+    for name, value, unit in (("k", k, "N/m"), ("layer-distance", layer_distance, "m")):
+        if value is not None and not (value > 0 and isfinite(value)):
+            raise BadInput(f"{name} = {value:g} {unit}: must be greater than 0 and finite")
+
+
+def check_reference(model: str, elements: int) -> None:
+    """Raise BadInput for a reference model or a number of elements that does not exist."""
+    import fem_reference
+
+    require_choice("reference", model, fem_reference.MODELS)
+    if elements < 1:
+        raise BadInput(f"elements = {elements}: at least 1")
+
+
+def has_own_springs(scene: Scene, **settings: Any) -> bool:
+    """Whether the scene's own [springs] are to be used: it has them and nothing else is asked for."""
+    chosen = (settings.get(name) for name in ("calibration", "k", "layer_distance"))
+    return scene.springs is not None and all(choice is None for choice in chosen)
+
+
+def solve_lumped(scene: Scene, *, linear: bool = False, symmetry: bool = False, **settings: Any) -> Solution:
+    """The lattice's static answer with the settings of `calibrate`, which counts as set-up.
+
+    Where no calibration, k or layer distance is given, a scene's own [springs] are used if it has them.
+    linear: one step with the flat sheet's tangent. symmetry: solve a half or a quarter where scene and grid
+    allow it (see `comparisons.models.symmetry`).
+    """
+    import lumped
+
+    started = perf_counter()
+    if "grid" in settings and settings["grid"] is not None:
+        settings["grid"] = tuple(settings["grid"])
+    if has_own_springs(scene, **settings):
+        springs = lumped.given(scene, settings.get("grid") or default_grid(scene.sheet))
+    else:
+        springs = calibrate(scene.sheet, scene.material, **settings)
+    grid = list(springs.grid)
+    axes = [axis for axis in planes(scene) if grid[axis] % 2 and grid[axis] > 3] if symmetry else []
+    for axis in axes:
+        grid[axis] = grid[axis] // 2 + 1
+    springs = replace(springs, grid=(grid[0], grid[1], grid[2]))
+    calibrating = perf_counter() - started
+    solution = _by_parts(scene, axes, lambda part: lumped.solve(part, springs, linear=linear))
+    return replace(solution, setup_seconds=solution.setup_seconds + calibrating)
+
+
+def simulate(
+    scene: Scene,
+    duration: float,
+    *,
+    grid: Grid | None = None,
+    calibration: str | None = None,
+    **settings: Any,
+) -> History:
+    """The lattice's motion over `duration` [s]; settings are those of `lumped.simulate`."""
+    import lumped
+
+    if has_own_springs(scene, calibration=calibration):
+        springs = lumped.given(scene, grid or default_grid(scene.sheet))
+    else:
+        springs = calibrate(scene.sheet, scene.material, grid=grid, calibration=calibration)
+    return lumped.simulate(scene, springs, duration, **settings)
+
+
+def solve_reference(
+    scene: Scene,
+    *,
+    model: str = "shell",
+    elements: int | Sequence[int] = 16,
+    symmetry: bool = False,
+    **options: Any,
+) -> Solution:
+    """A finite-element reference's static answer; `elements` along the shorter side, or along x and y.
+
+    symmetry: solve a half or a quarter where scene and mesh allow it; of plate and shell only. options: the
+    model's own, as the solid's layers. Raises BadInput for a model, a number of elements or an option that
+    does not exist.
+    """
+    import fem_reference
+
+    asked = [elements] if isinstance(elements, int) else list(elements)
+    check_reference(model, min(asked))
+    along = list(near_square(scene.sheet, asked[0])) if len(asked) == 1 else asked
+    axes = [axis for axis in planes(scene) if along[axis] % 2 == 0] if symmetry else []
+    if axes and model == "solid":
+        raise BadInput("solid: is always solved whole; leave symmetry out")
+    for axis in axes:
+        along[axis] //= 2
+    counts = (along[0], along[1])
+
+    def answer(part: Scene) -> Solution:
+        return fem_reference.solve(part, model=model, elements=counts, **options)
+
+    try:
+        return _by_parts(scene, axes, answer)
+    except TypeError as error:
+        raise BadInput(f"{model}: {error}") from None
+
+
+def _by_parts(scene: Scene, axes: Sequence[int], answer: Callable[[Scene], Solution]) -> Solution:
+    """The answer for the whole scene from that for the part left after halving across `axes`."""
+    if not axes:
+        return answer(scene)
+    scenes = [scene]
+    for axis in axes:
+        scenes.append(half(scenes[-1], axis))
+    solution = answer(scenes[-1])
+    for axis, of in zip(reversed(axes), reversed(scenes[:-1]), strict=True):
+        solution = whole(solution, of, axis)
+    cut = "half" if len(axes) == 1 else "quarter"
+    settings: dict[str, Any] = {**solution.settings, "symmetry": ["xy"[axis] for axis in axes]}
+    for name in {"grid", "elements"} & set(settings):
+        size = list(settings[name])
+        for axis in axes:
+            size[axis] = 2 * size[axis] - (name == "grid")
+        settings[name] = size
+    return replace(solution, label=f"{solution.label}, a {cut} of the sheet", settings=settings)
+
+
+MODELS: dict[str, Callable[..., Solution]] = {
+    "lumped": solve_lumped,
+    **{name: partial(solve_reference, model=name) for name in REFERENCES},
+}
+
+
+def solve(scene: Scene, model: str, **settings: Any) -> Solution:
+    """The answer of any model by its name, with that model's settings, on warm code.
+
+    The name is one of `MODELS` or of an installed plug-in (`comparisons.models.plugins`). Settings are plain
+    data.
+    """
+    check(model, settings)
+    started = perf_counter()
+    warm(model)
+    warming = perf_counter() - started
+    if model in MODELS:
+        solution = MODELS[model](scene, **settings)
+    else:
+        outside = plugins.plugin(model)
+        solution = outside.solve(scene, plugins.settings_of(outside, settings))
+    return replace(solution, setup_seconds=solution.setup_seconds + warming)
+
+
+def check(model: str, settings: Mapping[str, Any]) -> None:
+    """Raise BadInput for a model that does not exist, or settings that it does not know."""
+    if model == "lumped":
+        check_lattice(settings.get("calibration"), settings.get("k"), settings.get("layer_distance"))
+    elif model in MODELS:
+        elements = settings.get("elements", 16)
+        check_reference(model, elements if isinstance(elements, int) else min(elements))
+    else:
+        require_choice("model", model, [*MODELS, *plugins.names()])
+        plugins.settings_of(plugins.plugin(model), settings)
+
+
+@cache
+def warm(model: str) -> None:
+    """Import and compile what a model needs, once in a process: solve a coarse sheet, load a plug-in."""
+    if model not in MODELS:
+        plugins.plugin(model)
+        return
+    coarse = {"grid": (3, 3, 2)} if model == "lumped" else {"elements": 2}
+    MODELS[model](load("one-edge-clamped"), **coarse)

@@ -1,0 +1,184 @@
+"""Half and quarter sheets: where sheet, supports and loads mirror themselves, one part answers for the whole.
+
+The part is cut at x = length_x/2 or y = length_y/2 (the lower half is kept) and its cut edge is `symmetric`.
+A lattice whose plane of symmetry holds a line of masses loses nothing by it: links and masses of a boundary
+line have half their weight. Nor does a mesh with an even number of elements across.
+
+The answer is the symmetric one. Of a sheet that buckles away from its symmetry it is an unstable equilibrium,
+and the part cannot tell.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import isclose
+from typing import Any
+
+import numpy as np
+from sheetbench.scenes.sheet import EdgeName
+from sheetbench.scenes.supports import AnySupport
+
+from sheetbench.scenes import (
+    EDGES,
+    EdgeLoad,
+    FieldMesh,
+    Load,
+    PointLoad,
+    Pressure,
+    Scene,
+    Solution,
+    Symmetric,
+)
+
+OTHER_END: dict[str, EdgeName] = {"x0": "x1", "x1": "x0", "y0": "y1", "y1": "y0"}
+CUT: tuple[EdgeName, EdgeName] = ("x1", "y1")
+VECTORS = ("displacement", "director", "reaction")  # fields whose component across the plane changes sign
+
+
+def planes(scene: Scene) -> tuple[int, ...]:
+    """Axes (0 = x, 1 = y) across which the scene is its own mirror image.
+
+    A moment on an edge that crosses the plane counts as unsymmetric: a lattice measures such an edge's
+    direction between neighbouring masses, of which the part has one only.
+    """
+    if scene.actuators or any(isinstance(s, Symmetric) or s.motion for s in scene.supports):
+        return ()
+    return tuple(axis for axis in (0, 1) if _mirrors(scene, axis))
+
+
+def half(scene: Scene, axis: int) -> Scene:
+    """The lower half of a scene across an axis, its cut edge on the plane of symmetry."""
+    cut = CUT[axis]
+    lengths = {f"length_{'xy'[axis]}": scene.sheet.lengths[axis] / 2.0}
+    loads = [part for load in scene.loads if (part := _half_load(load, scene, axis)) is not None]
+    supports = [support for support in scene.supports if support.edge != cut]
+    return Scene(
+        name=scene.name,
+        title=scene.title,
+        sheet=scene.sheet.model_copy(update=lengths),
+        material=scene.material,
+        gravity=scene.gravity,
+        support=(*supports, Symmetric(edge=cut)),
+        load=tuple(loads),
+        springs=scene.springs,
+        dampers=scene.dampers,
+    )
+
+
+def whole(part: Solution, scene: Scene, axis: int) -> Solution:
+    """The answer to a scene from that to its lower half across an axis."""
+    middle = scene.sheet.lengths[axis] / 2.0
+    flip = np.ones(3)
+    flip[axis] = -1.0
+
+    def sample(points: np.ndarray) -> np.ndarray:
+        beyond = points[:, axis] > middle
+        folded = points.copy()
+        folded[beyond, axis] = 2.0 * middle - points[beyond, axis]
+        displacement = part.sample(folded)
+        return np.where(beyond[:, None], displacement * flip, displacement)
+
+    reactions: dict[str, np.ndarray] = {}
+    for support in scene.supports:
+        if EDGES[support.edge].normal_axis != axis:
+            reactions[support.edge] = part.reactions[support.edge] * (1.0 + flip)
+        elif support.edge == CUT[axis]:
+            reactions[support.edge] = part.reactions[OTHER_END[support.edge]] * flip
+        else:
+            reactions[support.edge] = part.reactions[support.edge]
+    return replace(
+        part,
+        sample=sample,
+        reactions=reactions,
+        energies={name: 2.0 * energy for name, energy in part.energies.items()},
+        mesh=_mirrored(part.mesh, axis, middle),
+    )
+
+
+def _mirrors(scene: Scene, axis: int) -> bool:
+    across = scene.gravity.acceleration[axis] if scene.gravity is not None else 0.0
+    supports = {_support_key(support) for support in scene.supports}
+    mirrored = {_support_key(s.model_copy(update={"edge": _image(s.edge, axis)})) for s in scene.supports}
+    return across == 0.0 and supports == mirrored and _loads_mirror(scene, axis)
+
+
+def _support_key(support: AnySupport) -> str:
+    return str(sorted(support.model_dump(mode="json").items()))
+
+
+def _image(edge: str, axis: int) -> str:
+    return OTHER_END[edge] if EDGES[edge].normal_axis == axis else edge
+
+
+def _loads_mirror(scene: Scene, axis: int) -> bool:
+    """Whether every load has its mirror image among the loads, itself perhaps."""
+    left = list(scene.loads)
+    for load in scene.loads:
+        crossing = isinstance(load, EdgeLoad) and EDGES[load.edge].normal_axis != axis
+        if crossing and load.moment_per_length:  # type: ignore[union-attr]
+            return False
+        image = _image_of(load, scene, axis)
+        found = next((other for other in left if _same(other, image)), None)
+        if found is None:
+            return False
+        left.remove(found)
+    return True
+
+
+def _image_of(load: Load, scene: Scene, axis: int) -> Load:
+    flip = [-1.0 if i == axis else 1.0 for i in range(3)]
+    if isinstance(load, PointLoad):
+        at = list(load.at)
+        at[axis] = scene.sheet.lengths[axis] - at[axis]
+        return load.model_copy(update={"at": (at[0], at[1]), "force": _times(load.force, flip)})
+    if isinstance(load, EdgeLoad):
+        force = _times(load.force_per_length, flip)
+        return load.model_copy(update={"edge": _image(load.edge, axis), "force_per_length": force})
+    return load
+
+
+def _half_load(load: Load, scene: Scene, axis: int) -> Load | None:
+    """What of a load acts on the lower half: half of a point load on the plane, nothing beyond it."""
+    if isinstance(load, Pressure):
+        return load
+    if isinstance(load, EdgeLoad):
+        return None if load.edge == CUT[axis] else load
+    middle = scene.sheet.lengths[axis] / 2.0
+    if isclose(load.at[axis], middle, rel_tol=1e-12):
+        on_plane = list(load.at)
+        on_plane[axis] = middle
+        force = _times(load.force, [0.5, 0.5, 0.5])
+        return load.model_copy(update={"at": (on_plane[0], on_plane[1]), "force": force})
+    return load if load.at[axis] < middle else None
+
+
+def _same(a: Load, b: Load) -> bool:
+    return type(a) is type(b) and all(_equal(x, y) for (_, x), (_, y) in zip(a, b, strict=True))
+
+
+def _equal(a: Any, b: Any) -> bool:
+    if isinstance(a, tuple):
+        return len(a) == len(b) and all(map(_equal, a, b))
+    return isclose(a, b, rel_tol=1e-12, abs_tol=1e-300) if isinstance(a, float) else bool(a == b)
+
+
+def _times(vector: tuple[float, float, float], factors: list[float]) -> tuple[float, float, float]:
+    x, y, z = (a * b for a, b in zip(vector, factors, strict=True))
+    return x, y, z
+
+
+def _mirrored(mesh: FieldMesh, axis: int, middle: float) -> FieldMesh:
+    """The mesh and its mirror image beside it."""
+    image = mesh.points.copy()
+    image[:, axis] = 2.0 * middle - image[:, axis]
+    flip = np.ones(3)
+    flip[axis] = -1.0
+    fields = {
+        name: np.concatenate([values, values * flip if name in VECTORS else values])
+        for name, values in mesh.point_data.items()
+    }
+    cells = [(kind, np.concatenate([nodes, nodes + len(image)])) for kind, nodes in mesh.cells]
+    cell_data = {
+        name: [np.concatenate([block, block]) for block in blocks] for name, blocks in mesh.cell_data.items()
+    }
+    return FieldMesh(np.concatenate([mesh.points, image]), cells, fields, cell_data)

@@ -1,0 +1,95 @@
+"""What the fitted calibrations are fitted to: the shell's displacements and frequencies on training scenes.
+
+Unless scenes are given, the sheet trains under its own weight with one edge and with two adjacent edges
+clamped: what a user can also measure. fit-static sees the displacement at 8 × 8 plan points off the edges x0
+and y0, fit-modal the first four natural frequencies of each scene: higher ones have too few masses a wave on
+9 × 9, and pull the springs off.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+
+from comparisons.models.grids import Grid
+from lumped import Calibration
+from lumped.calibration import ModalTarget, StaticTarget
+from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet, Status
+from sheetbench.scenes.errors import BadInput
+
+POINTS = 8  # along each side
+FREQUENCIES = 4
+ELEMENTS = 16  # of the shell along the shorter side
+WEIGHT = Gravity(acceleration=(0.0, 0.0, -9.81))
+
+
+def training_scenes(sheet: Sheet, material: Material) -> tuple[Scene, ...]:
+    """The sheet under its own weight with one edge, and with two adjacent edges clamped."""
+    supports = {
+        "one-edge-clamped": (Clamped(edge="x0"),),
+        "two-edges-clamped": (Clamped(edge="x0"), Clamped(edge="y0")),
+    }
+    return tuple(
+        Scene(name=name, sheet=sheet, material=material, gravity=WEIGHT, support=held)
+        for name, held in supports.items()
+    )
+
+
+def fitted(
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    method: str,
+    layer_distance: float | None = None,
+    training: Sequence[Scene] | None = None,
+) -> Calibration:
+    """Springs fitted to the shell on the training scenes, which have this sheet and material; computed once a
+    process. Raises BadInput for a training scene without a static answer that the method could use."""
+    chosen = training_scenes(sheet, material) if training is None else training
+    texts = tuple(scene.model_dump_json(by_alias=True) for scene in chosen)
+    return _fitted(texts, grid, method, layer_distance)
+
+
+@lru_cache(maxsize=64)
+def _fitted(texts: tuple[str, ...], grid: Grid, method: str, layer_distance: float | None) -> Calibration:
+    import lumped
+
+    chosen = [Scene.model_validate_json(text) for text in texts]
+    targets: list[StaticTarget | ModalTarget]
+    if method == "fit-modal":
+        targets = [ModalTarget(scene, _frequencies(text)) for scene, text in zip(chosen, texts, strict=True)]
+    else:
+        targets = [
+            StaticTarget(scene, training_points(scene), _displacements(text))
+            for scene, text in zip(chosen, texts, strict=True)
+        ]
+    return lumped.calibrate(
+        chosen[0].sheet, chosen[0].material, grid, method, layer_distance=layer_distance, targets=targets
+    )
+
+
+def training_points(scene: Scene) -> np.ndarray:
+    """Plan points (n, 2) [m], evenly over the sheet, none on its edges x0 and y0."""
+    x, y = (np.linspace(length / POINTS, length, POINTS) for length in scene.sheet.lengths)
+    return np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
+
+
+@lru_cache(maxsize=64)
+def _displacements(text: str) -> np.ndarray:
+    import fem_reference
+
+    scene = Scene.model_validate_json(text)
+    solution = fem_reference.solve(scene, model="shell", elements=ELEMENTS)
+    if solution.status is not Status.CONVERGED:
+        raise BadInput(f"scene '{scene.name}': nothing to train on, the shell's answer is {solution.status}")
+    return solution.displacement(training_points(scene))
+
+
+@lru_cache(maxsize=64)
+def _frequencies(text: str) -> np.ndarray:
+    import fem_reference
+
+    scene = Scene.model_validate_json(text)
+    return fem_reference.modes(scene, model="shell", elements=ELEMENTS, count=FREQUENCIES).frequencies

@@ -1,0 +1,1 @@
+"""Natural frequencies of lattice and references side by side."""

@@ -1,0 +1,1 @@
+"""How the sheet moves: histories of the probes, measured ones beside them, and animations."""

@@ -1,0 +1,128 @@
+"""Whole displacements of a run over time: a PVD/VTU series, and an animation of the sheet as GIF.
+
+The axes of chains are lines in both; a file's point data `actuator` is 0 on the lattice and 1, 2, … on the
+axes, in the order of their edges in the scene.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from comparisons.report.files import folder, whole, write_text
+from comparisons.report.vtk import write_mesh
+from sheetbench.scenes import FieldMesh, History, Scene
+
+PIXELS, COLOURS, PER_SECOND, MOST = 480, 96, 12, 50
+
+
+@dataclass(frozen=True)
+class Frame:
+    """One moment of a run, as far as drawing needs a solution: sampled displacement and a mesh.
+
+    axes: rest places and displacements (p, 3) [m] of the points where the segments of each chain end.
+    """
+
+    mesh: FieldMesh
+    grid: tuple[int, int, int]
+    lengths: tuple[float, float]
+    axes: tuple[tuple[np.ndarray, np.ndarray], ...] = ()
+
+    def with_axes(self) -> FieldMesh:
+        """The mesh with the axes as more points and lines."""
+        points, displacement, cells = [self.mesh.points], [self.mesh.point_data["displacement"]], []
+        of, first = [np.zeros(len(self.mesh.points), dtype=int)], len(self.mesh.points)
+        for number, (rest, u) in enumerate(self.axes, 1):
+            points.append(rest)
+            displacement.append(u)
+            of.append(np.full(len(rest), number))
+            cells.append(
+                ("line", first + np.column_stack([np.arange(len(rest) - 1), np.arange(1, len(rest))]))
+            )
+            first += len(rest)
+        fields = {"displacement": np.concatenate(displacement), "actuator": np.concatenate(of)}
+        return FieldMesh(np.concatenate(points), [*self.mesh.cells, *cells], fields)
+
+    def displacement(self, points: np.ndarray) -> np.ndarray:
+        """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m]: bilinear between the masses."""
+        from scipy.interpolate import RegularGridInterpolator
+
+        nx, ny, layers = self.grid
+        mean = self.mesh.point_data["displacement"].reshape(ny, nx, layers, 3).mean(axis=2)
+        axes = (np.linspace(0, self.lengths[1], ny), np.linspace(0, self.lengths[0], nx))
+        found: np.ndarray = RegularGridInterpolator(axes, mean, bounds_error=False, fill_value=None)(
+            np.asarray(points, dtype=float)[:, ::-1]
+        )
+        return found
+
+
+def frames(scene: Scene, history: History) -> list[tuple[float, Frame]]:
+    """Time [s] and frame of every displacement that the run kept."""
+    mesh: FieldMesh = history.extra["mesh"]
+    grid = tuple(history.settings["grid"])
+    kept = history.extra["frames"]
+    times = history.extra["frame_times"][: len(kept)]
+    found = []
+    for number, (time, u) in enumerate(zip(times, kept, strict=True)):
+        moved = FieldMesh(mesh.points, mesh.cells, {"displacement": np.array(u)})
+        axes = tuple((rest, over_time[number]) for rest, over_time in history.extra["axes"].values())
+        found.append((float(time), Frame(moved, grid, scene.sheet.lengths, axes)))
+    return found
+
+
+def write_series(path: Path, shown: list[tuple[float, Frame]]) -> None:
+    """Write frames as NAME/0000.vtu … and the PVD file that lists them with their times."""
+    inside = folder(path.with_suffix(""))
+    lines = ['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1">', "  <Collection>"]
+    for number, (time, frame) in enumerate(shown):
+        name = f"{number:04d}.vtu"
+        write_mesh(inside / name, frame.with_axes() if frame.axes else frame.mesh)
+        lines.append(f'    <DataSet timestep="{time!r}" part="0" file="{inside.name}/{name}"/>')
+    write_text(path, "\n".join([*lines, "  </Collection>", "</VTKFile>", ""]))
+
+
+def animate(path: Path, scene: Scene, shown: list[tuple[float, Frame]]) -> None:
+    """Write the frames as a GIF at true scale. Needs off-screen drawing (`comparisons.report.offscreen`)."""
+    from PIL import Image, ImageDraw
+
+    from comparisons.comparison.figure import HEIGHTS
+    from comparisons.report.stage import Stage
+    from comparisons.report.vtk import plan_mesh
+
+    shown = shown[:: -(-len(shown) // MOST)]
+    plan = plan_mesh(scene.sheet, 16).points[:, :2]
+    flat = np.column_stack([plan, np.zeros(len(plan))])
+    sheets = [flat + frame.displacement(plan) for _, frame in shown]
+    seen = np.vstack([flat, *sheets, *(rest + u for _, frame in shown for rest, u in frame.axes)])
+    heights = [1e3 * frame.mesh.point_data["displacement"][:, 2] for _, frame in shown]
+    limits = (min(float(h.min()) for h in heights), max(float(h.max()) for h in heights) + 1e-9)
+    images = []
+    for (time, frame), height in zip(shown, heights, strict=True):
+        held: Any = frame
+        stage = Stage(scene, held, 1.0)
+        stage.lattice(frame.mesh, height, limits, HEIGHTS)
+        for rest, u in frame.axes:
+            stage.chain(rest + u)
+        pixels, _ = stage.take(seen, np.empty((0, 3)))
+        image = Image.fromarray(pixels)
+        image = image.resize((PIXELS, round(PIXELS * image.height / image.width)), Image.Resampling.LANCZOS)
+        ImageDraw.Draw(image).text((10, 8), f"t = {time:.2f} s", fill="#20252b")
+        images.append(image)
+    # one palette for all and no dither: what stands still stays the same, and the file small
+    every = Image.new("RGB", (PIXELS, sum(image.height for image in images[::8])))
+    for number, image in enumerate(images[::8]):
+        every.paste(image, (0, number * image.height))
+    palette = every.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE)
+    images = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
+    with whole(path) as partial:
+        images[0].save(
+            partial,
+            save_all=True,
+            append_images=images[1:],
+            duration=1000 // PER_SECOND,
+            loop=0,
+            optimize=True,
+        )

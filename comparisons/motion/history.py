@@ -1,0 +1,173 @@
+"""Histories of dynamic runs: documents, tables, measured histories beside them, the plot over time.
+
+A measured history is a CSV with the header `time,probe,ux,uy,uz`: seconds, a probe's name, metres; a
+component may be left empty. Its error at a probe is the largest |component of (simulated − measured)| over
+its times within the run, divided by the largest |measured component|, the simulation interpolated linearly.
+"""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+
+from comparisons.report.files import whole
+from comparisons.report.table import Column, Table
+from sheetbench.scenes import History
+from sheetbench.scenes.errors import BadInput
+
+COMPONENTS = ("ux", "uy", "uz")
+COLOURS = ("#1b6ca8", "#3a9d6e", "#b5453c")
+HEADER = ["time", "probe", *COMPONENTS]
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One probe's measured history: time (n,) [s], displacement (n, 3) [m], nan where not measured."""
+
+    time: np.ndarray
+    displacement: np.ndarray
+
+
+def read_measured(path: Path, probes: list[str]) -> dict[str, Measured]:
+    """Measured histories by probe. Raises BadInput naming file and line."""
+    try:
+        with path.open(newline="", encoding="utf-8") as file:
+            lines = list(csv.reader(file))
+    except (OSError, UnicodeDecodeError) as error:
+        raise BadInput(f"--measured = '{path}': cannot be read: {error}") from None
+    if not lines or [name.strip() for name in lines[0]] != HEADER:
+        raise BadInput(f"--measured = '{path}': the header must be {','.join(HEADER)}")
+    rows: dict[str, list[list[float]]] = {}
+    for number, line in enumerate(lines[1:], start=2):
+        if not any(cell.strip() for cell in line):
+            continue
+        if len(line) != len(HEADER) or line[1].strip() not in probes:
+            raise BadInput(
+                f"--measured = '{path}', line {number}: {','.join(line)!r} is not time, a probe "
+                f"({', '.join(probes)}), ux, uy, uz"
+            )
+        try:
+            numbers = [float(line[0]), *(float(cell) if cell.strip() else np.nan for cell in line[2:])]
+        except ValueError:
+            raise BadInput(f"--measured = '{path}', line {number}: {','.join(line)!r}: not numbers") from None
+        rows.setdefault(line[1].strip(), []).append(numbers)
+    found = {}
+    for probe, values in rows.items():
+        table = np.array(sorted(values))
+        found[probe] = Measured(table[:, 0], table[:, 1:])
+    return found
+
+
+def error(history: History, probe: str, measured: Measured) -> float | None:
+    """The error of a simulated probe against its measured history, as the module defines it."""
+    inside = (measured.time >= history.time[0]) & (measured.time <= history.time[-1])
+    truth = measured.displacement[inside]
+    if not np.isfinite(truth).any() or np.nanmax(np.abs(truth)) == 0.0:
+        return None
+    simulated = np.column_stack(
+        [np.interp(measured.time[inside], history.time, history.probes[probe][:, i]) for i in range(3)]
+    )
+    return float(np.nanmax(np.abs(simulated - truth)) / np.nanmax(np.abs(truth)))
+
+
+def as_dict(history: History, measured: dict[str, Measured]) -> dict[str, Any]:
+    """The JSON document of `sheetbench simulate`: seconds, metres, joules, newtons."""
+    document: dict[str, Any] = {
+        "time": history.time,
+        "probes": history.probes,
+        "energy": history.balance,
+        "status": str(history.status),
+        "steps": history.steps,
+        "solve_seconds": history.solve_seconds,
+        "setup_seconds": history.setup_seconds,
+        "message": history.message,
+        "integrator": history.integrator,
+        "label": history.label,
+        "settings": history.settings,
+        "energies": history.energies,
+        "reactions": history.reactions,
+        "actuators": history.actuators,
+    }
+    if measured:
+        document["measured_errors"] = {name: error(history, name, m) for name, m in measured.items()}
+    return document
+
+
+def series(history: History) -> Table:
+    """A row per sample: time, probes, energies, reactions and the actuators' total force."""
+    columns, values = [Column("time", "s")], [history.time]
+    for name, u in history.probes.items():
+        columns += [Column(f"{name}.{component}", "m") for component in COMPONENTS]
+        values += list(u.T)
+    for name, energy in [*history.energies.items(), ("balance", history.balance)]:
+        columns.append(Column(name, "J"))
+        values.append(energy)
+    for name, force in history.reactions.items():
+        columns += [Column(f"{name}.F{axis}", "N") for axis in "xyz"]
+        values += list(force.T)
+    for name, wrench in history.actuators.items():
+        for segment in range(wrench.shape[1]):
+            columns += [Column(f"{name}.{segment}.F{axis}", "N") for axis in "xyz"]
+            columns += [Column(f"{name}.{segment}.M{axis}", "N·m") for axis in "xyz"]
+            values += list(wrench[:, segment].T)
+    return Table("History", tuple(columns), tuple(zip(*(v.tolist() for v in values), strict=True)))
+
+
+def summary(history: History, measured: dict[str, Measured]) -> Table:
+    """A row per probe: the displacement at the end, its largest excursion and, if measured, the error."""
+    rows = []
+    for name, u in history.probes.items():
+        off = error(history, name, measured[name]) if name in measured else None
+        rows.append((name, *(float(x) for x in u[-1]), float(np.abs(u).max()), off))
+    millimetres = [Column(name, "m", "mm", 1e3, "z.3f") for name in (*COMPONENTS, "largest")]
+    columns = (Column("probe"), *millimetres, Column("off by", "", "%", 100.0, "z.2f"))
+    return Table(
+        f"Displacement at {history.time[-1]:g} s, and largest component on the way", columns, tuple(rows)
+    )
+
+
+def plot(path: Path, history: History, title: str, measured: dict[str, Measured]) -> None:
+    """Write the probes over time as PNG, one panel a probe, measured values as points."""
+    with matplotlib.rc_context({"font.family": "DejaVu Sans", "font.size": 7.5}), whole(path) as partial:
+        compose(history, title, measured).savefig(partial, dpi=200, facecolor="white")
+
+
+def compose(history: History, title: str, measured: dict[str, Measured]) -> Figure:
+    """The figure with a panel per probe, and the energies below."""
+    count = len(history.probes)
+    figure = Figure(figsize=(6.4, 1.5 * count + 1.9), layout="constrained")
+    panels = figure.subplots(count + 1, 1, sharex=True, squeeze=False)[:, 0]
+    for axis, (name, u) in zip(panels, history.probes.items(), strict=False):
+        for i, (component, colour) in enumerate(zip(COMPONENTS, COLOURS, strict=True)):
+            axis.plot(
+                history.time,
+                1e3 * u[:, i],
+                color=colour,
+                linewidth=1.0,
+                label=f"${component[0]}_{component[1]}$",
+            )
+            if name in measured:
+                points = measured[name]
+                axis.plot(points.time, 1e3 * points.displacement[:, i], "o", color=colour, markersize=2.5)
+        off = error(history, name, measured[name]) if name in measured else None
+        said = "" if off is None else f"   (points measured; off by {100 * off:.1f} %)"
+        axis.set_title(f"{name}{said}", loc="left", fontsize=7.5, fontweight="bold")
+        axis.set_ylabel("[mm]")
+    panels[0].legend(loc="lower right", ncols=3, frameon=False)
+    for name in ("kinetic", "elastic", "potential", "dissipated"):
+        panels[-1].plot(history.time, 1e3 * history.energies[name], linewidth=0.9, label=name)
+    panels[-1].plot(history.time, 1e3 * history.balance, "k--", linewidth=0.9, label="balance")
+    panels[-1].set_ylabel("energy [mJ]")
+    panels[-1].set_xlabel("time [s]")
+    panels[-1].legend(loc="upper right", ncols=5, frameon=False, fontsize=6.5)
+    for axis in panels:
+        axis.spines[["top", "right"]].set_visible(False)
+        axis.margins(x=0)
+    figure.suptitle(f"{title}\n{history.label}, {history.integrator}", fontsize=8)
+    return figure

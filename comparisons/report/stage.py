@@ -1,0 +1,165 @@
+"""Drawing deformed sheets with pyvista, off screen: what stands on the stage of every panel.
+
+Displacements are multiplied by `scale` for drawing. Needs off-screen drawing
+(`comparisons.report.offscreen`).
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pyvista
+
+from comparisons.models.grids import near_square
+from comparisons.report.vtk import PLAN_CELLS, plan_mesh
+from sheetbench.scenes import EDGES, FieldMesh, Scene, Sheet, Solution, holds_director
+
+PIXELS, MARGIN = 1800, 0.04  # width of the image; margin as a share of it
+ELEVATION, TURN = 27.0, 24.0  # degrees above the plane, and aside from the free side's direction
+DARK, GREY, PALE, OUTLINE, ROD = "#20252b", "#7d848c", "#c9ced4", "#a9afb6", "#c8553d"
+
+
+class Stage:
+    """A white stage with the undeformed outline and the supports of a scene, seen from the free side."""
+
+    def __init__(self, scene: Scene, held: Solution, scale: float) -> None:
+        self.scene = scene
+        self.scale = scale
+        self.size = max(scene.sheet.lengths)
+        self.plotter = pyvista.Plotter(off_screen=True, window_size=[PIXELS, PIXELS])
+        self.plotter.background_color = pyvista.Color("white")
+        self._outline()
+        self._supports(held)
+
+    def lattice(self, mesh: FieldMesh, values: np.ndarray, limits: tuple[float, float], colours: str) -> None:
+        """Links in grey, diagonals paler than the rest; masses coloured by a value a mass."""
+        points = mesh.points + self.scale * mesh.point_data["displacement"]
+        pairs = np.vstack([cell for kind, cell in mesh.cells if kind == "line"])
+        along = np.abs(np.diff(mesh.points[pairs], axis=1)[:, 0]) > 1e-9 * self.size
+        straight = along.sum(axis=1) == 1
+        for some, colour, width in ((pairs[~straight], PALE, 2.0), (pairs[straight], GREY, 4.0)):
+            links = pyvista.PolyData(points, lines=np.insert(some, 0, 2, axis=1).ravel())
+            self.plotter.add_mesh(links, color=colour, line_width=width, lighting=False)
+        masses = pyvista.PolyData(points)
+        masses["value"] = values
+        ball = pyvista.Sphere(radius=min(0.15 * self.size / np.sqrt(len(points)), 0.011 * self.size))
+        balls = masses.glyph(geom=ball, scale=False, orient=False)
+        self.plotter.add_mesh(balls, smooth_shading=True, specular=0.3, **_coloured(limits, colours))
+
+    def chain(self, points: np.ndarray) -> None:
+        """The axis of a chain through the ends of its segments (p, 3), with a ball at each."""
+        line = pyvista.lines_from_points(points)
+        self.plotter.add_mesh(line.tube(radius=0.006 * self.size), color=ROD, specular=0.2)
+        balls = pyvista.PolyData(points).glyph(
+            geom=pyvista.Sphere(radius=0.01 * self.size), scale=False, orient=False
+        )
+        self.plotter.add_mesh(balls, color=ROD, smooth_shading=True, specular=0.2)
+
+    def surface(
+        self, solution: Solution, values: np.ndarray, limits: tuple[float, float], colours: str, lines: int
+    ) -> None:
+        """The mid-surface, smooth, coloured by a value a plan point, with `lines` cells marked a side."""
+        sheet = self.scene.sheet
+        plan = plan_mesh(sheet)
+        quads = plan.cells[0][1]
+        faces = np.insert(quads, 0, 4, axis=1).ravel()
+        surface = pyvista.PolyData(self.deformed(solution, plan.points[:, :2]), faces=faces)
+        surface["value"] = values
+        shown = _coloured(limits, colours)
+        self.plotter.add_mesh(surface, smooth_shading=True, specular=0.25, ambient=0.25, **shown)
+        for line in _plan_lines(sheet, lines):
+            self._curve(self.deformed(solution, line), DARK, width=2.0, opacity=0.45)
+
+    def deformed(self, solution: Solution, plan: np.ndarray) -> np.ndarray:
+        """Places (n, 3) of plan points (n, 2) in the drawn sheet."""
+        flat = np.column_stack([plan, np.zeros(len(plan))])
+        return flat + self.scale * solution.displacement(plan)
+
+    def take(self, seen: np.ndarray, marked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The image, (height, width, 3), and where the points `marked` (n, 3) are in it, (n, 2) pixels.
+
+        The camera shows the points `seen` (m, 3) and no more; it is the same for every stage of the scene.
+        """
+        toward, right, up = self._axes()
+        across, along = seen @ right, seen @ up
+        centre = right * _middle(across) + up * _middle(along) + toward * _middle(seen @ toward)
+        width, height = (
+            (1 + 2 * MARGIN) * max(np.ptp(across), 1e-3 * self.size),
+            np.ptp(along) + 2 * MARGIN * np.ptp(across),
+        )
+        plotter = self.plotter
+        plotter.window_size = [PIXELS, int(PIXELS * np.clip(height / width, 0.3, 1.5))]
+        plotter.camera_position = [tuple(centre + 4 * self.size * toward), tuple(centre), tuple(up)]
+        plotter.camera.parallel_projection = True
+        plotter.camera.parallel_scale = 0.5 * max(
+            height, width * 0.3, width * plotter.window_size[1] / PIXELS
+        )
+        plotter.camera.clipping_range = (0.1 * self.size, 10 * self.size)
+        plotter.enable_anti_aliasing("ssaa")
+        image = np.asarray(plotter.screenshot(return_img=True))
+        pixels = np.array([self._pixel(point) for point in marked]).reshape(-1, 2)
+        plotter.close()
+        return image, pixels
+
+    def _axes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Unit vectors towards the eye, to its right and up: from the free side, above and a little aside."""
+        free = sum((-np.array(EDGES[s.edge].outward[:2]) for s in self.scene.supports), np.zeros(2))
+        heading = np.degrees(np.arctan2(free[1], free[0])) if np.any(free) else -40.0
+        azimuth, raised = np.radians(heading - TURN), np.radians(ELEVATION)
+        ahead = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
+        upright = np.array([0.0, 0.0, 1.0])
+        toward = ahead * np.cos(raised) + upright * np.sin(raised)
+        return toward, np.cross(upright, ahead), upright * np.cos(raised) - ahead * np.sin(raised)
+
+    def _pixel(self, point: np.ndarray) -> tuple[float, float]:
+        from vtkmodules.vtkRenderingCore import vtkCoordinate
+
+        place = vtkCoordinate()
+        place.SetCoordinateSystemToWorld()
+        place.SetValue(*point)
+        x, y = place.GetComputedDoubleDisplayValue(self.plotter.renderer)
+        return x, self.plotter.window_size[1] - y
+
+    def _outline(self) -> None:
+        lx, ly = self.scene.sheet.lengths
+        corners = np.array([[0, 0, 0], [lx, 0, 0], [lx, ly, 0], [0, ly, 0], [0, 0, 0]], dtype=float)
+        for start, end in pairwise(corners):
+            dashes = max(round(28 * np.linalg.norm(end - start) / self.size), 1)
+            for i in range(dashes):
+                ends = [start + (end - start) * (i + share) / dashes for share in (0.2, 0.8)]
+                self._curve(np.array(ends), OUTLINE, width=5.0)
+
+    def _supports(self, held: Solution) -> None:
+        for support in self.scene.supports:
+            start, end = np.array(self.scene.sheet.edge_ends(support.edge))
+            plan = start + np.linspace(0, 1, 60)[:, None] * (end - start)
+            firm = holds_director(support)
+            tube = pyvista.lines_from_points(self.deformed(held, plan)).tube(
+                radius=(0.009 if firm else 0.005) * self.size
+            )
+            self.plotter.add_mesh(tube, color=DARK if firm else GREY, smooth_shading=True, specular=0.2)
+
+    def _curve(self, points: np.ndarray, colour: str, width: float, opacity: float = 1.0) -> None:
+        curve = pyvista.lines_from_points(points)
+        self.plotter.add_mesh(curve, color=colour, line_width=width, lighting=False, opacity=opacity)
+
+
+def _coloured(limits: tuple[float, float], colours: str) -> dict[str, Any]:
+    return {"scalars": "value", "cmap": colours, "clim": limits, "show_scalar_bar": False}
+
+
+def _middle(values: np.ndarray) -> float:
+    return 0.5 * float(values.min() + values.max())
+
+
+def _plan_lines(sheet: Sheet, cells: int) -> list[np.ndarray]:
+    """Plan lines (n, 2) [m] that cut the sheet into near-square cells, `cells` along the shorter side."""
+    if cells == 0:
+        return []
+    nx, ny = near_square(sheet, cells)
+    along = np.linspace(0, 1, 2 * PLAN_CELLS + 1)[:, None]
+    lx, ly = sheet.lengths
+    across = [np.array([x, 0.0]) + along * np.array([0.0, ly]) for x in np.linspace(0, lx, nx + 1)]
+    return across + [np.array([0.0, y]) + along * np.array([lx, 0.0]) for y in np.linspace(0, ly, ny + 1)]

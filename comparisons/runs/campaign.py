@@ -1,0 +1,183 @@
+"""Campaigns: many runs, each carried out once, kept as soon as it is done, resumed after any interruption.
+
+A run is a function's name and JSON arguments. What it finds is kept in the folder's `campaign.sqlite` under
+a hash of name, arguments and version; asked again, it is read and not run. Nothing of a finished run is ever
+changed. A run that raises is a row with its status, and so is one that takes its process down.
+
+Timed runs never share cores with each other or with other runs of the campaign: they go one at a time, after
+the untimed ones, which go as many at a time as there are workers.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from importlib import import_module
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from comparisons.report.files import plain
+from comparisons.runs.executors import Pool, processes, single_threaded
+from comparisons.runs.manifest import version
+from comparisons.runs.store import FILE, Finished, Store
+
+
+@dataclass(frozen=True)
+class Run:
+    """What is asked: `task` names a function, "package.module:function", called with `arguments`.
+
+    The arguments are plain JSON data, and so is the dictionary that the function returns; its "status" and
+    "message", if any, become those of the run. label: what people read while it runs.
+    """
+
+    task: str
+    arguments: dict[str, Any]
+    label: str = ""
+    timed: bool = False
+
+    @property
+    def key(self) -> str:
+        """The hash under which the run is kept."""
+        asked = {"task": self.task, "arguments": plain(self.arguments), "version": version()}
+        return hashlib.sha256(json.dumps(asked, sort_keys=True, allow_nan=False).encode()).hexdigest()
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a campaign is: runs done (kept from before included) of all, the last one, seconds left.
+
+    seconds_left: the mean duration of the runs of this session times the runs left, over those that run
+    side by side; None before the first has finished.
+    """
+
+    done: int
+    total: int
+    label: str
+    status: str
+    seconds_left: float | None
+
+
+@contextmanager
+def campaign(folder: Path) -> Iterator[Store]:
+    """The store of a folder's campaigns, open."""
+    store = Store(folder / FILE)
+    try:
+        yield store
+    finally:
+        store.close()
+
+
+def carry_out(
+    runs: Iterable[Run],
+    store: Store,
+    *,
+    workers: int = 1,
+    pool: Pool = processes,
+    retry: bool = False,
+    progress: Callable[[Progress], None] = lambda progress: None,
+) -> list[Finished]:
+    """Every run's outcome, in the order of `runs`; those that the store has are not run again.
+
+    retry: but those that failed or were lost are.
+    """
+    asked = list(runs)
+    for run in asked if retry else ():
+        store.forget(run.key)
+    missing = {run.key: run for run in asked if store.get(run.key) is None}
+    session = _Session(store, len({run.key for run in asked}), len(missing), progress)
+    for timed, width in ((False, max(workers, 1)), (True, 1)):
+        waiting = deque(run for run in missing.values() if run.timed is timed)
+        if waiting:
+            with single_threaded():
+                session.carry_out(waiting, pool, width)
+    found = [store.get(run.key) for run in asked]
+    return [outcome for outcome in found if outcome is not None]
+
+
+class _Session:
+    """The runs of one call that are still to be done."""
+
+    def __init__(self, store: Store, total: int, missing: int, progress: Callable[[Progress], None]) -> None:
+        self.store, self.total, self.missing, self.progress = store, total, missing, progress
+        self.seconds: list[float] = []
+
+    def carry_out(self, waiting: deque[Run], pool: Pool, width: int) -> None:
+        """All waiting runs, `width` at a time. Those under way when a process died go again, one at a time:
+        the one that dies alone is the one to blame."""
+        suspects = self._stream(waiting, pool, width)
+        while waiting or suspects:
+            for run in suspects:
+                if self._stream(deque([run]), pool, 1):
+                    self._keep(run, _lost(run), width)
+            suspects = self._stream(waiting, pool, width)
+
+    def _stream(self, waiting: deque[Run], pool: Pool, width: int) -> list[Run]:
+        """Runs until none waits; the runs under way if the pool broke."""
+        under_way: dict[Future[Finished], Run] = {}
+        executor = pool(width)
+        try:
+            while waiting or under_way:
+                while waiting and len(under_way) < width:
+                    run = waiting.popleft()
+                    under_way[_submit(executor, run)] = run
+                done, _ = wait(under_way, return_when=FIRST_COMPLETED)
+                broken = []
+                for future in done:
+                    run = under_way.pop(future)
+                    error = future.exception()
+                    if isinstance(error, BrokenProcessPool):
+                        broken.append(run)
+                    else:
+                        self._keep(run, _lost(run, error) if error else future.result(), width)
+                if broken:
+                    return [*broken, *under_way.values()]
+        finally:
+            executor.shutdown(wait=True)
+        return []
+
+    def _keep(self, run: Run, outcome: Finished, width: int) -> None:
+        self.store.add(run.task, run.arguments, outcome)
+        self.seconds.append(outcome.seconds)
+        left = self.missing - len(self.seconds)
+        mean = sum(self.seconds) / len(self.seconds)
+        self.progress(Progress(self.total - left, self.total, run.label, outcome.status, mean * left / width))
+
+
+def _submit(executor: Executor, run: Run) -> Future[Finished]:
+    try:
+        return executor.submit(execute, run.key, run.task, run.arguments)
+    except BrokenProcessPool as error:
+        future: Future[Finished] = Future()
+        future.set_exception(error)
+        return future
+
+
+def execute(key: str, task: str, arguments: dict[str, Any]) -> Finished:
+    """Carry out one run here and now; whatever it raises is its outcome."""
+    started, clock = _now(), perf_counter()
+    try:
+        module, _, function = task.partition(":")
+        row = getattr(import_module(module), function)(**arguments)
+        status, message = str(row.get("status", "done")), str(row.get("message", ""))
+    except ValueError as error:
+        row, status, message = {}, "refused", str(error)
+    except Exception as error:  # a failed run is a row of the study, not the end of it
+        row, status, message = {}, "failed", f"{type(error).__name__}: {error}"
+    return Finished(key, status, plain(row), message, started, _now(), perf_counter() - clock)
+
+
+def _lost(run: Run, error: BaseException | None = None) -> Finished:
+    said = "" if error is None else f": {error}"
+    return Finished(run.key, "lost", {}, f"the process that ran it died{said}", _now(), _now(), 0.0)
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="milliseconds")

@@ -1,0 +1,1 @@
+"""What accuracy costs: error against time over models, grids, calibrations, time steps."""

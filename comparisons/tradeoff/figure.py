@@ -1,0 +1,166 @@
+"""The picture of a trade-off: error against time with the front drawn, and error against cell size."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+from comparisons.report.files import whole
+from comparisons.report.style import GREY, STYLE
+from comparisons.tradeoff.pareto import grouped
+from comparisons.tradeoff.statics import Tradeoff
+
+WIDTH, HEIGHT, DPI = 7.2, 3.9, 200  # inches: the text width of a two-column paper
+MARKERS = {"lumped": "o", "plate": "v", "shell": "s", "solid": "D"}
+# Okabe and Ito's colours, which everyone tells apart; lattices take the first ones in turn.
+REFERENCE_COLOURS = {"plate": "#8a8a8a", "shell": "#222222", "solid": "#a0522d"}
+COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999933", "#882255")
+
+
+def draw(tradeoff: Tradeoff, paths: list[Path]) -> None:
+    """Write the picture to every path, in the format of its suffix (.png, .pdf, .svg)."""
+    with matplotlib.rc_context(STYLE):
+        figure = compose(tradeoff)
+        for path in paths:
+            with whole(path) as partial:
+                figure.savefig(partial, dpi=DPI, facecolor="white")
+
+
+def compose(tradeoff: Tradeoff) -> Figure:
+    """The figure: error against time at the left, against the size of a cell at the right."""
+    figure = Figure(figsize=(WIDTH, HEIGHT))
+    left, right = figure.subplots(1, 2, sharey=True, width_ratios=(1.35, 1.0))
+    families = grouped([row["series"] for row in tradeoff.rows])
+    colours = iter(COLOURS * (1 + len(families) // len(COLOURS)))
+    orders = {entry["series"]: entry["error_order"] for entry in tradeoff.orders}
+    on_front = set(tradeoff.front)
+    for name, numbers in families.items():
+        known = [i for i in numbers if tradeoff.rows[i]["error"]]  # logarithmic axes have no zero
+        if not known:
+            continue
+        rows = [tradeoff.rows[i] for i in known]
+        model = rows[0]["model"]
+        colour = REFERENCE_COLOURS.get(model) or next(colours)
+        style: dict[str, Any] = {"color": colour, "marker": MARKERS.get(model, "P"), "lw": 0.9, "ms": 3.6}
+        if model in REFERENCE_COLOURS:
+            style["ls"] = (0, (4, 1.5))
+        label = name if orders[name] is None else f"{name}  ($h^{{{orders[name]:z.1f}}}$)"
+        _against_time(left, rows, [i in on_front for i in known], style, label)
+        sized = [row for row in rows if row["cell_size"]]
+        right.plot([1e3 * r["cell_size"] for r in sized], [100 * r["error"] for r in sized], **style)
+    _front(left, tradeoff)
+    for axis, said in ((left, "uncertainty of the reference"), (right, "")):
+        _logarithmic(axis)
+        _floor(axis, tradeoff, said)
+    left.set_xlabel("solve time [ms], one thread")
+    left.set_ylabel("error at the probes [%]")
+    right.set_xlabel("size of a cell or element [mm]")
+    left.set_title("Error against time, and the front", fontsize=8, fontweight="bold", loc="left")
+    right.set_title("Convergence", fontsize=8, fontweight="bold", loc="left")
+    handles, labels = left.get_legend_handles_labels()
+    figure.legend(
+        handles,
+        labels,
+        loc="lower center",
+        ncols=4,
+        frameon=False,
+        fontsize=7,
+        handlelength=2.6,
+        columnspacing=1.4,
+    )
+    legend_rows = -(-len(labels) // 4)
+    figure.subplots_adjust(left=0.085, right=0.985, bottom=0.125 + 0.05 * legend_rows, top=0.86, wspace=0.06)
+    figure.text(0.085, 0.975, tradeoff.scene.title or tradeoff.scene.name, va="top", fontsize=8.5)
+    return figure
+
+
+def _against_time(
+    axis: Axes, rows: list[dict[str, Any]], on_front: list[bool], style: dict[str, Any], label: str
+) -> None:
+    """A family: its medians as markers (filled on the front), its spread as bars, sizes written beside."""
+    median = np.array([1e3 * r["solve_seconds"]["median"] for r in rows])
+    error = [100 * r["error"] for r in rows]
+    axis.plot(median, error, label=label, markerfacecolor="white", **style)
+    for row, t, e, kept in zip(rows, median, error, on_front, strict=True):
+        samples = [1e3 * s for s in row["solve_seconds"]["samples"]]
+        axis.plot([min(samples), max(samples)], [e, e], color=style["color"], lw=0.6, alpha=0.6, zorder=1)
+        if kept:
+            axis.plot([t], [e], color=style["color"], marker=style["marker"], ms=4.6, zorder=4)
+            axis.annotate(
+                _size(row), (t, e), (-3, -3), textcoords="offset points", ha="right", va="top", fontsize=6,
+                color=style["color"],
+            )  # fmt: skip
+
+
+def _size(row: dict[str, Any]) -> str:
+    size = row["settings"].get("grid") or row["settings"].get("elements") or ""
+    if isinstance(size, list | tuple):
+        return str(size[0]) if size[0] == size[1] else f"{size[0]}×{size[1]}"
+    return str(size)
+
+
+def _front(axis: Axes, tradeoff: Tradeoff) -> None:
+    """The front as a staircase: what can be had in a given time."""
+    rows = [tradeoff.rows[i] for i in tradeoff.front]
+    if not rows:
+        return
+    times = [1e3 * row["solve_seconds"]["median"] for row in rows]
+    errors = [100 * max(row["error"], tradeoff.uncertainty or 0.0) for row in rows]
+    latest = max(1e3 * (row["solve_seconds"]["median"] or 0.0) for row in tradeoff.rows)
+    band: dict[str, Any] = {"color": "#d4a017", "lw": 4.5, "alpha": 0.35, "solid_joinstyle": "round"}
+    times, errors = [*times, max(latest, times[-1])], [*errors, errors[-1]]
+    axis.step(times, errors, where="post", zorder=0, label="front: the best in that time", **band)
+
+
+def _floor(axis: Axes, tradeoff: Tradeoff, said: str) -> None:
+    """Where the reference itself is uncertain."""
+    if not tradeoff.uncertainty:
+        return
+    floor = 100 * tradeoff.uncertainty
+    shown = [100 * row["error"] for row in tradeoff.rows if row["error"]]
+    bottom = min([floor / 2.5, *(0.6 * e for e in shown)])
+    axis.set_ylim(bottom, 1.6 * max(floor, *shown))
+    axis.axhspan(bottom, floor, color=GREY, alpha=0.18, lw=0)
+    axis.annotate(
+        said,
+        (0.015, floor),
+        (0, -2),
+        xycoords=axis.get_yaxis_transform(),
+        textcoords="offset points",
+        va="top",
+        fontsize=6,
+        color=GREY,
+    )
+
+
+def _logarithmic(axis: Axes) -> None:
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    axis.grid(which="major", color="#e4e4e4", lw=0.5, zorder=-1)
+    axis.set_axisbelow(True)
+    for side in (axis.xaxis, axis.yaxis):
+        side.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        side.set_minor_locator(LogLocator(subs=range(2, 10)))
+        side.set_minor_formatter(NullFormatter())
+    axis.xaxis.set_minor_formatter(
+        FuncFormatter(lambda value, _: f"{value:g}" if _decades(axis) < 1.5 and _leads(value) else "")
+    )
+    axis.tick_params(which="both", width=0.5, length=2.5)
+    axis.tick_params(which="minor", length=1.5, labelsize=6.5)
+    axis.spines[["top", "right"]].set_visible(False)
+
+
+def _decades(axis: Axes) -> float:
+    low, high = axis.get_xlim()
+    return float(np.log10(high / low))
+
+
+def _leads(value: float) -> bool:
+    """Whether a number is 2 or 5 times a power of ten."""
+    return round(value / 10.0 ** np.floor(np.log10(value))) in (2, 5)

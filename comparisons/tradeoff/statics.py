@@ -1,0 +1,209 @@
+"""Error against cost: many models of one scene, measured alike, beside the finest reference.
+
+    error        at the probes, as `comparisons.comparison.comparison` defines it
+    field error  (∫ |u − u_ref|² dA / ∫ |u_ref|² dA)^½ over the undeformed sheet
+    uncertainty  of the reference, in both measures: its bar by the grid convergence index, from meshes of
+                 n, ¾ n and ½ n elements a side (`fem_reference.uncertainty`)
+    cost         see `comparisons.tradeoff.timing`
+
+Orders: the slope of log error over log h, h the size of a cell, and of log time over log unknowns, over the
+rows of a family whose errors are well above the uncertainty.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from comparisons.comparison.comparison import error as probe_error
+from comparisons.models.candidate import Candidate, series
+from comparisons.models.registry import check
+from comparisons.runs.campaign import Progress, Run, carry_out
+from comparisons.runs.executors import Pool, processes
+from comparisons.runs.store import Finished, Store
+from comparisons.tradeoff import timing
+from comparisons.tradeoff.pareto import FLOOR_FACTOR, front, grouped, order
+from fem_reference.uncertainty import coarser, estimate
+from sheetbench.scenes import Scene, Status, require_static
+
+COMPARABLE = (str(Status.CONVERGED), str(Status.UNSTABLE), str(Status.STRAIN_OUTSIDE_MODEL))
+REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the rows
+
+
+@dataclass(frozen=True)
+class Tradeoff:
+    """The rows of a scene with their errors, and the reference they are measured against.
+
+    rows: as `timing.measure` leaves them, with "error", "field_error" and "series" added and the field taken
+    out. reference: the same of the reference. uncertainty, field_uncertainty: fractions, None
+    where the reference did not converge on both meshes.
+    """
+
+    scene: Scene
+    rows: tuple[dict[str, Any], ...]
+    reference: dict[str, Any]
+    uncertainty: float | None
+    field_uncertainty: float | None
+
+    @property
+    def front(self) -> list[int]:
+        """Numbers of the rows on the Pareto front of error and time, the quickest first."""
+        seconds = [_seconds(row) for row in self.rows]
+        return front([row["error"] for row in self.rows], seconds, self.uncertainty or 0.0)
+
+    @property
+    def orders(self) -> list[dict[str, Any]]:
+        """A row per family: order of the error in h, of the field error in h, of the time in the unknowns."""
+        found = []
+        for name, numbers in grouped([row["series"] for row in self.rows]).items():
+            rows = [self.rows[i] for i in numbers if self.rows[i]["error"] is not None]
+            sized = [row for row in rows if row["cell_size"]]
+            entry: dict[str, Any] = {"series": name, "rows": len(rows)}
+            for key, floor in (("error", self.uncertainty), ("field_error", self.field_uncertainty)):
+                clear = [row for row in sized if row[key] > FLOOR_FACTOR * (floor or 0.0)]
+                entry[f"{key}_order"] = order([r["cell_size"] for r in clear], [r[key] for r in clear])
+            entry["time_order"] = order([r["unknowns"] for r in rows], [_seconds(r) for r in rows])
+            found.append(entry)
+        return found
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench tradeoff`."""
+        return {
+            "scene": self.scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+            "rows": list(self.rows),
+            "front": self.front,
+            "orders": self.orders,
+            "reference": {
+                **self.reference,
+                "uncertainty": self.uncertainty,
+                "field_uncertainty": self.field_uncertainty,
+            },
+        }
+
+
+def tradeoff(
+    scene: Scene,
+    candidates: Sequence[Candidate],
+    store: Store,
+    *,
+    reference: Candidate | None = None,
+    repeats: int = 5,
+    workers: int = 1,
+    pool: Pool = processes,
+    retry: bool = False,
+    progress: Callable[[Progress], None] = lambda progress: None,
+) -> Tradeoff:
+    """Measure every candidate on a scene, through the campaign's store.
+
+    reference: by default the shell with twice as many elements as the finest shell among the candidates, and
+    32 at least. retry: do again what failed in an earlier call.
+    Raises SceneError for a scene without a static answer and
+    BadInput for a model or setting that does not exist. A solve that fails is a row with its status.
+    """
+    require_static(scene)
+    for candidate in candidates:
+        check(candidate.model, candidate.settings)
+    fine = reference or _finest(candidates)
+    check(fine.model, fine.settings)
+    meshes = coarser(fine.settings["elements"])
+    judges = [timing.run(scene, fine.model, {**fine.settings, "elements": n}, timed=False) for n in meshes]
+    asked = [timing.run(scene, c.model, c.settings, repeats) for c in candidates]
+    outcomes = carry_out([*judges, *asked], store, workers=workers, pool=pool, retry=retry, progress=progress)
+    count = len(judges)
+    return assemble(scene, judges, outcomes[:count], asked, outcomes[count:])
+
+
+def assemble(
+    scene: Scene,
+    judges: Sequence[Run],
+    judged: Sequence[Finished],
+    asked: Sequence[Run],
+    outcomes: Sequence[Finished],
+) -> Tradeoff:
+    """The trade-off of finished runs: the reference on meshes from fine to coarse, and the rows."""
+    weights, truth = timing.field_points(scene.sheet)[1], judged[0]
+    rows = []
+    for run, outcome in zip(asked, outcomes, strict=True):
+        errors = _errors(outcome, truth, weights)
+        rows.append(_row(scene, run, outcome) | dict(zip(("error", "field_error"), errors, strict=True)))
+    sizes = [cell_size(scene, run.arguments["settings"]) or 0.0 for run in judges]
+    uncertainty, field_uncertainty = _bars(judged, sizes, weights)
+    return Tradeoff(scene, tuple(rows), _row(scene, judges[0], truth), uncertainty, field_uncertainty)
+
+
+def _bars(
+    judged: Sequence[Finished], sizes: Sequence[float], weights: np.ndarray
+) -> tuple[float | None, float | None]:
+    """Uncertainty of the finest of the reference's answers, at the probes and over the sheet."""
+    usable = [(o.row, size) for o, size in zip(judged, sizes, strict=True) if _comparable(o)]
+    if len(usable) < 2 or not _comparable(judged[0]):
+        return None, None
+    used = [size for _, size in usable]
+    at_probes = estimate([np.array(list(row["probes"].values())) for row, _ in usable], used)
+    field = estimate([np.array(row["field"]) for row, _ in usable], used)
+    bar, size = (float(weights @ np.sum(u**2, axis=1)) for u in (field.bar, field.answer))
+    return at_probes.error, float(np.sqrt(bar / size)) if size > 0.0 else None
+
+
+def _finest(candidates: Sequence[Candidate]) -> Candidate:
+    shells = [c.settings.get("elements", 16) for c in candidates if c.model == "shell"]
+    return Candidate("shell", {"elements": max([REFERENCE_ELEMENTS, *(2 * n for n in shells)])})
+
+
+def _errors(outcome: Finished, truth: Finished, weights: np.ndarray) -> tuple[float | None, float | None]:
+    if not (_comparable(outcome) and _comparable(truth)):
+        return None, None
+    u, ref = (np.array(list(o.row["probes"].values()), dtype=float) for o in (outcome, truth))
+    field, field_ref = (np.array(o.row["field"], dtype=float) for o in (outcome, truth))
+    size = float(weights @ np.sum(field_ref**2, axis=1))
+    off = float(weights @ np.sum((field - field_ref) ** 2, axis=1))
+    return probe_error(u, ref), float(np.sqrt(off / size)) if size > 0.0 and np.isfinite(off) else None
+
+
+def _comparable(outcome: Finished) -> bool:
+    return outcome.status in COMPARABLE and outcome.row["load_factor"] == 1.0
+
+
+def _row(scene: Scene, run: Run, outcome: Finished) -> dict[str, Any]:
+    """The row of an outcome; a run that ended without an answer has what was asked and its status."""
+    model, settings = run.arguments["model"], run.arguments["settings"]
+    blank = {
+        "model": model,
+        "label": run.label,
+        "settings": settings,
+        "unknowns": None,
+        "iterations": None,
+        "solve_seconds": {"median": None, "samples": []},
+        "setup_seconds": None,
+        "peak_memory_bytes": None,
+    }
+    found = {key: value for key, value in outcome.row.items() if key != "field"}
+    return {
+        **blank,
+        **found,
+        "status": outcome.status,
+        "message": outcome.message,
+        "series": series(model, settings),
+        "cell_size": cell_size(scene, settings),
+        "started": outcome.started,
+        "finished": outcome.finished,
+    }
+
+
+def cell_size(scene: Scene, settings: dict[str, Any]) -> float | None:
+    """Size h [m] of a cell along the shorter side, where the settings tell."""
+    shorter = min(scene.sheet.lengths)
+    if (grid := settings.get("grid")) is not None:
+        masses = min(grid[:2]) if isinstance(grid, list | tuple) else grid
+        return shorter / (masses - 1)
+    if (elements := settings.get("elements")) is not None:
+        return shorter / (min(elements) if isinstance(elements, list | tuple) else elements)
+    return None
+
+
+def _seconds(row: dict[str, Any]) -> float:
+    median = row["solve_seconds"]["median"]
+    return float("inf") if median is None else float(median)

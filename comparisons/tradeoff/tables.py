@@ -1,0 +1,81 @@
+"""The tables of a trade-off: its rows with their costs and errors, and the orders of its families."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from comparisons.report.table import Column, Table
+from comparisons.tradeoff.statics import Tradeoff
+
+
+def rows(tradeoff: Tradeoff) -> Table:
+    """A row per model and setting; those on the front are marked."""
+    front = set(tradeoff.front)
+    found = tuple(_row(i, row, i in front) for i, row in enumerate(tradeoff.rows))
+    columns = (
+        Column("row", form="d"),
+        Column("model", prose=True),
+        Column("size"),
+        Column("unknowns", form="d"),
+        Column("factorisations", form="d"),
+        Column("set-up", "s", "ms", 1e3, ".1f"),
+        Column("solve", "s", "ms", 1e3, ".2f"),
+        Column("from", "s", "ms", 1e3, ".2f"),
+        Column("to", "s", "ms", 1e3, ".2f"),
+        Column("memory", "B", "MB", 1e-6, ".1f"),
+        Column("error", "", "%", 100.0, ".3g"),
+        Column("field error", "", "%", 100.0, ".3g"),
+        Column("front"),
+        Column("status"),
+    )
+    return Table(
+        "Cost and error; solve: median of the repeats, from the quickest to the slowest", columns, found
+    )
+
+
+def _row(number: int, row: dict[str, Any], on_front: bool) -> tuple[Any, ...]:
+    samples = row["solve_seconds"]["samples"]
+    size = row["settings"].get("grid") or row["settings"].get("elements") or ""
+    return (
+        number,
+        row["series"],
+        "×".join(str(n) for n in size) if isinstance(size, list | tuple) else str(size),
+        row["unknowns"],
+        row["iterations"],
+        row["setup_seconds"],
+        row["solve_seconds"]["median"],
+        min(samples, default=None),
+        max(samples, default=None),
+        row["peak_memory_bytes"],
+        row["error"],
+        row["field_error"],
+        "yes" if on_front else "",
+        row["status"],
+    )
+
+
+def orders(tradeoff: Tradeoff) -> Table:
+    """A row per family: observed orders of the errors in h and of the time in the unknowns."""
+    found = tuple(
+        (o["series"], o["rows"], o["error_order"], o["field_error_order"], o["time_order"])
+        for o in tradeoff.orders
+    )
+    columns = (
+        Column("model", prose=True),
+        Column("rows", form="d"),
+        Column("error order", form="z.2f"),
+        Column("field error order", form="z.2f"),
+        Column("time order", form="z.2f"),
+    )
+    return Table("Observed orders: errors in the size of a cell, time in the unknowns", columns, found)
+
+
+def explanation(tradeoff: Tradeoff) -> str:
+    """What the errors are measured against."""
+    reference, uncertainty = tradeoff.reference, tradeoff.uncertainty
+    known = "unknown" if uncertainty is None else f"{100 * uncertainty:.2g} %"
+    return (
+        f"errors against {reference['label']} ({reference['unknowns']} unknowns), whose own uncertainty is "
+        f"{known}: the grid convergence index of n, ¾ n and ½ n elements. error: at the probes; field error: "
+        "root mean square over the sheet. One thread; times on warm code; memory: growth of the process."
+    )

@@ -1,0 +1,131 @@
+"""What a solve costs: time on warm code, memory, set-up; the answer at the probes and over the sheet.
+
+Time: the solve alone, after two solves of the same problem that are not counted; every sample kept. Memory:
+how far the process' resident set rises, during the second solve and its set-up, above what it was with all
+code loaded (Linux; elsewhere the rise of the largest resident set so far). Quick solves are repeated until
+`SETTLED` seconds are spent, up to `MOST` times, so that their median means something.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import gc
+import re
+import resource
+import statistics
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from comparisons.models import registry as models
+from comparisons.runs import manifest
+from comparisons.runs.campaign import Run
+from sheetbench.scenes import Scene, Sheet, Solution
+
+SETTLED, MOST = 0.1, 25
+GAUSS_POINTS = 24  # along each side, for norms over the sheet
+
+
+def run(scene: Scene, model: str, settings: Mapping[str, Any], repeats: int = 5, timed: bool = True) -> Run:
+    """The run of a campaign that solves a scene with a model; repeats = 1 where time does not matter."""
+    arguments = {
+        "scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+        "model": model,
+        "settings": dict(settings),
+        "repeats": repeats if timed else 0,
+    }
+    label = ", ".join(f"{name} {_short(value)}" for name, value in settings.items())
+    return Run("comparisons.tradeoff.timing:measure", arguments, f"{model} {label}", timed)
+
+
+def measure(scene: dict[str, Any], model: str, settings: dict[str, Any], repeats: int) -> dict[str, Any]:
+    """The row of a run, as plain data in SI units: see the module and `comparisons.tradeoff.statics`.
+
+    repeats: timed solves at least, after two that are not; with 0 there is one solve, and no memory is told.
+    """
+    asked = Scene.model_validate(scene)
+    models.warm(model)
+    solution = models.solve(asked, model, **settings)
+    memory, samples = None, list[float]()
+    if repeats:
+        solution, memory = _with_peak_memory(lambda: models.solve(asked, model, **settings))
+    while len(samples) < repeats or (samples and sum(samples) < SETTLED and len(samples) < MOST):
+        samples.append(models.solve(asked, model, **settings).solve_seconds)
+    if not samples:
+        samples = [solution.solve_seconds]
+    return {
+        "model": model,
+        "label": solution.label,
+        "settings": settings,
+        "status": str(solution.status),
+        "message": solution.message,
+        "load_factor": solution.load_factor,
+        "unknowns": solution.unknowns,
+        "iterations": solution.iterations,
+        "solve_seconds": {"median": statistics.median(samples), "samples": samples},
+        "setup_seconds": solution.setup_seconds,
+        "peak_memory_bytes": memory,
+        "probes": dict(zip(asked.probes, solution.displacement(asked.probe_points()), strict=True)),
+        "field": solution.displacement(field_points(asked.sheet)[0]),
+        "machine": manifest.machine(),
+        "versions": {"sheetbench": manifest.version(), **manifest.versions()},
+    }
+
+
+def field_points(sheet: Sheet) -> tuple[np.ndarray, np.ndarray]:
+    """Gauss points (n, 2) [m] over the sheet and their shares (n,) of its area."""
+    at, weight = np.polynomial.legendre.leggauss(GAUSS_POINTS)
+    x, y = np.meshgrid(*(0.5 * (1.0 + at) * length for length in sheet.lengths), indexing="ij")
+    return np.column_stack([x.ravel(), y.ravel()]), np.outer(weight, weight).ravel() / 4.0
+
+
+def _with_peak_memory(solve: Callable[[], Solution]) -> tuple[Solution, int]:
+    """What `solve` returns, and by how many bytes the process grew meanwhile."""
+    gc.collect()
+    _release_freed_memory()
+    before = _start_watching_memory()
+    solution = solve()
+    return solution, max(0, _peak_memory() - before)
+
+
+def _start_watching_memory() -> int:
+    """Memory [bytes] from which growth is counted."""
+    try:
+        Path("/proc/self/clear_refs").write_text("5")  # the peak restarts from the present resident set
+        return _proc("VmRSS")
+    except (OSError, LookupError):
+        return _largest_resident_set()
+
+
+def _peak_memory() -> int:
+    try:
+        return _proc("VmHWM")
+    except (OSError, LookupError):
+        return _largest_resident_set()
+
+
+def _proc(name: str) -> int:
+    found = re.search(rf"^{name}:\s+(\d+) kB", Path("/proc/self/status").read_text(), re.MULTILINE)
+    if found is None:
+        raise LookupError(name)
+    return 1024 * int(found.group(1))
+
+
+def _largest_resident_set() -> int:
+    largest = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return largest if sys.platform == "darwin" else 1024 * largest
+
+
+def _release_freed_memory() -> None:
+    """Give the heap's free pages back, so that reusing them counts as growth (glibc; elsewhere nothing)."""
+    try:
+        ctypes.CDLL("libc.so.6").malloc_trim(0)
+    except (OSError, AttributeError):
+        return
+
+
+def _short(value: Any) -> str:
+    return "×".join(str(part) for part in value) if isinstance(value, list | tuple) else str(value)

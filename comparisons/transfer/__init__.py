@@ -1,0 +1,1 @@
+"""How far a calibration carries over to scenes it was not made for."""

@@ -1,0 +1,122 @@
+"""The tables of the transfer study: methods across, scenes down."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from comparisons.report.table import Column, Table
+from comparisons.transfer.study import Transfer
+
+_PER_CENT = ("", "%", 100.0, "z.2f")
+
+
+def tables(found: Transfer) -> list[Table]:
+    """Every table of the study that has rows."""
+    made = [
+        *(_static(found, i) for i in range(len(found.grids)) if found.static),
+        *([_static(found, None)] if found.static and len(found.grids) > 1 else []),
+        *([_limits(found)] if found.limits else []),
+        *(_modal(found, i) for i in range(len(found.grids)) if found.modal),
+        *([_aspect(found)] if found.aspect else []),
+        *([_left_out(found)] if found.left_out else []),
+    ]
+    return made
+
+
+def _static(found: Transfer, grid: int | None) -> Table:
+    """Errors of a grid by its place among the grids, or of the extrapolated limit."""
+    caption = "Error of the limit extrapolated from the two finest grids"
+    if grid is not None:
+        n = found.grids[grid]
+        caption = f"Error at {n} × {n} × 2 masses, of the largest displacement"
+    return Table(
+        caption,
+        (Column("scene"), *(Column(method, *_PER_CENT) for method in found.methods)),
+        _by_scene(
+            found.methods,
+            [
+                (r["scene"], r["method"], r["extrapolated"] if grid is None else r["errors"][grid])
+                for r in found.static
+            ],
+        ),
+    )
+
+
+def _by_scene(methods: tuple[str, ...], entries: list[tuple[str, str, Any]]) -> tuple[tuple[Any, ...], ...]:
+    values = {(scene, method): value for scene, method, value in entries}
+    names = dict.fromkeys(scene for scene, _, _ in entries)
+    return tuple((name, *(values.get((name, method)) for method in methods)) for name in names)
+
+
+def _limits(found: Transfer) -> Table:
+    n = found.grids[-1]
+    columns = (
+        Column("scene"),
+        Column("method"),
+        Column(f"error at {n}", *_PER_CENT),
+        Column("predicted there", *_PER_CENT),
+        Column("apart", *_PER_CENT),
+        Column("extrapolated", *_PER_CENT),
+        Column("predicted for cells → 0", *_PER_CENT),
+    )
+    keys = ("finest", "predicted_finest", "lattice_less_plate", "extrapolated", "predicted_limit")
+    rows = tuple((r["scene"], r["method"], *(r[key] for key in keys)) for r in found.limits)
+    return Table("Where refinement leads, measured and predicted from the moduli report", columns, rows)
+
+
+def _modal(found: Transfer, grid: int) -> Table:
+    """Misses of the first frequencies: a row per scene, frequency and way to share out the mass."""
+    values: dict[tuple[str, str, int], dict[str, float]] = {}
+    for row in found.modal:
+        misses = row["misses"][grid]
+        for i, miss in enumerate([] if misses is None else misses):
+            values.setdefault((row["scene"], row["masses"], i + 1), {})[row["method"]] = float(miss)
+    columns = (
+        Column("scene"),
+        Column("masses"),
+        Column("mode", form="d"),
+        *(Column(method, *_PER_CENT) for method in found.methods),
+    )
+    rows = tuple((*key, *(of.get(method) for method in found.methods)) for key, of in sorted(values.items()))
+    n = found.grids[grid]
+    return Table(f"Natural frequencies less the shell's at {n} × {n} × 2 masses", columns, rows)
+
+
+def _aspect(found: Transfer) -> Table:
+    columns = (Column("scene"), Column("masses"), Column("aspect", form=".2f"), Column("error", *_PER_CENT))
+    rows = tuple(
+        (r["scene"], f"{r['grid'][0]} × {r['grid'][1]} × 2", r["aspect"], r["error"]) for r in found.aspect
+    )
+    return Table("Cells longer than wide, calibrated by `moduli`", columns, rows)
+
+
+def _left_out(found: Transfer) -> Table:
+    columns = (
+        Column("method"),
+        Column("left out"),
+        Column("error", *_PER_CENT),
+        *(Column(f"frequency {i}", *_PER_CENT) for i in (1, 2, 3)),
+    )
+    rows = tuple((r["method"], r["left_out"], r["error"], *_misses(r["misses"], 3)) for r in found.left_out)
+    n = found.grids[0]
+    return Table(
+        f"Fitted to the other scenes of four, judged on the one left out, {n} × {n} × 2", columns, rows
+    )
+
+
+def _misses(values: np.ndarray | None, count: int) -> list[float | None]:
+    return [None] * count if values is None else [float(value) for value in values]
+
+
+def explanation(found: Transfer) -> str:
+    """What the numbers mean."""
+    return (
+        "error: the largest component of u − u_shell over 5 × 5 points of the sheet, of the largest "
+        f"component of u_shell there; shell of {found.elements} elements a side. fit-static and fit-modal "
+        "are trained on the sheet under its own weight with one edge and with two adjacent edges clamped, "
+        "again for every thickness and E; all other methods see no scene. extrapolated: Richardson's limit, "
+        "error ~ h². predicted: the shell whose stiffness is the lattice's by its moduli report; apart: the "
+        "lattice from that shell. Frequencies: f/f_shell − 1."
+    )

@@ -1,0 +1,99 @@
+"""The runs of the transfer study, each carried out in a process of its own: plain data in and out.
+
+Displacements [m] are taken at 5 × 5 points evenly over the sheet, edges included, which every grid of 4 n + 1
+masses a side has among its masses; frequencies in Hz.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from comparisons.identification.surface import plan_grid, plan_points
+from comparisons.models.registry import calibrate, solve_reference
+from sheetbench.scenes import Scene, Sheet
+
+POINTS = 5  # along each side
+FREQUENCIES = 3
+FINE = 4097  # masses a side of the grid whose moduli stand for those of cells → 0
+
+
+def points(sheet: Sheet) -> np.ndarray:
+    """Where models are compared, (25, 2) [m]."""
+    return plan_points(plan_grid(sheet.lengths, (POINTS, POINTS)))
+
+
+def lattice(
+    scene: dict[str, Any], method: str, grid: Sequence[int], training: Sequence[dict[str, Any]] | None = None
+) -> dict[str, Any]:
+    """Displacement of a lattice at the points. training: scenes of a fitted method, its own unless given."""
+    import lumped
+
+    asked = Scene.model_validate(scene)
+    solution = lumped.solve(asked, _springs(asked, method, grid, training))
+    return _answer(solution, asked)
+
+
+def reference(scene: dict[str, Any], model: str, elements: int) -> dict[str, Any]:
+    """Displacement of a finite-element model at the points."""
+    asked = Scene.model_validate(scene)
+    return _answer(solve_reference(asked, model=model, elements=elements), asked)
+
+
+def homogenised(
+    scene: dict[str, Any], model: str, elements: int, method: str, grid: Sequence[int]
+) -> dict[str, Any]:
+    """Displacement at the points of the finite-element model whose section is the lattice's on a grid."""
+    from fem_reference.surface.materials import Section
+    from lumped import moduli
+    from lumped.calibration.calibration import plan_spacing
+
+    asked = Scene.model_validate(scene)
+    springs = _springs(asked, method, grid, None)
+    spacing = (*plan_spacing(asked.sheet, springs.grid), springs.layer_distance)
+    got = moduli.of_springs(springs.springs, spacing, springs.grid[2])
+    section = Section(got.membrane, got.bending, np.diag(got.shear))
+    return _answer(solve_reference(asked, model=model, elements=elements, section=section), asked)
+
+
+def lattice_frequencies(
+    scene: dict[str, Any],
+    method: str,
+    grid: Sequence[int],
+    masses: str,
+    training: Sequence[dict[str, Any]] | None = None,
+) -> dict[str, Any]:
+    """Lowest natural frequencies of a lattice with its mass shared out in one of `lumped.masses`' ways."""
+    import lumped
+
+    asked = Scene.model_validate(scene)
+    springs = _springs(asked, method, grid, training)
+    return {"frequencies": lumped.modes(asked, springs, FREQUENCIES, masses).frequencies}  # type: ignore[arg-type]
+
+
+def reference_frequencies(scene: dict[str, Any], elements: int) -> dict[str, Any]:
+    """Lowest natural frequencies of the shell."""
+    import fem_reference
+
+    asked = Scene.model_validate(scene)
+    found = fem_reference.modes(asked, model="shell", elements=elements, count=FREQUENCIES)
+    return {"frequencies": found.frequencies}
+
+
+def _springs(
+    scene: Scene, method: str, grid: Sequence[int], training: Sequence[dict[str, Any]] | None
+) -> Any:
+    chosen = None if training is None else [Scene.model_validate(data) for data in training]
+    nx, ny, layers = grid
+    return calibrate(scene.sheet, scene.material, grid=(nx, ny, layers), calibration=method, training=chosen)
+
+
+def _answer(solution: Any, scene: Scene) -> dict[str, Any]:
+    return {
+        "status": str(solution.status),
+        "message": solution.message,
+        "load_factor": solution.load_factor,
+        "displacement": solution.displacement(points(scene.sheet)),
+    }

@@ -1,0 +1,1 @@
+"""Whether the references can be believed: published values, and the locking sweeps."""

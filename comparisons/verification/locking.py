@@ -1,0 +1,66 @@
+"""The picture of the locking sweeps: error on a fixed mesh against thickness, for every model and ν."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from itertools import groupby
+from pathlib import Path
+
+import matplotlib
+from matplotlib.figure import Figure
+
+from comparisons.comparison.figure import DPI, FONT
+from comparisons.report.files import whole
+from fem_reference.verification import Row
+
+SIZE = (4.6, 2.9)  # inches
+MARKERS = {"plate": "s", "shell": "o", "solid": "^"}
+COLOURS = {"plate": "#7d848c", "shell": "#20252b"}
+SOLID_COLOURS = ("#fbb061", "#ee6a5a", "#b8327a", "#5c187f")  # from compressible to incompressible
+_AT = re.compile(r"h/a = ([\d.e-]+), ν = ([\d.]+)")
+
+
+def picture(path: Path, rows: Sequence[Row]) -> None:
+    """Write the picture of rows of the locking cases as PNG."""
+    with matplotlib.rc_context(FONT), whole(path) as partial:
+        compose(rows).savefig(partial, dpi=DPI, facecolor="white", pil_kwargs={"optimize": True})
+
+
+def compose(rows: Sequence[Row]) -> Figure:
+    """|w − w_converged| / w_converged in per cent over h/a, with the tolerances dashed."""
+    figure = Figure(figsize=SIZE, layout="constrained")
+    axes = figure.add_subplot()
+    colours = iter(SOLID_COLOURS)
+    for (model, poisson), curve in groupby(rows, key=_series):
+        points = list(curve)
+        label = f"{model}, 8 × 8" if model != "solid" else f"solid, 8 × 8 × 1, ν = {poisson}"
+        axes.plot(
+            [float(_place(row)[0]) for row in points],
+            [100.0 * (row.relative or 0.0) for row in points],
+            marker=MARKERS[model],
+            color=COLOURS.get(model) or next(colours),
+            markersize=4.0,
+            linewidth=1.2,
+            label=label,
+        )
+    for row in {row.tolerance: row for row in rows}.values():
+        axes.axhline(100.0 * row.tolerance, color="#c9ced4", linestyle="--", linewidth=1.0, zorder=0)
+        axes.text(1.1e-5, 105.0 * row.tolerance, f"held to {100.0 * row.tolerance:g} %", color="#7d848c")
+    axes.set(xscale="log", yscale="log", ylim=(5e-3, 6.0))
+    axes.set(xlabel="thickness / side", ylabel="deflection off its converged value [%]")
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.legend(frameon=False, ncols=2, loc="lower left", fontsize=6.5)
+    return figure
+
+
+def _place(row: Row) -> tuple[str, str]:
+    """Thickness over side and Poisson's ratio of a row, as its quantity has them."""
+    found = _AT.search(row.quantity)
+    if found is None:
+        raise ValueError(f"quantity = {row.quantity!r}: not a row of a locking sweep")
+    return found[1], found[2]
+
+
+def _series(row: Row) -> tuple[str, str]:
+    return row.case.removeprefix("locking-"), _place(row)[1]

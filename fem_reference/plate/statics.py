@@ -1,0 +1,283 @@
+"""Linear Mindlin plate with its in-plane field: the answer for small deflections.
+
+    ∫ N·δε + M·δκ + Q·δγ dA = δ(loads),   N = h C ε,   M = h³/12 C κ,   Q = 5/6 h G γ
+
+with plane-stress C (see `materials`) and the strains of `plate_element`. Bending and membrane do not know of
+each other: no stiffening by stretching, no shortening by bending. Loads act on the flat sheet: pressure
+along +z, an edge moment m as −m on the tilt towards the outward normal. Actuators are linearised about the
+flat sheet (`plate_rods`, `edge_motion`), and their forces' moments taken there. So is a curved support: with
+s from the edge's middle w = κ s²/2 and the tilt along the edge is −κ s, none across it; the mid-line's
+shortening is of second order. A clamp tilted by τ holds a director's tilt of −τ towards the outward normal.
+Source: Hughes, The Finite Element Method (2000), ch. 5. SI units.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from scipy.sparse import csr_matrix
+from sheetbench.scenes.scene import require_static
+from skfem import Basis, ElementQuad2, FacetBasis, LinearForm, MeshQuad
+
+from fem_reference.plate import rods as plate_rods
+from fem_reference.plate.element import NODES, TILT_X, PlateElements, W, plate_elements, shape_values
+from fem_reference.shell.rods import hold_bases
+from fem_reference.solving.linear import DirectSolver, SingularMatrix
+from fem_reference.solving.sparsity import Pattern
+from fem_reference.solving.threads import one_blas_thread
+from fem_reference.surface import edge_motion
+from fem_reference.surface import supports as shell_supports
+from fem_reference.surface.location import locate
+from fem_reference.surface.materials import Section, section_of
+from fem_reference.surface.mesh import Elements, divisions, quarters, rectangle, require_upright
+from fem_reference.surface.rod import Rod
+from fem_reference.surface.supports import Supports
+from sheetbench.scenes import (
+    EDGES,
+    Clamped,
+    Curved,
+    EdgeLoad,
+    FieldMesh,
+    Iteration,
+    PointLoad,
+    Scene,
+    Solution,
+    Status,
+    rod_middle,
+)
+
+PARTS = ("membrane", "bending", "shear")
+
+
+@dataclass(frozen=True)
+class Plate:
+    """A meshed plate: n nodes, unknowns 5·node + field, fields ux, uy, w [m] and the director's tilts."""
+
+    basis: Basis
+    elements: PlateElements
+
+    @classmethod
+    def on(cls, mesh: MeshQuad) -> Plate:
+        """The plate on any flat mesh of straight-sided quadrilaterals [m]; ValueError for folded ones."""
+        require_upright(mesh)
+        basis = Basis(mesh, ElementQuad2(), intorder=5)
+        return cls(basis, plate_elements(basis))
+
+    @property
+    def nodes(self) -> np.ndarray:
+        """Plan positions (n, 2) [m]."""
+        return self.basis.doflocs.T
+
+    def strains(self) -> dict[str, np.ndarray]:
+        """Strain operators by part: membrane, bending (m, q, 3, 45) and shear (m, q, 2, 45)."""
+        element = self.elements
+        return dict(zip(PARTS, (element.membrane, element.curvature, element.shear), strict=True))
+
+    def sample(self, fields: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Nodal fields (n, k) at plan points (p, 2) [m]: (p, k). Raises ValueError off the mesh."""
+        element, local = locate(self.basis.mesh, points)
+        return np.einsum("ap,pak->pk", shape_values(local), fields[self.elements.nodes[element]])
+
+
+def solve(
+    scene: Scene,
+    elements: Elements = 16,
+    hard_edges: tuple[str, ...] = (),
+    section: Section | None = None,
+) -> Solution:
+    """The linear static answer; elements along the shorter side (near-square), or (nx, ny).
+
+    hard_edges: edges on which the tilt along the edge is held as well. A hinged support is soft; with
+    its edge hard it is the simple support of the published Mindlin benchmarks. section: stiffness per width,
+    from material and thickness unless given. Raises SceneError if the supports leave a rigid motion free.
+    """
+    require_static(scene)
+    begin = perf_counter()
+    along_x, along_y = divisions(scene.sheet.lengths, elements)
+    settings: dict[str, Any] = {"elements": [along_x, along_y]}
+    if hard_edges:
+        settings["hard_edges"] = list(hard_edges)
+    if section is not None:
+        settings["section"] = section._asdict()
+    mesh = rectangle(scene.sheet, (along_x, along_y))
+    return solve_on(mesh, scene, f"plate {along_x} × {along_y}", settings, begin, hard_edges, section)
+
+
+def solve_on(
+    mesh: MeshQuad,
+    scene: Scene,
+    label: str = "plate",
+    settings: dict[str, Any] | None = None,
+    begin: float | None = None,
+    hard_edges: tuple[str, ...] = (),
+    section: Section | None = None,
+) -> Solution:
+    """The same on any flat mesh of straight-sided quadrilaterals [m] with boundaries of the edges' names."""
+    begin = perf_counter() if begin is None else begin
+    plate = Plate.on(mesh)
+    rods = plate_rods.of_scene(scene, plate.basis.mesh, plate.elements.nodes, plate.nodes)
+    supports, held, fields = constrain(scene, plate, hard_edges, rods.rods)
+    force = rods.force(loads(scene, plate).ravel())
+    free = np.flatnonzero(~np.concatenate([held.ravel(), rods.held]))
+    ready = perf_counter()
+
+    u = np.concatenate([fields.ravel(), np.zeros(len(rods.held))])
+    status, message = Status.CONVERGED, ""
+    with one_blas_thread():
+        stiffness = rods.stiffness(stiffness_matrix(scene, plate, section))
+        try:
+            u[free] = DirectSolver().factor(stiffness[free][:, free]).solve((force - stiffness @ u)[free])
+        except SingularMatrix as error:
+            status, message = Status.SINGULAR, str(error)
+        unbalanced = stiffness @ u - force
+    done = perf_counter()
+
+    size = np.linalg.norm(force) + np.linalg.norm(np.delete(unbalanced, free))
+    fields, nodal = u[: fields.size].reshape(-1, 5), unbalanced[: fields.size].reshape(-1, 5)
+    exerted, line = plate_rods.exerted(scene, rods, supports, u, nodal, plate.nodes)
+    by_part = energies(scene, plate, u[: fields.size], section)
+    return Solution(
+        model="plate",
+        label=label,
+        settings=settings or {"elements": mesh.nelements},
+        status=status,
+        unknowns=len(free),
+        iterations=1,
+        setup_seconds=ready - begin,
+        solve_seconds=done - ready,
+        sample=lambda points: plate.sample(fields[:, :3], points),
+        reactions=supports.reactions(nodal[:, :3]),
+        energies={**by_part, "rod": rods.energy(u)} if rods.rods else by_part,
+        mesh=field_mesh(plate, fields, {"actuator_line_force": line} if scene.actuators else {}),
+        history=(Iteration(1.0, float(np.linalg.norm(unbalanced[free]) / (size or 1.0)), 1.0),),
+        load_factor=1.0 if status is Status.CONVERGED else 0.0,
+        message=message,
+        actuators=exerted,
+    )
+
+
+def section_stiffness(scene: Scene, section: Section | None = None) -> dict[str, np.ndarray]:
+    """Stiffness of the section by part: membrane [N/m] and bending [N·m] (3, 3), shear [N/m] (2, 2)."""
+    return dict(zip(PARTS, section or section_of(scene.material, scene.sheet.thickness), strict=True))
+
+
+def stiffness_matrix(scene: Scene, plate: Plate, section: Section | None = None) -> csr_matrix:
+    """Stiffness of the free plate, (5 n, 5 n) [N/m, N, N·m]."""
+    sections = section_stiffness(scene, section)
+    blocks = [_integrate(b, sections[part], plate.elements.areas) for part, b in plate.strains().items()]
+    return _assemble(plate, np.sum(blocks, axis=0))
+
+
+def mass_matrix(scene: Scene, plate: Plate) -> csr_matrix:
+    """Consistent mass with rotary inertia: ρh on the displacements, ρh³/12 on the tilts; (5 n, 5 n)."""
+    per_area = scene.material.density * scene.sheet.thickness
+    inertia = np.diag([per_area] * 3 + [per_area * scene.sheet.thickness**2 / 12.0] * 2)
+    values = plate.elements.values
+    products = np.einsum("mq,qa,qb->mab", plate.elements.areas, values, values)
+    return _assemble(plate, np.einsum("mab,ij->maibj", products, inertia))
+
+
+def energies(scene: Scene, plate: Plate, u: np.ndarray, section: Section | None = None) -> dict[str, float]:
+    """Membrane, bending and shear energy [J] of the unknowns u (5 n,)."""
+    sections, areas = section_stiffness(scene, section), plate.elements.areas
+    nodal = u[plate.elements.unknowns]
+    out = {}
+    for part, operator in plate.strains().items():
+        strain = np.einsum("mqic,mc->mqi", operator, nodal)
+        out[part] = 0.5 * float(np.einsum("mq,mqi,ij,mqj", areas, strain, sections[part], strain))
+    return out
+
+
+def constrain(
+    scene: Scene, plate: Plate, hard_edges: tuple[str, ...] = (), rods: Sequence[Rod] = ()
+) -> tuple[Supports, np.ndarray, np.ndarray]:
+    """The supports, which fields they hold (n, 5), and the prescribed values (n, 5), 0 where free.
+
+    rods: of the scene, whose bases hold a node.
+    """
+    on_edge = {str(on.edge): edge_nodes(plate, on.edge) for on in (*scene.supports, *scene.actuators)}
+    supports = shell_supports.of_scene(scene, plate.nodes, on_edge)
+    supports = edge_motion.hold(hold_bases(supports, rods), scene, plate.nodes, on_edge)
+    held = np.column_stack([supports.position, supports.director[:, None] | supports.tilt])
+    for name in hard_edges:
+        held[edge_nodes(plate, name), TILT_X + EDGES[name].along_axis] = True
+    values = np.zeros(held.shape)
+    for support in scene.supports:
+        if isinstance(support, Curved):
+            on, along = on_edge[support.edge], EDGES[support.edge].along_axis
+            s = plate.nodes[on, along] - rod_middle(support, scene.supports, scene.sheet)
+            values[on, W] = support.curvature * s**2 / 2.0
+            values[on, TILT_X + along] = -support.curvature * s
+        elif isinstance(support, Clamped) and support.tilt != 0.0:
+            edge = EDGES[support.edge]
+            values[on_edge[support.edge], TILT_X + edge.normal_axis] = (
+                -support.tilt * edge.outward[edge.normal_axis]
+            )
+    for moved in edge_motion.of_scene(scene, plate.nodes, on_edge):
+        displacement, turn = moved.small_change()
+        values[moved.nodes] = np.column_stack([displacement, np.tile(turn[:2], (len(moved.nodes), 1))])
+    return supports, held, values
+
+
+def edge_nodes(plate: Plate, edge: str) -> np.ndarray:
+    """Numbers of the nodes on an edge."""
+    return plate.basis.get_dofs(edge).flatten()
+
+
+def loads(scene: Scene, plate: Plate) -> np.ndarray:
+    """Work-equivalent nodal forces [N] and couples [N·m], (n, 5), with the last factor of every history."""
+    force = np.zeros((plate.basis.N, 5))
+    area = share(plate.basis)
+    if scene.gravity is not None:
+        weight = scene.material.density * scene.sheet.thickness * np.array(scene.gravity.acceleration)
+        force[:, :3] += np.outer(area, scene.gravity.last_factor * weight)
+    for load in scene.loads:
+        factor = load.last_factor
+        if isinstance(load, PointLoad):
+            element, local = locate(plate.basis.mesh, np.array([load.at]))
+            nodes = plate.elements.nodes[element[0]]
+            force[nodes, :3] += factor * np.outer(shape_values(local), load.force)
+        elif isinstance(load, EdgeLoad):
+            edge, mesh = EDGES[load.edge], plate.basis.mesh
+            length = share(FacetBasis(mesh, ElementQuad2(), facets=mesh.boundaries[load.edge]))
+            force[:, :3] += factor * np.outer(length, load.force_per_length)
+            outward = edge.outward[edge.normal_axis]
+            force[:, TILT_X + edge.normal_axis] -= factor * outward * load.moment_per_length * length
+        else:
+            force[:, W] += factor * load.value * area
+    return force
+
+
+def share(basis: Basis | FacetBasis, density: Callable[..., np.ndarray] | None = None) -> np.ndarray:
+    """∫ N f over the basis' surface or line, (n,), of a density f(x, y), 1 if None."""
+    form = LinearForm(lambda v, w: v if density is None else density(*w.x) * v)
+    return form.assemble(basis)
+
+
+def field_mesh(plate: Plate, fields: np.ndarray, more: dict[str, np.ndarray]) -> FieldMesh:
+    """Nodes and bilinear quarters of the elements, with displacement [m] and director of fields (n, 5), and
+    more data of the nodes."""
+    flat = np.zeros(len(fields))
+    return FieldMesh(
+        np.column_stack([plate.nodes, flat]),
+        [("quad", quarters(plate.basis.element_dofs))],
+        {"displacement": fields[:, :3], "director": np.column_stack([fields[:, 3:], flat + 1.0]), **more},
+    )
+
+
+def _integrate(operator: np.ndarray, section: np.ndarray, areas: np.ndarray) -> np.ndarray:
+    """∫ Bᵀ C B dA over every element, (m, 45, 45)."""
+    m, q, strains, columns = operator.shape
+    stress = (section @ operator) * areas[:, :, None, None]
+    flat = operator.reshape(m, q * strains, columns)
+    return flat.transpose(0, 2, 1) @ stress.reshape(m, q * strains, columns)
+
+
+def _assemble(plate: Plate, blocks: np.ndarray) -> csr_matrix:
+    size = 5 * plate.basis.N
+    blocks = blocks.reshape(-1, 5 * NODES, 5 * NODES)
+    return Pattern(plate.elements.unknowns, size).matrix(blocks, np.zeros(size))

@@ -1,0 +1,1 @@
+"""The geometrically nonlinear Reissner–Mindlin shell."""

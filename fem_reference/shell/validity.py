@@ -1,0 +1,108 @@
+"""What the shell watches for in its own answers: elements turned inside out or stretched, strains too large.
+
+inverted   (φ,r × φ,s) · d, positive in the flat sheet, has reached zero at a Gauss point.
+weight     ρ g a/E, the strain of a sheet of side a that hangs by its own weight: beyond 0.05 a linear law of
+           stress and strain means nothing; nor does it where the mid-surface is stretched by half.
+stretched  In an element of sides b ≥ l the membrane shear's assumed strains do not see a motion v along b
+           that goes like P₂(2y/b) across it. It changes along l at the cost of the stretch along b alone, so
+           that the bending moment M = D κ along l, doing work 2 M v,x ψ,x with the director's turn ψ, may
+           outweigh what resists both, the more the larger
+
+               (h κ/2) (b/l)²:
+
+           elements may lose stability, not the sheet. One-edge-clamped sheets of h/a from 0.01 to 0.1 on
+           graded meshes with b/l from 10 to 20 lose it from 19 on, none below; with the twist projected like
+           the membrane shear, which leaves ψ as free as v, from 9 on. From 5 on the tangent is asked. Only
+           where it has lost stability is the sheet divided evenly, b/l = 1, which stands any strain of the
+           model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from fem_reference.shell.element import BENDING, GAUSS, MEMBRANE, shape
+from fem_reference.shell.structure import ShellStructure, State
+from fem_reference.solving.equilibrium import Fault, Path, stability
+from fem_reference.solving.linear import DirectSolver
+from sheetbench.scenes import Scene, Status
+
+WEIGHT_LIMIT = 0.05
+MEMBRANE_LIMIT = 0.5
+STRETCH_LIMIT = 5.0
+STRETCHED = Fault(Status.UNSTABLE, "elements are stretched too far for how much they bend: divide it evenly")
+FLAT = 1e-6  # of the element's area in the flat sheet, below which it counts as turned inside out
+
+
+def inspector(
+    scene: Scene, structure: ShellStructure, solver: DirectSolver, graded: bool
+) -> Callable[[Path], Fault | None]:
+    """What `equilibrium.trace` is to look at; graded: elements are stretched, and may be without harm."""
+
+    def inspect(path: Path) -> Fault | None:
+        fault = inverted(structure, path.state)
+        if fault is None and graded and stretch(structure, path.state, scene.sheet.thickness) > STRETCH_LIMIT:
+            return None if stability(structure, solver, path)[0] is Status.CONVERGED else STRETCHED
+        return fault
+
+    return inspect
+
+
+def inverted(structure: ShellStructure, state: State) -> Fault | None:
+    """The element that has turned inside out most, if one has."""
+    value, slope = shape(*GAUSS)
+    reference = structure.element.reference
+    now = reference + structure._gather(state.change)
+    along, across = np.einsum("agi,eic->aegc", slope, now[:, :9])
+    area = np.einsum("egc,gi,eic->eg", np.cross(along, across), value, now[:, 9:])
+    flat = np.linalg.det(np.einsum("agi,eib->egba", slope, reference[:, :9, :2]))
+    share = (area / flat).min(axis=1)
+    worst = int(np.argmin(share))
+    if share[worst] > FLAT:
+        return None
+    x, y = reference[worst, 8, :2]
+    where = f"x = {x:.4g} m, y = {y:.4g} m"
+    return Fault(Status.INVERTED, f"the element at {where} has turned inside out: use more elements")
+
+
+def stretch(structure: ShellStructure, state: State, thickness: float) -> float:
+    """The largest (h κ/2) (b/l)² of all elements, κ the curvature along their shorter side."""
+    sides = _sides(structure)
+    strain = structure.element.strain(structure._gather(state.change))[:, BENDING]
+    bent = np.stack([np.abs(strain[:, part]).max(axis=1) for part in (slice(0, 6), slice(6, 12))], axis=1)
+    surface = 0.5 * thickness * bent / (0.5 * sides) ** 2
+    return float(np.max(surface * (sides[:, ::-1] / sides) ** 2))
+
+
+def membrane_strain(structure: ShellStructure, state: State) -> float:
+    """The mid-surface's largest stretching along an element's sides, √(1 + 2 E) − 1 of Green's strain E."""
+    strain = structure.element.strain(structure._gather(state.change))[:, MEMBRANE]
+    along = np.stack([strain[:, part].mean(axis=1) for part in (slice(0, 6), slice(6, 12))], axis=1)
+    green = along / (0.5 * _sides(structure)) ** 2
+    return float(np.max(np.abs(np.sqrt(np.maximum(1.0 + 2.0 * green, 0.0)) - 1.0)))
+
+
+def _sides(structure: ShellStructure) -> np.ndarray:
+    """Lengths of the elements along r and s, (m, 2) [m]."""
+    nodes = structure.element.reference[:, :9, :2]
+    return np.stack([np.linalg.norm(nodes[:, a] - nodes[:, b], axis=1) for a, b in ((5, 7), (6, 4))], axis=1)
+
+
+def weight_strain(scene: Scene) -> float:
+    """ρ g a/E, a the longer side."""
+    if scene.gravity is None:
+        return 0.0
+    weight = scene.material.density * float(np.linalg.norm(scene.gravity.acceleration))
+    return weight * max(scene.sheet.lengths) / scene.material.young
+
+
+def judge(scene: Scene, structure: ShellStructure, path: Path) -> Fault:
+    """The status and message of a path that has ended: strains beyond the model, if it has come to them."""
+    strain, stretched = weight_strain(scene), membrane_strain(structure, path.state)
+    within = strain <= WEIGHT_LIMIT and stretched <= MEMBRANE_LIMIT
+    if within or path.status is Status.NON_FINITE:
+        return Fault(path.status, path.message)
+    said = f"ρ g a/E = {strain:.3g}, the mid-surface stretched by {stretched:.3g} at most"
+    return Fault(Status.STRAIN_OUTSIDE_MODEL, "; ".join(filter(None, [said, path.message])))

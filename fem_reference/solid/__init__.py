@@ -1,0 +1,1 @@
+"""The geometrically nonlinear solid."""

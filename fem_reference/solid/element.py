@@ -1,0 +1,249 @@
+"""Twenty-seven-node brick with assumed strains and a projected change of volume.
+
+Covariant Green–Lagrange strains E_ab = ½ (x,a · x,b − X,a · X,b) are sampled and interpolated in the plane
+(ξ, η) and left alone through the thickness (ζ, three Gauss points), MITC9 in every layer:
+
+    ξξ, ξζ at 2 × 3      ηη, ηζ at 3 × 2      ξη at 2 × 2      ζζ at 3 × 3 Gauss points,
+
+so that neither membrane nor transverse shear locks in a thin sheet. ξη is taken at 3 × 3 points and
+projected on the bilinear functions of the 2 × 2; in a distorted brick that changes the mean of the Cartesian
+strain, on which the patch test hangs, and the difference is added back, level by level. Constant strains
+are exact in any brick with straight edges.
+
+Those 2 × 2 points do not see the shear of a motion along η that goes like P₂(η) and varies along ξ, but the
+stress along ξ, at 2 × 3, does: in a brick b ≫ l, with l along ξ, only the stretch along η holds it, and a
+compression −ε along ξ outweighs that where ε (b/l)² > 5 or so (measured), though no sheet would buckle. So
+bricks much longer than wide keep a share α of the dropped shear, α² = `KEPT`² − 2.5 (l/b)²: stable while
+ε < α²/2(1 + ν). All of it would lock the thin twisted sheet, and near-square bricks need none.
+
+In terms of the k = 126 samples everything is a quadratic form of the positions, e_k = ½ (x H_k x − X H_k X),
+with H_k the same for all elements, and B_k = H_k x.
+
+The volumetric energy is ½ λ (π ϑ)² with π the projection on {1, ξ, η} ⊗ {1, ζ}, element by element: the
+pressure λ π ϑ of a perturbed Lagrangian, condensed. As ν → ½ a pointwise ϑ locks; the L² projection
+is what Q2/P−1 does, with ζ ξ and ζ η added because in bending the pressure is odd in ζ and varies along the
+sheet. A function of strain only, so that the laws keep their form and the tangent is symmetric.
+Sources: Bucalem & Bathe (1993) for the tying; Sussman & Bathe (1987) for the projection.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from skfem import ElementHex2
+from skfem.quadrature import get_quadrature
+from skfem.refdom import RefHex
+
+from fem_reference.solid.materials import PAIRS, Law
+
+NODES = 27
+VOLUME_MODES = 6
+KEPT = 0.3  # at most, of the dropped shear: bent strips are stable up to surface strains of 0.045 (ν = 0)
+_TWO = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)
+_THREE = 0.5 + np.array([-0.5, 0.0, 0.5]) * np.sqrt(0.6)
+# Of the covariant components ξξ, ηη, ζζ, ξη, ηζ, ξζ (the order of PAIRS): the points along ξ and η between
+# which the strain is interpolated, and those at which it is sampled.
+_TYING = ((_TWO, _THREE), (_THREE, _TWO), (_THREE, _THREE), (_TWO, _TWO), (_THREE, _TWO), (_TWO, _THREE))
+_SITES = (*_TYING[:3], (_THREE, _THREE), *_TYING[4:])
+
+
+def shape(local: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Triquadratic shape functions (27, n) and gradients (27, 3, n) at local coordinates (3, n)."""
+    element = ElementHex2()
+    values = [element.lbasis(local, a) for a in range(NODES)]
+    return np.array([v[0] for v in values]), np.array([np.array(v[1]) for v in values])
+
+
+@dataclass(frozen=True)
+class Reference:
+    """What all elements share.
+
+    points: (3, q) Gauss points, q = 27; weights: (q,); forms: H (k, 27, 27);
+    assumed, lost: (q, 6, k) covariant strains at the Gauss points, engineering shears, from the samples: what
+    interpolation keeps of them and what it drops; levels: (q, q) 1 where two points are of one height;
+    modes: (q, 6) of the projection.
+    """
+
+    points: np.ndarray
+    weights: np.ndarray
+    forms: np.ndarray
+    assumed: np.ndarray
+    lost: np.ndarray
+    levels: np.ndarray
+    modes: np.ndarray
+
+
+@lru_cache(maxsize=1)
+def reference() -> Reference:
+    """Sampling points, forms and interpolation on the reference brick 0 ≤ ξ, η, ζ ≤ 1."""
+    points, weights = get_quadrature(RefHex, 5)
+    forms, kept, dropped = [], [], []
+    for (a, b), tying, sites in zip(PAIRS, _TYING, _SITES, strict=True):
+        _, slope = shape(np.array([[x, y, z] for x in sites[0] for y in sites[1] for z in _THREE]).T)
+        form = np.einsum("it,jt->tij", slope[:, a], slope[:, b])
+        forms.append(0.5 * (form + form.swapaxes(1, 2)) * (1.0 if a == b else 2.0))
+        axes = [*zip(tying, sites, points[:2], strict=True), (_THREE, _THREE, points[2])]
+        assumed = [_lagrange(site, tie) @ _lagrange(tie, x) for tie, site, x in axes]
+        sampled = [_lagrange(site, x) for _, site, x in axes]
+        kept.append(_product(assumed))
+        dropped.append(_product(sampled) - kept[-1])
+    x, y, z = 2.0 * points - 1.0
+    modes = np.array([np.ones_like(x), x, y, z, z * x, z * y]).T
+    levels = np.isclose(points[2][:, None], points[2]).astype(float)
+    weighted = _by_component(kept), _by_component(dropped)
+    return Reference(points, weights, np.concatenate(forms), *weighted, levels, modes)
+
+
+@dataclass(frozen=True)
+class Bricks:
+    """m elements of one material. positions: X (m, 27, 3) [m]; lame: λ, μ [Pa].
+
+    to_strain: (m, q, 6, k) Cartesian strain of the samples; volumes: (m, q) [m³].
+    """
+
+    positions: np.ndarray
+    law: Law
+    lame: tuple[float, float]
+    to_strain: np.ndarray
+    volumes: np.ndarray
+
+    @classmethod
+    def build(cls, positions: np.ndarray, law: Law, lame: tuple[float, float]) -> Bricks:
+        """The elements with nodes at positions (m, 27, 3), in scikit-fem's order of `ElementHex2`."""
+        ref = reference()
+        _, slope = shape(ref.points)
+        jacobian = np.einsum("eac,abq->eqcb", positions, slope)  # X_c,ξ_b
+        volumes = ref.weights * np.abs(np.linalg.det(jacobian))
+        pull_back = _pull_back(np.linalg.inv(jacobian))
+        share = volumes[:, None, :] * ref.levels / (volumes @ ref.levels)[:, :, None]
+        firm = _kept(jacobian)[:, None, None, None]
+        lost = pull_back @ ref.lost
+        to_strain = pull_back @ ref.assumed + firm * lost
+        to_strain += np.einsum("eqp,epik->eqik", share, (1.0 - firm) * lost, optimize=True)
+        return cls(positions, law, lame, to_strain, volumes)
+
+    def strain(self, change: np.ndarray) -> np.ndarray:
+        """Sampled strains (m, k) of displacements (m, 27, 3): ½ (x H x − X H X) = ½ u H (2X + u)."""
+        return 0.5 * np.einsum("ekic,eic->ek", self.gradient(self.positions + change), change)
+
+    def gradient(self, change: np.ndarray) -> np.ndarray:
+        """B = ∂e/∂u (m, k, 27, 3) at displacements (m, 27, 3)."""
+        forms = reference().forms
+        product = forms.reshape(-1, NODES) @ (self.positions + change)
+        return product.reshape(len(change), len(forms), NODES, 3)
+
+    def products(self) -> np.ndarray:
+        """∫ N_i N_j dV (m, 27, 27) [m³]."""
+        values, _ = shape(reference().points)
+        return np.einsum("eq,iq,jq->eij", self.volumes, values, values, optimize=True)
+
+    def volume_ratio(self, change: np.ndarray) -> np.ndarray:
+        """det F at the Gauss points (m, q) of displacements (m, 27, 3)."""
+        _, slope = shape(reference().points)
+        now, then = (
+            np.linalg.det(np.einsum("eac,abq->eqcb", x, slope))
+            for x in (self.positions + change, self.positions)
+        )
+        return now / then
+
+    def energies(self, samples: np.ndarray) -> tuple[float, float]:
+        """Distortional ∫ W₀ dV and volumetric ∫ ½ λ (π ϑ)² dV [J] of sampled strains (m, k)."""
+        strain = self._at_points(samples)
+        distortion = self.lame[1] * np.sum(self.volumes * self.law.distortion(strain).value)
+        pressure = self._pressure(self.law.volume(strain).value)
+        stretch = np.einsum("eq,eq,eq->", self.volumes, pressure, self.law.volume(strain).value)
+        return float(distortion), 0.5 * float(stretch)
+
+    def stress(self, samples: np.ndarray) -> np.ndarray:
+        """∂W/∂e (m, k) [J] of sampled strains (m, k)."""
+        if self.law.quadratic:
+            return np.einsum("ekl,el->ek", self._constant_stiffness, samples)
+        strain = self._at_points(samples)
+        volume = self.law.volume(strain)
+        stress = self.lame[1] * self.law.distortion(strain).first
+        stress = stress + self._pressure(volume.value)[..., None] * volume.first
+        return np.einsum("eqik,eq,eqi->ek", self.to_strain, self.volumes, stress, optimize=True)
+
+    def pressure(self, samples: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """λ π ϑ at the Gauss points (m, q) [Pa], linear in the step (m, k) from sampled strains (m, k)."""
+        volume = self.law.volume(self._at_points(samples))
+        return self._pressure(volume.value + np.einsum("eqi,eqi->eq", volume.first, self._at_points(step)))
+
+    def stiffness(self, samples: np.ndarray, pressure: np.ndarray | None = None) -> np.ndarray:
+        """∂²W/∂e² (m, k, k) [J] of sampled strains (m, k), at their own pressure (m, q) if none is given."""
+        return self._constant_stiffness if self.law.quadratic else self._stiffness(samples, pressure)
+
+    @cached_property
+    def _constant_stiffness(self) -> np.ndarray:
+        return self._stiffness(np.zeros((len(self.positions), self.to_strain.shape[-1])))
+
+    def _stiffness(self, samples: np.ndarray, pressure: np.ndarray | None = None) -> np.ndarray:
+        strain = self._at_points(samples)
+        volume = self.law.volume(strain)
+        pressure = self._pressure(volume.value) if pressure is None else pressure
+        tangent = self.lame[1] * self.law.distortion(strain).second
+        tangent = tangent + pressure[..., None, None] * volume.second
+        tangent = (tangent * self.volumes[..., None, None]) @ self.to_strain
+        m, q, _, k = tangent.shape
+        flat = self.to_strain.reshape(m, q * 6, k).swapaxes(1, 2)
+        slope = np.einsum("eqi,eqik->eqk", volume.first, self.to_strain)
+        projected = self._projector @ slope  # orthonormal modes: (m, 6, k)
+        return flat @ tangent.reshape(m, q * 6, k) + self.lame[0] * projected.swapaxes(1, 2) @ projected
+
+    def _at_points(self, samples: np.ndarray) -> np.ndarray:
+        return np.einsum("eqik,ek->eqi", self.to_strain, samples)
+
+    def _pressure(self, change_of_volume: np.ndarray) -> np.ndarray:
+        """λ π ϑ (m, q) of ϑ (m, q) at the Gauss points."""
+        coefficients = np.einsum("erq,eq->er", self._projector, change_of_volume)
+        return self.lame[0] * np.einsum("er,erq->eq", coefficients, self._projector) / self.volumes
+
+    @cached_property
+    def _projector(self) -> np.ndarray:
+        """P (m, 6, q): ∫ φ_r ϑ dV = P ϑ for modes φ_r orthonormal over the element."""
+        modes = reference().modes
+        gram = np.einsum("qr,eq,qs->ers", modes, self.volumes, modes)
+        return np.linalg.solve(np.linalg.cholesky(gram), (modes * self.volumes[..., None]).swapaxes(1, 2))
+
+
+def geometric(stress: np.ndarray) -> np.ndarray:
+    """Σ_k s_k H_k (m, 27, 27) [J/m²] of sampled stresses (m, k)."""
+    forms = reference().forms
+    return (stress @ forms.reshape(len(forms), -1)).reshape(-1, NODES, NODES)
+
+
+def _kept(jacobian: np.ndarray) -> np.ndarray:
+    """α (m,): what bricks with X_c,ξ_b (m, q, c, b) keep of the dropped in-plane shear."""
+    sides = np.linalg.norm(jacobian[..., :2], axis=-2).mean(axis=1)
+    return np.sqrt(np.maximum(KEPT**2 - 2.5 * (sides.min(axis=1) / sides.max(axis=1)) ** 2, 0.0))
+
+
+def _pull_back(inverse: np.ndarray) -> np.ndarray:
+    """Cartesian strain of covariant strain, (…, 6, 6), both with engineering shears; inverse: ξ_b,x_c."""
+    out = np.zeros((*inverse.shape[:-2], 6, 6))
+    for row, (i, j) in enumerate(PAIRS):
+        for column, (a, b) in enumerate(PAIRS):
+            both = inverse[..., a, i] * inverse[..., b, j] + inverse[..., b, i] * inverse[..., a, j]
+            out[..., row, column] = both * (0.5 if i == j else 1.0)
+    return out
+
+
+def _product(axes: list[np.ndarray]) -> np.ndarray:
+    """(q, k) of the weights (k_axis, q) along ξ, η, ζ: products, the last axis fastest."""
+    return np.einsum("aq,bq,cq->qabc", *axes).reshape(axes[0].shape[1], -1)
+
+
+def _by_component(weights: list[np.ndarray]) -> np.ndarray:
+    """(q, 6, k): the weights of a component act on its own samples."""
+    counts = np.cumsum([0, *(w.shape[1] for w in weights)])
+    out = np.zeros((len(weights[0]), len(weights), counts[-1]))
+    for component, weight in enumerate(weights):
+        out[:, component, counts[component] : counts[component + 1]] = weight
+    return out
+
+
+def _lagrange(nodes: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Lagrange polynomials (k, n) of the nodes (k,) at x (n,)."""
+    return np.array([np.prod([(x - b) / (a - b) for b in nodes if b != a], axis=0) for a in nodes])

@@ -1,0 +1,116 @@
+"""A plan mesh of quadrilaterals extruded into layers of 27-node bricks: columns of nodes over plan nodes.
+
+Node (plan node j, level l) has the number j · levels + l, with 2 · layers + 1 levels from the bottom face to
+the top one; the middle level is the mid-surface. Through the thickness the fields are piecewise quadratic,
+N_l(ζ), and two averages of a column stand for the sheet as a surface:
+
+    mean x̄ = 1/h ∫ x dζ        director D = 12/h³ ∫ ζ x dζ        (flat: the plan point and e_z)
+
+A graded mesh maps equal divisions 0 ≤ t ≤ 1 of a side to ½ (1 − cos πt): the first row is (π/2n)² of the
+side. Coordinates in metres.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from skfem import Basis, ElementHex2, ElementQuad2, MeshQuad
+
+from fem_reference.surface.mesh import quarters, rectangle
+from sheetbench.scenes import FieldMesh, Sheet
+
+
+@dataclass(frozen=True)
+class Columns:
+    """n plan nodes on a plan basis of `ElementQuad2`, extruded to a thickness [m] in layers."""
+
+    plan: Basis
+    thickness: float
+    layers: int
+
+    @classmethod
+    def on(cls, mesh: MeshQuad, thickness: float, layers: int) -> Columns:
+        """The columns over any flat mesh of straight-sided quadrilaterals."""
+        return cls(Basis(mesh, ElementQuad2()), thickness, layers)
+
+    @property
+    def levels(self) -> int:
+        return 2 * self.layers + 1
+
+    @property
+    def plan_nodes(self) -> np.ndarray:
+        """(n, 2) [m]."""
+        return self.plan.doflocs.T
+
+    @property
+    def plan_elements(self) -> np.ndarray:
+        """Plan nodes of the plan's elements, (m, 9)."""
+        return self.plan.element_dofs.T
+
+    @cached_property
+    def heights(self) -> np.ndarray:
+        """z of the levels, (levels,) [m]."""
+        return np.linspace(-0.5, 0.5, self.levels) * self.thickness
+
+    @cached_property
+    def positions(self) -> np.ndarray:
+        """Nodes by column, (n, levels, 3) [m]."""
+        out = np.zeros((len(self.plan_nodes), self.levels, 3))
+        out[:, :, :2] = self.plan_nodes[:, None]
+        out[:, :, 2] = self.heights
+        return out
+
+    @cached_property
+    def averages(self) -> np.ndarray:
+        """Weights of mean and director in a column's positions, (2, levels)."""
+        out = np.zeros((2, self.levels))
+        slab = self.thickness / self.layers
+        for layer in range(self.layers):
+            nodes = slice(2 * layer, 2 * layer + 3)
+            share = slab * np.array([1.0, 4.0, 1.0]) / 6.0  # ∫ N dζ
+            lever = slab**2 * np.array([-1.0, 0.0, 1.0]) / 12.0  # ∫ (ζ − ζ_middle) N dζ
+            out[0, nodes] += share / self.thickness
+            out[1, nodes] += 12.0 / self.thickness**3 * (self.heights[2 * layer + 1] * share + lever)
+        return out
+
+    @cached_property
+    def stacks(self) -> np.ndarray:
+        """Nodes of the bricks over every plan element, (m, 9 · levels), by column."""
+        return (self.levels * self.plan_elements[:, :, None] + np.arange(self.levels)).reshape(
+            len(self.plan_elements), -1
+        )
+
+    @cached_property
+    def places(self) -> np.ndarray:
+        """Where a stack holds the nodes of its bricks, (layers, 27), in the order of `ElementHex2`."""
+        flat = {tuple(site): i for i, site in enumerate(ElementQuad2.doflocs)}
+        column = np.array([flat[tuple(site[:2])] for site in ElementHex2.doflocs])
+        level = np.rint(2.0 * ElementHex2.doflocs[:, 2]).astype(int)
+        return np.array([self.levels * column + level + 2 * layer for layer in range(self.layers)])
+
+    def edge(self, name: str) -> np.ndarray:
+        """Plan nodes on an edge."""
+        return self.plan.get_dofs(name).flatten()
+
+    def field_mesh(self, displacement: np.ndarray) -> FieldMesh:
+        """Nodes and trilinear eighths of the bricks, with displacement (n, levels, 3) [m]."""
+        plan = quarters(self.plan.element_dofs)
+        a, b, _, d = (self.plan_nodes[plan[:, corner]].T for corner in range(4))
+        clockwise = (b - a)[0] * (d - a)[1] < (b - a)[1] * (d - a)[0]  # as scikit-fem numbers some meshes
+        base = self.levels * np.where(clockwise[:, None], plan[:, ::-1], plan)
+        cells = [np.concatenate([base + level, base + level + 1], axis=1) for level in range(self.levels - 1)]
+        return FieldMesh(
+            self.positions.reshape(-1, 3),
+            [("hexahedron", np.concatenate(cells))],
+            {"displacement": displacement.reshape(-1, 3)},
+        )
+
+
+def graded_rectangle(sheet: Sheet, elements: tuple[int, int]) -> MeshQuad:
+    """The plan mesh of the sheet with elements that shrink towards all edges."""
+    mesh = rectangle(sheet, elements)
+    lengths = np.array(sheet.lengths)[:, None]
+    points = 0.5 * lengths * (1.0 - np.cos(np.pi * mesh.p / lengths))
+    return MeshQuad(points, mesh.t).with_boundaries(mesh.boundaries)

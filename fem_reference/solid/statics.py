@@ -1,0 +1,159 @@
+"""Geometrically nonlinear three-dimensional solid: the sheet without a plate theory's assumptions.
+
+    ∫ S(E) : δE dV = δ(loads),    E = ½ (Fᵀ F − 1)
+
+total Lagrangian, St Venant–Kirchhoff (default) or neo-Hooke (`solid_materials`), on 27-node bricks that lock
+neither in a thin sheet nor as ν → ½ (`solid_element`), in one layer or more. Displacements are the
+mid-surface's.
+
+At every edge the solid has a layer as wide as the sheet is thick: at a free one the twisting stress turns
+round, at a clamp the Poisson contraction is stopped. On a uniform mesh much coarser than that, answers
+converge like 1/n (a full clamp's stress is singular besides): the mesh is graded towards the edges. The
+default clamp is a shell's (`solid_supports`). Actuators are the shell's rods and motions (`solid_rods`). SI
+units.
+"""
+
+from __future__ import annotations
+
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from sheetbench.scenes.scene import require_static
+from skfem import MeshQuad
+
+from fem_reference.plate.element import shape_values
+from fem_reference.shell.element import GAUSS, GAUSS_WEIGHTS
+from fem_reference.solid import supports as solid_supports
+from fem_reference.solid.element import Bricks
+from fem_reference.solid.materials import LAWS, lame
+from fem_reference.solid.mesh import Columns, graded_rectangle
+from fem_reference.solid.rods import RoddedSolid
+from fem_reference.solid.structure import SolidStructure
+from fem_reference.solving.equilibrium import trace
+from fem_reference.solving.linear import DirectSolver
+from fem_reference.surface import loads as shell_loads
+from fem_reference.surface import rod
+from fem_reference.surface.location import locate
+from fem_reference.surface.mesh import Elements, divisions, rectangle, require_upright
+from sheetbench.scenes import Scene, Solution, Status
+
+MESHES = {"edges": graded_rectangle, "uniform": rectangle}
+
+
+def solve(
+    scene: Scene,
+    elements: Elements = 16,
+    layers: int = 1,
+    law: str = "st-venant-kirchhoff",
+    clamp: str = "shell-like",
+    grading: str = "edges",
+) -> Solution:
+    """The static equilibrium of a scene; elements along the shorter side (near-square), or (nx, ny).
+
+    layers: bricks through the thickness; law: a key of `LAWS`; clamp: one of `solid_supports.CLAMPS`;
+    grading: a key of `MESHES`.
+    Raises scenes.SceneError if the supports leave a rigid motion free, ValueError for an unknown option.
+    """
+    require_static(scene)
+    begin = perf_counter()
+    along_x, along_y = divisions(scene.sheet.lengths, elements)
+    mesh = mesh_of(scene, (along_x, along_y), grading)
+    settings = {"elements": [along_x, along_y], "grading": grading}
+    return solve_on(
+        mesh, scene, f"solid {along_x} × {along_y} × {layers}", settings, begin, layers, law, clamp
+    )
+
+
+def solve_on(
+    mesh: MeshQuad,
+    scene: Scene,
+    label: str = "solid",
+    settings: dict[str, Any] | None = None,
+    begin: float | None = None,
+    layers: int = 1,
+    law: str = "st-venant-kirchhoff",
+    clamp: str = "shell-like",
+) -> Solution:
+    """The same on columns over any flat mesh of straight-sided quadrilaterals [m]."""
+    begin = perf_counter() if begin is None else begin
+    structure = discretise(mesh, scene, layers, law, clamp)
+    solver = DirectSolver(structure.symmetric)
+    ready = perf_counter()
+    path = trace(structure, solver)
+    done = perf_counter()
+
+    columns, displacement = structure.columns, path.state.displacement
+    status, message = path.status, path.message
+    if status is Status.CONVERGED and structure.inside_out(path.state):
+        status, message = Status.INVERTED, "a brick has turned inside out"
+    forces = structure.forces(path.state, path.load_factor)
+    exerted = {}
+    if isinstance(structure, RoddedSolid):
+        exerted = structure.wrenches(scene, path.state, forces)
+    return Solution(
+        model="solid",
+        label=label,
+        settings={**(settings or {"elements": mesh.nelements}), "layers": layers, "law": law, "clamp": clamp},
+        status=status,
+        unknowns=structure.unknowns,
+        iterations=path.factorisations,
+        setup_seconds=ready - begin,
+        solve_seconds=done - ready,
+        sample=lambda points: sample(columns, displacement, points),
+        reactions=structure.supports.reactions(forces.residual, path.load_factor),
+        energies=structure.energies(path.state),
+        mesh=columns.field_mesh(displacement),
+        history=tuple(path.history),
+        load_factor=path.load_factor,
+        message=message,
+        actuators=exerted,
+    )
+
+
+def mesh_of(scene: Scene, elements: tuple[int, int], grading: str) -> MeshQuad:
+    """The plan mesh. Raises ValueError for an unknown grading."""
+    if grading not in MESHES:
+        raise ValueError(f"grading = {grading!r}: known are {', '.join(MESHES)}")
+    return MESHES[grading](scene.sheet, elements)
+
+
+def discretise(
+    mesh: MeshQuad,
+    scene: Scene,
+    layers: int = 1,
+    law: str = "st-venant-kirchhoff",
+    clamp: str = "shell-like",
+) -> SolidStructure:
+    """The discrete solid of a scene on a plan mesh of straight-sided quadrilaterals.
+
+    Supports and loads act on the mesh's boundaries of their edges' names; of the scene's sheet only the
+    thickness is used. Raises ValueError for an unknown law or clamp, no layers or a folded element.
+    """
+    require_upright(mesh)
+    if law not in LAWS:
+        raise ValueError(f"law = {law!r}: known are {', '.join(LAWS)}")
+    if layers < 1:
+        raise ValueError(f"layers = {layers}: at least one through the thickness")
+    columns = Columns.on(mesh, scene.sheet.thickness, layers)
+    stacks = columns.positions.reshape(-1, 3)[columns.stacks]
+    positions = np.concatenate([stacks[:, place] for place in columns.places])
+    bricks = Bricks.build(positions, LAWS[law], lame(scene.material))
+    areas = np.abs(mesh.mapping().detDF((np.array(GAUSS) + 1.0) / 2.0)) * GAUSS_WEIGHTS / 4.0
+    rods = []
+    if scene.actuators:
+        rods = rod.of_scene(
+            scene, columns.plan_nodes, rod.sides(scene, mesh, columns.plan_elements, columns.plan_nodes)
+        )
+    supports = solid_supports.of_scene(scene, columns, clamp, rods)
+    dead, followers = shell_loads.of_scene(scene, mesh, columns.plan_elements, columns.plan_nodes, areas)
+    if scene.actuators:
+        return RoddedSolid(columns, bricks, supports, dead, followers, rods)
+    return SolidStructure(columns, bricks, supports, dead, followers)
+
+
+def sample(columns: Columns, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m] of nodal ones (n, levels, 3)."""
+    element, local = locate(columns.plan.mesh, points)
+    nodal = displacement[columns.plan_elements[element], columns.layers]
+    return np.einsum("ip,pic->pc", shape_values(local), nodal)

@@ -1,0 +1,234 @@
+"""The discrete solid: residual and tangent over all nodes, three unknowns a node.
+
+State: displacement u (n, levels, 3) and the sampled stresses s of every brick. R = Bᵀ s − λ f; with
+K = Bᵀ D B + Σ s_k H_k ⊗ I the step is Newton's, and `mixed` takes the stress that the last step extrapolated,
+s + D B δu, for the geometric part (see `equilibrium`: the strain is quadratic in u, as in the shell), and
+the extrapolated pressure in D: near ν = ½ the current one is a large error until volumes fit.
+Held components q, u = Z q (see `solid_supports`), go to their targets in the first step.
+
+Loads act on the sheet as a surface, its mean position x̄ and director D (see `solid_mesh`), with the shell's
+work: a dead force or the pressure on x̄ is a body force uniform through the thickness, an edge moment
+on D a traction linear in ζ. To first order in the strain the power of pressure and moment is the shell's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from fem_reference.solid.element import NODES, Bricks, geometric
+from fem_reference.solid.mesh import Columns
+from fem_reference.solid.supports import ColumnSupports, components, into_forces, vectors
+from fem_reference.solving.sparsity import Pattern
+from fem_reference.surface.loads import Follower
+
+
+@dataclass(frozen=True)
+class State:
+    """displacement (n, levels, 3) [m]; extrapolated stress (m · layers, k), the bricks' own where None."""
+
+    displacement: np.ndarray
+    stress: np.ndarray | None = None
+    pressure: np.ndarray | None = None
+
+
+@dataclass(frozen=True)
+class Forces:
+    """At a state: B (…, k, 27, 3), e and s (…, k) of the bricks, residual R (n, levels, 3) [N].
+
+    size: what R is measured against [N]; bases: Z of the columns.
+    """
+
+    gradient: np.ndarray
+    strain: np.ndarray
+    stress: np.ndarray
+    residual: np.ndarray
+    size: float
+    bases: np.ndarray
+
+
+class SolidStructure:
+    """A solid sheet with its supports and loads, ready for `equilibrium.trace`."""
+
+    def __init__(
+        self,
+        columns: Columns,
+        bricks: Bricks,
+        supports: ColumnSupports,
+        dead: np.ndarray,
+        followers: list[Follower],
+    ):
+        """bricks: layer by layer, over the plan's elements; dead: forces on the mean surface (n, 3) [N]."""
+        self.columns, self.bricks, self.supports = columns, bricks, supports
+        self.followers = followers
+        self.dead = columns.averages[0][:, None] * dead[:, None, :]
+        self.free = ~supports.held
+        self.number = np.where(self.free, np.cumsum(self.free.ravel()).reshape(self.free.shape) - 1, -1)
+        self.unknowns = int(self.free.sum())
+        of_stack = self.number.reshape(-1, 3)[columns.stacks]
+        self.pattern = Pattern(of_stack.reshape(len(of_stack), -1), self.unknowns)
+        self._lever = float(np.ptp(columns.plan_nodes, axis=0).max())
+        self._turned = supports.turned[columns.plan_elements].any(axis=1)
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether the tangent is: follower loads make it unsymmetric."""
+        return not self.followers
+
+    def rest(self) -> State:
+        """Flat and free of stress."""
+        return State(np.zeros_like(self.columns.positions))
+
+    def energies(self, state: State) -> dict[str, float]:
+        """Strain energy [J] by part of the law."""
+        distortion, volumetric = self.bricks.energies(self.bricks.strain(self._of_bricks(state.displacement)))
+        return {"distortion": distortion, "volumetric": volumetric}
+
+    def forces(self, state: State, load_factor: float) -> Forces:
+        """Internal less external forces, and what they are measured against."""
+        change = self._of_bricks(state.displacement)
+        gradient, strain = self.bricks.gradient(change), self.bricks.strain(change)
+        stress = self.bricks.stress(strain)
+        internal = self._scatter(_forces_of(gradient, stress))
+        external = load_factor * self._external(state.displacement)
+        bases = self.supports.bases(load_factor)
+        size = np.linalg.norm(external) + np.linalg.norm(internal[self.supports.held])
+        return Forces(gradient, strain, stress, internal - external, float(size), bases)
+
+    def imbalance(self, state: State, forces: Forces) -> float:
+        """Norm of the residual of the free unknowns [N]."""
+        return float(np.linalg.norm(into_forces(forces.bases, forces.residual)[self.free]))
+
+    def gap(self, state: State, load_factor: float) -> float:
+        """Largest distance from the prescribed values, relative to the sheet's size."""
+        step = self._to_supports(state.displacement, load_factor, self.supports.bases(load_factor))
+        return float(np.abs(step).max() / self._lever)
+
+    def system(
+        self, state: State, forces: Forces, load_factor: float, mixed: bool = True
+    ) -> tuple[csr_matrix, np.ndarray]:
+        """Tangent (unknowns, unknowns) and right-hand side of the step to equilibrium and supports."""
+        last = state if mixed else State(state.displacement)
+        stiffness = self._stack(self._brick_stiffness(forces, last))
+        if self.followers:
+            vectors = self._surface(self.columns.positions + state.displacement)
+            for load in self.followers:
+                stiffness[load.elements] -= load_factor * self._of_surface(
+                    load.tangent(vectors[load.elements])
+                )
+        step = self._to_supports(state.displacement, load_factor, forces.bases)
+        of_step = step.reshape(-1, 3)[self.columns.stacks].reshape(len(stiffness), -1, 1)
+        pull = forces.residual + self._scatter_stacks(stiffness @ of_step)
+        turned = self._turned
+        if np.any(turned):
+            stiffness[turned] = self._turn(stiffness[turned], forces.bases)
+        matrix = self.pattern.matrix(stiffness, np.zeros(self.pattern.size))
+        return matrix, -into_forces(forces.bases, pull)[self.free]
+
+    def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
+        """The state after a step (unknowns,), with the stress it extrapolates."""
+        full = np.zeros(self.free.shape)
+        full[self.free] = step
+        change = self._to_supports(state.displacement, load_factor, forces.bases) + vectors(
+            forces.bases, full
+        )
+        strain = np.einsum("ekic,eic->ek", forces.gradient, self._of_bricks(change))
+        of_step = np.einsum("ekl,el->ek", self.bricks.stiffness(forces.strain, state.pressure), strain)
+        pressure = self.bricks.pressure(forces.strain, strain)
+        return State(state.displacement + change, forces.stress + of_step, pressure)
+
+    def mass(self, density: float) -> csr_matrix:
+        """Consistent mass ∫ ρ N N dV of the free unknowns [kg]; density [kg/m³]."""
+        products = density * self.bricks.products()
+        blocks = self._stack(np.einsum("eij,cd->eicjd", products, np.eye(3)))
+        return self.pattern.matrix(blocks, np.zeros(self.pattern.size))
+
+    def length(self, start: State, end: State) -> float:
+        """Largest nodal displacement between two states, relative to the sheet's size."""
+        return float(np.abs(end.displacement - start.displacement).max() / self._lever)
+
+    def inside_out(self, state: State) -> bool:
+        """Whether a brick has turned inside out at a Gauss point."""
+        return bool(np.any(self.bricks.volume_ratio(self._of_bricks(state.displacement)) <= 0.0))
+
+    def _brick_stiffness(self, forces: Forces, last: State) -> np.ndarray:
+        """Bᵀ D B + Σ s_k H_k ⊗ I, (…, 27, 3, 27, 3)."""
+        stress = forces.stress if last.stress is None else last.stress
+        flat = forces.gradient.reshape(*forces.gradient.shape[:2], 3 * NODES)
+        stiffness = flat.swapaxes(1, 2) @ (self.bricks.stiffness(forces.strain, last.pressure) @ flat)
+        stiffness = stiffness.reshape(-1, NODES, 3, NODES, 3)
+        form = geometric(stress)
+        for axis in range(3):
+            stiffness[:, :, axis, :, axis] += form
+        return stiffness
+
+    def _stack(self, of_bricks: np.ndarray) -> np.ndarray:
+        """Matrices (layers · m, 27, 3, 27, 3) of bricks summed over their stacks, (m, 3 s, 3 s)."""
+        m, s = self.columns.stacks.shape
+        out = np.zeros((m, s, 3, s, 3))
+        for place, bricks in zip(self.columns.places, np.split(of_bricks, self.columns.layers), strict=True):
+            out[:, place[:, None], :, place[None, :], :] += bricks.transpose(1, 3, 0, 2, 4)
+        return out.reshape(m, 3 * s, 3 * s)
+
+    def _turn(self, stacks: np.ndarray, bases: np.ndarray) -> np.ndarray:
+        """Zᵀ K Z of the turned stacks, (k, 3 s, 3 s)."""
+        k, size = stacks.shape[:2]
+        z = bases[self.columns.plan_elements[self._turned]]  # (k, 9, 3 levels, 3 levels)
+        for _ in range(2):
+            rows = stacks.reshape(*z.shape[:3], size)
+            stacks = (z.swapaxes(2, 3) @ rows).reshape(k, size, size).swapaxes(1, 2)
+        return stacks
+
+    def _to_supports(self, displacement: np.ndarray, load_factor: float, bases: np.ndarray) -> np.ndarray:
+        """The step (n, levels, 3) to the prescribed values."""
+        gap = components(bases, self.supports.target(load_factor) - displacement)
+        return vectors(bases, np.where(self.free, 0.0, gap))
+
+    def _external(self, displacement: np.ndarray) -> np.ndarray:
+        external = self.dead.copy()
+        if self.followers:
+            vectors = self._surface(self.columns.positions + displacement)
+            for load in self.followers:
+                on = self.columns.plan_elements[load.elements]
+                force = load.force(vectors[load.elements]).reshape(len(on), 2, 9, 3)
+                spread = np.einsum("epic,pl->eilc", force, self.columns.averages)
+                np.add.at(external, on, spread)
+        return external
+
+    def _surface(self, positions: np.ndarray) -> np.ndarray:
+        """Mean and director at the nodes of the plan's elements, (m, 18, 3)."""
+        averages = np.einsum("pl,nlc->pnc", self.columns.averages, positions)[:, self.columns.plan_elements]
+        return np.concatenate([averages[0], averages[1]], axis=1)
+
+    def _of_surface(self, tangent: np.ndarray) -> np.ndarray:
+        """Derivatives of surface forces (k, 18, 3, 18, 3) as matrices of stacks (k, 3 s, 3 s)."""
+        k, size = len(tangent), 3 * self.columns.stacks.shape[1]
+        parts = tangent.reshape(k, 2, 9, 3, 2, 9, 3)
+        averages = self.columns.averages
+        return np.einsum("epicrjd,pl,rm->eilcjmd", parts, averages, averages, optimize=True).reshape(
+            k, size, size
+        )
+
+    def _of_bricks(self, nodal: np.ndarray) -> np.ndarray:
+        """Nodal vectors (n, levels, 3) at the nodes of the bricks, (layers · m, 27, 3)."""
+        stacks = nodal.reshape(-1, 3)[self.columns.stacks]
+        return np.concatenate([stacks[:, place] for place in self.columns.places])
+
+    def _scatter(self, of_bricks: np.ndarray) -> np.ndarray:
+        """Vectors (layers · m, 27, 3) of bricks summed over the nodes, (n, levels, 3)."""
+        m, s = self.columns.stacks.shape
+        stacks = np.zeros((m, s, 3))
+        for place, bricks in zip(self.columns.places, np.split(of_bricks, self.columns.layers), strict=True):
+            stacks[:, place] += bricks
+        return self._scatter_stacks(stacks)
+
+    def _scatter_stacks(self, stacks: np.ndarray) -> np.ndarray:
+        where = (3 * self.columns.stacks[:, :, None] + np.arange(3)).ravel()
+        return np.bincount(where, stacks.ravel(), self.dead.size).reshape(self.dead.shape)
+
+
+def _forces_of(gradient: np.ndarray, stress: np.ndarray) -> np.ndarray:
+    """Bᵀ s, (m, 27, 3)."""
+    return np.einsum("ekic,ek->eic", gradient, stress)

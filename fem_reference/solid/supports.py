@@ -1,0 +1,145 @@
+"""What supports hold in the solid, as a function of the load factor.
+
+Hinged and held edges hold the mean of every column along the edge, and the face turns freely about it; a
+held mid-line would be the same for a thin sheet, but for the dent of a line support, which grows without
+bound as the mesh is refined. A clamp holds the edge's face:
+
+    "shell-like"  the face stays on the director, free to change its thickness along it: the components across
+                  the director are held everywhere, the one along it on the mid-line only. This is the
+                  clamp of a shell, and leaves no singular corner
+    "full"        all three components of the whole face; the strain is singular at its rims
+
+A plane of symmetry holds the component across it in the whole face.
+
+The face of a rod bent by λκ follows the rod's director: held values are u = u_rod + ζ (d − e_z); that of a
+tilted clamp and of an edge moved rigidly do likewise. The column that an actuator's base holds is held as a
+clamp holds it. A column's displacements are u = Z q, with q the components that are held or free: along the
+face's axes (across the edge, along it, d), and on a hinged or held edge with the column's mean in place of
+its middle node.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from fem_reference.solid.mesh import Columns
+from fem_reference.surface import edge_motion
+from fem_reference.surface import supports as shell_supports
+from fem_reference.surface.edge_motion import MovedEdge
+from fem_reference.surface.rod import Rod
+from fem_reference.surface.supports import Supports
+from sheetbench.scenes import EdgeMotion, Scene, Symmetric, holds_director
+
+CLAMPS = ("shell-like", "full")
+
+
+@dataclass(frozen=True)
+class ColumnSupports:
+    """held: (n, levels, 3) of the components q; edges: name → held components of its own; hinged: (n,);
+    moved: the edges moved rigidly."""
+
+    line: Supports
+    columns: Columns
+    held: np.ndarray
+    edges: dict[str, np.ndarray]
+    hinged: np.ndarray
+    moved: tuple[MovedEdge, ...] = ()
+
+    def target(self, load_factor: float) -> np.ndarray:
+        """Prescribed displacement (n, levels, 3) [m]; zero where nothing moves."""
+        displacement, turn = self.line.change(load_factor)
+        return displacement[:, None] + self.columns.heights[:, None] * turn[:, None]
+
+    def bases(self, load_factor: float) -> np.ndarray:
+        """Z (n, 3 levels, 3 levels) of every column."""
+        levels, middle = self.columns.levels, self.columns.layers
+        axes = np.tile(np.eye(3), (len(self.held), 1, 1))
+        for face in self.line.turning:
+            _, turn = face.change(load_factor)
+            sine, cosine = -turn[:, face.axis], 1.0 + turn[:, 2]
+            axes[face.nodes, face.axis, face.axis], axes[face.nodes, 2, face.axis] = cosine, sine
+            axes[face.nodes, face.axis, 2], axes[face.nodes, 2, 2] = -sine, cosine
+        for moved in self.moved:
+            axes[moved.nodes] = moved.turn(load_factor).as_matrix()
+        with_mean = np.eye(levels)
+        with_mean[middle] = self.columns.averages[0]
+        spread = np.where(self.hinged[:, None, None], np.linalg.inv(with_mean), np.eye(levels))
+        size = 3 * levels
+        return np.einsum("nlm,nck->nlcmk", spread, axes).reshape(-1, size, size)
+
+    @property
+    def turned(self) -> np.ndarray:
+        """Plan nodes (n,) whose Z is not the identity."""
+        on = self.hinged.copy()
+        for face in self.line.turning:
+            on[face.nodes] = True
+        for moved in self.moved:
+            on[moved.nodes] = True
+        return on
+
+    def reactions(self, nodal: np.ndarray, load_factor: float) -> dict[str, np.ndarray]:
+        """Force [N] (3,) of each support from nodal ones (n, levels, 3); what several hold they share."""
+        bases = self.bases(load_factor)
+        shared = into_forces(bases, nodal) / np.maximum(sum(self.edges.values()), 1)
+        levels = self.columns.levels
+        rigid = np.linalg.solve(bases, np.tile(np.eye(3), (levels, 1)))  # q of the unit translations
+        rigid = rigid.reshape(len(bases), levels, 3, 3)
+        return {
+            name: np.einsum("nlk,nlkc->c", np.where(held, shared, 0.0), rigid)
+            for name, held in self.edges.items()
+        }
+
+
+def components(bases: np.ndarray, displacement: np.ndarray) -> np.ndarray:
+    """q = Z⁻¹ u, (n, levels, 3)."""
+    flat = displacement.reshape(*bases.shape[:2], 1)
+    return np.linalg.solve(bases, flat).reshape(displacement.shape)
+
+
+def vectors(bases: np.ndarray, q: np.ndarray) -> np.ndarray:
+    """u = Z q, (n, levels, 3)."""
+    return (bases @ q.reshape(*bases.shape[:2], 1)).reshape(q.shape)
+
+
+def into_forces(bases: np.ndarray, nodal: np.ndarray) -> np.ndarray:
+    """Forces on the components, Zᵀ r, (n, levels, 3)."""
+    return (bases.swapaxes(1, 2) @ nodal.reshape(*bases.shape[:2], 1)).reshape(nodal.shape)
+
+
+def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = ()) -> ColumnSupports:
+    """The supports of a scene; rods: of its actuators. Raises ValueError for an unknown clamp."""
+    if clamp not in CLAMPS:
+        raise ValueError(f"clamp = {clamp!r}: known are {', '.join(CLAMPS)}")
+    on_edge = {str(on.edge): columns.edge(on.edge) for on in (*scene.supports, *scene.actuators)}
+    line = shell_supports.of_scene(scene, columns.plan_nodes, on_edge)
+    line = edge_motion.hold(line, scene, columns.plan_nodes, on_edge)
+    moved = tuple(edge_motion.of_scene(scene, columns.plan_nodes, on_edge))
+    edges, hinged = {}, np.zeros(len(columns.plan_nodes), dtype=bool)
+
+    def face(nodes: np.ndarray, axes: np.ndarray | list[int], turns: bool) -> np.ndarray:
+        """What a support holds of the columns of its nodes; turns: the director is free."""
+        held = np.zeros((len(columns.plan_nodes), columns.levels, 3), dtype=bool)
+        held[nodes[:, None], columns.layers, axes] = True
+        if not turns:
+            held[nodes, :, : 2 if clamp == "shell-like" else 3] = True
+        return held
+
+    for support in scene.supports:
+        nodes, axes = line.edges[support.edge]
+        held = face(nodes, axes, isinstance(support, Symmetric) or not holds_director(support))
+        if isinstance(support, Symmetric):
+            held[nodes[:, None], :, axes] = True
+        elif not holds_director(support):
+            hinged[nodes] = True
+        edges[str(support.edge)] = held
+    for actuator in scene.actuators:
+        if isinstance(actuator, EdgeMotion):
+            edges[str(actuator.edge)] = face(on_edge[actuator.edge], [0, 1, 2], False)
+    for rod in rods:
+        if rod.base is not None:
+            edges[rod.edge] = face(rod.line[[rod.base]], [0, 1, 2], False)
+    none = np.zeros((len(columns.plan_nodes), columns.levels, 3), dtype=bool)
+    return ColumnSupports(line, columns, np.logical_or.reduce([none, *edges.values()]), edges, hinged, moved)

@@ -1,0 +1,1 @@
+"""How equilibrium is found: Newton's method, linear solvers, sparsity, threads."""

@@ -1,0 +1,315 @@
+"""Equilibrium of a structure under a load that grows from 0 to 1: mixed Newton with adaptive steps.
+
+Strains are quadratic in the unknowns, so Newton's method on the displacements sees, after a large rotation,
+membrane stresses that are nothing but the error of its own linear step, and wanders. Magisano, Leonetti &
+Garcea (2017, "mixed integration point") take for the geometric stiffness the stress that the last
+linear step extrapolated, σ* = C (ε + B δu), and leave the residual alone: the answer is the
+same, the path from the flat sheet is a few iterations long. Supports move in the first linear step.
+
+Load steps adapt. The first linear step towards a load, which the mixed iterations then halve again and again,
+may go no farther than a reach of a few sizes of the structure: a longer one is cut to it, load and all, with
+the factors at hand. A load step whose corrections stop shrinking is given up at once and halves the reach; an
+easy one raises it. Three watchdogs end a load step: a number that is not finite, a step that leaves the
+structure far behind, corrections that stagnate; `inspect` may end the whole path at an equilibrium that the
+structure itself does not vouch for. Where the path ends before the full load, the inertia of the last
+equilibrium's tangent says whether it has lost its uniqueness.
+
+A path whose corrections stop shrinking however short the step has come to a limit point. Given a `settle`, it
+goes on from the stable equilibrium that this finds a little beyond (see `relaxation`): the structure snaps.
+
+At the end the inertia of the true tangent says whether the equilibrium is stable; under follower loads, whose
+tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter of dynamics).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from scipy.sparse import csr_matrix
+from scipy.sparse.linalg import LinearOperator, eigs
+
+from fem_reference.solving.linear import DirectSolver, Factor, SingularMatrix
+from fem_reference.solving.threads import one_blas_thread
+from sheetbench.scenes import Iteration, Status
+
+TOLERANCE = 5e-9  # residual, relative to the forces that balance
+VANISHING = 1e-13  # work of a step, relative to the load step's first: beyond it only rounding is left
+ITERATIONS = 24  # in one load step
+BACK = 4  # corrections that are no shorter than so many before are given up
+EASY = 6  # a load step that took no more is followed by one GROWTH times as long
+GROWTH = 4.0
+FACTORISATIONS = 400  # in all
+FIRST_REACH = 8.0  # sizes of the structure that the first linear step may move it
+SMALLEST_STEP = 2.0**-10
+FARTHEST = 1e3  # a step beyond so many sizes of the structure has diverged
+SNAPS = 12  # of one path
+SNAP_STEP = 0.01  # in load factor, past the limit point
+SNAPPING = 4 * FACTORISATIONS  # in all, where the structure snaps
+
+
+class Structure(Protocol):
+    """What `trace` needs; states and forces are the structure's own."""
+
+    @property
+    def symmetric(self) -> bool: ...
+    def rest(self) -> Any: ...
+    def forces(self, state: Any, load_factor: float) -> Any: ...
+    def imbalance(self, state: Any, forces: Any) -> float: ...
+    def gap(self, state: Any, load_factor: float) -> float: ...
+    def system(
+        self, state: Any, forces: Any, load_factor: float, mixed: bool = True
+    ) -> tuple[csr_matrix, np.ndarray]: ...
+    def advance(self, state: Any, forces: Any, load_factor: float, step: np.ndarray) -> Any: ...
+    def length(self, start: Any, end: Any) -> float: ...
+
+
+@dataclass
+class Path:
+    """Where the tracing stands: the last equilibrium, its load factor, and what it took."""
+
+    state: Any
+    load_factor: float = 0.0
+    status: Status = Status.STEP_LIMIT
+    factorisations: int = 0
+    limit: int = FACTORISATIONS  # of them
+    history: list[Iteration] = field(default_factory=list)
+    message: str = ""
+
+
+class Fault(NamedTuple):
+    """What makes an equilibrium worthless: the status it deserves and a sentence."""
+
+    status: Status
+    message: str
+
+
+class StepFailed(ArithmeticError):
+    """A load step found no equilibrium. status: how it ended; length: of its first linear step."""
+
+    def __init__(self, status: Status, said: str, length: float):
+        super().__init__(said)
+        self.status, self.length = status, length
+
+
+def trace(
+    structure: Structure,
+    solver: DirectSolver,
+    inspect: Callable[[Path], Fault | None] = lambda path: None,
+    settle: Callable[[Path, float], Any] | None = None,
+) -> Path:
+    """The equilibrium at load factor 1, or the last one on the way with the reason it is the last.
+
+    inspect: shown the path at every equilibrium on the way; a fault, if it finds one, ends it there.
+    settle: the stable state of a structure under conservative loads that a path leads to at a load factor
+    beyond a limit point, for the path to go on from; it raises StepFailed where it finds none.
+    """
+    with one_blas_thread():
+        path = Path(structure.rest())
+        snaps: list[str] = []
+        ended = _follow(structure, solver, path, inspect)
+        while isinstance(ended, StepFailed):
+            tried = ""
+            if settle is not None and structure.symmetric and _at_limit_point(path, ended, len(snaps)):
+                departure = _departure(structure, solver, path)
+                try:
+                    following = _snap(structure, solver, path, inspect, settle)
+                except StepFailed as failure:
+                    tried = f"; relaxed at a load factor {SNAP_STEP:g} higher, {failure}"
+                else:
+                    snaps.append(departure)
+                    ended = following
+                    continue
+            ended = _give_up(structure, solver, path, ended, tried)
+        path.status, said = ended or stability(structure, solver, path)
+        path.message = "; ".join(filter(None, [*snaps, said]))
+        return path
+
+
+def _follow(
+    structure: Structure, solver: DirectSolver, path: Path, inspect: Callable[[Path], Fault | None]
+) -> StepFailed | Fault | None:
+    """Lead a path on to load factor 1: what has ended it before, if anything."""
+    size, reach = 1.0, FIRST_REACH
+    factor: Factor | None = None
+    while path.load_factor < 1.0:
+        before = path.factorisations
+        try:
+            first = _Predictor(structure, solver, path, min(1.0, path.load_factor + size), reach, factor)
+            factor = first.factor if structure.symmetric else None
+            state = newton(structure, solver, path, first)
+        except StepFailed as failure:
+            size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
+            if size < SMALLEST_STEP or path.factorisations >= path.limit:
+                return failure
+            continue
+        grown = first.target - path.load_factor
+        path.state, path.load_factor, factor = state, first.target, None
+        if (fault := inspect(path)) is not None:
+            return fault
+        easy = path.factorisations - before <= EASY
+        size, reach = (GROWTH * grown, GROWTH * reach) if easy else (grown, reach)
+    return None
+
+
+def _at_limit_point(path: Path, failure: StepFailed, snaps: int) -> bool:
+    """Whether a path that has ended may snap; one that has not left rest, or has used its factorisations up,
+    has come to no limit point."""
+    stuck = failure.status is Status.STEP_LIMIT and path.load_factor > 0.0
+    return stuck and path.factorisations < path.limit and snaps < SNAPS
+
+
+def _departure(structure: Structure, solver: DirectSolver, path: Path) -> str:
+    """Where a path snaps, and whether it was stable until then."""
+    status, said = stability(structure, solver, path)
+    unstable = f", where {said}" if status is not Status.CONVERGED else ""
+    return f"snapped at load factor {path.load_factor:.4g}{unstable}"
+
+
+def _snap(
+    structure: Structure,
+    solver: DirectSolver,
+    path: Path,
+    inspect: Callable[[Path], Fault | None],
+    settle: Callable[[Path, float], Any],
+) -> StepFailed | Fault | None:
+    """Lead a path past its limit point and on: what has ended it then. Raises StepFailed, the path as it was,
+    if nothing stable was found."""
+    beyond = min(1.0, path.load_factor + SNAP_STEP)
+    path.limit = min(path.factorisations + FACTORISATIONS, SNAPPING)
+    path.state, path.load_factor = settle(path, beyond), beyond
+    path.limit = min(path.factorisations + FACTORISATIONS, SNAPPING)
+    return inspect(path) or _follow(structure, solver, path, inspect)
+
+
+class Start(NamedTuple):
+    """What Newton's method starts from: a state, the load factor it is for, and length and work of the step
+    that has led to it."""
+
+    state: Any
+    target: float
+    length: float
+    work: float
+
+
+class _Predictor:
+    """The first linear step from a path's last equilibrium towards a load, no longer than `reach`.
+
+    factor: of the tangent there, where it is at hand; it serves as long as the tangent does not depend on the
+    load. target: the load factor that the step is for.
+    """
+
+    def __init__(
+        self,
+        structure: Structure,
+        solver: DirectSolver,
+        path: Path,
+        target: float,
+        reach: float,
+        factor: Factor | None,
+    ):
+        self.target, self.factor = target, factor
+        self._aim(structure, solver, path)
+        if reach < self.length < np.inf:
+            self.target = path.load_factor + (target - path.load_factor) * reach / self.length
+            self._aim(structure, solver, path)
+        if not self.length < FARTHEST:
+            raise StepFailed(Status.DIVERGED, "the first step has no end", FIRST_REACH)
+
+    def _aim(self, structure: Structure, solver: DirectSolver, path: Path) -> None:
+        forces = structure.forces(path.state, self.target)
+        try:
+            matrix, rows = structure.system(path.state, forces, self.target)
+            if self.factor is None or not structure.symmetric:
+                path.factorisations += 1
+                self.factor = solver.factor(matrix)
+            step = self.factor.solve(rows)
+        except SingularMatrix as error:
+            raise StepFailed(Status.SINGULAR, str(error), FIRST_REACH) from None
+        self.state = structure.advance(path.state, forces, self.target, step)
+        self.length = structure.length(path.state, self.state)
+        self.work = abs(float(step @ rows))
+
+
+def newton(structure: Structure, solver: DirectSolver, path: Path, first: Start | _Predictor) -> Any:
+    """The equilibrium at the load factor of a start. Raises StepFailed."""
+    state, target, before = first.state, first.target, np.inf
+    works, lengths = [first.work], [first.length]
+    for _ in range(ITERATIONS):
+        forces = structure.forces(state, target)
+        imbalance = structure.imbalance(state, forces)
+        relative = imbalance / forces.size if forces.size > 0.0 else imbalance
+        path.history.append(Iteration(target, relative, lengths[-1]))
+        if not np.isfinite(relative):
+            raise StepFailed(Status.NON_FINITE, "a number overflowed", first.length)
+        rounded = works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before
+        if structure.gap(state, target) <= TOLERANCE and (relative <= TOLERANCE or rounded):
+            return state
+        if len(lengths) > BACK and lengths[-1] >= lengths[-1 - BACK]:
+            raise StepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
+        if path.factorisations >= path.limit:
+            said = f"{path.limit} factorisations were not enough"
+            raise StepFailed(Status.STEP_LIMIT, said, first.length)
+        path.factorisations += 1
+        try:
+            matrix, rows = structure.system(state, forces, target)
+            step = solver.factor(matrix).solve(rows)
+        except SingularMatrix as error:
+            raise StepFailed(Status.SINGULAR, str(error), first.length) from None
+        following = structure.advance(state, forces, target, step)
+        lengths.append(structure.length(state, following))
+        if not lengths[-1] < FARTHEST:
+            raise StepFailed(Status.DIVERGED, "the corrections have no end", first.length)
+        works.append(abs(float(step @ rows)))
+        state, before = following, imbalance
+    raise StepFailed(Status.STEP_LIMIT, f"no equilibrium in {ITERATIONS} corrections", first.length)
+
+
+def _give_up(
+    structure: Structure, solver: DirectSolver, path: Path, failure: StepFailed, tried: str
+) -> Fault:
+    """Where the path ended, what was tried beyond and, from the last equilibrium's tangent, whether it had
+    branched by then."""
+    message = f"no equilibrium found beyond load factor {path.load_factor:.4g}: {failure}{tried}"
+    if path.load_factor > 0.0:
+        status, said = stability(structure, solver, path)
+        if status is not Status.CONVERGED:
+            message += f"; {said} there: the answer is not unique on this grid"
+    return Fault(failure.status, message)
+
+
+def stability(structure: Structure, solver: DirectSolver, path: Path) -> tuple[Status, str]:
+    """Whether the tangent at the path's last equilibrium is positive definite or, under follower loads, has
+    no real eigenvalue below 0; a sentence where it is not."""
+    forces = structure.forces(path.state, path.load_factor)
+    matrix, _ = structure.system(path.state, forces, path.load_factor, mixed=False)
+    path.factorisations += 1
+    try:
+        if structure.symmetric:
+            inertia = solver.factor(matrix).inertia
+            if inertia is None:
+                return Status.CONVERGED, "stability not checked: the factors do not tell the inertia"
+            negative, zero = inertia.negative, inertia.zero
+        else:
+            lowest = nearest_to_zero(matrix, solver)
+            negative, zero = int(np.sum((lowest.imag == 0.0) & (lowest.real < 0.0))), 0
+    except SingularMatrix as error:
+        return Status.SINGULAR, str(error)
+    if zero:
+        return Status.SINGULAR, f"the tangent has {zero} zero eigenvalues"
+    if negative:
+        return Status.UNSTABLE, f"the tangent has {negative} negative eigenvalues"
+    return Status.CONVERGED, ""
+
+
+def nearest_to_zero(matrix: csr_matrix, solver: DirectSolver, count: int = 6) -> np.ndarray:
+    """Eigenvalues (complex) of least magnitude of an unsymmetric matrix, by Arnoldi on its inverse."""
+    n = matrix.shape[0]
+    factor = solver.factor(matrix)
+    if n <= count + 2:
+        return np.linalg.eigvals(matrix.toarray()).astype(complex)
+    inverse = LinearOperator((n, n), matvec=factor.solve, dtype=float)
+    start = np.random.default_rng(0).uniform(-1.0, 1.0, n)
+    return eigs(matrix, count, sigma=0.0, OPinv=inverse, v0=start, return_eigenvectors=False)

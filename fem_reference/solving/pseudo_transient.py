@@ -1,0 +1,267 @@
+"""Relaxation of a shell: the stable equilibrium to which it creeps from where a load path ends.
+
+Beyond a limit point the nearest equilibrium is far away. A sheet of Kelvin–Voigt material without inertia, of
+stresses D (e + τ ė), creeps there: under dead loads, λ held, its potential Π = ½ ∫ e·D e − λ f·u falls at the
+rate ∫ τ ė·D ė. A backward Euler step of length τ/σ from strains e_n is an equilibrium of the sheet with
+
+    s = (1 + σ) D e − σ D e_n,      a minimum of Π + ½ σ ∫ (e − e_n)·D (e − e_n),
+
+found by the same mixed Newton iterations as others (see `equilibrium`), so that a large rotation costs no
+more here than there. Drag and stiffness being of one kind, long waves and short ones creep alike, and rigid
+motions freely. σ grows until the tangent where the step begins is positive definite, and when the step does
+not converge or Π would rise; after easy steps it shrinks, until Newton's method takes over, to the tolerance
+of every load step. So no step raises Π, to rounding. The inertia of the tangent judges the end; a saddle is
+left along its direction of most negative curvature. Directors are unit vectors to the same tolerance
+throughout. Rods creep with the sheet. Kelley & Keyes (1998) on pseudo-transient continuation; Ascher, Huang &
+van den Doel (2007) on gradient flow with large steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from copy import copy
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from fem_reference.shell.element import Element
+from fem_reference.shell.rods import RoddedShell, RodState, of_rods
+from fem_reference.shell.structure import ShellStructure, State
+from fem_reference.solving.equilibrium import TOLERANCE, Path, Start, StepFailed, newton
+from fem_reference.solving.linear import DirectSolver, Factor, SingularMatrix
+from fem_reference.surface.rod import Rod
+from sheetbench.scenes import Iteration, Status
+
+FACTORISATIONS = 300  # of one relaxation
+CORRECTIONS = 8  # of one step
+SETTLED = 0.1  # residual of a step, relative to the one it begins with, that is small enough
+ENOUGH = 1e-6  # the same, relative to the forces that balance
+SHRINKING = 0.7  # corrections that shrink by less, after the second, are given up
+LONGEST = 1.0  # correction, in sizes of the sheet
+EASY = 4  # a step that took no more factorisations is followed by one of less drag
+FASTER, CAREFUL = 4.0, 1.5  # by which drag falls; within CAUTION steps of a failure
+CAUTION = 3
+FIRST_DRAG = 1.0  # σ
+STIFFEST = 1e9  # σ beyond which nothing moves
+NEARLY = 1e-5  # residual, relative to the forces that balance, below which Newton's method takes over
+FURTHER = 0.1  # by which the residual must fall where it has failed
+ROUNDING = 1e-12  # of the energies that balance
+PUSH, SMALLEST_PUSH = 1e-2, 1e-6  # sizes of the sheet that a saddle is left by
+INVERSE_STEPS = 12
+
+
+def settler(structure: ShellStructure, solver: DirectSolver) -> Callable[[Path, float], State]:
+    """What `equilibrium.trace` calls beyond a limit point."""
+    return lambda path, load_factor: relax(structure, solver, path, load_factor)
+
+
+def relax(structure: ShellStructure, solver: DirectSolver, path: Path, load_factor: float) -> State:
+    """The stable equilibrium at a load factor > 0 to which the sheet creeps from a path's last one.
+
+    The path's state stays; its factorisations and history grow. Raises StepFailed where there is none.
+    """
+    limit = path.limit
+    path.limit = min(limit, path.factorisations + FACTORISATIONS)
+    try:
+        return _Creep(structure, solver, path, load_factor).end()
+    except SingularMatrix as error:
+        raise StepFailed(Status.SINGULAR, str(error), 0.0) from None
+    finally:
+        path.limit = limit
+
+
+def potential(structure: ShellStructure, state: State, load_factor: float) -> tuple[float, float]:
+    """Strain energy less the loads' work, and the sum of their magnitudes [J]."""
+    stored = sum(ShellStructure.energies(structure, state).values())
+    work = load_factor * float(np.sum(structure.dead * state.change[0]))
+    if isinstance(structure, RoddedShell):
+        for rod, aside in zip(structure.rods, of_rods(state).aside, strict=True):
+            change = structure._on_rod(rod, state.change, aside)
+            strain = rod.strain(change) - load_factor * rod.intrinsic
+            stored += 0.5 * float(np.sum(rod.stiffness * strain**2))
+            work += load_factor * float(np.sum(rod.weight * change))
+    return stored - work, stored + abs(work)
+
+
+@dataclass(frozen=True)
+class DraggedElement(Element):
+    """Elements of stiffness (1 + σ) D, their strains less `past`, σ e_n/(1 + σ) (m, 54)."""
+
+    past: np.ndarray
+
+    def strain(self, change: np.ndarray) -> np.ndarray:
+        """e − past (m, 54)."""
+        return super().strain(change) - self.past
+
+
+def dragged(structure: ShellStructure, state: State, load_factor: float, drag: float) -> ShellStructure:
+    """The structure whose equilibrium at this load factor is the end of a step of creep from a state."""
+    out: Any = copy(structure)
+    element = structure.element
+    past = element.strain(structure._gather(state.change)) * (drag / (1.0 + drag))
+    out.element = DraggedElement(element.reference, (1.0 + drag) * element.stiffness, element.areas, past)
+    if isinstance(structure, RoddedShell):
+        out.rods = [
+            _dragged_rod(rod, rod.strain(structure._on_rod(rod, state.change, aside)), load_factor, drag)
+            for rod, aside in zip(structure.rods, of_rods(state).aside, strict=True)
+        ]
+    return out
+
+
+def _dragged_rod(rod: Rod, past: np.ndarray, load_factor: float, drag: float) -> Rod:
+    """(1 + σ) k e − σ k e_n − λ k e_0 = (1 + σ) k (e − λ e_0'): a rod of another intrinsic curvature."""
+    intrinsic = (load_factor * rod.intrinsic + drag * past) / (load_factor * (1.0 + drag))
+    return replace(rod, stiffness=(1.0 + drag) * rod.stiffness, intrinsic=intrinsic)
+
+
+class _Creep:
+    """Where the creep stands: state, potential, drag σ and the length of the last step."""
+
+    def __init__(self, structure: ShellStructure, solver: DirectSolver, path: Path, load_factor: float):
+        self.structure, self.solver, self.path = structure, solver, path
+        self.load_factor = load_factor
+        self.state = _unextrapolated(path.state)
+        self.size = structure.forces(self.state, load_factor).size
+        self.first = potential(structure, self.state, load_factor)[0]
+        self.energy = np.inf  # nothing to compare with: supports may move in the first step
+        self.drag, self.careful, self.length = FIRST_DRAG, 0, 0.0
+        self.nearly = NEARLY
+
+    def end(self) -> State:
+        """The stable equilibrium. Raises StepFailed, SingularMatrix."""
+        while True:
+            self._step()
+            residual = self._residual(self.state)
+            if residual > self.nearly:
+                continue
+            state = self._equilibrium()
+            if state is None:
+                self.nearly = FURTHER * residual
+            else:
+                inertia = self._factor(self.structure, state).inertia
+                if inertia is None or inertia.negative == inertia.zero == 0:
+                    return state
+                self._leave(state)
+
+    def _step(self) -> None:
+        """One accepted step, with as much drag as it needs. Raises StepFailed."""
+        while True:
+            before = self.path.factorisations
+            state = self._crept()
+            if state is not None and self._accepts(state):
+                break
+            self.drag, self.careful = FASTER * self.drag, CAUTION
+            if self.drag > STIFFEST:
+                raise StepFailed(Status.STEP_LIMIT, "it creeps no further", 0.0)
+        self.length = self.structure.length(self.state, state)
+        self.state = _unextrapolated(state)
+        self.careful -= 1
+        if self.path.factorisations - before <= EASY:
+            self.drag /= CAREFUL if self.careful > 0 else FASTER
+
+    def _accepts(self, state: State) -> bool:
+        """Whether the potential has not risen; if so, it is the one to compare with from now on."""
+        energy, balanced = potential(self.structure, state, self.load_factor)
+        if not energy <= self.energy + ROUNDING * balanced:  # also catches nan
+            return False
+        self.energy = min(self.energy, energy)
+        return True
+
+    def _crept(self) -> State | None:
+        """The end of a step of creep, or None where it does not come to rest."""
+        structure = dragged(self.structure, self.state, self.load_factor, self.drag)
+        state, lengths, first = self.state, list[float](), np.inf
+        for k in range(CORRECTIONS + 1):
+            forces = structure.forces(state, self.load_factor)
+            relative = structure.imbalance(state, forces) / self.size
+            self.path.history.append(Iteration(self.load_factor, relative, lengths[-1] if lengths else 0.0))
+            if not np.isfinite(relative):
+                return None
+            if k == 0:
+                first = relative
+            settled = relative <= max(SETTLED * first, ENOUGH)
+            if k > 0 and settled and structure.gap(state, self.load_factor) <= TOLERANCE:
+                return state
+            if k == CORRECTIONS or (len(lengths) > 2 and lengths[-1] > SHRINKING * lengths[-2]):
+                return None
+            matrix, rows = structure.system(state, forces, self.load_factor)
+            factor = self._counted(matrix)
+            if k == 0 and factor.inertia is not None and factor.inertia.negative:
+                return None
+            following = structure.advance(state, forces, self.load_factor, factor.solve(rows))
+            lengths.append(structure.length(state, following))
+            if not lengths[-1] <= LONGEST:
+                return None
+            state = following
+        return None
+
+    def _equilibrium(self) -> State | None:
+        """Newton's method from the last step, its work measured against what the creep has released."""
+        released = abs(self.first - self.energy)
+        start = Start(self.state, self.load_factor, self.length, released)
+        try:
+            state = newton(self.structure, self.solver, self.path, start)
+        except StepFailed:
+            return None
+        return _unextrapolated(state) if self._accepts(state) else None
+
+    def _leave(self, saddle: State) -> None:
+        """Go on beside a saddle, where the potential is lower, in the lowest mode of K v = μ K_m v, K_m the
+        tangent of the material alone. Raises StepFailed."""
+        structure, drag = self.structure, FIRST_DRAG
+        forces = structure.forces(saddle, self.load_factor)
+        tangent, _ = structure.system(saddle, forces, self.load_factor, mixed=False)
+        factor = self._factor(dragged(structure, saddle, self.load_factor, drag), saddle)
+        while factor.inertia is not None and factor.inertia.negative:
+            drag *= FASTER
+            factor = self._factor(dragged(structure, saddle, self.load_factor, drag), saddle)
+        mode = np.random.default_rng(0).uniform(-1.0, 1.0, structure.unknowns)
+        for _ in range(INVERSE_STEPS):
+            mode = factor.solve((factor.matrix @ mode - tangent @ mode) / drag)
+            mode /= np.abs(mode).max()
+        mode /= structure.length(saddle, structure.advance(saddle, forces, self.load_factor, mode))
+        push = PUSH
+        while push > SMALLEST_PUSH:
+            beside = [self._pushed(saddle, sign * push * mode) for sign in (1.0, -1.0)]
+            energies = [potential(structure, state, self.load_factor)[0] for state in beside]
+            lower = int(np.argmin(energies))
+            if energies[lower] < self.energy:
+                self.state, self.energy = beside[lower], energies[lower]
+                self.drag, self.careful = drag, CAUTION
+                return
+            push /= FASTER
+        raise StepFailed(Status.UNSTABLE, "it creeps to a saddle and does not leave it", 0.0)
+
+    def _pushed(self, state: State, step: np.ndarray) -> State:
+        """A state moved by a step (unknowns,), its directors brought back to unit length."""
+        while True:
+            forces = self.structure.forces(state, self.load_factor)
+            state = _unextrapolated(self.structure.advance(state, forces, self.load_factor, step))
+            if self.structure.gap(state, self.load_factor) <= TOLERANCE:
+                return state
+            step = np.zeros_like(step)
+
+    def _residual(self, state: State) -> float:
+        forces = self.structure.forces(state, self.load_factor)
+        return self.structure.imbalance(state, forces) / self.size
+
+    def _factor(self, structure: ShellStructure, state: State) -> Factor:
+        """Of the true tangent."""
+        forces = structure.forces(state, self.load_factor)
+        return self._counted(structure.system(state, forces, self.load_factor, mixed=False)[0])
+
+    def _counted(self, matrix: csr_matrix) -> Factor:
+        """The factors of a matrix. Raises StepFailed where they are too many."""
+        if self.path.factorisations >= self.path.limit:
+            raise StepFailed(Status.STEP_LIMIT, f"not at rest after {FACTORISATIONS} factorisations", 0.0)
+        self.path.factorisations += 1
+        return self.solver.factor(matrix)
+
+
+def _unextrapolated(state: State) -> State:
+    """The state with its own stresses."""
+    if isinstance(state, RodState):
+        return replace(state, stress=None, rod_stress=None)
+    return replace(state, stress=None)

@@ -1,0 +1,221 @@
+"""Loads of the shell: dead nodal forces, a follower pressure and a follower edge moment.
+
+gravity    f = ∫ ρ h g N dA                       dead
+point      f = F N(x)                             dead
+edge       f = ∫ q N dL                           dead, per undeformed length
+pressure   f = ∫ p N φ,r × φ,s dr ds              follows the normal, per current area
+moment     f_d = ∫ m N t̂ × d dL,  t̂ = φ,L/|φ,L|   on the directors, about the current edge tangent
+
+With ν the outward normal, L runs along ν × e_z, so that m > 0 turns the edge towards +z outside it:
+the virtual work of a moment m t̂ on δd = δθ × d is δd · (m t̂ × d). Units: N, N/m, N·m/m, Pa, m.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from skfem import MeshQuad
+
+from fem_reference.shell.element import GAUSS, GAUSS_WEIGHTS, THREE, THREE_WEIGHTS, shape
+from fem_reference.surface.location import locate
+from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene
+
+# Local nodes of the four sides, in scikit-fem's order of facets: corner, mid-side, corner.
+_SIDES = np.array([[0, 4, 1], [1, 5, 2], [2, 6, 3], [0, 7, 3]])
+_LINE = np.array([THREE * (THREE - 1) / 2, 1 - THREE**2, THREE * (THREE + 1) / 2]).T  # (3 points, 3 nodes)
+_LINE_SLOPE = np.array([THREE - 0.5, -2 * THREE, THREE + 0.5]).T
+
+
+class Follower(Protocol):
+    """A load that depends on the shape. elements: (k,) the elements it acts on."""
+
+    @property
+    def elements(self) -> np.ndarray: ...
+
+    def force(self, vectors: np.ndarray) -> np.ndarray:
+        """Nodal force (k, 18, 3) at nodal vectors Q (k, 18, 3)."""
+        ...
+
+    def tangent(self, vectors: np.ndarray) -> np.ndarray:
+        """Derivative of the force (k, 18, 3, 18, 3)."""
+        ...
+
+
+def _cross_matrix(a: np.ndarray) -> np.ndarray:
+    """[a]× with [a]× b = a × b, for vectors (…, 3)."""
+    return np.cross(a[..., None, :], np.eye(3), axisa=-1, axisb=-1, axisc=-1).swapaxes(-1, -2)
+
+
+@dataclass(frozen=True)
+class FollowerPressure:
+    """Pressure [Pa] on all elements; orientation: (m,) +1 where r, s run counter-clockwise, else −1."""
+
+    value: float
+    orientation: np.ndarray
+
+    @property
+    def elements(self) -> np.ndarray:
+        return np.arange(len(self.orientation))
+
+    def force(self, vectors: np.ndarray) -> np.ndarray:
+        value, slope = shape(*GAUSS)
+        along, across = np.einsum("agi,eic->aegc", slope, vectors[:, :9])
+        out = np.zeros_like(vectors)
+        out[:, :9] = np.einsum(
+            "e,g,gi,egc->eic", self._strength, GAUSS_WEIGHTS, value, np.cross(along, across)
+        )
+        return out
+
+    def tangent(self, vectors: np.ndarray) -> np.ndarray:
+        value, slope = shape(*GAUSS)
+        along, across = np.einsum("agi,eic->aegc", slope, vectors[:, :9])
+        weighted = GAUSS_WEIGHTS[:, None] * value
+        out = np.zeros((len(vectors), 18, 3, 18, 3))
+        by_along = -np.einsum("gi,egcd,gj->eicjd", weighted, _cross_matrix(across), slope[0], optimize=True)
+        by_across = np.einsum("gi,egcd,gj->eicjd", weighted, _cross_matrix(along), slope[1], optimize=True)
+        out[:, :9, :, :9] = self._strength[:, None, None, None, None] * (by_along + by_across)
+        return out
+
+    @property
+    def _strength(self) -> np.ndarray:
+        return self.value * self.orientation
+
+
+@dataclass(frozen=True)
+class Line:
+    """Element sides along an edge.
+
+    elements: (k,); sides: (k, 3) local nodes along ν × e_z; speed: |X,ξ| (k, 3) [m] at three Gauss points.
+    """
+
+    elements: np.ndarray
+    sides: np.ndarray
+    speed: np.ndarray
+
+    @classmethod
+    def along(cls, mesh: MeshQuad, facets: np.ndarray, nodes: np.ndarray) -> Line:
+        """The sides that are `facets` of the mesh; nodes: plan positions (m, 9, 2) [m]."""
+        elements = mesh.f2t[0, facets]
+        sides = _SIDES[np.argmax(mesh.t2f[:, elements] == facets, axis=0)]
+        rows = np.arange(len(elements))[:, None]
+        ends = nodes[elements][rows, sides]
+        tangent, inward = ends[:, 2] - ends[:, 0], nodes[elements, 8] - ends[:, 1]
+        wrong = (
+            tangent[:, 0] * inward[:, 1] - tangent[:, 1] * inward[:, 0] > 0
+        )  # the sheet must lie to the right
+        sides = np.where(wrong[:, None], sides[:, ::-1], sides)
+        ends = nodes[elements][rows, sides]
+        return cls(elements, sides, np.linalg.norm(np.einsum("gi,eic->egc", _LINE_SLOPE, ends), axis=-1))
+
+    @property
+    def shares(self) -> np.ndarray:
+        """∫ N dL (k, 3) [m] of the three nodes."""
+        return np.einsum("g,eg,gi->ei", THREE_WEIGHTS, self.speed, _LINE)
+
+
+@dataclass(frozen=True)
+class FollowerMoment:
+    """A moment per undeformed length [N·m/m] on a line, about its current tangent."""
+
+    value: float
+    line: Line
+
+    @property
+    def elements(self) -> np.ndarray:
+        return self.line.elements
+
+    def force(self, vectors: np.ndarray) -> np.ndarray:
+        tangent, _, director = self._frame(vectors)
+        out = np.zeros_like(vectors)
+        rows = np.arange(len(vectors))[:, None]
+        out[rows, 9 + self.line.sides] = np.einsum(
+            "eg,gi,egc->eic", self._weight, _LINE, np.cross(tangent, director)
+        )
+        return out
+
+    def tangent(self, vectors: np.ndarray) -> np.ndarray:
+        tangent, stretch, director = self._frame(vectors)
+        normal_part = np.eye(3) - np.einsum("egc,egd->egcd", tangent, tangent)
+        by_slope = -np.einsum("egcb,egbd->egcd", _cross_matrix(director), normal_part) / stretch[..., None]
+        by_director = _cross_matrix(tangent)
+        weighted = np.einsum("eg,gi->egi", self._weight, _LINE)
+        out = np.zeros((len(vectors), 18, 3, 18, 3))
+        rows = np.arange(len(vectors))[:, None, None]
+        to, of = 9 + self.line.sides[:, :, None], self.line.sides[:, None, :]
+        out[rows, to, :, of, :] = np.einsum(
+            "egi,egcd,gj->eijcd", weighted, by_slope, _LINE_SLOPE, optimize=True
+        )
+        out[rows, to, :, 9 + of, :] = np.einsum(
+            "egi,egcd,gj->eijcd", weighted, by_director, _LINE, optimize=True
+        )
+        return out
+
+    @property
+    def _weight(self) -> np.ndarray:
+        return self.value * THREE_WEIGHTS * self.line.speed
+
+    def _frame(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Unit tangent (k, 3, 3), |φ,ξ| (k, 3, 1) and director (k, 3, 3) at the points of the sides."""
+        rows = np.arange(len(vectors))[:, None]
+        slope = np.einsum("gi,eic->egc", _LINE_SLOPE, vectors[rows, self.line.sides])
+        stretch = np.linalg.norm(slope, axis=-1, keepdims=True)
+        return slope / stretch, stretch, np.einsum("gi,eic->egc", _LINE, vectors[rows, 9 + self.line.sides])
+
+
+def area_force(
+    areas: np.ndarray, element_nodes: np.ndarray, count: int, force_per_area: np.ndarray
+) -> np.ndarray:
+    """∫ f N dA (count, 3) [N] of a dead force per area f (3,) [Pa]; areas: (m, 9), element_nodes: (m, 9)."""
+    shares = np.bincount(element_nodes.ravel(), (areas @ shape(*GAUSS)[0]).ravel(), count)
+    return shares[:, None] * force_per_area
+
+
+def line_force(line: Line, element_nodes: np.ndarray, count: int, force_per_length: np.ndarray) -> np.ndarray:
+    """∫ q N dL (count, 3) [N] of a dead force per undeformed length q (3,) [N/m]."""
+    nodes = element_nodes[line.elements[:, None], line.sides]
+    return np.bincount(nodes.ravel(), line.shares.ravel(), count)[:, None] * force_per_length
+
+
+def point_force(
+    mesh: MeshQuad, element_nodes: np.ndarray, count: int, at: np.ndarray, force: np.ndarray
+) -> np.ndarray:
+    """F N(x) (count, 3) [N] of a dead force F (3,) at the plan point (2,) [m]."""
+    element, local = locate(mesh, at.reshape(1, 2))
+    value, _ = shape(*(2.0 * local - 1.0))
+    out = np.zeros((count, 3))
+    out[element_nodes[element[0]]] = value[0][:, None] * force
+    return out
+
+
+def of_scene(
+    scene: Scene, mesh: MeshQuad, element_nodes: np.ndarray, nodes: np.ndarray, areas: np.ndarray
+) -> tuple[np.ndarray, list[Follower]]:
+    """Dead nodal forces (n, 3) [N] and follower loads of a scene on a mesh that carries the edges' names;
+    every load with the last factor of its history."""
+    count, corners = len(nodes), nodes[element_nodes]
+    dead, followers = np.zeros((count, 3)), list[Follower]()
+    if scene.gravity is not None:
+        weight = scene.material.density * scene.sheet.thickness * np.array(scene.gravity.acceleration)
+        dead += area_force(areas, element_nodes, count, scene.gravity.last_factor * weight)
+    for load in scene.loads:
+        factor = load.last_factor
+        match load:
+            case PointLoad():
+                force = factor * np.array(load.force)
+                dead += point_force(mesh, element_nodes, count, np.array(load.at), force)
+            case EdgeLoad():
+                line = Line.along(mesh, mesh.boundaries[load.edge], corners)
+                dead += line_force(line, element_nodes, count, factor * np.array(load.force_per_length))
+                if load.moment_per_length:
+                    followers.append(FollowerMoment(factor * load.moment_per_length, line))
+            case Pressure():
+                followers.append(FollowerPressure(factor * load.value, orientation(corners)))
+    return dead, followers
+
+
+def orientation(nodes: np.ndarray) -> np.ndarray:
+    """+1 or −1 (m,): whether r, s turn counter-clockwise in elements with node positions (m, 9, 2)."""
+    r, s = nodes[:, 5] - nodes[:, 7], nodes[:, 6] - nodes[:, 4]
+    return np.sign(r[:, 0] * s[:, 1] - r[:, 1] * s[:, 0])

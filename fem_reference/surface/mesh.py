@@ -1,0 +1,99 @@
+"""Plan meshes of the flat sheet: quadrilaterals, near-square, with the edges named as in the scene.
+
+A mesh is scikit-fem's `MeshQuad` with the boundaries "x0", "x1", "y0", "y1"; the models take any other
+flat quadrilateral mesh as well. Biquadratic nodes lie at corners, mid-sides and centres, in the
+order of scikit-fem's `ElementQuad2`. Coordinates in metres.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+
+import numpy as np
+from skfem import MeshQuad
+
+from sheetbench.scenes import EDGES, Sheet
+
+Elements = int | tuple[int, int]
+
+# A nine-node element drawn as four bilinear quadrilaterals; local nodes: 4 corners, 4 mid-sides, centre.
+_QUARTERS = np.array([[0, 4, 8, 7], [4, 1, 5, 8], [8, 5, 2, 6], [7, 8, 6, 3]])
+
+
+def divisions(lengths: tuple[float, float], elements: Elements) -> tuple[int, int]:
+    """Elements along x and y: a pair as given, or that many along the shorter side and near-square ones.
+
+    Raises ValueError for fewer than one element.
+    """
+    if isinstance(elements, tuple):
+        along_x, along_y = elements
+    else:
+        size = min(lengths) / max(elements, 1)
+        along_x, along_y = (max(elements, round(length / size)) for length in lengths)
+    if along_x < 1 or along_y < 1 or (isinstance(elements, int) and elements < 1):
+        raise ValueError(f"elements = {elements}: at least one element along each side")
+    return along_x, along_y
+
+
+def spacing(count: int, layer: int) -> np.ndarray:
+    """Fractions (count + 1,) of a side, finer towards both ends over `layer` elements in all.
+
+    Sizes go like sin π(i + ½)/layer at the ends and are equal between: with layer = count the
+    Chebyshev points ½ (1 − cos π i/count), with layer = 1 equal spacing.
+    """
+    from_end = np.minimum(np.arange(count), np.arange(count)[::-1]) + 0.5
+    size = np.sin(np.pi * np.minimum(from_end / layer, 0.5))
+    return np.concatenate([[0.0], np.cumsum(size)]) / size.sum()
+
+
+def rectangle(
+    sheet: Sheet,
+    elements: Elements,
+    graded: bool = False,
+    cuts: Collection[str] = (),
+    reach: float = 1.0,
+) -> MeshQuad:
+    """A mesh of the sheet whose boundaries carry the edges' names.
+
+    cuts: edges that are planes of symmetry; the mesh is then that of the whole sheet, cut there. reach: share
+    of the elements along the shorter side over which a graded mesh's sizes grow; the others are equal.
+
+    Uniform; or graded towards all edges, where a clamp that ends at a free edge has a singularity and
+    a thick sheet has boundary layers: the same number of elements, a far smaller error.
+    """
+    counts = divisions(sheet.lengths, elements)
+    cut = [[name for name in cuts if EDGES[name].normal_axis == axis] for axis in (0, 1)]
+    across = min(n << len(at) for n, at in zip(counts, cut, strict=True))
+    layer = max(1, round(reach * across)) if graded else 1
+    x, y = (length * _part(n, layer, at) for length, n, at in zip(sheet.lengths, counts, cut, strict=True))
+    mesh = MeshQuad.init_tensor(x, y)
+    ends = {name: sheet.lengths[edge.normal_axis] * edge.far_end for name, edge in EDGES.items()}
+    return mesh.with_boundaries({name: _at(EDGES[name].normal_axis, end) for name, end in ends.items()})
+
+
+def _part(count: int, layer: int, cuts: Collection[str]) -> np.ndarray:
+    """Fractions (count + 1,) of a side that is half of a side, where it is cut at one end."""
+    if not cuts:
+        return spacing(count, layer)
+    half = 2.0 * spacing(2 * count, layer)[: count + 1]
+    return half if all(EDGES[name].far_end for name in cuts) else 1.0 - half[::-1]
+
+
+def _at(axis: int, position: float) -> Callable[[np.ndarray], np.ndarray]:
+    return lambda x: np.isclose(x[axis], position, rtol=1e-9, atol=1e-12)
+
+
+def require_upright(mesh: MeshQuad) -> None:
+    """Raises ValueError where the corners of an element do not all turn one way, as in a folded one."""
+    corners = mesh.p[:, mesh.t]  # (2, 4, m)
+    along = np.roll(corners, -1, axis=1) - corners
+    back = np.roll(corners, 1, axis=1) - corners
+    turn = along[0] * back[1] - along[1] * back[0]  # (4, m) [m²]
+    upright = np.all(turn * np.sign(turn[0]) > 0.0, axis=0)
+    if not upright.all():
+        raise ValueError(f"element {int(np.argmin(upright))} of the mesh is inverted or degenerate")
+
+
+def quarters(element_nodes: np.ndarray) -> np.ndarray:
+    """Nine-node elements (9, m) as bilinear cells (4 m, 4) for drawing."""
+    return element_nodes.T[:, _QUARTERS].reshape(-1, 4)

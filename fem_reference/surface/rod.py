@@ -1,0 +1,256 @@
+"""The actuator as a continuous elastic rod along an edge: its strains, its stiffness and what it carries.
+
+The rod's axis r = φ + c d lies at a height c along the director d of the edge. Its cross-section is bound to
+the edge: it turns with d and with a third director m, which points out of the sheet and is the rod's own.
+With s the arc length along the flat edge,
+
+    ½ EI ∫ (κ_n − κ₀)² ds,   κ_n = −r' · d'     bending in the plane of the edge and the normal
+    ½ EI ∫ (κ_g − κ₀)² ds,   κ_g = −r' · m'     bending in the sheet's plane
+
+are its energy. A chain of rigid segments neither stretches, shears nor twists, and its joints turn about
+certain axes only; so these vanish, by stiffnesses `FIRM` times the sheet's and `SLENDER` times the rod's own:
+
+    ½ (r' · r' − 1),   r' · d,   r' · m,   d · m,   d' · m,
+    and κ_g in the plane "normal" (all m are then parallel), κ_n in the plane "inplane" (all d are).
+
+"spatial" bends both ways and has its κ₀ in κ_n. The rod as a whole may turn about its own axis with the edge.
+A list of curvatures is piecewise constant over the shares of the joints, the first and the last reaching to
+the ends; a table counts with its last value. Chains on one edge act as one rod on the mean of their axes,
+their EI summed, their weights at their own heights.
+
+On a side of three nodes all strains are quadratic forms of Q = (φ₁ … φ₃, d₁ … d₃, m₁ … m₃), sampled at two
+Gauss points (d · m at the nodes), where neither inextensibility nor the absence of shear locks. SI units.
+Source: Antman, Nonlinear Problems of Elasticity (2005), ch. 8 (the special Cosserat rod).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from skfem import MeshQuad
+
+from fem_reference.shell.element import TWO
+from fem_reference.surface.loads import Line
+from sheetbench.scenes import EDGES, Chain, CurvatureTable, Scene
+
+FIRM, SLENDER = 1e3, 1e5  # firm stiffnesses over the sheet's and over the rod's own
+STRAINS = 15
+AXIAL, SHEAR, ASIDE, NORMAL, INPLANE, TWIST = (slice(2 * i, 2 * i + 2) for i in range(6))
+SQUARE = slice(12, 15)
+
+_VALUE = np.array([TWO * (TWO - 1) / 2, 1 - TWO**2, TWO * (TWO + 1) / 2]).T  # (2 points, 3 nodes)
+_SLOPE = np.array([TWO - 0.5, -2 * TWO, TWO + 0.5]).T
+_SHARES = np.array([1.0, 4.0, 1.0]) / 3.0  # ∫ N dξ
+_SAMPLES = 400  # of a side, for the mean of a piecewise curvature
+
+
+@dataclass(frozen=True)
+class Rod:
+    """The sides (k) of an edge with a rod; p nodes on the edge.
+
+    nodes: (k, 3) of the shell; places: (k, 3) in `line` (p,), the shell's nodes along the edge; reference: Q₀
+    (k, 9, 3); forms: H (15, 9, 9) by ξ; stiffness: (k, 15); intrinsic: strains (k, 15) at rest;
+    weight: dead force on Q (k, 9, 3) [N, N·m]; base: place of the node that is held, or None; length [m].
+    """
+
+    names: tuple[str, ...]
+    edge: str
+    nodes: np.ndarray
+    places: np.ndarray
+    line: np.ndarray
+    reference: np.ndarray
+    forms: np.ndarray
+    stiffness: np.ndarray
+    intrinsic: np.ndarray
+    weight: np.ndarray
+    base: int | None
+    segments: int
+    offset: float
+
+    def gradient(self, change: np.ndarray) -> np.ndarray:
+        """B = H Q (k, 15, 9, 3) at Q₀ + change (k, 9, 3)."""
+        return np.einsum("sij,ejc->esic", self.forms, self.reference + change)
+
+    def strain(self, change: np.ndarray) -> np.ndarray:
+        """Strains (k, 15) of the change (k, 9, 3): ½ Qᵀ H Q − ½ Q₀ᵀ H Q₀."""
+        return np.einsum("esic,eic->es", self.gradient(0.5 * change), change)
+
+    def stress(self, strain: np.ndarray, load_factor: float) -> np.ndarray:
+        """Their conjugates (k, 15), the intrinsic curvature growing with the load."""
+        return self.stiffness * (strain - load_factor * self.intrinsic)
+
+
+def names(scene: Scene) -> list[str]:
+    """A name for every actuator: its edge, or the edge and its number where an edge has several."""
+    edges = [str(actuator.edge) for actuator in scene.actuators]
+    if len(set(edges)) == len(edges):
+        return edges
+    return [f"{edge}.{i + 1}" for i, edge in enumerate(edges)]
+
+
+def sides(
+    scene: Scene, mesh: MeshQuad, element_nodes: np.ndarray, nodes: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Nodes (k, 3) of the sides along every edge with a chain; element_nodes: (m, 9); nodes: (n, 2) [m]."""
+    found = {}
+    for edge in {str(actuator.edge) for actuator in scene.actuators if isinstance(actuator, Chain)}:
+        line = Line.along(mesh, mesh.boundaries[edge], nodes[element_nodes])
+        found[edge] = element_nodes[line.elements[:, None], line.sides]
+    return found
+
+
+def of_scene(scene: Scene, nodes: np.ndarray, sides: dict[str, np.ndarray]) -> list[Rod]:
+    """The rods of a scene's chains, one an edge.
+
+    nodes: plan positions (n, 2) [m] of the shell's nodes; sides: edge → its sides' nodes (k, 3). Raises
+    ValueError for an edge that is not straight or has no node where a base is held.
+    """
+    found: dict[str, list[tuple[str, Chain]]] = {}
+    for name, actuator in zip(names(scene), scene.actuators, strict=True):
+        if isinstance(actuator, Chain):
+            found.setdefault(str(actuator.edge), []).append((name, actuator))
+    return [_rod(scene, edge, here, nodes, sides[edge]) for edge, here in found.items()]
+
+
+def _rod(
+    scene: Scene, edge_name: str, here: list[tuple[str, Chain]], nodes: np.ndarray, sides: np.ndarray
+) -> Rod:
+    edge, chains = EDGES[edge_name], [chain for _, chain in here]
+    along = nodes[sides, edge.along_axis]
+    if np.ptp(nodes[sides, edge.normal_axis]) > 1e-9 * np.ptp(along):
+        raise ValueError(f"actuator: edge {edge_name} of the mesh is not straight")
+    offsets = np.array([axis_height(chain, scene.sheet.thickness) for chain in chains])
+    offset = float(offsets.mean())
+    half = 0.5 * np.abs(along[:, 2] - along[:, 0])  # |dX/dξ|
+    line = np.unique(sides)
+    line = line[np.argsort(nodes[line, edge.along_axis])]
+    places = np.argsort(line)[np.searchsorted(np.sort(line), sides)]
+    reference = np.zeros((len(sides), 9, 3))
+    reference[:, :3, :2] = nodes[sides]
+    reference[:, 3:6, 2] = 1.0
+    reference[:, 6:] = edge.outward
+    start = scene.sheet.edge_ends(edge_name)[0][edge.along_axis]
+    intrinsic = np.zeros((len(sides), STRAINS))
+    rigidity = np.array([chain.bending_stiffness for chain in chains])
+    where = INPLANE if chains[0].plane == "inplane" else NORMAL
+    length = scene.sheet.lengths[edge.along_axis]
+    own = [_mean_curvature(chain, length, along - start) for chain in chains]
+    intrinsic[:, where] = (
+        np.einsum("c,ceg->eg", rigidity / rigidity.sum(), np.array(own)) * half[:, None] ** 2
+    )
+    return Rod(
+        names=tuple(name for name, _ in here),
+        edge=edge_name,
+        nodes=sides,
+        places=places,
+        line=line,
+        reference=reference,
+        forms=_forms(offset),
+        stiffness=_stiffness(scene, chains[0].plane, float(rigidity.sum()), length, half),
+        intrinsic=intrinsic,
+        weight=_weight(scene, chains, offsets, half),
+        base=_base(chains[0], nodes[line, edge.along_axis] - start, length),
+        segments=chains[0].segments,
+        offset=offset,
+    )
+
+
+def axis_height(chain: Chain, thickness: float) -> float:
+    """Height [m] of a chain's axis along the director."""
+    return {"mid": 0.0, "top": 1.0, "bottom": -1.0}[chain.face] * (thickness / 2.0 + chain.radius)
+
+
+def pieces(chain: Chain, length: float) -> tuple[np.ndarray, np.ndarray]:
+    """Bounds (n + 1,) [m] and curvatures (n,) [1/m] of the pieces of constant intrinsic curvature."""
+    if isinstance(chain.curvature, CurvatureTable):
+        return np.array([0.0, length]), np.array(chain.curvature.value[-1:])
+    if not isinstance(chain.curvature, tuple):
+        return np.array([0.0, length]), np.array([chain.curvature])
+    share = length / chain.segments
+    inner = (np.arange(1, chain.segments - 1) + 0.5) * share  # between the joints of whole length
+    if chain.base == "middle" and chain.segments % 2 == 0:
+        inner = np.sort(np.append(inner, length / 2.0))
+    if chain.base == "start":
+        inner = np.append(0.5 * share, inner)
+    if chain.base == "end":
+        inner = np.append(inner, length - 0.5 * share)
+    return np.concatenate([[0.0], inner, [length]]), np.array(chain.curvature)
+
+
+def _mean_curvature(chain: Chain, length: float, along: np.ndarray) -> np.ndarray:
+    """Curvature at the two Gauss points (k, 2) that does the work of the piecewise one on linear fields.
+
+    along: distance from the start of the edge (k, 3) [m] of the sides' nodes.
+    """
+    bounds, values = pieces(chain, length)
+    xi = (np.arange(_SAMPLES) + 0.5) / _SAMPLES * 2.0 - 1.0
+    weight = np.array([(xi - TWO[1]) / (TWO[0] - TWO[1]), (xi - TWO[0]) / (TWO[1] - TWO[0])])
+    at = along[:, :1] + 0.5 * (xi + 1.0) * (along[:, 2:] - along[:, :1])
+    piece = np.clip(np.searchsorted(bounds, at) - 1, 0, len(values) - 1)
+    return np.einsum("gx,ex->eg", weight, values[piece]) * 2.0 / _SAMPLES
+
+
+def _forms(offset: float) -> np.ndarray:
+    """H (15, 9, 9) with ½ Qᵀ H Q the covariant strains."""
+    forms = np.zeros((STRAINS, 9, 9))
+    for point in range(2):
+        value, slope = _VALUE[point], _SLOPE[point]
+        none = np.zeros(3)
+        axis_slope = np.concatenate([slope, offset * slope, none])
+        director, director_slope = np.concatenate([none, value, none]), np.concatenate([none, slope, none])
+        aside, aside_slope = np.concatenate([none, none, value]), np.concatenate([none, none, slope])
+        forms[AXIAL.start + point] = np.outer(axis_slope, axis_slope)
+        for part, a, b in (
+            (SHEAR, axis_slope, director),
+            (ASIDE, axis_slope, aside),
+            (NORMAL, -axis_slope, director_slope),
+            (INPLANE, -axis_slope, aside_slope),
+            (TWIST, director_slope, aside),
+        ):
+            forms[part.start + point] = np.outer(a, b) + np.outer(b, a)
+    for node in range(3):
+        forms[SQUARE.start + node, 3 + node, 6 + node] = forms[SQUARE.start + node, 6 + node, 3 + node] = 1.0
+    return forms
+
+
+def _stiffness(scene: Scene, plane: str, rigidity: float, length: float, half: np.ndarray) -> np.ndarray:
+    """Stiffness (k, 15) of the covariant strains: what is elastic has EI, what is firm `FIRM` of its kind."""
+    young, thickness = scene.material.young, scene.sheet.thickness
+    force = FIRM * young * thickness * length + SLENDER * rigidity / length**2
+    out_of_plane = FIRM * young * thickness**3 * length + SLENDER * rigidity
+    in_plane = FIRM * young * thickness * length**3 / 12.0 + SLENDER * rigidity
+    out = np.zeros((len(half), STRAINS))
+    covariant = half[:, None]
+    out[:, AXIAL] = force * covariant**-3
+    out[:, SHEAR] = out[:, ASIDE] = force * covariant**-1
+    out[:, NORMAL] = (out_of_plane if plane == "inplane" else rigidity) * covariant**-3
+    out[:, INPLANE] = (in_plane if plane == "normal" else rigidity) * covariant**-3
+    out[:, TWIST] = out_of_plane * covariant**-1
+    out[:, SQUARE] = force * _SHARES * covariant
+    return out
+
+
+def _weight(scene: Scene, chains: Sequence[Chain], offsets: np.ndarray, half: np.ndarray) -> np.ndarray:
+    """Dead force on Q (k, 9, 3) of the chains' weight on their axes."""
+    out = np.zeros((len(half), 9, 3))
+    if scene.gravity is not None:
+        acceleration = scene.gravity.last_factor * np.array(scene.gravity.acceleration)
+        for chain, offset in zip(chains, offsets, strict=True):
+            line = chain.line_density * acceleration
+            nodal = half[:, None, None] * _SHARES[:, None] * line
+            out[:, :3] += nodal
+            out[:, 3:6] += offset * nodal
+    return out
+
+
+def _base(chain: Chain, along: np.ndarray, length: float) -> int | None:
+    """Place on the edge of the node that the base holds."""
+    if chain.base == "free":
+        return None
+    at = {"start": 0.0, "middle": 0.5, "end": 1.0}[chain.base] * length
+    nearest = int(np.argmin(np.abs(along - at)))
+    if abs(along[nearest] - at) > 1e-9 * length:
+        raise ValueError(f"actuator: no node of the mesh at the {chain.base} of edge {chain.edge}")
+    return nearest

@@ -1,0 +1,1 @@
+"""Linear systems: factorisations, constraints, threads."""

@@ -1,0 +1,242 @@
+"""The lattice's linear systems: reduction to the free unknowns, factorisation, solution, inertia.
+
+The reduced tangent Tᵀ K T keeps one pattern, so the map from block entries to its entries is computed
+once and the symbolic analysis is done once. Solvers, in the order they are tried for symmetric systems:
+LAPACK's banded Cholesky (small grids; fails on indefinite matrices, which then go on), rslab's sparse
+L D Lᵀ with exact inertia, SciPy's SuperLU (always there; the inertia from the signs of U's diagonal
+when no row was exchanged). Unsymmetric systems go to rslab's or SciPy's L U. Each solution's residual is
+checked, with one step of refinement.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse as sp
+from scipy.sparse.csgraph import reverse_cuthill_mckee
+from scipy.sparse.linalg import LinearOperator, eigs, onenormest, splu
+
+from lumped.assembly import Pattern
+from lumped.linear.saddle_point import Saddle
+
+rslab: Any
+try:
+    import rslab
+except ImportError:  # SciPy always works
+    rslab = None
+
+BANDED_LIMIT = 2.0e7  # n × bandwidth² below which the banded Cholesky is quicker than the sparse one
+BACKWARD_ERROR = 1e-10  # ‖A x − b‖ relative to ‖A‖‖x‖ + ‖b‖ beyond which the matrix counts as singular
+NEAREST = 12  # eigenvalues sought when the tangent is unsymmetric
+
+SADDLE_REFINEMENTS = 4
+
+
+class SingularMatrixError(ArithmeticError):
+    """The matrix has no usable factors."""
+
+
+class Factor:
+    """One factorisation: solve(b) and the number of negative eigenvalues (None when it is not known).
+
+    solve: of the matrix or of one close by; then with as many refinements as that takes.
+    """
+
+    def __init__(
+        self,
+        matrix: sp.csc_array,
+        solve: Callable[[np.ndarray], np.ndarray],
+        negative: int | None,
+        refinements: int = 1,
+    ):
+        self._matrix, self._solve, self.negative = matrix, solve, negative
+        self._refinements = refinements
+
+    def solve(self, b: np.ndarray) -> np.ndarray:
+        """x with A x = b, refined. Raises SingularMatrixError when the residual stays large."""
+        x = self._solve(b)
+        for _ in range(self._refinements):
+            x = x + self._solve(b - self._matrix @ x)
+        size = np.abs(self._matrix.data).max() * np.abs(x).max(initial=0.0) + np.abs(b).max(initial=0.0)
+        miss = np.abs(b - self._matrix @ x).max(initial=0.0)
+        if not miss <= BACKWARD_ERROR * size:  # also catches nan
+            raise SingularMatrixError(f"residual {miss:.1e} after refinement")
+        return x
+
+    def condition(self) -> float:
+        """Condition number ‖A‖₁ ‖A⁻¹‖₁, the latter estimated with the factors (Hager 1984, Higham 1988)."""
+        n = self._matrix.shape[0]
+        if n == 0:
+            return 1.0
+
+        def columns(b: np.ndarray) -> np.ndarray:
+            return np.column_stack([self._solve(column) for column in b.reshape(n, -1).T])
+
+        # of an unsymmetric matrix the solver with the transpose is missing: its symmetric part is close by
+        inverse = LinearOperator(
+            (n, n), matvec=lambda b: self._solve(b.ravel()), rmatvec=lambda b: self._solve(b.ravel()),
+            matmat=columns, rmatmat=columns, dtype=float,
+        )  # fmt: skip
+        largest = float(abs(self._matrix).sum(axis=0).max())
+        return largest * float(onenormest(inverse, t=min(2, n)))
+
+    def negative_real_parts(self) -> int:
+        """Eigenvalues with a negative real part among the NEAREST ones to zero of an unsymmetric matrix.
+
+        Along a path that starts stable, a real eigenvalue changes sign only through zero. None are sought
+        where the symmetric part is positive definite, which is enough for stability.
+        """
+        if not _symmetric(sp.csc_array((self._matrix + self._matrix.T) / 2.0)).negative:
+            return 0
+        n = self._matrix.shape[0]
+        inverse = LinearOperator((n, n), matvec=self._solve, dtype=float)
+        start = np.random.default_rng(0).standard_normal(n)
+        values = eigs(
+            self._matrix, k=min(NEAREST, n - 2), sigma=0.0, OPinv=inverse, v0=start, return_eigenvectors=False
+        )
+        return int(np.sum(values.real < 0.0))
+
+
+class ReducedSystem:
+    """Tᵀ K T over a fixed pattern, from the blocks of K to factors.
+
+    transform: (3n, m) sparse; symmetric: factors as L D Lᵀ and tells the inertia; multipliers: (m,) bool, the
+    unknowns that are constraints' multipliers (see `lumped.linear.saddle_point`).
+    """
+
+    def __init__(
+        self,
+        pattern: Pattern,
+        transform: sp.csr_array,
+        symmetric: bool,
+        multipliers: np.ndarray | None = None,
+    ):
+        self.symmetric = symmetric
+        self.unknowns = transform.shape[1]
+        self._transform = transform
+        self._pattern = pattern
+        rows = (3 * pattern.rows[:, None, None] + np.arange(3)[None, :, None]).repeat(3, axis=2).ravel()
+        columns = (3 * pattern.indices[:, None, None] + np.arange(3)[None, None, :]).repeat(3, axis=1).ravel()
+        source, r, c, weight = _expand(transform, rows, columns)
+        keys, target = np.unique(c.astype(np.int64) * self.unknowns + r, return_inverse=True)
+        self._map = sp.csr_array(sp.coo_array((weight, (target, source)), shape=(len(keys), len(rows))))
+        self._indices = (keys % self.unknowns).astype(np.int32)
+        column_of = (keys // self.unknowns).astype(np.int32)
+        self._indptr = np.searchsorted(column_of, np.arange(self.unknowns + 1)).astype(np.int32)
+        self._analysis: Any = None
+        self._saddle: Saddle | None = None
+        self._band = _Band(self._indices, column_of, self._indptr) if symmetric else None
+        if multipliers is not None and multipliers.any():
+            self._band = None
+            self._saddle = Saddle(self._indices, column_of, multipliers)
+
+    def matrix(self, blocks: np.ndarray) -> sp.csc_array:
+        """The reduced matrix (m, m) of blocks (b, 3, 3), both triangles."""
+        data = self._map @ blocks.ravel()
+        return sp.csc_array((data, self._indices, self._indptr), shape=(self.unknowns, self.unknowns))
+
+    def apply(self, blocks: np.ndarray, u: np.ndarray) -> np.ndarray:
+        """K u for a displacement (n, 3): force (n, 3)."""
+        full = sp.bsr_array((blocks, self._pattern.indices, self._pattern.indptr))
+        product: np.ndarray = full @ u.ravel()
+        return product.reshape(u.shape)
+
+    def factor(self, blocks: np.ndarray) -> Factor:
+        """Factors of Tᵀ K T. Raises SingularMatrixError when there are none."""
+        matrix = self.matrix(blocks)
+        if not np.isfinite(matrix.data).all():
+            raise SingularMatrixError("an entry is not finite")
+        if self._band is not None and self._band.cost < BANDED_LIMIT:
+            banded = self._band.factor(matrix)
+            if banded is not None:
+                return Factor(matrix, banded, 0)
+        if self._saddle is not None and self.symmetric and rslab is not None:
+            return self._quasi_definite(self._saddle, matrix)
+        try:
+            if rslab is None:
+                return _superlu(matrix, self.symmetric and self._saddle is None)
+            if self._analysis is None:
+                self._analysis = rslab.analyze(matrix, path="ldlt" if self.symmetric else "lu")
+            factors = self._analysis.factor(matrix)
+            return Factor(matrix, factors.solve, factors.inertia[1] if self.symmetric else None)
+        except RuntimeError as error:
+            raise SingularMatrixError(str(error)) from None
+
+    def _quasi_definite(self, saddle: Saddle, matrix: sp.csc_array) -> Factor:
+        close_by, augmented = saddle.quasi_definite(matrix)
+        try:
+            if self._analysis is None:
+                self._analysis = rslab.analyze(close_by, path="ldlt")
+            factors = self._analysis.factor(close_by)
+        except RuntimeError as error:
+            raise SingularMatrixError(str(error)) from None
+        negative = factors.inertia[1]
+        return Factor(matrix, lambda b: factors.solve(augmented(b)), negative, SADDLE_REFINEMENTS)
+
+
+class _Band:
+    """Lower band storage of a symmetric matrix after reverse Cuthill–McKee ordering."""
+
+    def __init__(self, rows: np.ndarray, columns: np.ndarray, indptr: np.ndarray):
+        n = len(indptr) - 1
+        graph = sp.csr_array((np.ones(len(rows), np.int8), rows, indptr), shape=(n, n))
+        self._order = reverse_cuthill_mckee(graph, symmetric_mode=True) if n else np.empty(0, int)
+        place = np.empty(n, int)
+        place[self._order] = np.arange(n)
+        r, c = place[rows], place[columns]
+        self._width = int(np.max(np.abs(r - c), initial=0))
+        self._lower = np.flatnonzero(r >= c)
+        self._at = ((r - c)[self._lower], c[self._lower])
+        self._size = n
+        self.cost = float(n) * self._width**2
+
+    def factor(self, matrix: sp.csc_array) -> Callable[[np.ndarray], np.ndarray] | None:
+        """A solve function, or None when the matrix is not positive definite."""
+        band = np.zeros((self._width + 1, self._size))
+        band[self._at] = matrix.data[self._lower]
+        factors, info = scipy.linalg.lapack.dpbtrf(band, lower=1, overwrite_ab=1)
+        if info:
+            return None
+        order = self._order
+
+        def solve(b: np.ndarray) -> np.ndarray:
+            x = np.empty_like(b)
+            x[order] = scipy.linalg.lapack.dpbtrs(factors, b[order], lower=1)[0]
+            return x
+
+        return solve
+
+
+def _symmetric(matrix: sp.csc_array) -> Factor:
+    """Factors of a symmetric matrix without an analysis to reuse."""
+    if rslab is None:
+        return _superlu(matrix, symmetric=True)
+    factors = rslab.ldlt(matrix)
+    return Factor(matrix, factors.solve, factors.inertia[1])
+
+
+def _superlu(matrix: sp.csc_array, symmetric: bool) -> Factor:
+    if not symmetric:
+        return Factor(matrix, splu(matrix).solve, None)
+    scale = 1.0 / np.sqrt(np.abs(matrix.diagonal()) + np.finfo(float).tiny)
+    scaled = sp.csc_array(sp.diags_array(scale) @ matrix @ sp.diags_array(scale))
+    factors = splu(scaled, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    exchanged = not np.array_equal(factors.perm_r, factors.perm_c)
+    negative = None if exchanged else int(np.sum(factors.U.diagonal() < 0.0))
+    return Factor(matrix, lambda b: scale * factors.solve(scale * b), negative)
+
+
+def _expand(transform: sp.csr_array, rows: np.ndarray, columns: np.ndarray):
+    """Entries of Tᵀ K T that each entry (row, column) of K feeds: source entry, row, column, weight."""
+    counts = np.diff(transform.indptr)
+    left, right = counts[rows], counts[columns]
+    copies = left * right
+    source = np.repeat(np.arange(len(rows)), copies)
+    within = np.arange(len(source)) - np.repeat(np.cumsum(copies) - copies, copies)
+    i, j = within // right[source], within % right[source]
+    at_row, at_column = transform.indptr[rows[source]] + i, transform.indptr[columns[source]] + j
+    weight = transform.data[at_row] * transform.data[at_column]
+    return source, transform.indices[at_row], transform.indices[at_column], weight

@@ -1,0 +1,1 @@
+"""Springs and dampers, one kind a file: links, areas, strains of cells."""

@@ -1,0 +1,117 @@
+"""Dampers collocated with the area springs: dissipation potential, force and tangents, as compiled loops.
+
+A damper of coefficient c [N·s/m] on a cell of area a (a0 at rest) resists the rate ȧ = ∇a·v: potential
+½ c (ȧ/a0)² a0, force (c/a0) ȧ ∇a, power taken (c/a0) ȧ². Tangents: (c/a0) ∇a ∇aᵀ with respect to the
+velocity, (c/a0) [∇a (∇²a v)ᵀ + ȧ ∇²a] with respect to the displacement. In the two diagonals, with n = c/|c|,
+c = d1 × d2 and ċ = v1 × d2 + d1 × v2 (see `lumped.springs.areas`),
+
+    ∇²a v = ½ (v2 × n + d2 × ṅ,  ṅ × d1 + n × v1),   ṅ = (ċ − n (n·ċ))/|c|.
+
+With c = damping_time × k on every link and cell, the damping matrix of the undeformed lattice is
+damping_time × its stiffness, positive also where single area springs are negative (ν < 1/3).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from lumped.springs.areas import _cross, _diagonals, _geometry, add_tangent
+
+
+@njit(cache=True)
+def _scatter(nodes, c, pair, force) -> None:
+    """Add forces (2, 3) on the two diagonals of cell c to its masses."""
+    p = nodes.shape[2]
+    for q in range(3):
+        for s in range(p):
+            force[nodes[c, 0, s], q] -= pair[0, q] / p
+            force[nodes[c, 2, s], q] += pair[0, q] / p
+            force[nodes[c, 1, s], q] -= pair[1, q] / p
+            force[nodes[c, 3, s], q] += pair[1, q] / p
+
+
+@njit(cache=True)
+def rates(u: np.ndarray, v: np.ndarray, nodes, diagonals, damping) -> np.ndarray:
+    """Stress c ȧ/a0 of every cell's damper, (c,) [N/m]."""
+    change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
+    normal, work = np.empty(3), np.empty(3)
+    out = np.empty(len(nodes))
+    for c in range(len(nodes)):
+        _, area, _ = _geometry(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        _diagonals(v, nodes, c, change)
+        rate = 0.0
+        for q in range(3):
+            rate += gradient[0, q] * change[0, q] + gradient[1, q] * change[1, q]
+        out[c] = damping[c] * rate / area
+    return out
+
+
+@njit(cache=True)
+def add_forces(u, v, nodes, diagonals, damping, force) -> float:
+    """Add the damping force, signed as an internal one, to `force` (n, 3) [N]; the power taken [W]."""
+    change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
+    normal, work = np.empty(3), np.empty(3)
+    power = 0.0
+    for c in range(len(nodes)):
+        _, area, _ = _geometry(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        _diagonals(v, nodes, c, change)
+        rate = 0.0
+        for q in range(3):
+            rate += gradient[0, q] * change[0, q] + gradient[1, q] * change[1, q]
+        stress = damping[c] * rate / area
+        power += stress * rate
+        for q in range(3):
+            gradient[0, q] *= stress
+            gradient[1, q] *= stress
+        _scatter(nodes, c, gradient, force)
+    return power
+
+
+@njit(cache=True)
+def add_velocity_tangent(u, nodes, diagonals, damping, slots, scale, blocks) -> None:
+    """Add scale × the derivative of the force with respect to the velocity to the 3×3 blocks."""
+    add_tangent(u, nodes, diagonals, scale * damping, np.zeros(len(nodes)), slots, blocks)
+
+
+@njit(cache=True)
+def add_displacement_tangent(u, v, nodes, diagonals, damping, slots, blocks) -> None:
+    """Add the derivative of the force with respect to the displacement to the 3×3 blocks."""
+    add_tangent(
+        u, nodes, diagonals, np.zeros(len(nodes)), rates(u, v, nodes, diagonals, damping), slots, blocks
+    )
+    change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
+    normal, work, turning = np.empty(3), np.empty(3), np.empty(3)
+    turned = np.empty((2, 3))
+    p = nodes.shape[2]
+    for c in range(len(nodes)):
+        _, area, size = _geometry(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        _diagonals(v, nodes, c, change)
+        _cross(change[0], current[1], turning)
+        _cross(current[0], change[1], work)
+        along = 0.0
+        for q in range(3):
+            turning[q] += work[q]
+            along += normal[q] * turning[q]
+        for q in range(3):
+            turning[q] = (turning[q] - along * normal[q]) / size
+        _cross(change[1], normal, turned[0])
+        _cross(current[1], turning, work)
+        for q in range(3):
+            turned[0, q] = 0.5 * (turned[0, q] + work[q])
+        _cross(turning, current[0], turned[1])
+        _cross(normal, change[0], work)
+        for q in range(3):
+            turned[1, q] = 0.5 * (turned[1, q] + work[q])
+        for corner in range(4):
+            d, sign = corner % 2, -1.0 if corner < 2 else 1.0
+            for other in range(4):
+                e, scale = other % 2, sign * (-1.0 if other < 2 else 1.0) / (p * p)
+                for s in range(p):
+                    for t in range(p):
+                        slot = slots[c, corner * p + s, other * p + t]
+                        for q in range(3):
+                            for r in range(3):
+                                blocks[slot, q, r] += (
+                                    scale * damping[c] / area * gradient[d, q] * turned[e, r]
+                                )

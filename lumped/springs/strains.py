@@ -1,0 +1,154 @@
+"""Strain springs: energy, stress, force, tangent of cells that resist stretching and shearing of their sides.
+
+A cell whose four corners, in turn, are the means of p masses each has the mean sides a = (d1 − d2)/2 along x
+and b = (d1 + d2)/2 along y, d1 and d2 its diagonals, and the Green strains
+
+    ε1 = (|a|² − a0²)/(2 a0²),   ε2 = (|b|² − b0²)/(2 b0²),   γ = a·b/(a0 b0).
+
+It stores ½ (k1 ε1² + k2 ε2² + k3 γ²) a0 b0; stresses τ = k ε [N/m]. Rigid motions leave it alone. Links and
+area springs do for cells of moderate aspect; these make up what they cannot (see
+`lumped.calibration.least_squares`): in each layer the shear that diagonal links of a long cell have too
+little of, on the mid-surface the stretching that cross-layer links leave over.
+
+Arrays as in `lumped.springs.areas`, but stiffness and stress (c, 3): of ε1, ε2, γ [N/m].
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from lumped.springs.areas import _diagonals
+
+A_SIGNS = np.array([-0.5, 0.5, 0.5, -0.5])  # a = Σ A_SIGNS[corner] x[corner]
+B_SIGNS = np.array([-0.5, -0.5, 0.5, 0.5])
+
+
+@njit(cache=True)
+def _sides(u, nodes, diagonals, c, change, sides):
+    """Strains ε1, ε2, γ and the squares a0², b0²; fills change (2, 3) of the sides, and sides (2, 3)."""
+    _diagonals(u, nodes, c, change)
+    first = second = shear = a0 = b0 = 0.0
+    for q in range(3):
+        a, b = (
+            0.5 * (diagonals[c, 0, q] - diagonals[c, 1, q]),
+            0.5 * (diagonals[c, 0, q] + diagonals[c, 1, q]),
+        )
+        da, db = 0.5 * (change[0, q] - change[1, q]), 0.5 * (change[0, q] + change[1, q])
+        change[0, q], change[1, q] = da, db
+        sides[0, q], sides[1, q] = a + da, b + db
+        # |a|² − a0² = (2 a + δ)·δ, and a·b is zero at rest: no digits lost
+        first += (2.0 * a + da) * da
+        second += (2.0 * b + db) * db
+        shear += da * b + (a + da) * db
+        a0 += a * a
+        b0 += b * b
+    return first / (2.0 * a0), second / (2.0 * b0), shear / np.sqrt(a0 * b0), a0, b0
+
+
+@njit(cache=True)
+def stresses(u: np.ndarray, nodes, diagonals, stiffness) -> np.ndarray:
+    """Stresses k ε of every cell, (c, 3) [N/m]."""
+    change, sides = np.empty((2, 3)), np.empty((2, 3))
+    out = np.empty((len(nodes), 3))
+    for c in range(len(nodes)):
+        e1, e2, shear, _, _ = _sides(u, nodes, diagonals, c, change, sides)
+        out[c, 0], out[c, 1], out[c, 2] = stiffness[c, 0] * e1, stiffness[c, 1] * e2, stiffness[c, 2] * shear
+    return out
+
+
+@njit(cache=True)
+def extrapolated_stresses(u, step, nodes, diagonals, stiffness) -> np.ndarray:
+    """Stresses that the linearisation at u predicts after `step` (n, 3) [m]; (c, 3) [N/m]."""
+    change, sides = np.empty((2, 3)), np.empty((2, 3))
+    out = np.empty((len(nodes), 3))
+    for c in range(len(nodes)):
+        e1, e2, shear, a0, b0 = _sides(u, nodes, diagonals, c, change, sides)
+        _diagonals(step, nodes, c, change)
+        for q in range(3):
+            da, db = 0.5 * (change[0, q] - change[1, q]), 0.5 * (change[0, q] + change[1, q])
+            e1 += sides[0, q] * da / a0
+            e2 += sides[1, q] * db / b0
+            shear += (sides[1, q] * da + sides[0, q] * db) / np.sqrt(a0 * b0)
+        out[c, 0], out[c, 1], out[c, 2] = stiffness[c, 0] * e1, stiffness[c, 1] * e2, stiffness[c, 2] * shear
+    return out
+
+
+@njit(cache=True)
+def _pull(nodes, c, t1, t2, t3, sides, a0, b0, force):
+    """Add the forces of stresses t1, t2, t3 on sides (2, 3) of cell c."""
+    p = nodes.shape[2]
+    area = np.sqrt(a0 * b0)
+    for q in range(3):
+        on_a = (t1 * sides[0, q] / a0 + t3 * sides[1, q] / area) * area / p
+        on_b = (t2 * sides[1, q] / b0 + t3 * sides[0, q] / area) * area / p
+        for corner in range(4):
+            value = A_SIGNS[corner] * on_a + B_SIGNS[corner] * on_b
+            for s in range(p):
+                force[nodes[c, corner, s], q] += value
+
+
+@njit(cache=True)
+def add_forces(u, nodes, diagonals, stiffness, force) -> float:
+    """Add the internal force to `force` (n, 3) [N]; returns the energy [J]."""
+    change, sides = np.empty((2, 3)), np.empty((2, 3))
+    energy = 0.0
+    for c in range(len(nodes)):
+        e1, e2, shear, a0, b0 = _sides(u, nodes, diagonals, c, change, sides)
+        t1, t2, t3 = stiffness[c, 0] * e1, stiffness[c, 1] * e2, stiffness[c, 2] * shear
+        energy += 0.5 * (t1 * e1 + t2 * e2 + t3 * shear) * np.sqrt(a0 * b0)
+        _pull(nodes, c, t1, t2, t3, sides, a0, b0, force)
+    return energy
+
+
+@njit(cache=True)
+def add_average_forces(start, end, nodes, diagonals, stiffness, force) -> None:
+    """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it.
+
+    The strains are quadratic in the sides: the mean stress on the mean sides is exact (Simo, Tarnow 1992).
+    """
+    change, first, second = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
+    for c in range(len(nodes)):
+        e1, e2, e3, a0, b0 = _sides(start, nodes, diagonals, c, change, first)
+        f1, f2, f3, _, _ = _sides(end, nodes, diagonals, c, change, second)
+        for q in range(3):
+            first[0, q] = 0.5 * (first[0, q] + second[0, q])
+            first[1, q] = 0.5 * (first[1, q] + second[1, q])
+        t1 = 0.5 * stiffness[c, 0] * (e1 + f1)
+        t2 = 0.5 * stiffness[c, 1] * (e2 + f2)
+        t3 = 0.5 * stiffness[c, 2] * (e3 + f3)
+        _pull(nodes, c, t1, t2, t3, first, a0, b0, force)
+
+
+@njit(cache=True)
+def add_tangent(u, nodes, diagonals, stiffness, stress, slots, blocks) -> None:
+    """Add Σ k g gᵀ and the stresses' geometric part of every cell to the 3×3 blocks."""
+    change, sides = np.empty((2, 3)), np.empty((2, 3))
+    gradient = np.empty((3, 4, 3))  # of each strain at each corner
+    p = nodes.shape[2]
+    for c in range(len(nodes)):
+        _, _, _, a0, b0 = _sides(u, nodes, diagonals, c, change, sides)
+        area = np.sqrt(a0 * b0)
+        for corner in range(4):
+            for q in range(3):
+                gradient[0, corner, q] = A_SIGNS[corner] * sides[0, q] / a0
+                gradient[1, corner, q] = B_SIGNS[corner] * sides[1, q] / b0
+                gradient[2, corner, q] = (
+                    A_SIGNS[corner] * sides[1, q] + B_SIGNS[corner] * sides[0, q]
+                ) / area
+        for m in range(4):
+            for n in range(4):
+                across = (
+                    stress[c, 0] * A_SIGNS[m] * A_SIGNS[n] / a0 + stress[c, 1] * B_SIGNS[m] * B_SIGNS[n] / b0
+                )
+                across += stress[c, 2] * (A_SIGNS[m] * B_SIGNS[n] + B_SIGNS[m] * A_SIGNS[n]) / area
+                for s in range(p):
+                    for t in range(p):
+                        slot = slots[c, m * p + s, n * p + t]
+                        for q in range(3):
+                            for r in range(3):
+                                value = 0.0
+                                for i in range(3):
+                                    value += stiffness[c, i] * gradient[i, m, q] * gradient[i, n, r]
+                                blocks[slot, q, r] += value * area / (p * p)
+                            blocks[slot, q, q] += across * area / (p * p)

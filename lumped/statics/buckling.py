@@ -1,0 +1,47 @@
+"""Linear buckling: the load factors at which a lattice's straight state stops being stable.
+
+K(λ) ≈ K0 + λ K1 with K1 the change of the tangent per unit of load at λ = 0; K(λ) φ = 0 is the generalised
+eigenproblem −K1 φ = (1/λ) K0 φ (e.g. Bathe, Finite Element Procedures, 6.8).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse.linalg import LinearOperator, eigsh
+
+from lumped.calibration import Calibration
+from lumped.statics.equilibrium import at_rest, follow
+from lumped.statics.solver import pose
+from sheetbench.scenes import Scene, SceneError, require_static
+
+SMALL_LOAD = 1e-4  # share of the full load that the change of the tangent is taken over, first
+
+
+def buckling_loads(scene: Scene, springs: Calibration, count: int = 1) -> np.ndarray:
+    """The `count` lowest positive buckling load factors of a scene's loads, (count,).
+
+    Meant for loads that leave the sheet flat. The state of small load is refined once, to a hundredth of
+    the first estimate. Raises SceneError when nothing stops a rigid motion or no load factor is positive.
+    """
+    require_static(scene)
+    problem = pose(scene, springs)
+    rest = at_rest(problem)
+    n = problem.system.unknowns
+    stiffness = problem.system.matrix(rest.blocks)
+    inverse = LinearOperator((n, n), matvec=rest.factor.solve, dtype=float)
+    small = SMALL_LOAD
+    for _ in range(2):
+        loaded, why = follow(problem, rest, small)
+        if why:
+            raise SceneError(f"scene '{scene.name}': no equilibrium at {small:g} of the load: {why}")
+        softening = -(problem.system.matrix(loaded.blocks) - stiffness) / loaded.load_factor
+        start = np.random.default_rng(0).standard_normal(n)
+        per_load = eigsh(
+            softening, k=count, M=stiffness, Minv=inverse, which="LA", v0=start, return_eigenvectors=False
+        )
+        per_load = np.sort(per_load)[::-1]
+        if per_load[0] <= 0.0:
+            raise SceneError(f"scene '{scene.name}': the loads do not soften the sheet; it does not buckle")
+        small = 0.01 / float(per_load[0])
+    factors: np.ndarray = 1.0 / per_load
+    return factors

@@ -1,0 +1,201 @@
+"""Arc-length continuation: the load–displacement path of a lattice through limit points.
+
+With the load factor λ one more unknown, a step of prescribed arc length goes along the path's tangent,
+δu = Δλ K⁻¹ f, and is corrected at right angles to it (Riks 1979, Ramm 1981):
+
+    K(u, N*) δ = λ f − f_int + δλ f,      v·δ = 0,
+
+with the extrapolated tensions N* of `lumped.statics.equilibrium`. Arc length is measured in displacement
+alone, so a limit point in λ is nothing special. The inertia of the true tangent at every point says which
+parts of the path are stable.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lumped.calibration import Calibration
+from lumped.linear.solver import SingularMatrixError
+from lumped.loads import Loads, locate
+from lumped.statics.equilibrium import COARSE, State, StepFailed, all_rounding, at_rest, follow
+from lumped.statics.problem import Problem
+from lumped.statics.solver import Branch, pose, settle
+from sheetbench.scenes import Iteration, Load, Scene, Status, require_static
+
+CORRECTIONS = 10
+TOLERANCE = 1e-9  # residual relative to the forces
+STRAIGHT = 0.9  # cosine between a step and the path's tangent at its end, below which the step is too long
+BENT = 0.5  # share by which a step's load may miss its prediction
+SHORTEST = 2.0**-10  # of the longest arc
+
+
+@dataclass(frozen=True)
+class Path:
+    """A load–displacement path of n points.
+
+    load_factors: (n,); displacements: probe → (n, 3) [m]; negative: (n,) eigenvalues of the tangent below
+    zero (0: stable, −1: not known); status: CONVERGED when the asked end was reached; message: why not.
+    """
+
+    load_factors: np.ndarray
+    displacements: dict[str, np.ndarray]
+    negative: np.ndarray
+    status: Status
+    factorisations: int
+    message: str = ""
+
+    @property
+    def stable(self) -> np.ndarray:
+        """Which points are stable equilibria, (n,)."""
+        stable: np.ndarray = self.negative == 0
+        return stable
+
+
+def trace(
+    scene: Scene,
+    springs: Calibration,
+    *,
+    vary: Sequence[Load] = (),
+    branch: Branch = "path",
+    until: Callable[[float, dict[str, np.ndarray]], bool] | None = None,
+    load_limit: float = 1.0,
+    points: int = 200,
+    step: float | None = None,
+    progress: Callable[[Iteration], None] | None = None,
+) -> Path:
+    """The equilibrium path of a scene, past limit points.
+
+    Without `vary` the scene's own loads, curved supports and tilted clamps grow from zero. With it the scene
+    is first solved (on the `branch` asked), then these loads are added and scaled. The path ends when |λ|
+    reaches load_limit, when until(λ, probe displacements [m]) holds, or after `points` points. step: longest
+    arc [m] of the largest mass displacement; default a fiftieth of the longer side.
+
+    Raises scenes.SceneError when nothing stops a rigid motion, SingularMatrixError at a singular start.
+    """
+    require_static(scene)
+    problem = pose(scene, springs)
+    if vary:
+        outcome = settle(scene, problem, branch)
+        start = outcome.state
+        added = scene.model_copy(update={"gravity": None, "loads": tuple(vary)})
+        problem = Problem(
+            problem.assembly,
+            problem.constraints,
+            Loads(added, problem.assembly),
+            problem.size,
+            base=problem.loads,
+            factorisations=problem.factorisations,
+        )
+        start = State(start.u, 0.0, start.stresses, start.blocks, start.factor, start.negative)
+    else:
+        start = at_rest(problem)
+    problem.progress = progress
+    longest = step if step is not None else problem.size / 50.0
+
+    columns, share = locate(problem.assembly.lattice, scene.probe_points())
+    layers = problem.assembly.lattice.columns().reshape(-1, problem.assembly.lattice.grid[2])
+
+    def probed(state: State) -> dict[str, np.ndarray]:
+        mean = state.u[layers].mean(axis=1)
+        return dict(zip(scene.probes, np.einsum("pc,pcq->pq", share, mean[columns]), strict=True))
+
+    arc, message, status = longest, "", Status.STEP_LIMIT
+    before, highest = None, 0.0
+    found = [(start.load_factor, probed(start), start.negative)]
+    while len(found) < points:
+        try:
+            state, predicted = _arc_step(problem, start, before, arc, load_limit)
+            if arc > SHORTEST * longest and _bends(problem, start, state, predicted, highest):
+                raise StepFailed("the path bends")
+        except (StepFailed, SingularMatrixError) as failure:
+            arc /= 2.0
+            if arc < SHORTEST * longest / 4.0:
+                status, message = Status.DIVERGED, str(failure)
+                break
+            continue
+        before, start = state.u - start.u, state
+        highest = max(highest, abs(state.load_factor))
+        found.append((state.load_factor, probed(state), state.negative))
+        arc = min(longest, 1.5 * arc)
+        if abs(abs(state.load_factor) - load_limit) < 1e-9 or (until and until(*found[-1][:2])):
+            status = Status.CONVERGED
+            break
+    return Path(
+        load_factors=np.array([row[0] for row in found]),
+        displacements={name: np.array([row[1][name] for row in found]) for name in scene.probes},
+        negative=np.array([-1 if row[2] is None else row[2] for row in found]),
+        status=status,
+        factorisations=problem.factorisations,
+        message=message,
+    )
+
+
+def _arc_step(
+    problem: Problem, start: State, before: np.ndarray | None, arc: float, load_limit: float
+) -> tuple[State, float]:
+    """The next equilibrium on the path and its predicted load. Raises StepFailed, SingularMatrixError."""
+    tangent = _per_load(problem, start, start.blocks)
+    forward = 1.0 if before is None or np.sum(tangent * before) > 0.0 else -1.0
+    change = forward * arc / float(np.abs(tangent).max())
+    if abs(start.load_factor + change) > load_limit:  # the end is near: go there by load
+        end = float(np.sign(change)) * load_limit
+        state, why = follow(problem, start, end)
+        if why or np.abs(state.u - start.u).max() > 3.0 * arc:
+            raise StepFailed(why or "the load step leaves the path")
+        return state, end
+    move = change * tangent
+    load_factor = start.load_factor + change
+    stresses = problem.assembly.extrapolated(start.u, move)
+    u = np.where(problem.constraints.fixed, problem.prescribed(load_factor), start.u + move)
+    for count in range(CORRECTIONS):
+        unbalanced, residual = problem.residual(u, load_factor)
+        problem.note(load_factor, residual, float(np.abs(move).max()))
+        if not np.isfinite(residual) or np.abs(u - start.u).max() > 3.0 * arc:
+            raise StepFailed("the corrections grow")
+        rounded = all_rounding(problem, u, load_factor, residual, float(np.abs(move).max()))
+        close = rounded or residual < COARSE
+        blocks = problem.tangent(u, load_factor, None if close else stresses)
+        factor = problem.factor(blocks)
+        if rounded or residual < TOLERANCE:
+            state = State(
+                u, load_factor, problem.assembly.stresses(u), blocks, factor, problem.negative(factor)
+            )
+            return state, start.load_factor + change
+        free = problem.expand(factor.solve(problem.reduce(unbalanced)))
+        loaded = problem.expand(factor.solve(problem.reduce(problem.growing(u))))
+        loaded = loaded + _prescribed_rate(problem, load_factor, factor, blocks)
+        correction = -float(np.sum(tangent * free)) / float(np.sum(tangent * loaded))
+        move = free + correction * loaded
+        stresses = problem.assembly.extrapolated(u, move)
+        u, load_factor = u + move, load_factor + correction
+        u = np.where(problem.constraints.fixed, problem.prescribed(load_factor), u)
+        if count == CORRECTIONS - 1:
+            break
+    raise StepFailed(f"no equilibrium in {CORRECTIONS} corrections")
+
+
+def _bends(problem: Problem, start: State, end: State, predicted: float, highest: float) -> bool:
+    """Whether a step cuts a corner: it misses the load predicted, or the path's direction at its end."""
+    miss = abs(end.load_factor - predicted)
+    if miss > max(BENT * abs(predicted - start.load_factor), 0.05 * highest):
+        return True
+    step, tangent = end.u - start.u, _per_load(problem, end, end.blocks)
+    return bool(abs(np.sum(tangent * step)) < STRAIGHT * np.linalg.norm(tangent) * np.linalg.norm(step))
+
+
+def _per_load(problem: Problem, state: State, blocks: np.ndarray) -> np.ndarray:
+    """Displacement per unit of load factor at an equilibrium, (n, 3) [m]."""
+    loaded = problem.expand(state.factor.solve(problem.reduce(problem.growing(state.u))))
+    return loaded + _prescribed_rate(problem, state.load_factor, state.factor, blocks)
+
+
+def _prescribed_rate(problem: Problem, load_factor: float, factor, blocks: np.ndarray) -> np.ndarray:
+    """What the supports' own movement adds to the displacement per unit of load factor, (n, 3) [m]."""
+    h = 1e-6
+    rate = (problem.prescribed(load_factor + h) - problem.prescribed(load_factor - h)) / (2.0 * h)
+    if not rate.any():
+        return rate
+    return rate - problem.expand(factor.solve(problem.reduce(problem.system.apply(blocks, rate))))

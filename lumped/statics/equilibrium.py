@@ -1,0 +1,180 @@
+"""Static equilibrium of a lattice: internal force = λ × external force, from the flat sheet to λ = 1.
+
+Each correction solves K(u, N*) δ = λ f(u) − f_int(u), where the geometric part of the tangent takes the
+tensions N* that the previous linearisation extrapolated instead of those at u: the mixed-integration-point
+Newton of Magisano, Leonetti and Garcea (2017), whose steps are not held back by the spurious stretching of
+a large rotation. The last corrections use the true tangent: they polish the answer to rounding, and their
+inertia decides stability.
+
+Load steps adapt: a step's predictor, linear in the load, may displace no mass farther than a share of the
+sheet's longer side; a step that fails is halved with the factors at hand. Where the path ends before
+λ = 1 and the forces have an energy, a regularised Newton descent (`lumped.statics.energy_descent`) looks for
+a stable state there.
+
+Watchdogs end a path: a number that is not finite, corrections that grow or do not settle (a load step's
+own), collapsed links and inverted cells at an equilibrium (`lumped.statics.validity`), too many
+factorisations.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lumped.assembly import Stresses
+from lumped.linear.solver import Factor, SingularMatrixError
+from lumped.statics.problem import Problem
+from lumped.statics.validity import broken
+
+COARSE = 1e-5  # residual, relative to the forces, at which corrections turn to the true tangent
+SETTLED = 1e-9  # of the sheet's longer side: what an idle correction may move
+FINE = 1e-11  # residual, relative to the forces, that counts as equilibrium
+FIRST_REACH = 1.3  # farthest predicted displacement of a first step, in sides of the sheet
+SHORTEST_STEP = 2.0**-12
+FACTORISATIONS = 2000  # of one path
+CORRECTIONS = 14  # of one load step
+
+
+@dataclass
+class State:
+    """An equilibrium: displacement, load factor, stresses and the factors of the true tangent there.
+
+    negative: eigenvalues of the tangent below zero (real parts), None when not known.
+    """
+
+    u: np.ndarray
+    load_factor: float
+    stresses: Stresses
+    blocks: np.ndarray
+    factor: Factor
+    negative: int | None
+
+
+class StepFailed(ArithmeticError):
+    """A load step found no equilibrium; the text says why."""
+
+
+def at_rest(problem: Problem) -> State:
+    """The flat, stress-free state. Raises SingularMatrixError when its tangent has no factors."""
+    u = np.zeros_like(problem.loads.dead)
+    blocks = problem.tangent(u, 0.0)
+    factor = problem.factor(blocks)
+    return State(u, 0.0, problem.assembly.stresses(u), blocks, factor, problem.negative(factor))
+
+
+def follow(problem: Problem, start: State, target: float = 1.0) -> tuple[State, str]:
+    """The equilibrium at load factor `target` along the path from `start`, or the last one before it, with
+    the reason why the path ended ("" when it did not)."""
+    state, reach, step = start, FIRST_REACH * problem.size, target - start.load_factor
+    shortest = abs(step) * SHORTEST_STEP
+    while abs(target - state.load_factor) > 1e-12:
+        step = np.sign(target - state.load_factor) * min(abs(step), abs(target - state.load_factor))
+        predicted = predictor(problem, state, step)
+        farthest = float(np.abs(predicted).max())
+        if farthest > reach:
+            step *= reach / farthest
+            predicted = predictor(problem, state, step)
+            farthest = float(np.abs(predicted).max())
+        try:
+            before = problem.factorisations
+            last = abs(target - state.load_factor - step) < 1e-12
+            state = _correct(problem, state, state.load_factor + step, predicted, FINE if last else COARSE)
+        except (StepFailed, SingularMatrixError) as failure:
+            step /= 2.0
+            reach = min(reach, farthest) / 2.0
+            if abs(step) < shortest or problem.factorisations > FACTORISATIONS:
+                return state, str(failure)
+            continue
+        problem.fault = broken(problem.assembly, state.u)
+        if problem.fault is not None:
+            return state, problem.fault.message
+        if problem.factorisations > FACTORISATIONS:
+            return state, f"{FACTORISATIONS} factorisations were not enough"
+        if problem.factorisations - before <= 7:
+            reach *= 1.5
+        step *= 4.0
+    return state, ""
+
+
+def predictor(problem: Problem, state: State, step: float) -> np.ndarray:
+    """Displacement (n, 3) of a load step, linear at the state."""
+    moved = problem.prescribed(state.load_factor + step) - problem.prescribed(state.load_factor)
+    unbalanced = step * problem.growing(state.u) - problem.system.apply(state.blocks, moved)
+    return problem.expand(state.factor.solve(problem.reduce(unbalanced))) + moved
+
+
+def _correct(
+    problem: Problem, start: State, load_factor: float, predicted: np.ndarray, tolerance: float
+) -> State:
+    """Equilibrium at a load factor from a predicted step. Raises StepFailed, SingularMatrixError."""
+    assembly = problem.assembly
+    stresses = assembly.extrapolated(start.u, predicted)
+    u = start.u + predicted
+    lengths = [float(np.abs(predicted).max())]
+    for _ in range(CORRECTIONS):
+        unbalanced, residual = problem.residual(u, load_factor)
+        problem.note(load_factor, residual, lengths[-1])
+        if not np.isfinite(residual):
+            raise StepFailed("a number overflowed")
+        if residual < COARSE or all_rounding(problem, u, load_factor, residual, lengths[-1]):
+            return polish(problem, u, load_factor, tolerance)
+        factor = problem.factor(problem.tangent(u, load_factor, stresses))
+        step = problem.expand(factor.solve(problem.reduce(unbalanced)))
+        stresses = assembly.extrapolated(u, step)
+        u = u + step
+        lengths.append(float(np.abs(step).max()))
+        if lengths[-1] > 4.0 * problem.size or (len(lengths) > 4 and lengths[-1] > lengths[-2] > lengths[-3]):
+            raise StepFailed("the corrections grow")
+    raise StepFailed(f"no equilibrium in {CORRECTIONS} corrections")
+
+
+def polish(problem: Problem, u: np.ndarray, load_factor: float, tolerance: float = FINE) -> State:
+    """Newton with the true tangent from close by, to rounding; the last factors tell stability.
+
+    Raises StepFailed when it does not converge there.
+    """
+    floor = rounding_floor(problem, u, load_factor)
+    for _ in range(6):
+        blocks = problem.tangent(u, load_factor)
+        factor = problem.factor(blocks)
+        unbalanced, before = problem.residual(u, load_factor)
+        step = problem.expand(factor.solve(problem.reduce(unbalanced)))
+        after = problem.residual(u + step, load_factor)[1]
+        length = float(np.abs(step).max())
+        if not np.isfinite(after) or length > 0.1 * problem.size:
+            raise StepFailed("the polishing step is not small")
+        if after < before:
+            u = u + step
+        problem.note(load_factor, min(after, before), length)
+        if min(after, before) < max(tolerance, floor):
+            return State(
+                u, load_factor, problem.assembly.stresses(u), blocks, factor, problem.negative(factor)
+            )
+    raise StepFailed("the residual stagnates")
+
+
+def all_rounding(
+    problem: Problem, u: np.ndarray, load_factor: float, residual: float, correction: float
+) -> bool:
+    """Whether a residual is what rounding leaves; in double precision the correction [m] before it was idle.
+
+    Where nothing strains the sheet, as on a turned clamp alone, the forces are all rounding, and no residual
+    is small beside them.
+    """
+    if problem.assembly.precision == "double" and correction > SETTLED * problem.size:
+        return False
+    return residual < rounding_floor(problem, u, load_factor)
+
+
+def rounding_floor(problem: Problem, u: np.ndarray, load_factor: float) -> float:
+    """Residual, relative to the forces as in `Problem.residual`, that rounding of the link forces leaves."""
+    assembly = problem.assembly
+    carried = np.zeros(len(u))
+    # relative displacements are differences of u: their rounding, times the stiffness
+    rounded = assembly.links.stiffness * np.abs(u).max()
+    np.add.at(carried, assembly.links.nodes.ravel(), np.repeat(rounded, 2))
+    if assembly.coupling is not None:
+        carried += assembly.coupling.carried()
+    scale = problem.force_scale(u, load_factor)
+    return float(assembly.rounding * np.linalg.norm(carried) / scale) if scale > 0.0 else np.inf

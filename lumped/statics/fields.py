@@ -1,0 +1,68 @@
+"""The lattice and its answer as a mesh with fields: masses as points, links as lines, layer cells as quads.
+
+Point data: displacement [m], reaction [N] (force of the supports on each mass), mass share [-]. Cell data,
+one value per link and per quad: tension [N] of the links (0 on quads), strain [-] of the links, family
+number of the links (−1 on quads), elastic_energy [J] of the link or of the quad's area and strain springs,
+cell_energy [J] of all that a plan cell stores, links shared with the cells beside them (0 on links; the quads
+of a plan cell's layers have equal parts).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lumped.assembly import Stresses
+from lumped.lattice import Lattice
+from lumped.statics.problem import Problem
+from sheetbench.scenes import FieldMesh
+
+
+def field_mesh(
+    problem: Problem, u: np.ndarray, reactions: np.ndarray, stresses: Stresses | None = None
+) -> FieldMesh:
+    """Mesh and fields at displacement u (n, 3) [m] with the supports' forces on the masses (n, 3) [N];
+    rows of actuators after those of the masses are left out. stresses: those at u unless given."""
+    assembly = problem.assembly
+    links, lattice = assembly.links, assembly.lattice
+    stresses = stresses or assembly.stresses(u)
+    (layer_cells,) = (c.nodes[:, :, 0] for c in lattice.cells if c.name == "area")
+    quads, masses = len(layer_cells), lattice.mass_count
+    cell_energy = np.zeros(quads)
+    for cell, stress in assembly.cell_stresses(stresses):
+        energy = cell.energies(stress)
+        layers = quads // len(energy)
+        cell_energy += np.tile(energy / layers, layers)
+    link_energy = 0.5 * stresses.links**2 / links.stiffness
+    per_plan_cell = _links_by_cell(lattice, links.nodes, link_energy)
+    layers = quads // len(per_plan_cell)
+    per_plan_cell += cell_energy.reshape(layers, -1).sum(axis=0)
+    all_energy = np.tile(per_plan_cell / layers, layers)
+    return FieldMesh(
+        points=lattice.positions,
+        cells=[("line", links.nodes), ("quad", layer_cells)],
+        point_data={
+            "displacement": u[:masses],
+            "reaction": reactions[:masses],
+            "mass_share": lattice.share,
+        },
+        cell_data={
+            "tension": [stresses.links, np.zeros(quads)],
+            "strain": [stresses.links / links.stiffness / links.rest_length, np.zeros(quads)],
+            "family": [links.family.astype(float), np.full(quads, -1.0)],
+            "elastic_energy": [link_energy, cell_energy],
+            "cell_energy": [np.zeros(len(links)), all_energy],
+        },
+    )
+
+
+def _links_by_cell(lattice: Lattice, nodes: np.ndarray, energy: np.ndarray) -> np.ndarray:
+    """Energy of links (m, 2) summed over the plan cells that hold them, ((nx − 1)(ny − 1),) [J]."""
+    nx, ny, _ = lattice.grid
+    middle = lattice.positions[nodes].mean(axis=1)[:, :2] / np.array(lattice.spacing[:2])
+    stored = np.zeros((ny - 1, nx - 1))
+    for side_x in (-1e-6, 1e-6):
+        for side_y in (-1e-6, 1e-6):
+            i = np.clip(np.floor(middle[:, 0] + side_x).astype(int), 0, nx - 2)
+            j = np.clip(np.floor(middle[:, 1] + side_y).astype(int), 0, ny - 2)
+            np.add.at(stored, (j, i), energy / 4.0)
+    return stored.ravel()

@@ -1,0 +1,286 @@
+"""Statics of a lattice: a scene and springs in, a `scenes.Solution` out."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from typing import Any, Literal
+
+import numpy as np
+
+from lumped.actuators import Coupling
+from lumped.assembly import Assembly, Precision
+from lumped.calibration import Calibration, calibrate, given
+from lumped.lattice import Weights
+from lumped.linear.solver import SingularMatrixError
+from lumped.linear.threads import one_blas_thread
+from lumped.loads import Loads, locate
+from lumped.statics import validity as watch
+from lumped.statics.energy_descent import descend, disturbed
+from lumped.statics.equilibrium import FACTORISATIONS, State, StepFailed, at_rest, follow, predictor
+from lumped.statics.fields import field_mesh
+from lumped.statics.problem import Problem
+from lumped.supports import constrain
+from sheetbench.scenes import (
+    Clamped,
+    Gravity,
+    Iteration,
+    Material,
+    Scene,
+    Sheet,
+    Solution,
+    Status,
+    require_static,
+)
+
+STRAIN_LIMIT = 0.05  # ρ g a/E beyond which a linear spring means nothing
+LINK_STRAIN_LIMIT = 0.5  # relative elongation of a link beyond which it does not either
+SNAPS = 12  # of one load path
+SNAP_STEP = 0.02  # in load factor, past the point where the path ended
+
+Branch = Literal["path", "stable"]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a solve ended: status, the last equilibrium, and what there is to say about it."""
+
+    status: Status
+    state: State
+    message: str
+
+
+def solve(
+    scene: Scene,
+    springs: Calibration | None = None,
+    *,
+    branch: Branch = "path",
+    weights: Weights = "tributary",
+    linear: bool = False,
+    precision: Precision = "double",
+    progress: Callable[[Iteration], None] | None = None,
+) -> Solution:
+    """Static equilibrium of the scene on a lattice with these springs, from flat to full load.
+
+    springs: from `calibrate`; without them the scene's own [springs], or else `consistent` on 9 × 9 × 2.
+    branch: "path" reports the equilibrium on the load path, stable or not; "stable" leaves an unstable one
+    along a direction of negative curvature and descends to a stable equilibrium. weights: "full" gives
+    boundary links and masses full shares, as the seed has them. linear: the answer for small displacements,
+    one step with the flat sheet's tangent. precision: of the internal force (`lumped.assembly`). progress:
+    called once an iteration.
+
+    Raises scenes.SceneError when nothing stops a rigid motion, ValueError for linear with actuators. Every
+    other outcome is a status; where the full load was not reached, the last converged load is kept and
+    `load_factor` says which.
+    """
+    require_static(scene)
+    if linear and scene.actuators:
+        raise ValueError("linear = True: actuators turn with the sheet; solve without")
+    began = time.perf_counter()
+    _compile()
+    if springs is None:
+        springs = given(scene) if scene.springs is not None else calibrate(scene.sheet, scene.material)
+    problem = pose(scene, springs, weights, precision)
+    problem.progress = progress
+    ready = time.perf_counter()
+    with one_blas_thread():
+        outcome = flat_step(scene, problem) if linear else settle(scene, problem, branch)
+    done = time.perf_counter()
+    solution = _solution(scene, springs, problem, outcome, (ready - began, done - ready), branch, weights)
+    if not linear or outcome.status is Status.SINGULAR:
+        return solution
+    return _of_small_displacements(solution, problem, outcome.state)
+
+
+@cache
+def _compile() -> None:
+    """Solve a small sheet once a process, so that no solve's time holds the loading of compiled kernels."""
+    sheet = Sheet(length_x=1.0, length_y=1.0, thickness=0.05)
+    material = Material(young=1e6, poisson=0.3, density=1e3)
+    gravity = Gravity(acceleration=(0.0, 0.0, -1.0))
+    scene = Scene(
+        name="small", sheet=sheet, material=material, gravity=gravity, support=(Clamped(edge="x0"),)
+    )
+    with one_blas_thread():
+        settle(scene, pose(scene, calibrate(sheet, material, (3, 7))), "path")
+
+
+def pose(
+    scene: Scene,
+    springs: Calibration,
+    weights: Weights = "tributary",
+    precision: Precision = "double",
+) -> Problem:
+    """The lattice of a scene under its supports and loads."""
+    couple = partial(Coupling, scene) if scene.actuators else None
+    assembly = Assembly(scene.sheet, springs, weights, couple, precision)
+    constraints = constrain(scene, assembly.lattice, assembly.coupling)
+    return Problem(assembly, constraints, Loads(scene, assembly), max(scene.sheet.lengths))
+
+
+def flat_step(scene: Scene, problem: Problem) -> Outcome:
+    """The equilibrium of small displacements: K u = f with the flat sheet's tangent K."""
+    try:
+        start = at_rest(problem)
+    except SingularMatrixError as error:
+        return _singular(problem, error)
+    u = predictor(problem, start, 1.0)
+    state = replace(start, u=u, load_factor=1.0, stresses=problem.assembly.extrapolated(start.u, u))
+    strain = weight_number(scene)
+    if strain > STRAIN_LIMIT:
+        return Outcome(Status.STRAIN_OUTSIDE_MODEL, state, f"ρ g a/E = {strain:.3g}")
+    return Outcome(Status.CONVERGED, state, "")
+
+
+def _singular(problem: Problem, error: SingularMatrixError) -> Outcome:
+    rest = State(np.zeros_like(problem.loads.dead), 0.0, *_nothing(problem))
+    return Outcome(Status.SINGULAR, rest, f"the flat sheet's tangent is singular: {error}")
+
+
+def _of_small_displacements(solution: Solution, problem: Problem, state: State) -> Solution:
+    """The solution of `flat_step` with reactions K u − f and energy ½ u·K u."""
+    internal = problem.system.apply(state.blocks, state.u)
+    reactions, on_masses = problem.constraints.reactions(internal - problem.growing(np.zeros_like(state.u)))
+    return replace(
+        solution,
+        label=f"{solution.label}, linear",
+        settings={**solution.settings, "linear": True},
+        reactions=reactions,
+        energies={"elastic": 0.5 * float(np.sum(internal * state.u))},
+        mesh=field_mesh(problem, state.u, on_masses, state.stresses),
+    )
+
+
+def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
+    """The equilibrium at full load, or how far the load path went and why."""
+    try:
+        start = at_rest(problem)
+    except SingularMatrixError as error:
+        return _singular(problem, error)
+    state, why = follow(problem, start)
+    notes: list[str] = []
+    while why and problem.fault is None and problem.descends and len(notes) < SNAPS:
+        if problem.factorisations > FACTORISATIONS:
+            break
+        beyond = min(1.0, state.load_factor + SNAP_STEP)
+        try:
+            landed = descend(problem, state.u, beyond)
+        except (StepFailed, SingularMatrixError) as error:
+            why = f"{why}; then {error}"
+            break
+        notes.append(f"snapped at load factor {state.load_factor:.4g}")
+        state, why = follow(problem, landed)
+    if not why and branch == "stable" and state.negative and problem.descends:
+        try:
+            state = descend(problem, disturbed(problem, state), 1.0)
+            notes.append("left an unstable equilibrium by descent in energy")
+        except (StepFailed, SingularMatrixError) as error:
+            notes.append(f"no stable equilibrium found nearby: {error}")
+    if why:
+        status = Status.DIVERGED if problem.factorisations <= FACTORISATIONS else Status.STEP_LIMIT
+        if problem.fault is not None:
+            status = problem.fault.status
+        return Outcome(status, state, f"load factor {state.load_factor:.4g} of 1 reached: {why}")
+    return Outcome(*_judge(scene, problem, state, notes))
+
+
+def _judge(scene: Scene, problem: Problem, state: State, notes: list[str]) -> tuple[Status, State, str]:
+    """Whether the springs mean anything at this strain, and whether the equilibrium is stable."""
+    strain = link_strain(problem.assembly, state.u)
+    weight_strain = weight_number(scene)
+    status = Status.CONVERGED
+    if weight_strain > STRAIN_LIMIT or strain > LINK_STRAIN_LIMIT:
+        status = Status.STRAIN_OUTSIDE_MODEL
+        notes.append(f"ρ g a/E = {weight_strain:.3g}, largest in-plane link strain {strain:.3g}")
+    elif state.negative:
+        status = Status.UNSTABLE
+        notes.append(f"{state.negative} directions of negative curvature")
+    doubts = watch.layers(scene, problem.assembly, state.u)
+    rounded = watch.digits(problem, state)
+    if rounded is not None and status is Status.CONVERGED:
+        status = rounded.status
+    notes.extend(filter(None, [doubts, rounded.message if rounded is not None else ""]))
+    if not problem.assembly.conservative:
+        notes.append("per-direction springs: not central, no energy; solved with an unsymmetric tangent")
+    elif not problem.conservative:
+        notes.append("follower loads: solved with an unsymmetric tangent")
+    return status, state, "; ".join(notes)
+
+
+def weight_number(scene: Scene) -> float:
+    """ρ g a/E, the strain at which a sheet of side a hangs under its own weight."""
+    if scene.gravity is None:
+        return 0.0
+    acceleration = abs(scene.gravity.last_factor) * float(np.linalg.norm(scene.gravity.acceleration))
+    return scene.material.density * acceleration * max(scene.sheet.lengths) / scene.material.young
+
+
+def link_strain(assembly: Assembly, u: np.ndarray) -> float:
+    """Largest relative elongation of the in-plane central links."""
+    links = assembly.links
+    in_plane = np.abs(links.offset[:, 2]) == 0.0
+    if not in_plane.any():
+        return 0.0
+    tension = assembly.stresses(u).links[in_plane]
+    return float(np.max(np.abs(tension / links.stiffness[in_plane] / links.rest_length[in_plane])))
+
+
+def _nothing(problem: Problem) -> tuple[Any, ...]:
+    blocks = np.zeros((problem.assembly.pattern.blocks, 3, 3))
+    return problem.assembly.stresses(np.zeros_like(problem.loads.dead)), blocks, None, None
+
+
+def _solution(
+    scene: Scene,
+    springs: Calibration,
+    problem: Problem,
+    outcome: Outcome,
+    seconds: tuple[float, float],
+    branch: Branch,
+    weights: Weights,
+) -> Solution:
+    state, lattice = outcome.state, problem.assembly.lattice
+    unbalanced, _ = problem.residual(state.u, state.load_factor)
+    reactions, on_masses = problem.constraints.reactions(-unbalanced)
+    coupling = problem.assembly.coupling
+    wrenches = coupling.wrenches(state.u, -unbalanced) if coupling is not None else {}
+    if coupling is not None:
+        reactions |= coupling.base_reactions(-unbalanced)
+    columns = lattice.columns().reshape(-1, lattice.grid[2])
+    mid_surface = state.u[columns].mean(axis=1)
+
+    def sample(points: np.ndarray) -> np.ndarray:
+        at, share = locate(lattice, points)
+        displacement: np.ndarray = np.einsum("pc,pcq->pq", share, mid_surface[at])
+        return displacement
+
+    nx, ny, layers = lattice.grid
+    settings: dict[str, Any] = {"grid": [nx, ny, layers], "calibration": springs.method}
+    settings["layer_distance"] = springs.layer_distance
+    if branch != "path":
+        settings["branch"] = branch
+    if weights != "tributary":
+        settings["weights"] = weights
+    if problem.assembly.precision != "double":
+        settings["precision"] = problem.assembly.precision
+    energies = problem.assembly.energies(state.u)
+    return Solution(
+        model="lumped",
+        label=f"lumped {nx}×{ny}×{layers} {springs.method}",
+        settings=settings,
+        status=outcome.status,
+        unknowns=problem.system.unknowns,
+        iterations=problem.factorisations,
+        setup_seconds=seconds[0],
+        solve_seconds=seconds[1],
+        sample=sample,
+        reactions=reactions,
+        energies=energies,
+        mesh=field_mesh(problem, state.u, on_masses),
+        history=tuple(problem.history),
+        load_factor=state.load_factor,
+        message=outcome.message,
+        actuators=wrenches,
+    )

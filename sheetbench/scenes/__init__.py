@@ -1,0 +1,65 @@
+"""What is asked: sheet, material, supports, loads, probes, the catalogue, published figures; no solver."""
+
+from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable, EdgeMotion
+from sheetbench.scenes.history import History
+from sheetbench.scenes.loads import EdgeLoad, Load, PointLoad, Pressure
+from sheetbench.scenes.scene import Scene, SceneError, catalogue, free_rigid_motions, load, require_static
+from sheetbench.scenes.sheet import EDGES, Edge, Gravity, Material, Sheet
+from sheetbench.scenes.solution import FieldMesh, Iteration, Solution, Status
+from sheetbench.scenes.springs import DamperSet, PerDirection, SpringSet
+from sheetbench.scenes.supports import (
+    Clamped,
+    Curved,
+    Held,
+    Hinged,
+    Motion,
+    Support,
+    Symmetric,
+    held_axes,
+    holds_director,
+    holds_tilt,
+    rod_middle,
+)
+from sheetbench.scenes.tables import FactorTable
+
+__all__ = [
+    "EDGES",
+    "Actuator",
+    "Chain",
+    "Clamped",
+    "CurvatureTable",
+    "Curved",
+    "DamperSet",
+    "Edge",
+    "EdgeLoad",
+    "EdgeMotion",
+    "FactorTable",
+    "FieldMesh",
+    "Gravity",
+    "Held",
+    "Hinged",
+    "History",
+    "Iteration",
+    "Load",
+    "Material",
+    "Motion",
+    "PerDirection",
+    "PointLoad",
+    "Pressure",
+    "Scene",
+    "SceneError",
+    "Sheet",
+    "Solution",
+    "SpringSet",
+    "Status",
+    "Support",
+    "Symmetric",
+    "catalogue",
+    "free_rigid_motions",
+    "held_axes",
+    "holds_director",
+    "holds_tilt",
+    "load",
+    "require_static",
+    "rod_middle",
+]

@@ -1,0 +1,128 @@
+"""The two kinds of actuator, each bound to one edge of the sheet.
+
+chain   a flexible chain of rigid segments: joints divide the edge evenly and need not coincide with masses;
+        each has the stiffness EI/ds and the rest angle curvature × ds. The chain alone carries its own
+        weight and inertia, and holds the edge's tilt about the rod. `curvature` > 0 lifts the ends towards +z
+        (plane "normal" or "spatial") or bends them outwards (plane "inplane").
+motion  the edge moved rigidly as prescribed over time: no chain, no forces of its own; a support or motion
+        on a neighbouring edge must agree with it at their corner (`sheetbench.scenes.corners`)
+
+curvature [1/m] is a number, a list with one value a joint (in the order of the edge's axis; a held base adds
+the half-length joints beside it), or a table {time, value}: linear between samples, the last value kept.
+Statics take the last value of a table, and of a motion.
+
+Actuators on one edge share its masses: chains of a pair must have the same segments, plane and base, and lie
+anywhere through the thickness. They move as one chain whose axis is the mean of theirs; the joints of each
+slide along its axis, since two inextensible rods on opposite faces could not bend together.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Field, Tag, model_validator
+
+from sheetbench.scenes.quantities import Frozen, NonNegative, Number, Positive, Vector3
+from sheetbench.scenes.sheet import EdgeName
+from sheetbench.scenes.tables import OverTime
+
+Plane = Literal["normal", "inplane", "spatial"]
+Base = Literal["free", "start", "middle", "end"]
+
+
+class CurvatureTable(OverTime):
+    """Intrinsic curvature over time: time (n,) [s], increasing; value (n,) [1/m], one for all joints."""
+
+    value: tuple[Number, ...]
+
+
+def _form(value: Any) -> str:
+    if isinstance(value, dict | CurvatureTable):
+        return "over time"
+    return "each joint" if isinstance(value, list | tuple) else "constant"
+
+
+Curvature = Annotated[
+    Annotated[Number, Tag("constant")]
+    | Annotated[tuple[Number, ...], Tag("each joint")]
+    | Annotated[CurvatureTable, Tag("over time")],
+    Discriminator(_form),
+]
+
+
+class Chain(Frozen):
+    """A chain of `segments` rigid segments; bending_stiffness [N·m²], line_density [kg/m], radius [m]."""
+
+    kind: Literal["chain"] = "chain"
+    edge: EdgeName
+    segments: Annotated[int, Field(ge=1, strict=True)]
+    bending_stiffness: Positive
+    line_density: Positive
+    radius: Positive
+    face: Literal["mid", "top", "bottom"] = "mid"
+    curvature: Curvature = 0.0
+    damping_time: NonNegative = 0.0
+    plane: Plane = "normal"
+    base: Base = "free"
+
+    @model_validator(mode="after")
+    def _one_curvature_a_joint(self) -> Chain:
+        if isinstance(self.curvature, tuple) and len(self.curvature) != self.joints:
+            raise ValueError(
+                f"curvature has {len(self.curvature)} values, but {self.segments} segments with base = "
+                f'"{self.base}" have {self.joints} joints'
+            )
+        return self
+
+    @property
+    def joints(self) -> int:
+        """Joints between segments, and the half-length joints that a held base carries."""
+        between = self.segments - 1
+        if self.base in ("start", "end"):
+            return between + 1
+        return between + 1 if self.base == "middle" and self.segments % 2 == 0 else between
+
+
+class EdgeMotion(OverTime):
+    """The edge displaced by `displacement` (n, 3) [m] and turned about its middle by the rotation vectors
+    `rotation` (n, 3) [rad] at the times `time` (n,) [s], linear between samples."""
+
+    kind: Literal["motion"]
+    edge: EdgeName
+    displacement: tuple[Vector3, ...] = ()
+    rotation: tuple[Vector3, ...] = ()
+
+    @model_validator(mode="after")
+    def _moves_something(self) -> EdgeMotion:
+        if not self.displacement and not self.rotation:
+            raise ValueError("needs displacement [m] or rotation [rad]")
+        return self
+
+
+def _kind(data: Any) -> str:
+    return str(data.get("kind", "chain") if isinstance(data, dict) else getattr(data, "kind", "chain"))
+
+
+Actuator = Annotated[
+    Annotated[Chain, Tag("chain")] | Annotated[EdgeMotion, Tag("motion")], Discriminator(_kind)
+]
+
+
+def disagreement(actuators: tuple[Chain | EdgeMotion, ...], supported: set[str]) -> str | None:
+    """A sentence saying which actuators cannot act together, or on a supported edge; or None."""
+    for i, first in enumerate(actuators):
+        if first.edge in supported:
+            return f"edge {first.edge} has a support, which holds the masses that the actuator would move"
+        for second in actuators[i + 1 :]:
+            if first.edge != second.edge:
+                continue
+            if not isinstance(first, Chain) or not isinstance(second, Chain):
+                return f"edge {first.edge} has a prescribed motion and another actuator"
+            for key in ("segments", "plane", "base"):
+                mine, theirs = getattr(first, key), getattr(second, key)
+                if mine != theirs:
+                    return (
+                        f"two chains on edge {first.edge} have {key} = {mine!r} and {theirs!r}: "
+                        "chains on one edge must agree in segments, plane and base"
+                    )
+    return None

@@ -1,0 +1,149 @@
+"""Corners that a moved edge shares with a neighbour: what both demand there, and whether both can be obeyed.
+
+A motion holds position and director of its whole edge, corners included: at X from the edge's middle
+
+    u = d + (R(θ) − I) X,    director R(θ) e_z.
+
+A support beside it holds what its kind says, another motion all of it; a chain goes where the corner goes,
+unless its base stands there. Where they agree the corner belongs to the motion. They must agree at every
+moment, for what is left out is not the same in every model: at the samples of both tables, and between them
+at two points that no periodic motion takes for samples. Supports move in dynamics only; so the last pose,
+which statics take, must suit them at rest too.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise, product
+
+import numpy as np
+
+from sheetbench.scenes.actuators import Chain, EdgeMotion
+from sheetbench.scenes.sheet import EDGES, Sheet
+from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Symmetric, held_axes, holds_director
+
+EXACT = 1e-6  # m per metre of the longer side, and in a director: what numbers written in decimals leave
+BETWEEN = (0.381966, 0.618034)
+UP = np.array([0.0, 0.0, 1.0])
+
+Neighbour = AnySupport | EdgeMotion
+
+
+def conflict(
+    actuators: tuple[Chain | EdgeMotion, ...], supports: tuple[AnySupport, ...], sheet: Sheet
+) -> str | None:
+    """A sentence saying which motion and which neighbour cannot both be obeyed at their corner, or None."""
+    for i, motion in enumerate(actuators):
+        if not isinstance(motion, EdgeMotion):
+            continue
+        earlier = [other for other in actuators[:i] if isinstance(other, Chain)]
+        for other in (*supports, *earlier, *actuators[i + 1 :]):
+            if EDGES[other.edge].normal_axis != EDGES[motion.edge].normal_axis:
+                said = _between(motion, other, sheet)
+                if said is not None:
+                    return said
+    return None
+
+
+def _between(motion: EdgeMotion, other: Neighbour | Chain, sheet: Sheet) -> str | None:
+    ends = sheet.edge_ends(other.edge)
+    corner = next(end for end in ends if end in sheet.edge_ends(motion.edge))
+    if isinstance(other, Chain):
+        if other.base not in ("start", "end") or corner != ends[other.base == "end"]:
+            return None
+        return (
+            f"the base of the chain on edge {other.edge} stands at the corner that the motion on edge "
+            f"{motion.edge} moves"
+        )
+    if isinstance(other, Curved) and other.curvature != 0.0:
+        return (
+            f"the rod on edge {other.edge} (curvature {other.curvature:g} 1/m) moves the corner that the "
+            f"motion on edge {motion.edge} holds"
+        )
+    axes, turns = _held(other)
+    resting = other.model_copy(update={"motion": None}) if getattr(other, "motion", None) else None
+    cases = [(other, time, f"at t = {time:.3g} s") for time in _moments(motion, other)]
+    if resting is not None:
+        cases.append((resting, motion.time[-1], "in statics, where supports rest"))
+    apart, turned = [], ""
+    for held, time, when in cases:
+        u, director = _pose(motion, corner, sheet, time)
+        place, normal = _place(held, corner, sheet, time)
+        gaps = [(abs(u[axis] - place[axis]), axis, when) for axis in axes]
+        apart.append(max(gaps))
+        if any(abs(director[axis] - normal[axis]) > EXACT for axis in turns):
+            turned = when
+    gap, axis, when = max(apart)
+    if gap > EXACT * max(sheet.lengths):
+        return (
+            f"the motion on edge {motion.edge} moves the corner that {_named(other)} holds: "
+            f"{'xyz'[axis]} by {gap:.3g} m {when}"
+        )
+    if turned:
+        return (
+            f"the motion on edge {motion.edge} turns the director at the corner where {_named(other)} "
+            f"holds it otherwise, {turned}"
+        )
+    return None
+
+
+def _held(other: Neighbour) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Axes of position and of director that a neighbour holds at the corner."""
+    every = (0, 1, 2)
+    if isinstance(other, EdgeMotion):
+        return every, every
+    if isinstance(other, Symmetric):
+        return held_axes(other), held_axes(other)
+    return held_axes(other), every if holds_director(other) else ()
+
+
+def _moments(motion: EdgeMotion, other: Neighbour) -> list[float]:
+    """Times [s] at which to look."""
+    table = other if isinstance(other, EdgeMotion) else getattr(other, "motion", None)
+    samples = sorted({*motion.time, *(table.time if table is not None else ())})
+    between = [a + share * (b - a) for (a, b), share in product(pairwise(samples), BETWEEN)]
+    return sorted([*samples, *between])
+
+
+def _place(other: Neighbour, corner: tuple, sheet: Sheet, time: float) -> tuple[np.ndarray, np.ndarray]:
+    """Displacement [m] and director (3,) that a neighbour gives the corner."""
+    if isinstance(other, EdgeMotion):
+        return _pose(other, corner, sheet, time)
+    displacement, director = np.zeros(3), UP
+    if isinstance(other, Clamped):
+        outward = np.array(EDGES[other.edge].outward)
+        director = UP * np.cos(other.tilt) - outward * np.sin(other.tilt)
+    if other.motion is not None:
+        displacement = _value(other.motion.time, other.motion.displacement, time)
+    return displacement, director
+
+
+def _pose(motion: EdgeMotion, corner: tuple, sheet: Sheet, time: float) -> tuple[np.ndarray, np.ndarray]:
+    """Displacement [m] and director (3,) that a motion gives the corner."""
+    arm = np.array([*corner, 0.0])
+    arm[:2] -= np.mean(sheet.edge_ends(motion.edge), axis=0)
+    rotation = _value(motion.time, motion.rotation, time)
+    displacement = _value(motion.time, motion.displacement, time) + _turned(rotation, arm) - arm
+    return displacement, _turned(rotation, UP)
+
+
+def _value(time: tuple[float, ...], values: tuple, at: float) -> np.ndarray:
+    """A table of vectors at a time, zero if it is empty."""
+    if not values:
+        return np.zeros(3)
+    return np.array([np.interp(at, time, column) for column in np.array(values).T])
+
+
+def _turned(rotation: np.ndarray, vector: np.ndarray) -> np.ndarray:
+    """R(θ) v by Rodrigues' formula."""
+    angle = float(np.linalg.norm(rotation))
+    if angle == 0.0:
+        return vector
+    axis = rotation / angle
+    along: np.ndarray = axis * (axis @ vector) * (1.0 - np.cos(angle))
+    return vector * np.cos(angle) + np.cross(axis, vector) * np.sin(angle) + along
+
+
+def _named(other: Neighbour) -> str:
+    if isinstance(other, EdgeMotion):
+        return f"the motion on edge {other.edge}"
+    return f"the {other.kind} support on edge {other.edge}"

@@ -1,0 +1,50 @@
+"""What a dynamic run answers with: probes, energies and forces over time, and how it ended.
+
+Part of the question's language, as `scenes.Solution` is for statics: it holds no mechanics.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from sheetbench.scenes.solution import Status
+
+ENERGIES = ("kinetic", "elastic", "potential", "dissipated", "work")
+
+
+@dataclass(frozen=True)
+class History:
+    """Samples of a run; n of them, of which the first is the start.
+
+    time: (n,) [s]; probes: name → displacement (n, 3) [m]; energies: kinetic, elastic, potential,
+    dissipated and work, (n,) [J] each (potential: of constant dead loads; work: done by all other loads,
+    and by supports and commands that move); reactions: support's edge → force on the sheet (n, 3) [N],
+    and "EDGE base" → force of a held base on its chain; actuators: name → force and moment about the
+    segment's middle that each segment exerts on the sheet, (n, segments, 6) [N, N·m]; steps: taken by the
+    integrator; status `converged` means that the run reached its end.
+    """
+
+    label: str
+    integrator: str
+    settings: dict[str, Any]
+    status: Status
+    message: str
+    time: np.ndarray
+    probes: dict[str, np.ndarray]
+    energies: dict[str, np.ndarray]
+    reactions: dict[str, np.ndarray]
+    actuators: dict[str, np.ndarray]
+    steps: int
+    setup_seconds: float
+    solve_seconds: float
+    extra: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def balance(self) -> np.ndarray:
+        """kinetic + elastic + potential + dissipated − work, (n,) [J]: constant in an exact run."""
+        e = self.energies
+        total: np.ndarray = e["kinetic"] + e["elastic"] + e["potential"] + e["dissipated"] - e["work"]
+        return total

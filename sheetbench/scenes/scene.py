@@ -1,0 +1,195 @@
+"""A scene: what is asked of a model, in raw physics (E, ν, ρ, geometry, supports, loads, probes; SI).
+
+A scene knows no solver. It is read from TOML with `load` or built as `Scene(…)`, validated once, and
+frozen; see `sheetbench.scenes.supports` and `sheetbench.scenes.loads` for what the words mean.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import Field, ValidationError, model_validator
+
+from sheetbench.scenes import corners
+from sheetbench.scenes.actuators import Actuator, Chain, disagreement
+from sheetbench.scenes.loads import Load, PointLoad
+from sheetbench.scenes.quantities import Frozen, PlanPoint
+from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
+from sheetbench.scenes.springs import DamperSet, SpringSet
+from sheetbench.scenes.supports import Support, contradiction, held_axes, holds_tilt
+
+
+class SceneError(ValueError):
+    """A scene that cannot be read or asks something impossible; the text names file, key and value."""
+
+
+class Scene(Frozen):
+    """A sheet with supports, loads, actuators and probes.
+
+    Lists are tuples; in TOML they are [[support]], [[load]], [[actuator]].
+    """
+
+    name: str = Field(min_length=1)
+    title: str = ""
+    sheet: Sheet
+    material: Material
+    gravity: Gravity | None = None
+    supports: tuple[Support, ...] = Field(default=(), alias="support")
+    loads: tuple[Load, ...] = Field(default=(), alias="load")
+    actuators: tuple[Actuator, ...] = Field(default=(), alias="actuator")
+    springs: SpringSet | None = None
+    dampers: DamperSet | None = None
+    probes: dict[str, PlanPoint] = Field(default_factory=dict)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _default_probes(cls, data: Any) -> Any:
+        if isinstance(data, dict) and not data.get("probes") and isinstance(data.get("sheet"), dict | Sheet):
+            try:
+                sheet = Sheet.model_validate(data["sheet"])
+            except ValidationError:
+                return data  # the sheet's own fault is the one to report
+            supports = data.get("support") or data.get("supports") or ()
+            edges = [s.get("edge") if isinstance(s, dict) else getattr(s, "edge", None) for s in supports]
+            data = {**data, "probes": default_probes(sheet, [e for e in edges if e in EDGES])}
+        return data
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Scene:
+        for name, point in self.probes.items():
+            if not self._on_sheet(point):
+                raise ValueError(f"probes.{name} = {list(point)} is off the sheet, {self._extent()}")
+        for i, load in enumerate(self.loads):
+            if isinstance(load, PointLoad) and not self._on_sheet(load.at):
+                raise ValueError(f"load.{i}.at = {list(load.at)} is off the sheet, {self._extent()}")
+        if said := contradiction(self.supports):
+            raise ValueError(f"support: {said}")
+        if said := disagreement(self.actuators, {support.edge for support in self.supports}):
+            raise ValueError(f"actuator: {said}")
+        if said := corners.conflict(self.actuators, self.supports, self.sheet):
+            raise ValueError(f"actuator: {said}")
+        return self
+
+    def _on_sheet(self, point: PlanPoint) -> bool:
+        return all(0.0 <= c <= length for c, length in zip(point, self.sheet.lengths, strict=True))
+
+    def _extent(self) -> str:
+        return f"which is 0 ≤ x ≤ {self.sheet.length_x:g} m, 0 ≤ y ≤ {self.sheet.length_y:g} m"
+
+    def probe_points(self) -> np.ndarray:
+        """Plan points of the probes, (n, 2) [m], in the order of `probes`."""
+        return np.array(list(self.probes.values()), dtype=float).reshape(-1, 2)
+
+
+def default_probes(sheet: Sheet, supported_edges: list[str]) -> dict[str, PlanPoint]:
+    """Centre P1, middles P2 (y side) and P3 (x side) next to P4, the corner farthest from the supports."""
+    lx, ly = sheet.lengths
+
+    def distance(corner: PlanPoint) -> float:
+        total = 0.0
+        for name in supported_edges:
+            edge = EDGES[name]
+            end = sheet.lengths[edge.normal_axis] if edge.far_end else 0.0
+            total += abs(corner[edge.normal_axis] - end)
+        return total
+
+    corners = [(lx, ly), (lx, 0.0), (0.0, ly), (0.0, 0.0)]
+    far = max(corners, key=distance)  # ties go to (length_x, length_y)
+    return {"P1": (lx / 2, ly / 2), "P2": (lx / 2, far[1]), "P3": (far[0], ly / 2), "P4": far}
+
+
+def free_rigid_motions(scene: Scene) -> list[str]:
+    """Names of the rigid motions that supports and actuators leave free (empty: a static answer can exist).
+
+    An actuator whose base is held, or that prescribes the edge's motion, leaves none.
+    A support fixes rows of the rigid velocity t + θ × X at both ends of its edge and, if it holds
+    the tilt, those of θ × e_z; what the stacked rows leave in their null space is free.
+    """
+    if any(not isinstance(actuator, Chain) or actuator.base != "free" for actuator in scene.actuators):
+        return []
+    centre = np.array([scene.sheet.length_x / 2, scene.sheet.length_y / 2, 0.0])
+    scale = max(scene.sheet.lengths)
+    rows = [np.zeros(6)]
+    for support in scene.supports:
+        for end in scene.sheet.edge_ends(support.edge):
+            arm = (np.array([*end, 0.0]) - centre) / scale
+            velocity = np.hstack([np.eye(3), -_cross_matrix(arm)])
+            rows.extend(velocity[axis] for axis in held_axes(support))
+        if holds_tilt(support):
+            turned = np.hstack([np.zeros((3, 3)), -_cross_matrix(np.array([0.0, 0.0, 1.0]))])
+            rows.extend(turned[axis] for axis in held_axes(support))
+    _, singular, motions = np.linalg.svd(np.array(rows))
+    rank = int(np.sum(singular > 1e-9))
+    names = [f"{kind} {axis}" for kind in ("translation along", "rotation about") for axis in "xyz"]
+    free = motions[rank:]
+    return [name for name, share in zip(names, np.linalg.norm(free, axis=0), strict=True) if share > 1e-6]
+
+
+def require_static(scene: Scene) -> None:
+    """Raise SceneError unless the supports stop every rigid motion."""
+    free = free_rigid_motions(scene)
+    if free:
+        raise SceneError(
+            f"scene '{scene.name}': support: nothing stops {', '.join(free)}; a static answer needs supports "
+            'that stop every rigid motion (for instance kind = "clamped" on one edge)'
+        )
+
+
+def _cross_matrix(v: np.ndarray) -> np.ndarray:
+    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+
+
+def catalogue() -> dict[str, Path]:
+    """Names and files of the scenes that come with the package."""
+    folder = Path(str(resources.files("sheetbench.scenes") / "catalogue"))
+    return {path.stem: path for path in sorted(folder.glob("*.toml"))}
+
+
+def load(scene: str | Path) -> Scene:
+    """The scene of a catalogue name or of a TOML file.
+
+    Raises SceneError, in one line that names the file, the key, the value and what is allowed.
+    """
+    known = catalogue()
+    path = known.get(str(scene)) or Path(scene)
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        names = ", ".join(known)
+        raise SceneError(f"{scene}: no such file, and no catalogue scene of that name ({names})") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise SceneError(f"{scene}: cannot be read as text: {error}") from None
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError(f"{scene}: not a TOML file: {error}") from None
+    try:
+        return Scene.model_validate(data)
+    except ValidationError as error:
+        raise SceneError(f"{scene}: {_in_one_line(error)}") from None
+
+
+def _in_one_line(error: ValidationError) -> str:
+    said = []
+    for fault in error.errors():
+        key = ".".join(str(part) for part in fault["loc"] if part not in _UNION_TAGS)
+        value = fault["input"]
+        if fault["type"] == "extra_forbidden":
+            said.append(f"{key} = {value!r}: unknown key")
+        elif fault["type"] == "missing":
+            said.append(f"{key}: missing")
+        elif fault["type"] == "value_error":
+            text = str(fault["ctx"]["error"])
+            said.append(f"{key}: {text}" if key else text)
+        else:
+            message = fault["msg"][0].lower() + fault["msg"][1:]
+            said.append(f"{key} = {value!r}: {message}")
+    return "; ".join(said)
+
+
+_UNION_TAGS = (
+    {"clamped", "hinged", "held", "curved", "symmetric", "point", "edge", "pressure", "chain", "motion"}
+    | {"constant", "each joint", "over time"}  # forms of an actuator's curvature
+)

@@ -1,0 +1,74 @@
+"""The seed's published figures, as data: displacements in metres, printed errors, and what does not add up.
+
+Source: Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for large-deformation continuum
+surfaces. See scenes/published/README.md.
+"""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from importlib import resources
+
+_METRES = {"mm": 1e-3, "m": 1.0}
+PROBES = ("P1", "P2", "P3", "P4")
+
+KNOWN_FAULTS = (
+    "The two bodies of the displacement tables stand swapped in the text; here symmetry tells them apart.",
+    "The unit is mm, although one header says m.",
+    "Experimental uy(P4) of test 1 is printed −1.86; the symmetry of the test asks +1.86.",
+    "In test 1 the published y axis points the other way than in a scene with edges x0 and y0 clamped: "
+    "compare −uy.",
+    "The printed percentage errors are relative to the experiment in some cells and to the model in others; "
+    "their mean is 4.92 %, not the 4.8 % quoted.",
+    "Young's modulus was found by matching samples to the surface model itself: E and k are not independent "
+    "evidence. k = 550 N/m follows from no standard formula, and the layer distance is not given.",
+    "The published inputs do not determine the published displacements: converged plate theory with "
+    "E = 54.5 MPa gives half of what was measured at P1 to P3 of test 1.",
+)
+
+
+@dataclass(frozen=True)
+class SeedDisplacement:
+    """A published displacement component [m]: test 1 or 2, source `model` or `experiment`, ux, uy or uz."""
+
+    test: int
+    source: str
+    component: str
+    probe: str
+    value: float
+
+
+@dataclass(frozen=True)
+class SeedError:
+    """A printed error, as a fraction."""
+
+    test: int
+    component: str
+    probe: str
+    value: float
+
+
+def seed_displacements() -> tuple[SeedDisplacement, ...]:
+    """Every published displacement as printed, in metres and in the published axes."""
+    return tuple(
+        SeedDisplacement(
+            int(row["test"]), row["source"], row["component"], probe, float(row[probe]) * _METRES[row["unit"]]
+        )
+        for row in _rows("seed_displacements.csv")
+        for probe in PROBES
+    )
+
+
+def seed_errors() -> tuple[SeedError, ...]:
+    """Every printed error of the seed's model against its experiment, as a fraction."""
+    return tuple(
+        SeedError(int(row["test"]), row["component"], probe, float(row[probe]) / 100)
+        for row in _rows("seed_errors_printed.csv")
+        for probe in PROBES
+    )
+
+
+def _rows(name: str) -> list[dict[str, str]]:
+    text = (resources.files("sheetbench.scenes") / "published" / name).read_text(encoding="utf-8")
+    return list(csv.DictReader(text.splitlines()))

@@ -1,0 +1,89 @@
+"""The sheet, its material and its edges.
+
+The flat sheet's mid-surface is z = 0 with x in [0, length_x] and y in [0, length_y].
+An edge is named by the axis it is normal to and the end of that axis: x0, x1, y0, y1.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, NamedTuple
+
+from pydantic import Field, model_validator
+
+from sheetbench.scenes.quantities import Frozen, NonNegative, Number, PlanPoint, Positive, Vector3
+from sheetbench.scenes.tables import Loading
+
+EdgeName = Literal["x0", "x1", "y0", "y1"]
+
+
+class Edge(NamedTuple):
+    """Where an edge lies: its normal axis, the axis it runs along (0 = x, 1 = y), and which end."""
+
+    normal_axis: int
+    along_axis: int
+    far_end: bool
+
+    @property
+    def outward(self) -> tuple[float, float, float]:
+        """Unit vector in the plane, pointing out of the sheet."""
+        sign = 1.0 if self.far_end else -1.0
+        return (sign, 0.0, 0.0) if self.normal_axis == 0 else (0.0, sign, 0.0)
+
+
+EDGES: dict[str, Edge] = {
+    "x0": Edge(0, 1, False),
+    "x1": Edge(0, 1, True),
+    "y0": Edge(1, 0, False),
+    "y1": Edge(1, 0, True),
+}
+
+
+class Sheet(Frozen):
+    """A flat rectangular sheet: sides and thickness [m]."""
+
+    length_x: Positive
+    length_y: Positive
+    thickness: Positive
+
+    @model_validator(mode="after")
+    def _thinner_than_wide(self) -> Sheet:
+        if self.thickness > min(self.lengths):
+            raise ValueError(
+                f"thickness = {self.thickness:g} m is more than the shorter side, {min(self.lengths):g} m; "
+                "lengths are in metres"
+            )
+        return self
+
+    @property
+    def lengths(self) -> tuple[float, float]:
+        """Sides along x and y [m]."""
+        return (self.length_x, self.length_y)
+
+    def edge_ends(self, name: str) -> tuple[PlanPoint, PlanPoint]:
+        """Plan points [m] of an edge's two ends, in the direction of its axis."""
+        edge = EDGES[name]
+        start, end = [0.0, 0.0], [0.0, 0.0]
+        for point in (start, end):
+            point[edge.normal_axis] = self.lengths[edge.normal_axis] if edge.far_end else 0.0
+        end[edge.along_axis] = self.lengths[edge.along_axis]
+        return (start[0], start[1]), (end[0], end[1])
+
+
+class Material(Frozen):
+    """Linear isotropic elasticity, density and viscous damping.
+
+    young [Pa], poisson [-], density [kg/m³]; damping_time [s] gives every spring a damper
+    c = damping_time · k; damping_rate [1/s] gives every mass a damping force rate · m · velocity.
+    """
+
+    young: Positive
+    poisson: Annotated[Number, Field(gt=-1, lt=0.5)]
+    density: Positive
+    damping_time: NonNegative = 0.0
+    damping_rate: NonNegative = 0.0
+
+
+class Gravity(Loading):
+    """A uniform acceleration [m/s²] of every mass; may have a `history`, as loads do."""
+
+    acceleration: Vector3

@@ -1,0 +1,165 @@
+"""The kinds of edge support.
+
+clamped  mid-surface and its normal (the director) held; `tilt` τ [rad] turns the clamp about the edge's
+         mid-line, which stays where it is in the flat sheet. With n pointing out of the sheet the director is
+         e_z cos τ − n sin τ: τ > 0 turns what lies beyond the edge towards +z, as `moment_per_length` does,
+         and lets the sheet start off downwards.
+hinged   mid-surface held, director free to turn
+held     the named components of the mid-surface's displacement held
+curved   clamped to a rigid rod bent to `curvature` [1/m] in the plane of the edge and z: arc length kept,
+         the edge's middle point and tangent unmoved; curvature > 0 lifts the ends towards +z. With s
+         measured from the middle along the edge the director is e_z cos κs − e_edge sin κs.
+symmetric  not a support but a cut: the sheet goes on beyond the edge as its own mirror image. The
+         displacement across the edge and the director's tilt across it are held. A rod that ends at such an
+         edge has its middle there.
+"""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Annotated, Literal
+
+from pydantic import Field, field_validator
+
+from sheetbench.scenes.quantities import Frozen, Number, Vector3
+from sheetbench.scenes.sheet import EDGES, EdgeName, Sheet
+from sheetbench.scenes.tables import OverTime
+
+Component = Literal["x", "y", "z"]
+LARGEST_TILT = pi / 2.0  # rad, of a clamp
+
+
+class Motion(OverTime):
+    """Prescribed displacement of a support over time (dynamics only), linear between samples.
+
+    time: (n,) [s], increasing; displacement: (n, 3) [m].
+    """
+
+    displacement: tuple[Vector3, ...]
+
+
+class _EdgeSupport(Frozen):
+    edge: EdgeName
+    motion: Motion | None = None
+
+
+class Clamped(_EdgeSupport):
+    """Mid-surface and director held, the director turned about the edge by `tilt` [rad]."""
+
+    kind: Literal["clamped"] = "clamped"
+    tilt: Number = 0.0
+
+    @field_validator("tilt")
+    @classmethod
+    def _a_quarter_turn_at_most(cls, tilt: Number) -> Number:
+        if abs(tilt) > LARGEST_TILT:
+            raise ValueError(f"{tilt:g} rad is more than π/2 either way, the most a clamp may be turned")
+        return tilt
+
+
+class Hinged(_EdgeSupport):
+    """Mid-surface held, director free."""
+
+    kind: Literal["hinged"] = "hinged"
+
+
+class Held(_EdgeSupport):
+    """Named components of the mid-surface's displacement held."""
+
+    kind: Literal["held"] = "held"
+    components: tuple[Component, ...] = Field(min_length=1)
+
+    @field_validator("components")
+    @classmethod
+    def _each_once(cls, components: tuple[Component, ...]) -> tuple[Component, ...]:
+        if len(set(components)) != len(components):
+            raise ValueError("a component is named twice")
+        return components
+
+
+class Curved(_EdgeSupport):
+    """Clamped to a rod bent to `curvature` [1/m]."""
+
+    kind: Literal["curved"] = "curved"
+    curvature: Number
+
+
+class Symmetric(Frozen):
+    """The plane of symmetry through which the sheet is cut."""
+
+    kind: Literal["symmetric"] = "symmetric"
+    edge: EdgeName
+    motion: None = None
+
+
+AnySupport = Clamped | Hinged | Held | Curved | Symmetric
+Support = Annotated[AnySupport, Field(discriminator="kind")]
+
+
+def held_axes(support: AnySupport) -> tuple[int, ...]:
+    """Axes (0, 1, 2) in which the support holds the mid-surface."""
+    if isinstance(support, Symmetric):
+        return (EDGES[support.edge].normal_axis,)
+    if isinstance(support, Held):
+        return tuple("xyz".index(component) for component in support.components)
+    return (0, 1, 2)
+
+
+def holds_director(support: AnySupport) -> bool:
+    """Whether the support holds the normal as well as the mid-surface."""
+    return isinstance(support, Clamped | Curved)
+
+
+def holds_tilt(support: AnySupport) -> bool:
+    """Whether the director may not tilt in the axes held: all layers are held there, not just their mean."""
+    return isinstance(support, Clamped | Curved | Symmetric)
+
+
+def rod_middle(rod: Curved, supports: tuple[AnySupport, ...], sheet: Sheet) -> float:
+    """Where the middle of a bent rod lies along its edge [m]: on the plane of symmetry it meets, if any."""
+    along = EDGES[rod.edge].along_axis
+    length = sheet.lengths[along]
+    for support in supports:
+        if isinstance(support, Symmetric) and EDGES[support.edge].normal_axis == along:
+            return length if EDGES[support.edge].far_end else 0.0
+    return length / 2.0
+
+
+def contradiction(supports: tuple[AnySupport, ...]) -> str | None:
+    """A sentence saying which two supports cannot both be obeyed, or None.
+
+    A bent rod moves its ends along the edge and along z and turns the director there, so nothing else may
+    hold those at a shared corner, but for one plane of symmetry, which its middle lies on. A tilted clamp
+    turns the director across its edge, so nothing else may hold that there; an adjacent plane of symmetry
+    holds it along the edge only. And one edge can be held in one way only.
+    """
+    cuts = [support for support in supports if isinstance(support, Symmetric)]
+    for i, first in enumerate(supports):
+        for second in supports[i + 1 :]:
+            if first.edge == second.edge:
+                return f"edge {first.edge} has two supports, {first.kind} and {second.kind}"
+            if EDGES[first.edge].normal_axis == EDGES[second.edge].normal_axis:
+                continue
+            for turned, other in ((first, second), (second, first)):
+                if isinstance(turned, Clamped) and turned.tilt != 0.0 and holds_director(other):
+                    return (
+                        f"the clamp on edge {turned.edge} (tilt {turned.tilt:g} rad) turns the director at "
+                        f"the corner where the {other.kind} support on edge {other.edge} holds it otherwise"
+                    )
+            for bent, other in ((first, second), (second, first)):
+                if not isinstance(bent, Curved) or bent.curvature == 0.0:
+                    continue
+                along = EDGES[bent.edge].along_axis
+                if isinstance(other, Symmetric) and len({c.edge for c in cuts if _normal(c) == along}) == 1:
+                    continue
+                moved = {along, 2}
+                if holds_director(other) or moved & set(held_axes(other)):
+                    return (
+                        f"the rod on edge {bent.edge} (curvature {bent.curvature:g} 1/m) moves the corner "
+                        f"that the {other.kind} support on edge {other.edge} holds"
+                    )
+    return None
+
+
+def _normal(support: Symmetric) -> int:
+    return EDGES[support.edge].normal_axis

@@ -1,0 +1,48 @@
+"""Tables over time: samples at increasing times [s], linear between them, constant before and after.
+
+history   a factor [-] on a load or on gravity; without one it acts in full from t = 0 on. Statics take the
+          last factor.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from pydantic import Field, model_validator
+
+from sheetbench.scenes.quantities import Frozen, Number
+
+
+class OverTime(Frozen):
+    """Base of the tables: time (n,) [s], increasing, and n samples of everything else that is a list."""
+
+    time: tuple[Number, ...] = Field(min_length=1)
+
+    @model_validator(mode="after")
+    def _one_sample_each(self) -> OverTime:
+        for name, field in type(self).model_fields.items():
+            samples = getattr(self, name)
+            if not isinstance(samples, tuple) or not (samples or field.is_required()):
+                continue
+            if len(samples) != len(self.time):
+                raise ValueError(f"{len(self.time)} times but {len(samples)} in {name}")
+        if any(b <= a for a, b in pairwise(self.time)):
+            raise ValueError("times must increase")
+        return self
+
+
+class FactorTable(OverTime):
+    """A factor over time: time (n,) [s], factor (n,) [-]."""
+
+    factor: tuple[Number, ...]
+
+
+class Loading(Frozen):
+    """Base of loads and gravity, whose `history` scales them over time."""
+
+    history: FactorTable | None = None
+
+    @property
+    def last_factor(self) -> float:
+        """What the load is multiplied by in the end, and in statics."""
+        return self.history.factor[-1] if self.history is not None else 1.0

@@ -35,10 +35,10 @@ def campaign_progress() -> Iterator[Callable[[Progress], None]]:
     if not err.is_terminal:
         yield lambda progress: err.print(_progress_line(progress), markup=False, soft_wrap=True)
         return
-    from rich.progress import BarColumn, TextColumn
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn
     from rich.progress import Progress as Bar
 
-    columns = (TextColumn("{task.completed:g}/{task.total:g}"), BarColumn(), TextColumn("{task.description}"))
+    columns = (MofNCompleteColumn(), BarColumn(), TextColumn("{task.description}", markup=False))
     with Bar(*columns, console=err, transient=True) as bar:
         task = bar.add_task("starting …", total=None)
 

@@ -21,8 +21,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from sheetbench.scenes.corners import conflict
-from sheetbench.scenes.supports import contradiction
 
 from lumped.calibration import Calibration, calibrate
 from lumped.linear.threads import one_blas_thread
@@ -31,6 +29,8 @@ from lumped.statics.equilibrium import State
 from lumped.statics.problem import Problem
 from lumped.statics.solver import pose, settle
 from sheetbench.scenes import Clamped, Curved, PerDirection, Scene, SpringSet, Status, require_static
+from sheetbench.scenes.corners import conflict
+from sheetbench.scenes.supports import contradiction
 
 STEP = 1e-4  # of a parameter, for the difference of residuals
 STEP_OF = {"curvature_": 1e-4, "tilt_": 1e-5}  # 1/m and rad, of parameters that may be zero

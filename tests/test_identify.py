@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
-from sheetbench.scenes.seed import seed_displacements
 from test_cli import one_line, run
 
 import fem_reference
@@ -16,6 +15,7 @@ from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, Surface, read
 from comparisons.identification.prediction import NotReached
 from sheetbench import scenes
+from sheetbench.scenes.seed import seed_displacements
 
 SCENE = scenes.load("two-edges-clamped")
 SIDE = np.linspace(0.188 / 8, 0.188, 8)

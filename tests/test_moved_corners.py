@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from sheetbench.scenes.supports import Motion
 
 import fem_reference
 import lumped
@@ -25,6 +24,7 @@ from sheetbench.scenes import (
     Status,
     Symmetric,
 )
+from sheetbench.scenes.supports import Motion
 
 SHEET = Sheet(length_x=0.2, length_y=0.1, thickness=0.005)
 MATERIAL = Material(young=2.0e7, poisson=0.3, density=1200.0)

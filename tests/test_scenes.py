@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from sheetbench.scenes.seed import KNOWN_FAULTS, seed_displacements, seed_errors
 
 from sheetbench import scenes
+from sheetbench.scenes.seed import KNOWN_FAULTS, seed_displacements, seed_errors
 
 GOOD = (scenes.catalogue()["one-edge-clamped"]).read_text(encoding="utf-8")
 

@@ -19,7 +19,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from sheetbench.scenes.supports import AnySupport
 
 from comparisons.advice.advisor import advise
 from comparisons.comparison.comparison import error
@@ -33,6 +32,7 @@ from comparisons.runs.manifest import record
 from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff import timing
 from sheetbench.scenes import Clamped, Curved, Gravity, Hinged, Material, PointLoad, Scene, Sheet, Status
+from sheetbench.scenes.supports import AnySupport
 
 SEED = 7
 TOLERANCES = (0.005, 0.01, 0.02, 0.05)

@@ -11,11 +11,10 @@ from dataclasses import dataclass
 from math import exp, inf
 from typing import Any
 
-from sheetbench.scenes.corners import conflict
-from sheetbench.scenes.supports import LARGEST_TILT, contradiction
-
 from sheetbench.scenes import Chain, Clamped, Curved, Scene
+from sheetbench.scenes.corners import conflict
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.supports import LARGEST_TILT, contradiction
 
 _MATERIAL = {"young": "Pa", "poisson": "", "density": "kg/m³", "damping_time": "s", "damping_rate": "1/s"}
 DAMPING = ("damping_time", "damping_rate")

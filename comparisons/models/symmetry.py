@@ -15,8 +15,6 @@ from math import isclose
 from typing import Any
 
 import numpy as np
-from sheetbench.scenes.sheet import EdgeName
-from sheetbench.scenes.supports import AnySupport
 
 from sheetbench.scenes import (
     EDGES,
@@ -29,6 +27,8 @@ from sheetbench.scenes import (
     Solution,
     Symmetric,
 )
+from sheetbench.scenes.sheet import EdgeName
+from sheetbench.scenes.supports import AnySupport
 
 OTHER_END: dict[str, EdgeName] = {"x0": "x1", "x1": "x0", "y0": "y1", "y1": "y0"}
 CUT: tuple[EdgeName, EdgeName] = ("x1", "y1")

@@ -17,11 +17,11 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from sheetbench.scenes.sheet import EdgeName
 
 from comparisons.comparison.comparison import error as probe_error
 from comparisons.stability.study import LARGE, Row, percent
 from sheetbench.scenes import Clamped, Gravity, Load, Material, Scene, Sheet, Solution, Status
+from sheetbench.scenes.sheet import EdgeName
 
 SIDE, GRAVITY = 0.188, 9.81  # of the seed's sheet, of the Earth
 ELEMENTS = 12

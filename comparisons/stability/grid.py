@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from sheetbench.scenes.sheet import EdgeName
 
 from comparisons.report.style import DARK, GREY
 from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import compare, distance, outcome, sheet
 from comparisons.stability.study import LARGE, Cell, Row, Study, percent
+from sheetbench.scenes.sheet import EdgeName
 
 SLENDERNESS, LOAD = 0.016, 3.0
 EDGES: dict[int, tuple[EdgeName, ...]] = {1: ("x0",), 2: ("x0", "y0")}

@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from sheetbench.scenes.sheet import EdgeName
 
 from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import compare, sheet
 from comparisons.stability.study import Cell, Row, Study
+from sheetbench.scenes.sheet import EdgeName
 
 EDGES: dict[int, tuple[EdgeName, ...]] = {1: ("x0",), 2: ("x0", "y0")}
 MASSES = {1: 33, 2: 17}

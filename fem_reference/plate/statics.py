@@ -20,7 +20,6 @@ from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_matrix
-from sheetbench.scenes.scene import require_static
 from skfem import Basis, ElementQuad2, FacetBasis, LinearForm, MeshQuad
 
 from fem_reference.plate import rods as plate_rods
@@ -49,6 +48,7 @@ from sheetbench.scenes import (
     Status,
     rod_middle,
 )
+from sheetbench.scenes.scene import require_static
 
 PARTS = ("membrane", "bending", "shear")
 

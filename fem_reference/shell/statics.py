@@ -13,7 +13,6 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-from sheetbench.scenes.scene import require_static
 from skfem import Basis, ElementQuad2, MeshQuad
 
 from fem_reference.shell import validity as shell_watch
@@ -31,6 +30,7 @@ from fem_reference.surface.location import locate
 from fem_reference.surface.materials import Section, section_of
 from fem_reference.surface.mesh import Elements, divisions, quarters, rectangle
 from sheetbench.scenes import FieldMesh, Scene, Solution, Symmetric
+from sheetbench.scenes.scene import require_static
 
 
 def solve(

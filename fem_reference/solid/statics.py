@@ -19,7 +19,6 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-from sheetbench.scenes.scene import require_static
 from skfem import MeshQuad
 
 from fem_reference.plate.element import shape_values
@@ -37,6 +36,7 @@ from fem_reference.surface import rod
 from fem_reference.surface.location import locate
 from fem_reference.surface.mesh import Elements, divisions, rectangle, require_upright
 from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes.scene import require_static
 
 MESHES = {"edges": graded_rectangle, "uniform": rectangle}
 

@@ -25,7 +25,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from sheetbench.scenes.actuators import CurvatureTable
 
 from lumped.actuators import joints
 from lumped.actuators.actuator import Drive
@@ -33,6 +32,7 @@ from lumped.actuators.frames import B, Frames, N
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Sheet
 from sheetbench.scenes import Chain as ChainData
+from sheetbench.scenes.actuators import CurvatureTable
 
 UP = np.array([0.0, 0.0, 1.0])
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from sheetbench.scenes.history import ENERGIES
 
 from lumped.dynamics.system import State, System
 from lumped.loads import locate
+from sheetbench.scenes.history import ENERGIES
 
 
 class Sampling:

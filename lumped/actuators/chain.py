@@ -77,11 +77,9 @@ class Chain:
         self._damping = np.array([c.damping_time for c in chains]) @ self._stiffness
 
     def weight(self, acceleration: np.ndarray) -> np.ndarray:
-        """Weight of the segments on their points."""
-        weight = np.zeros((self.rows, 3))
-        weight[: self.frames.coordinates] = (
-            self._mass_of_points.sum(axis=1)[: self.frames.coordinates, None] * acceleration
-        )
+        """Weight of the segments: what the mass matrix makes of an acceleration of the points, for in a
+        translation the directors stand still. Chains beside the mean axis weigh on the directors too."""
+        weight: np.ndarray = self.mass[:, : self.frames.points].sum(axis=1)[:, None] * acceleration
         return weight
 
     def driven(self, drive: Drive) -> np.ndarray:
@@ -267,21 +265,20 @@ class Chain:
         return binding, share
 
     def _mass(self) -> np.ndarray:
-        """Mass matrix of the rows; also keeps the part that weighs."""
+        """Mass matrix of the rows."""
         frames = self.frames
-        points, whole = np.zeros((self.rows, self.rows)), np.zeros((self.rows, self.rows))
+        mass = np.zeros((self.rows, self.rows))
         for chain, beside in zip(self._chains, self._beside, strict=True):
             m = chain.line_density * frames.length
             for i in range(frames.segments):
                 axis = np.zeros((2, self.rows))  # the ends of this chain's axis from the common rows
                 axis[0, i] = axis[1, i + 1] = 1.0
                 axis[:, frames.points + i] = beside / frames.length
-                points += axis.T @ (m / 6.0 * np.array([[2.0, 1.0], [1.0, 2.0]])) @ axis
+                mass += axis.T @ (m / 6.0 * np.array([[2.0, 1.0], [1.0, 2.0]])) @ axis
                 for kind in (N, B):
                     row = frames.points + (kind - 1) * frames.segments + i
-                    whole[row, row] += m * chain.radius**2 / 4.0 / frames.length**2
-        self._mass_of_points = points
-        return points + whole
+                    mass[row, row] += m * chain.radius**2 / 4.0 / frames.length**2
+        return mass
 
     def _joint_springs(self, drive: Drive) -> tuple[np.ndarray, np.ndarray, float]:
         """Stiffness (j,), rest angles (j, 2) of all chains together, and the energy that their rest angles

@@ -22,7 +22,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lumped.calibration import Calibration, calibrate
+from lumped.calibration import CLOSED, Calibration
 from lumped.linear.threads import one_blas_thread
 from lumped.loads import locate
 from lumped.statics.equilibrium import State
@@ -34,7 +34,6 @@ from sheetbench.scenes.supports import contradiction
 
 STEP = 1e-4  # of a parameter, for the difference of residuals
 STEP_OF = {"curvature_": 1e-4, "tilt_": 1e-5}  # 1/m and rad, of parameters that may be zero
-RECALIBRATED = ("consistent", "moduli", "uniform", "cauchy", "axial", "van-gelder", "lloyd")
 
 
 @dataclass(frozen=True)
@@ -234,8 +233,8 @@ def _changed(scene: Scene, springs: Calibration, name: str, value: float) -> tup
 
 def _recalibrated(scene: Scene, springs: Calibration) -> tuple[Scene, Calibration]:
     """The scene with springs for its changed sheet, by the same method."""
-    if springs.method not in RECALIBRATED:
+    if springs.method not in CLOSED:
         raise ValueError(
             f"springs of calibration '{springs.method}' do not follow from the sheet and its material"
         )
-    return scene, calibrate(scene.sheet, scene.material, springs.grid, springs.method)
+    return scene, CLOSED[springs.method].make(scene.sheet, scene.material, springs.grid)

@@ -18,6 +18,7 @@ from lumped.calibration import Calibration
 from lumped.lattice import Distribution
 from lumped.linear.threads import one_blas_thread
 from lumped.masses import masses
+from lumped.sensitivity import spring_value, with_spring
 from lumped.statics.solver import pose
 from sheetbench.scenes import Scene, free_rigid_motions
 
@@ -79,8 +80,6 @@ def frequency_slopes(
     dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M φ), with ∂K/∂k the change of the tangent at rest, which is linear in k; for
     frequencies that stand alone (of equal ones it gives the slope of a mean).
     """
-    from lumped.sensitivity import spring_value, with_spring
-
     found = modes(scene, springs, count)
     problem = pose(scene, springs)
     rest = np.zeros_like(problem.loads.dead)

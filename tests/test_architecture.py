@@ -50,6 +50,35 @@ def test_imports_run_one_way(package):
         assert not forbidden, f"{path.relative_to(ROOT)} imports {', '.join(sorted(forbidden))}"
 
 
+def module_of(path: Path) -> str:
+    """The module's name; a folder's `__init__` under a name of its own: it only re-exports."""
+    return ".".join(path.relative_to(ROOT).with_suffix("").parts)
+
+
+@pytest.mark.parametrize("package", ["lumped"])
+def test_no_file_imports_itself_by_way_of_others(package):
+    """Imports within functions and for types alone count; a folder stands for the files it re-exports."""
+    files = {module_of(path): path for path in (ROOT / package).rglob("*.py")}
+    exported: dict[str, set[str]] = {}
+
+    def modules(path: Path) -> set[str]:
+        found = set()
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom):
+                for name in (alias.name for alias in node.names):
+                    inner, folder = f"{node.module}.{name}", f"{node.module}.__init__"
+                    if node.module in files or inner in files:
+                        found.add(inner if inner in files else node.module)
+                    elif folder in files:
+                        found |= exported.get(folder) or exported.setdefault(folder, modules(files[folder]))
+        return found
+
+    graph = {name: modules(path) for name, path in files.items() if path.name != "__init__.py"}
+    while leaves := {name for name, below in graph.items() if not below & graph.keys()}:
+        graph = {name: below for name, below in graph.items() if name not in leaves}
+    assert not graph, f"import circles among {', '.join(sorted(graph))}"
+
+
 def test_the_reader_sees_every_way_to_import(tmp_path):
     file = tmp_path / "sample.py"
     file.write_text(

@@ -7,7 +7,7 @@ import pytest
 
 import fem_reference
 import lumped
-from lumped.calibration import ModalTarget, StaticTarget, identifiability
+from lumped import ModalTarget, StaticTarget, identifiability
 from lumped.sensitivity import with_spring
 from lumped.vibration import frequency_slopes
 from sheetbench import scenes

@@ -15,7 +15,7 @@ from fem_reference.shell.structure import State as ShellState
 from fem_reference.surface.mesh import rectangle
 from lumped.dynamics import watchdog
 from lumped.dynamics.system import State
-from lumped.statics import validity as watch
+from lumped.statics import faults
 from lumped.statics.solver import pose
 from sheetbench.scenes import EdgeLoad, Scene, Status
 
@@ -40,7 +40,7 @@ def pressed(share: float) -> Scene:
 
 
 def test_a_whole_lattice_has_nothing_to_say(problem):
-    assert watch.broken(problem.assembly, np.zeros_like(problem.loads.dead)) is None
+    assert faults.broken(problem.assembly, np.zeros_like(problem.loads.dead)) is None
 
 
 def test_a_collapsed_link_is_told_with_its_place(problem):
@@ -48,7 +48,7 @@ def test_a_collapsed_link_is_told_with_its_place(problem):
     lattice = problem.assembly.lattice
     first, second = lattice.columns()[2, 3:5, 0]
     u[second] = (lattice.positions[first] - lattice.positions[second]) * (1.0 - 1e-8)
-    fault = watch.broken(problem.assembly, u)
+    fault = faults.broken(problem.assembly, u)
     assert fault is not None and fault.status is Status.INVERTED
     assert "no length left" in fault.message and "y = 0.094 m" in fault.message
 
@@ -60,7 +60,7 @@ def test_an_inverted_cell_is_told_with_its_place(problem):
     u[corner, 2] = -2.2 * lattice.positions[corner, 2]  # four neighbours' layers change places
     for column in (lattice.columns()[0, 1], lattice.columns()[1, 0], lattice.columns()[1, 1]):
         u[column, 2] = -2.2 * lattice.positions[column, 2]
-    fault = watch.broken(problem.assembly, u)
+    fault = faults.broken(problem.assembly, u)
     assert fault is not None and fault.status is Status.INVERTED
     assert "turned inside out" in fault.message and "x = 0 m, y = 0 m" in fault.message
 
@@ -68,7 +68,7 @@ def test_an_inverted_cell_is_told_with_its_place(problem):
 def test_a_number_out_of_range_is_told_with_its_place(problem):
     u = np.zeros_like(problem.loads.dead)
     u[problem.assembly.lattice.columns()[4, 4, 1], 2] = np.nan
-    fault = watch.broken(problem.assembly, u)
+    fault = faults.broken(problem.assembly, u)
     assert fault is not None and fault.status is Status.NON_FINITE and "x = 0.188 m" in fault.message
 
 

@@ -31,7 +31,7 @@ def document(calibration: Calibration) -> dict[str, Any]:
     fit: residual, the largest relative miss of the targets; half_widths, of the springs' 95 % intervals as
     shares of themselves, of area springs as shares of the diagonal's stiffness (null: not seen by the data).
     """
-    from lumped.calibration.fitted import FittedCalibration
+    from lumped import FittedCalibration
 
     found = calibration.as_dict()
     if isinstance(calibration, FittedCalibration):

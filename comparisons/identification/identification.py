@@ -35,7 +35,7 @@ from comparisons.identification.prediction import (
 from comparisons.identification.unknowns import DAMPING, Unknown, unknown
 from comparisons.models.grids import Grid, default_grid, near_square
 from comparisons.models.registry import check_lattice, check_reference
-from lumped.calibration import FITTED, identifiability
+from lumped import CALIBRATIONS, identifiability
 from sheetbench.scenes import Scene, require_static
 from sheetbench.scenes.errors import BadInput
 
@@ -257,7 +257,7 @@ def _check(
         raise BadInput(f"model = '{model}': unknown, choose one of {', '.join(MODELS)}")
     if model == "lumped":
         check_lattice(calibration, None, None)
-        if calibration in FITTED:
+        if CALIBRATIONS[calibration or "consistent"].fitted:
             raise BadInput(f"calibration = '{calibration}': its springs do not follow from what is sought")
     else:
         check_reference(model, elements)

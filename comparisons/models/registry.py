@@ -42,12 +42,11 @@ def calibrate(
     or lengths that are not above zero, and ValueError for options it does not take.
     """
     import lumped
-    from lumped.calibration import FITTED
 
     check_lattice(calibration, k, layer_distance)
     method = calibration or "consistent"
     grid = grid or default_grid(sheet)
-    if method in FITTED and k is None:
+    if lumped.CALIBRATIONS[method].fitted and k is None:
         from comparisons.models.training import fitted
 
         return fitted(sheet, material, grid, method, layer_distance, training)

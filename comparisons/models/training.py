@@ -14,8 +14,7 @@ from functools import lru_cache
 import numpy as np
 
 from comparisons.models.grids import Grid
-from lumped import Calibration
-from lumped.calibration import ModalTarget, StaticTarget
+from lumped import Calibration, ModalTarget, StaticTarget
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet, Status
 from sheetbench.scenes.errors import BadInput
 

@@ -16,7 +16,7 @@ from lumped.calibration import Calibration
 from lumped.dynamics.integrator import Integrator, StepFailed
 from lumped.dynamics.system import State, System
 from lumped.dynamics.watchdog import GROWN
-from lumped.statics.validity import fastest
+from lumped.statics.faults import fastest
 from sheetbench.scenes import Scene
 
 STEPS, GROWTH, SHARPNESS = 600, 10.0, 1e-3

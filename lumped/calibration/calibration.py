@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +9,7 @@ import numpy as np
 
 from lumped import moduli
 from lumped.lattice import Distribution, Grid
-from sheetbench.scenes import Material, Sheet, SpringSet
+from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
 
 
 @dataclass(frozen=True)
@@ -52,12 +51,15 @@ class Calibration:
         }
 
 
-Method = Callable[..., Calibration]
-
-
 def plan_spacing(sheet: Sheet, grid: Grid) -> tuple[float, float]:
     """In-plane spacings (lx, ly) [m] of a grid."""
     return sheet.length_x / (grid[0] - 1), sheet.length_y / (grid[1] - 1)
+
+
+def by_direction(x: float, y: float, alike: float = 1e-12) -> float | PerDirection:
+    """Stiffness along x and y, one number where they are alike; what rounding put below zero is zero."""
+    x, y = max(x, 0.0), max(y, 0.0)
+    return x if abs(x - y) <= alike * max(x, y) else PerDirection(x=x, y=y)
 
 
 def report(method: str, sheet: Sheet, material: Material, grid: Grid, springs: SpringSet) -> Calibration:

@@ -26,8 +26,9 @@ import math
 
 import numpy as np
 
+from lumped.calibration.calibration import by_direction
 from lumped.moduli import Moduli, shear_gaps
-from sheetbench.scenes import PerDirection, SpringSet
+from sheetbench.scenes import SpringSet
 
 
 def closed_form(asked: Moduli, spacing: tuple[float, float], layers: int) -> SpringSet | None:
@@ -72,10 +73,10 @@ def closed_form(asked: Moduli, spacing: tuple[float, float], layers: int) -> Spr
     rest[np.abs(rest) < 1e-12 * asked.membrane[0, 0] * lz2] = 0.0
     mid_area = asked.membrane[0, 1] * lz2 - lattice[0, 1]
     return SpringSet(
-        axial=_by_direction(axial_x / lz2, axial_y / lz2),
+        axial=by_direction(axial_x / lz2, axial_y / lz2),
         diagonal=by_diagonals * (lx**2 + ly**2) / (2.0 * lx * ly * lz2),
         vertical=_vertical(asked, spacing, lz2),
-        cross=_by_direction(
+        cross=by_direction(
             (gap[0] - p * lx**2 / ly**2) * l1x * ly / (2.0 * lx**3 * lz2),
             (gap[1] - p * ly**2 / lx**2) * l1y * lx / (2.0 * ly**3 * lz2),
         ),
@@ -84,7 +85,7 @@ def closed_form(asked: Moduli, spacing: tuple[float, float], layers: int) -> Spr
         mid_area=mid_area / lz2,
         shear=(layer[2, 2] - by_diagonals) / lz2,
         mid_shear=rest[2, 2] / lz2,
-        mid_stretch=_by_direction(rest[0, 0] / lz2, rest[1, 1] / lz2),
+        mid_stretch=by_direction(rest[0, 0] / lz2, rest[1, 1] / lz2),
         layer_distance=math.sqrt(lz2),
     )
 
@@ -105,8 +106,3 @@ def _relaxation(
     thickness = _vertical(asked, spacing, lz2) * lz2 / (lx * ly) + cross.sum() + p * lz2 / (lx * ly) ** 2
     relaxation: np.ndarray = np.outer(coupling, coupling) / thickness * lz2
     return relaxation
-
-
-def _by_direction(x: float, y: float) -> float | PerDirection:
-    x, y = max(x, 0.0), max(y, 0.0)
-    return x if abs(x - y) <= 1e-12 * max(x, y) else PerDirection(x=x, y=y)

@@ -6,25 +6,18 @@ from lumped import moduli
 from lumped.calibration.calibration import Calibration, plan_spacing, report
 from lumped.calibration.closed_form import closed_form
 from lumped.calibration.least_squares import bounded_least_squares
-from lumped.calibration.uniform import require_positive
 from lumped.lattice import Grid
 from sheetbench.scenes import Material, Sheet
 
 
 def consistent(
-    sheet: Sheet, material: Material, grid: Grid, k: float | None = None, layer_distance: float | None = None
+    sheet: Sheet, material: Material, grid: Grid, layer_distance: float | None = None
 ) -> Calibration:
     """The closed form; with a given layer distance, or where it would need a negative link, bounded least
     squares on the same moduli.
 
-    Raises ValueError when k is given (this method finds every stiffness itself), for a layer distance not
-    above zero, and where area springs would leave a cell without positive energy.
+    Raises ValueError where area springs would leave a cell without positive energy.
     """
-    if k is not None:
-        raise ValueError(
-            f"k = {k:g}: calibration 'consistent' finds its stiffnesses itself; k goes with 'uniform'"
-        )
-    require_positive("layer_distance", layer_distance, "m")
     springs = None
     if layer_distance is None:
         spacing = plan_spacing(sheet, grid)

@@ -16,10 +16,9 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from lumped import moduli
-from lumped.calibration.calibration import Calibration, plan_spacing, report
-from lumped.calibration.uniform import require_positive
+from lumped.calibration.calibration import Calibration, by_direction, plan_spacing, report
 from lumped.lattice import Grid
-from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
+from sheetbench.scenes import Material, Sheet, SpringSet
 
 WEIGHTS = {"D": 1.0, "S": 1.0, "A": 0.3}
 PAIRS = ("axial", "cross", "mid_stretch")
@@ -41,16 +40,10 @@ def fit_moduli(
     sheet: Sheet,
     material: Material,
     grid: Grid,
-    k: float | None = None,
     layer_distance: float | None = None,
     weights: Mapping[str, float] = WEIGHTS,
 ) -> Calibration:
-    """The method `moduli`. weights: of D, S and A, by letter. Raises ValueError when k is given."""
-    if k is not None:
-        raise ValueError(
-            f"k = {k:g}: calibration 'moduli' finds its stiffnesses itself; k goes with 'uniform'"
-        )
-    require_positive("layer_distance", layer_distance, "m")
+    """The method `moduli`. weights: of D, S and A, by letter."""
     springs = bounded_least_squares(sheet, material, grid, layer_distance, weights)
     return report("moduli", sheet, material, grid, springs)
 
@@ -80,7 +73,7 @@ def bounded_least_squares(
             name: float(stiffness * value) for name, value in zip(UNKNOWNS, unknowns, strict=False)
         }
         for name in PAIRS:
-            values[name] = _by_direction(values.pop(f"{name}_x"), values.pop(f"{name}_y"))
+            values[name] = by_direction(values.pop(f"{name}_x"), values.pop(f"{name}_y"), 1e-6)
         return SpringSet(**values, vertical=4.0 * float(stiffness), layer_distance=distance)
 
     upper = np.triu_indices(2)
@@ -134,7 +127,3 @@ def bounded_least_squares(
     if np.abs(misses(found)).max() > MET:
         found = least_squares(weak_strains, start, bounds=(low, high), **exact).x
     return springs_of(found)
-
-
-def _by_direction(x: float, y: float) -> float | PerDirection:
-    return x if abs(x - y) <= 1e-6 * max(x, y) else PerDirection(x=x, y=y)

@@ -1,55 +1,45 @@
-"""The calibration methods by name, and the springs that a scene brings itself."""
+"""Methods that need nothing but the sheet and its material, by name; springs that a scene brings itself."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Literal
 
-from lumped.calibration.calibration import Calibration, Method, report
+from lumped.calibration.calibration import Calibration, report
 from lumped.calibration.consistent import consistent
-from lumped.calibration.fitted import fit_modal, fit_static
 from lumped.calibration.least_squares import fit_moduli
-from lumped.calibration.targets import Target
 from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
 from lumped.calibration.uniform import uniform
 from lumped.lattice import Grid
-from sheetbench.scenes import Material, Scene, Sheet
+from sheetbench.scenes import Scene
 
-CALIBRATIONS: dict[str, Method] = {
-    "consistent": consistent,
-    "moduli": fit_moduli,
-    "uniform": uniform,
-    "cauchy": cauchy,
-    "axial": axial,
-    "van-gelder": van_gelder,
-    "lloyd": lloyd,
-    "fit-static": fit_static,
-    "fit-modal": fit_modal,
+Option = Literal["k", "layer_distance", "targets"]
+
+
+@dataclass(frozen=True)
+class Method:
+    """A calibration method: make(sheet, material, grid, **options), the options it takes, what it is."""
+
+    make: Callable[..., Calibration]
+    summary: str
+    takes: tuple[Option, ...] = ("layer_distance",)
+
+    @property
+    def fitted(self) -> bool:
+        """Whether it is fitted to targets."""
+        return "targets" in self.takes
+
+
+CLOSED: dict[str, Method] = {
+    "consistent": Method(consistent, "every modulus met, in closed form where links allow it"),
+    "moduli": Method(fit_moduli, "bounded least squares on the moduli"),
+    "uniform": Method(uniform, "one k for all links, matched to D11 unless given", ("k", "layer_distance")),
+    "cauchy": Method(cauchy, "the isotropic central-force lattice, ν = 1/3; square cells", ()),
+    "axial": Method(axial, "every link a bar, k = E A/L"),
+    "van-gelder": Method(van_gelder, "Van Gelder's areas over squared lengths, in each layer"),
+    "lloyd": Method(lloyd, "off-diagonal stiffness of the bilinear element at ν = 1/3, in each layer"),
 }
-FITTED = ("fit-static", "fit-modal")  # these take `targets`
-
-
-def calibrate(
-    sheet: Sheet,
-    material: Material,
-    grid: Sequence[int] = (9, 9),
-    method: str = "consistent",
-    k: float | None = None,
-    layer_distance: float | None = None,
-    targets: Sequence[Target] = (),
-) -> Calibration:
-    """Springs of a grid (nx, ny) or (nx, ny, layers) for a sheet of this material, by a named method.
-
-    k [N/m] and layer_distance [m] are for the methods that take them; the fitted methods need targets.
-    Raises ValueError for an unknown method, a grid too small, or an option the method does not take.
-    """
-    if method not in CALIBRATIONS:
-        raise ValueError(f"calibration = {method!r}: unknown; choose from {', '.join(CALIBRATIONS)}")
-    options = {"k": k, "layer_distance": layer_distance}
-    if method in FITTED:
-        return CALIBRATIONS[method](sheet, material, checked_grid(grid), **options, targets=targets)
-    if targets:
-        raise ValueError(f"calibration '{method}' takes no targets; {' and '.join(FITTED)} do")
-    return CALIBRATIONS[method](sheet, material, checked_grid(grid), **options)
 
 
 def given(scene: Scene, grid: Sequence[int] = (9, 9)) -> Calibration:
@@ -60,6 +50,13 @@ def given(scene: Scene, grid: Sequence[int] = (9, 9)) -> Calibration:
     if scene.springs is None:
         raise ValueError(f"scene '{scene.name}' has no [springs] table")
     return report("scene", scene.sheet, scene.material, checked_grid(grid), scene.springs)
+
+
+def default(scene: Scene) -> Calibration:
+    """The scene's own springs, or else consistent ones, on 9 × 9 × 2."""
+    if scene.springs is not None:
+        return given(scene)
+    return consistent(scene.sheet, scene.material, (9, 9, 2))
 
 
 def checked_grid(grid: Sequence[int]) -> Grid:

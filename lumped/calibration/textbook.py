@@ -25,29 +25,25 @@ import math
 import numpy as np
 
 from lumped import moduli
-from lumped.calibration.calibration import Calibration, plan_spacing, report
+from lumped.calibration.calibration import Calibration, by_direction, plan_spacing, report
 from lumped.calibration.closed_form import closed_form
-from lumped.calibration.uniform import require_positive
 from lumped.lattice import Grid
-from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
+from sheetbench.scenes import Material, Sheet, SpringSet
 
 CAUCHY_POISSON = 1.0 / 3.0
 
 
-def axial(
-    sheet: Sheet, material: Material, grid: Grid, k: float | None = None, layer_distance: float | None = None
-) -> Calibration:
-    """k = E A/L per link. Raises ValueError when k is given."""
-    _no_k("axial", k)
+def axial(sheet: Sheet, material: Material, grid: Grid, layer_distance: float | None = None) -> Calibration:
+    """k = E A/L per link."""
     lx, ly = plan_spacing(sheet, grid)
-    distance = _distance(layer_distance, sheet.thickness / (grid[2] - 1))
+    distance = layer_distance or sheet.thickness / (grid[2] - 1)
     strip = material.young * sheet.thickness / grid[2]  # E times the thickness of a layer [N/m]
     diagonal = math.hypot(lx, ly)
     springs = SpringSet(
-        axial=_by_direction(strip * ly / lx, strip * lx / ly),
+        axial=by_direction(strip * ly / lx, strip * lx / ly),
         diagonal=strip * (lx * ly / diagonal) / diagonal,
         vertical=material.young * lx * ly / distance,
-        cross=_by_direction(strip * ly / math.hypot(lx, distance), strip * lx / math.hypot(ly, distance)),
+        cross=by_direction(strip * ly / math.hypot(lx, distance), strip * lx / math.hypot(ly, distance)),
         cross_diagonal=strip * (lx * ly / diagonal) / math.hypot(diagonal, distance),
         layer_distance=distance,
     )
@@ -55,23 +51,19 @@ def axial(
 
 
 def van_gelder(
-    sheet: Sheet, material: Material, grid: Grid, k: float | None = None, layer_distance: float | None = None
+    sheet: Sheet, material: Material, grid: Grid, layer_distance: float | None = None
 ) -> Calibration:
-    """Van Gelder's areas over squared lengths in each layer. Raises ValueError when k is given."""
-    _no_k("van-gelder", k)
+    """Van Gelder's areas over squared lengths in each layer."""
     lx, ly = plan_spacing(sheet, grid)
     strip = material.young * sheet.thickness / grid[2]
     in_layer = (strip * ly / lx, strip * lx / ly, strip * lx * ly / (2.0 * (lx * lx + ly * ly)))
     return _layered("van-gelder", sheet, material, grid, layer_distance, in_layer)
 
 
-def lloyd(
-    sheet: Sheet, material: Material, grid: Grid, k: float | None = None, layer_distance: float | None = None
-) -> Calibration:
+def lloyd(sheet: Sheet, material: Material, grid: Grid, layer_distance: float | None = None) -> Calibration:
     """−n·K_ij n of the bilinear element at ν = 1/3 in each layer.
 
-    Raises ValueError when k is given and for cells so long that a spring would be negative."""
-    _no_k("lloyd", k)
+    Raises ValueError for cells so long that a spring would be negative."""
     lx, ly = plan_spacing(sheet, grid)
     strip = material.young * sheet.thickness / grid[2]
     c = strip / (1.0 - CAUCHY_POISSON**2)
@@ -88,15 +80,12 @@ def lloyd(
     return _layered("lloyd", sheet, material, grid, layer_distance, (along_x, along_y, diagonal))
 
 
-def cauchy(
-    sheet: Sheet, material: Material, grid: Grid, k: float | None = None, layer_distance: float | None = None
-) -> Calibration:
-    """The isotropic central-force lattice. Raises ValueError when k or a layer distance is given, on cells
-    that are not square, and where a link would be negative."""
-    _no_k("cauchy", k)
+def cauchy(sheet: Sheet, material: Material, grid: Grid) -> Calibration:
+    """The isotropic central-force lattice. Raises ValueError on cells that are not square, and where a link
+    would be negative."""
     lx, ly = plan_spacing(sheet, grid)
-    if layer_distance is not None or abs(lx - ly) > 1e-9 * lx:
-        raise ValueError("calibration 'cauchy' finds its layer distance itself, and for square cells only")
+    if abs(lx - ly) > 1e-9 * lx:
+        raise ValueError("calibration 'cauchy' is for square cells only")
     asked = moduli.of_sheet(sheet, material, (lx, ly))
     third = np.array([[1.0, CAUCHY_POISSON, 0.0], [CAUCHY_POISSON, 1.0, 0.0], [0.0, 0.0, CAUCHY_POISSON]])
     isotropic = moduli.Moduli(asked.membrane[0, 0] * third, asked.bending[0, 0] * third, asked.shear)
@@ -119,9 +108,7 @@ def _layered(
     lx, ly = plan_spacing(sheet, grid)
     layers = grid[2]
     heights = np.arange(layers) - (layers - 1) / 2.0
-    distance = _distance(
-        layer_distance, sheet.thickness * math.sqrt(layers / (12.0 * float((heights**2).sum())))
-    )
+    distance = layer_distance or sheet.thickness * math.sqrt(layers / (12.0 * float((heights**2).sum())))
     asked = moduli.of_sheet(sheet, material, (lx, ly))
     area = lx * ly
     cross_x, cross_y, diagonals = moduli.gap_shear_per_stiffness((lx, ly, distance))
@@ -130,27 +117,11 @@ def _layered(
     cross_diagonal = float(np.min(gap / 3.0 / diagonals))
     rest = gap - cross_diagonal * diagonals
     springs = SpringSet(
-        axial=_by_direction(in_layer[0], in_layer[1]),
+        axial=by_direction(in_layer[0], in_layer[1]),
         diagonal=in_layer[2],
         vertical=8.0 * float(asked.bending[0, 0]) / distance**2 * area / min(lx, ly) ** 2,
-        cross=_by_direction(float(rest[0]) / cross_x, float(rest[1]) / cross_y),
+        cross=by_direction(float(rest[0]) / cross_x, float(rest[1]) / cross_y),
         cross_diagonal=cross_diagonal,
         layer_distance=distance,
     )
     return report(method, sheet, material, grid, springs)
-
-
-def _by_direction(x: float, y: float) -> float | PerDirection:
-    return x if abs(x - y) < 1e-12 * x else PerDirection(x=x, y=y)
-
-
-def _no_k(method: str, k: float | None) -> None:
-    if k is not None:
-        raise ValueError(
-            f"k = {k:g}: calibration '{method}' finds its stiffnesses itself; k goes with 'uniform'"
-        )
-
-
-def _distance(given: float | None, own: float) -> float:
-    require_positive("layer_distance", given, "m")
-    return own if given is None else given

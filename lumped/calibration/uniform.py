@@ -16,12 +16,7 @@ from sheetbench.scenes import Material, Sheet, SpringSet
 def uniform(
     sheet: Sheet, material: Material, grid: Grid, k: float | None = None, layer_distance: float | None = None
 ) -> Calibration:
-    """k [N/m] as given or from D11; layer_distance [m] as given or the sheet's thickness over the gaps.
-
-    Raises ValueError for k or layer_distance not above zero.
-    """
-    require_positive("k", k, "N/m")
-    require_positive("layer_distance", layer_distance, "m")
+    """k [N/m] as given or from D11; layer_distance [m] as given or the sheet's thickness over the gaps."""
     distance = layer_distance if layer_distance is not None else sheet.thickness / (grid[2] - 1)
     lx, ly = plan_spacing(sheet, grid)
     if k is None:
@@ -34,9 +29,3 @@ def _all(k: float, layer_distance: float) -> SpringSet:
     return SpringSet(
         axial=k, diagonal=k, vertical=k, cross=k, cross_diagonal=k, layer_distance=layer_distance
     )
-
-
-def require_positive(name: str, value: float | None, unit: str) -> None:
-    """Raise ValueError unless the value is above zero or absent."""
-    if value is not None and not value > 0.0:
-        raise ValueError(f"{name} = {value:g} {unit}: must be greater than 0")

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from lumped.assembly import Precision
-from lumped.calibration import Calibration, calibrate, given
+from lumped.calibration import Calibration, default
 from lumped.dynamics import watchdog
 from lumped.dynamics.constraints import Projection
 from lumped.dynamics.generalised_alpha import GeneralisedAlpha
@@ -83,8 +83,7 @@ def simulate(
         if value is not None and not (value > 0.0 and np.isfinite(value)):
             raise ValueError(f"{name} = {value:g} s: must be greater than 0 and finite")
     began = clock.perf_counter()
-    if springs is None:
-        springs = given(scene) if scene.springs is not None else calibrate(scene.sheet, scene.material)
+    springs = springs or default(scene)
     system = System(scene, pose(scene, springs, weights, precision))
     start = _start(system, springs, weights)
     method, plan = _prepare(system, springs, start, duration, step, integrator, every, options)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.dynamics.system import State, System
-from lumped.statics.validity import Fault, broken, fastest
+from lumped.statics.faults import Fault, broken, fastest
 from sheetbench.scenes import Status
 
 GROWN = 1.0  # energy from nowhere, relative to the energy that went round, that counts as divergence

@@ -12,7 +12,7 @@ sheet's longer side; a step that fails is halved with the factors at hand. Where
 a stable state there.
 
 Watchdogs end a path: a number that is not finite, corrections that grow or do not settle (a load step's
-own), collapsed links and inverted cells at an equilibrium (`lumped.statics.validity`), too many
+own), collapsed links and inverted cells at an equilibrium (`lumped.statics.faults`), too many
 factorisations.
 """
 
@@ -24,8 +24,8 @@ import numpy as np
 
 from lumped.assembly import Stresses
 from lumped.linear.solver import Factor, SingularMatrixError
+from lumped.statics.faults import broken
 from lumped.statics.problem import Problem
-from lumped.statics.validity import broken
 
 COARSE = 1e-5  # residual, relative to the forces, at which corrections turn to the true tangent
 SETTLED = 1e-9  # of the sheet's longer side: what an idle correction may move

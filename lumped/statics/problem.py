@@ -14,7 +14,7 @@ from lumped.actuators import Drive
 from lumped.assembly import Assembly, Stresses
 from lumped.linear.solver import Factor, ReducedSystem
 from lumped.loads import Loads
-from lumped.statics.validity import Fault
+from lumped.statics.faults import Fault
 from lumped.supports import Constraints
 from sheetbench.scenes import Iteration
 

@@ -12,12 +12,13 @@ import numpy as np
 
 from lumped.actuators import Coupling
 from lumped.assembly import Assembly, Precision
-from lumped.calibration import Calibration, calibrate, given
+from lumped.calibration import Calibration, default
+from lumped.calibration.consistent import consistent
 from lumped.lattice import Weights
 from lumped.linear.solver import SingularMatrixError
 from lumped.linear.threads import one_blas_thread
 from lumped.loads import Loads, locate
-from lumped.statics import validity as watch
+from lumped.statics import validity
 from lumped.statics.energy_descent import descend, disturbed
 from lumped.statics.equilibrium import FACTORISATIONS, State, StepFailed, at_rest, follow, predictor
 from lumped.statics.fields import field_mesh
@@ -80,8 +81,7 @@ def solve(
         raise ValueError("linear = True: actuators turn with the sheet; solve without")
     began = time.perf_counter()
     _compile()
-    if springs is None:
-        springs = given(scene) if scene.springs is not None else calibrate(scene.sheet, scene.material)
+    springs = springs or default(scene)
     problem = pose(scene, springs, weights, precision)
     problem.progress = progress
     ready = time.perf_counter()
@@ -104,7 +104,7 @@ def _compile() -> None:
         name="small", sheet=sheet, material=material, gravity=gravity, support=(Clamped(edge="x0"),)
     )
     with one_blas_thread():
-        settle(scene, pose(scene, calibrate(sheet, material, (3, 7))), "path")
+        settle(scene, pose(scene, consistent(sheet, material, (3, 7, 2))), "path")
 
 
 def pose(
@@ -197,8 +197,8 @@ def _judge(scene: Scene, problem: Problem, state: State, notes: list[str]) -> tu
     elif state.negative:
         status = Status.UNSTABLE
         notes.append(f"{state.negative} directions of negative curvature")
-    doubts = watch.layers(scene, problem.assembly, state.u)
-    rounded = watch.digits(problem, state)
+    doubts = validity.layers(scene, problem.assembly, state.u)
+    rounded = validity.digits(problem, state)
     if rounded is not None and status is Status.CONVERGED:
         status = rounded.status
     notes.extend(filter(None, [doubts, rounded.message if rounded is not None else ""]))

@@ -1,7 +1,5 @@
-"""What a lattice watches for in its own answers: collapsed links, inverted cells, lost digits, thin layers.
+"""What makes an equilibrium doubtful: lost digits, layers thinner than the grid's cells.
 
-collapsed  a link shorter than 1e-6 of its rest length: its direction means nothing.
-inverted   the normal of a mid-surface cell no longer points the way from the bottom layer to the top.
 digits     a link's elongation is rounded as the scalar product of its rest vector and its ends' relative
            displacement Δu is, its force by k Δu ε: K⁻¹ times random forces of that size tells, at a few
            solves with the factors at hand, how far rounding may move the equilibrium: twenty to tens of
@@ -22,65 +20,19 @@ Each is said with the place on the sheet where it is worst and what to change.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
-
 import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
+from lumped.statics.equilibrium import State
+from lumped.statics.faults import Fault, cell_corners, place, surface
+from lumped.statics.problem import Problem
 from sheetbench.scenes import Scene, Status
 
-if TYPE_CHECKING:
-    from lumped.statics.equilibrium import State
-    from lumped.statics.problem import Problem
-
-COLLAPSED = 1e-6  # of a link's rest length
 DOUBTFUL, LOST = 1e-2, 0.05  # displacement by rounding over the largest: that it may be, that it is
 SAMPLES = 3
 RESOLVED = 2.0  # cells' length over the width of a layer
 FREE_OF_STRETCH = 0.025  # share of energy in the layers' mean stretch below which there is nothing to resolve
-
-
-class Fault(NamedTuple):
-    """What makes a state worthless: the status it deserves and a sentence."""
-
-    status: Status
-    message: str
-
-
-def broken(assembly: Assembly, u: np.ndarray) -> Fault | None:
-    """The first of: a number that is not finite, a collapsed link, an inverted cell; u: (n, 3) [m]."""
-    lattice = assembly.lattice
-    masses = u[: lattice.mass_count]
-    finite = np.isfinite(masses).all(axis=1)
-    if not finite.all():
-        where = place(lattice, int(np.argmin(finite)))
-        return Fault(Status.NON_FINITE, f"the mass at {where} has left the range of numbers")
-    for links in (assembly.links, assembly.directional):
-        if len(links):
-            a, b = links.nodes.T
-            share = np.linalg.norm(links.offset + u[b] - u[a], axis=1) / links.rest_length
-            if share.min() < COLLAPSED:
-                where = place(lattice, int(a[np.argmin(share)]))
-                return Fault(Status.INVERTED, f"the link at {where} has no length left: refine the grid")
-    facing = _facing(lattice, masses)
-    if facing.min() <= 0.0:
-        j, i = np.unravel_index(np.argmin(facing), facing.shape)
-        where = place(lattice, int(lattice.columns()[j, i, 0]))
-        return Fault(Status.INVERTED, f"the cell at {where} has turned inside out: refine the grid")
-    return None
-
-
-def place(lattice: Lattice, mass: int) -> str:
-    """Where a mass lies on the flat sheet, in words."""
-    x, y, _ = lattice.positions[mass]
-    return f"x = {x:.4g} m, y = {y:.4g} m"
-
-
-def fastest(lattice: Lattice, v: np.ndarray) -> str:
-    """Where the fastest mass lies, v: (n, 3) [m/s]; the first whose speed is no number, if there is one."""
-    speed = np.abs(v[: lattice.mass_count]).max(axis=1)
-    return place(lattice, int(np.argmax(np.where(np.isfinite(speed), speed, np.inf))))
 
 
 def digits(problem: Problem, state: State) -> Fault | None:
@@ -129,32 +81,10 @@ def layers(scene: Scene, assembly: Assembly, u: np.ndarray) -> str:
     )
 
 
-def _corners(field: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    return field[:-1, :-1], field[:-1, 1:], field[1:, 1:], field[1:, :-1]
-
-
-def _surface(lattice: Lattice, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Mid-surface positions (ny, nx, 3) [m] and unit directors, from the bottom layer to the top."""
-    now = (lattice.positions + u)[lattice.columns()]
-    across = now[:, :, -1] - now[:, :, 0]
-    size = np.linalg.norm(across, axis=2, keepdims=True)
-    return now.mean(axis=2), across / np.maximum(size, np.finfo(float).tiny)
-
-
-def _facing(lattice: Lattice, u: np.ndarray) -> np.ndarray:
-    """Normal times mean director of every cell, over their area when flat, (ny − 1, nx − 1)."""
-    middle, director = _surface(lattice, u)
-    a, b, c, d = _corners(middle)
-    normal = 0.5 * np.cross(c - a, d - b)
-    mean = sum(_corners(director)) / 4.0
-    facing: np.ndarray = np.einsum("jiq,jiq->ji", normal, mean) / (lattice.spacing[0] * lattice.spacing[1])
-    return facing
-
-
 def _double_curvature(lattice: Lattice, u: np.ndarray) -> np.ndarray:
     """√|κ₁ κ₂| of every cell from the directors' changes along x and y, (ny − 1, nx − 1) [1/m]."""
-    middle, director = _surface(lattice, u)
-    (a, b, c, d), (p, q, r, s) = _corners(middle), _corners(director)
+    middle, director = surface(lattice, u)
+    (a, b, c, d), (p, q, r, s) = cell_corners(middle), cell_corners(director)
     along, across = 0.5 * (b + c - a - d), 0.5 * (c + d - a - b)
     bent_along, bent_across = 0.5 * (q + r - p - s), 0.5 * (r + s - p - q)
     lx, ly, _ = lattice.spacing

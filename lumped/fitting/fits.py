@@ -14,15 +14,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.optimize import least_squares
 
 from lumped.calibration.calibration import Calibration, report
 from lumped.calibration.consistent import consistent
-from lumped.calibration.identifiability import Identifiability, identifiability
-from lumped.calibration.targets import ModalTarget, StaticTarget, Target
-from lumped.lattice import Distribution, Grid
+from lumped.fitting.identifiability import Identifiability, identifiability
+from lumped.fitting.targets import ModalTarget, StaticTarget, Target
+from lumped.lattice import Grid
+from lumped.sensitivity import sensitivity, spring_parameters, spring_value, with_spring
+from lumped.vibration import frequency_slopes
 from sheetbench.scenes import Material, Sheet, SpringSet
 
 PRIOR = {"fit-static": 1e-3, "fit-modal": 1e-1}
@@ -42,74 +45,57 @@ def fit_static(
     sheet: Sheet,
     material: Material,
     grid: Grid,
-    k: float | None = None,
     layer_distance: float | None = None,
     targets: Sequence[Target] = (),
 ) -> FittedCalibration:
     """Springs whose displacements come nearest to those of the targets (StaticTarget).
 
-    Raises ValueError without targets, for other kinds of them, and when k is given.
+    Raises ValueError without targets, and for other kinds of them.
     """
-    wanted = _of_kind("fit-static", targets, StaticTarget, k)
-    from lumped.sensitivity import sensitivity  # which builds on the calibrations
 
-    def evaluate(springs: Calibration, names: list[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-        misses: list[np.ndarray] = []
-        slopes: dict[str, list[np.ndarray]] = {name: [] for name in names}
-        for target in wanted:
-            scale = np.abs(target.displacement).max() * np.sqrt(len(target.points))
-            found = sensitivity(target.scene, springs, names, target.points)
-            misses.append(((found.displacement - target.displacement) / scale).ravel())
-            for name in names:
-                slopes[name].append((found.derivatives[name] / scale).ravel())
-        return np.concatenate(misses), {name: np.concatenate(slopes[name]) for name in names}
+    def compare(target: StaticTarget, springs: Calibration, names: list[str]) -> Compared:
+        scale = np.abs(target.displacement).max() * np.sqrt(len(target.points))
+        found = sensitivity(target.scene, springs, names, target.points)
+        slopes = {name: (found.derivatives[name] / scale).ravel() for name in names}
+        return ((found.displacement - target.displacement) / scale).ravel(), slopes
 
-    return _fit("fit-static", sheet, material, grid, layer_distance, evaluate)
+    first = consistent(sheet, material, grid, layer_distance)
+    return _fit("fit-static", sheet, material, first, _of_kind("fit-static", targets, StaticTarget), compare)
 
 
 def fit_modal(
     sheet: Sheet,
     material: Material,
     grid: Grid,
-    k: float | None = None,
     layer_distance: float | None = None,
     targets: Sequence[Target] = (),
 ) -> FittedCalibration:
     """Springs whose natural frequencies come nearest to those of the targets (ModalTarget), in order.
 
-    Raises ValueError without targets, for other kinds of them, and when k is given.
+    Raises ValueError without targets, and for other kinds of them.
     """
-    wanted = _of_kind("fit-modal", targets, ModalTarget, k)
-    from lumped.vibration import frequency_slopes
 
-    def evaluate(springs: Calibration, names: list[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-        misses: list[np.ndarray] = []
-        slopes: dict[str, list[np.ndarray]] = {name: [] for name in names}
-        for target in wanted:
-            frequencies, rates = frequency_slopes(target.scene, springs, names, len(target.frequencies))
-            misses.append(frequencies / target.frequencies - 1.0)
-            for name in names:
-                slopes[name].append(rates[name] / target.frequencies)
-        return np.concatenate(misses), {name: np.concatenate(slopes[name]) for name in names}
+    def compare(target: ModalTarget, springs: Calibration, names: list[str]) -> Compared:
+        frequencies, rates = frequency_slopes(target.scene, springs, names, len(target.frequencies))
+        slopes = {name: rates[name] / target.frequencies for name in names}
+        return frequencies / target.frequencies - 1.0, slopes
 
-    return _fit("fit-modal", sheet, material, grid, layer_distance, evaluate)
+    first = replace(consistent(sheet, material, grid, layer_distance), masses="gregory")
+    return _fit("fit-modal", sheet, material, first, _of_kind("fit-modal", targets, ModalTarget), compare)
 
 
-Evaluate = Callable[[Calibration, list[str]], tuple[np.ndarray, dict[str, np.ndarray]]]
+Compared = tuple[np.ndarray, dict[str, np.ndarray]]  # relative misses, and their derivatives by spring
 
 
 def _fit(
     method: str,
     sheet: Sheet,
     material: Material,
-    grid: Grid,
-    layer_distance: float | None,
-    evaluate: Evaluate,
+    first: Calibration,
+    targets: Sequence[Any],
+    compare: Callable[[Any, Calibration, list[str]], Compared],
 ) -> FittedCalibration:
-    from lumped.sensitivity import spring_parameters, spring_value, with_spring
-
-    masses: Distribution = "gregory" if method == "fit-modal" else "tributary"
-    first = consistent(sheet, material, grid, layer_distance=layer_distance)
+    """The fit of `method` to targets, from the springs `first` on."""
     names = [name for name in spring_parameters(first.springs) if name not in KEPT]
     start = {name: spring_value(first.springs, name) for name in names}
     signed = {name for name in names if name in ("area", "mid_area")}
@@ -120,7 +106,7 @@ def _fit(
         for name, x in zip(names, change, strict=True):
             value = start[name] + unit * x if name in signed else start[name] * np.exp(x)
             springs = with_spring(springs, name, float(value))
-        return replace(first, method=method, springs=springs, masses=masses)
+        return replace(first, method=method, springs=springs)
 
     def jacobian(slopes: dict[str, np.ndarray], springs: SpringSet) -> np.ndarray:
         scale = {name: unit if name in signed else spring_value(springs, name) for name in names}
@@ -132,9 +118,10 @@ def _fit(
         key = change.tobytes()
         if key not in kept:
             springs = springs_of(change)
-            misses, slopes = evaluate(springs, names)
+            compared = [compare(target, springs, names) for target in targets]
+            slopes = {name: np.concatenate([rates[name] for _, rates in compared]) for name in names}
             kept.clear()
-            kept[key] = (misses, jacobian(slopes, springs.springs))
+            kept[key] = np.concatenate([misses for misses, _ in compared]), jacobian(slopes, springs.springs)
         return kept[key]
 
     def residuals(change: np.ndarray) -> np.ndarray:
@@ -145,19 +132,22 @@ def _fit(
 
     best = least_squares(residuals, np.zeros(len(names)), jac=slopes_of, xtol=1e-10, ftol=1e-10, max_nfev=60)
     misses, slopes = at(best.x)
-    plain = report(method, sheet, material, grid, springs_of(best.x).springs)
+    plain = report(method, sheet, material, first.grid, springs_of(best.x).springs)
     known = identifiability(names, slopes, misses) if len(misses) > len(names) else None
     notes = (*plain.notes, *(known.warnings if known else ("too few data for intervals of the springs",)))
     return FittedCalibration(
-        method, grid, plain.springs, plain.moduli, notes, masses, float(np.abs(misses).max()), known
+        method,
+        first.grid,
+        plain.springs,
+        plain.moduli,
+        notes,
+        first.masses,
+        float(np.abs(misses).max()),
+        known,
     )
 
 
-def _of_kind(method: str, targets: Sequence[Target], kind: type, k: float | None) -> list:
-    if k is not None:
-        raise ValueError(
-            f"k = {k:g}: calibration '{method}' finds its stiffnesses itself; k goes with 'uniform'"
-        )
+def _of_kind(method: str, targets: Sequence[Target], kind: type) -> list:
     wanted = [target for target in targets if isinstance(target, kind)]
     if not wanted or len(wanted) != len(targets):
         raise ValueError(f"calibration '{method}' needs targets, all of them {kind.__name__}")

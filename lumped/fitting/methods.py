@@ -1,0 +1,48 @@
+"""All calibration methods by name, the fitted ones too, and the one door to them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from lumped.calibration.calibration import Calibration
+from lumped.calibration.methods import CLOSED, Method, checked_grid
+from lumped.fitting.fits import fit_modal, fit_static
+from lumped.fitting.targets import Target
+from sheetbench.scenes import Material, Sheet
+
+CALIBRATIONS: dict[str, Method] = {
+    **CLOSED,
+    "fit-static": Method(fit_static, "fitted to displacements", ("layer_distance", "targets")),
+    "fit-modal": Method(fit_modal, "fitted to natural frequencies", ("layer_distance", "targets")),
+}
+UNITS = {"k": "N/m", "layer_distance": "m"}
+
+
+def calibrate(
+    sheet: Sheet,
+    material: Material,
+    grid: Sequence[int] = (9, 9),
+    method: str = "consistent",
+    k: float | None = None,
+    layer_distance: float | None = None,
+    targets: Sequence[Target] = (),
+) -> Calibration:
+    """Springs of a grid (nx, ny) or (nx, ny, layers) for a sheet of this material, by a named method.
+
+    k [N/m] and layer_distance [m] are for the methods that take them; the fitted methods need targets.
+    Raises ValueError for an unknown method, a grid too small, an option that the method does not take or that
+    is not above zero.
+    """
+    if method not in CALIBRATIONS:
+        raise ValueError(f"calibration = {method!r}: unknown; choose from {', '.join(CALIBRATIONS)}")
+    chosen = CALIBRATIONS[method]
+    asked: dict[str, Any] = {"k": k, "layer_distance": layer_distance, "targets": tuple(targets) or None}
+    options = {name: value for name, value in asked.items() if value is not None}
+    for name, value in options.items():
+        if name not in chosen.takes:
+            others = " and ".join(f"'{other}'" for other, one in CALIBRATIONS.items() if name in one.takes)
+            raise ValueError(f"calibration '{method}' takes no {name}; {name} goes with {others}")
+        if name in UNITS and not value > 0.0:
+            raise ValueError(f"{name} = {value:g} {UNITS[name]}: must be greater than 0")
+    return chosen.make(sheet, material, checked_grid(grid), **options)

@@ -163,6 +163,46 @@ def test_what_the_data_cannot_tell_apart_is_said(truth):
     assert any("cannot tell young from thickness" in said for said in alike.warnings)
 
 
+def test_what_the_data_do_not_see_stays_where_the_scene_has_it():
+    """Under its own weight a sheet shows ρ/E only: the search must not wander along what nothing holds."""
+    measured = read(MEASURED / "seed-test-1-experiment.csv", SCENE)
+    found = identify(SCENE, measured, ["young", "density"])
+    values = {name: u.value for name, u in found.unknowns.items()}
+    alone = identify(SCENE, measured, ["young"], refine=False).unknowns["young"].value
+    ratio = alone / SCENE.material.density
+    assert values["young"] / values["density"] == pytest.approx(ratio, rel=1e-4)
+    assert 0.1 < values["density"] / SCENE.material.density < 10.0
+    assert any("do not see a combination of young, density" in said for said in found.warnings)
+    assert all(u.interval == (0.0, np.inf) and np.isfinite(u.refined) for u in found.unknowns.values())
+
+
+def test_deflections_positive_downwards_are_refused(truth):
+    down = truth * [1.0, 1.0, -1.0]
+    with pytest.raises(ValueError, match=r"uz point the other way .* z points up"):
+        identify(SCENE, Displacements(POINTS, down), ["young"])
+    with pytest.raises(ValueError, match="uz point the other way"):
+        identify(SCENE, Displacements(POINTS, down), ["young", "density"])
+    deformed = np.column_stack([POINTS, np.zeros(len(POINTS))]) + down
+    with pytest.raises(ValueError, match=r"heights point the other way .* z points up"):
+        identify(SCENE, Surface(deformed), ["young"])
+
+
+def test_a_curvature_may_turn_the_deflection_over():
+    scene = scenes.load("curved-edge").model_copy(update={"gravity": None})
+    (support,) = scene.supports
+    bent = scene.model_copy(update={"supports": (support.model_copy(update={"curvature": -2.0}),)})
+    found = identify(scene, Displacements(POINTS, lattice(bent).displacement(POINTS)), ["curvature_x0"])
+    assert found.unknowns["curvature_x0"].value == pytest.approx(-2.0, rel=1e-6)
+
+
+def test_an_axis_turned_round_is_named_where_the_fit_is_poor():
+    """A cantilever ten times softer swings 0.2 of its side towards its clamp; here it is entered as away."""
+    soft = with_material(CANTILEVER, young=5.45e6)
+    values = lattice(soft).displacement(POINTS) * [-1.0, 1.0, 1.0]
+    found = identify(soft, Displacements(POINTS, values), ["young"], refine=False)
+    assert found.warnings[-1].endswith("the measured ux point the other way than the model's")
+
+
 def test_blank_components_are_left_out(truth):
     values = truth.copy()
     values[:, :2] = np.nan

@@ -9,6 +9,9 @@ by a trust region (SciPy's `least_squares`), from the values that the scene give
 weighs the same: the noise is taken to be independent and equally large in all of them. Then x ± t s √C_ii,
 with s² = r·r/(m − n), C = (Jᵀ J)⁻¹ and Student's t, is a 95 % interval. It does not know of the model's own
 errors; of a lattice's, one Gauss–Newton step on cells half as large gives the measure (`refined`).
+
+A pull of PULL towards the scene's own values holds what the data do not see at all (only E/ρ shows in a sheet
+under its own weight), or rounding would walk off with it; what they see it moves by PULL², 1e-12.
 Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
 """
 
@@ -23,10 +26,10 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from comparisons.identification import surface
-from comparisons.identification.measurements import Displacements, Measured, Surface
+from comparisons.identification.measurements import Displacements, Measured
+from comparisons.identification.misfit import Misfit, require_same_way
 from comparisons.identification.prediction import (
     NotReached,
-    Prediction,
     Predictor,
     lattice,
     motion,
@@ -36,12 +39,14 @@ from comparisons.identification.unknowns import DAMPING, Unknown, unknown
 from comparisons.models.grids import Grid, default_grid, near_square
 from comparisons.models.registry import check_lattice, check_reference
 from lumped import CALIBRATIONS, identifiability
+from lumped.fitting.identifiability import THRESHOLD
 from sheetbench.scenes import Scene, require_static
 from sheetbench.scenes.errors import BadInput
 
 MODELS = ("lumped", "shell", "solid")
 REFUSED = 1e3  # residual, in units of the data, where the model has no answer: the step is shortened
 SMALLEST = 1e-10  # change of x, or of the sum of squares, that ends the search
+PULL = 1e-6  # residual, in units of the data, that a unit of x is worth
 EVALUATIONS = 60
 POOR = 0.05  # standard deviation of the residuals, of the largest measurement: more than noise usually is
 
@@ -128,7 +133,7 @@ def identify(
     unknowns = tuple(unknown(scene, name) for name in names)
     _check(measured, unknowns, model, calibration, elements)
     predict, settings, axes = _predictor(scene, measured, model, grid, calibration, elements)
-    misfit = _misfit(measured, axes, offset)
+    misfit = Misfit(measured, axes, offset)
     kept: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
     count = 0
 
@@ -136,7 +141,10 @@ def identify(
         nonlocal count
         key = x.tobytes()
         if key not in kept:
-            kept[key] = misfit(predict(unknowns, x, _asked(measured, axes)))
+            predicted = predict(unknowns, x, misfit.asked)
+            if not kept and not any(u.turns for u in unknowns):
+                require_same_way(measured, predicted, axes)
+            kept[key] = misfit.of(predicted)
             count += 1
             size = float(np.sqrt(np.mean(kept[key][0] ** 2)))
             values = ", ".join(f"{u.name} = {u.value(z):.6g}" for u, z in zip(unknowns, x, strict=True))
@@ -145,10 +153,10 @@ def identify(
 
     def residuals(x: np.ndarray) -> np.ndarray:
         try:
-            return at(x)[0]
+            return np.concatenate([at(x)[0], PULL * x])
         except NotReached as error:
             progress(f"no answer there: {error}")
-            return np.full_like(first, REFUSED)
+            return np.concatenate([np.full_like(first, REFUSED), PULL * x])
 
     first = at(np.zeros(len(unknowns)))[0]
     if len(first) <= len(unknowns):
@@ -157,7 +165,7 @@ def identify(
     best = least_squares(
         residuals,
         np.zeros(len(unknowns)),
-        jac=lambda x: at(x)[1],
+        jac=lambda x: np.vstack([at(x)[1], PULL * np.eye(len(x))]),
         bounds=(low, high),
         xtol=SMALLEST,
         ftol=SMALLEST,
@@ -176,7 +184,7 @@ def identify(
             u.interval(x, known.half_widths[u.name]),
             u.start,
             u.unit,
-            None if step is None else u.value(x + step),
+            None if step is None else u.value(float(np.clip(x + step, *u.bounds()))),
         )
         for u, x, step in zip(unknowns, best.x, steps, strict=True)
     }
@@ -184,8 +192,9 @@ def identify(
     warnings = [
         *known.warnings,
         *(
-            f"{u.name} ended at a bound of what is allowed: the data pull it further"
-            for u, active in zip(unknowns, best.active_mask, strict=True)
+            f"{u.name} ended at {u.value(x):.4g} {u.unit}, as far from the scene's own value as the search "
+            "goes: the data pull it further"
+            for u, x, active in zip(unknowns, best.x, best.active_mask, strict=True)
             if active
         ),
     ]
@@ -198,9 +207,11 @@ def identify(
         and abs(step) > known.half_widths[u.name] / 3.0
     ]
     if noise > POOR:
+        turned = " and ".join(misfit.turned(final))
         warnings.append(
             f"a poor fit, off by {100 * noise:.2g} % of the largest measurement: no value of "
             f"{', '.join(names)} explains these data; look at frame, supports and model"
+            + (turned and f": the measured {turned} point the other way than the model's")
         )
     return Identification(
         scene=scene,
@@ -208,7 +219,7 @@ def identify(
         model=model,
         settings=settings,
         unknowns=found,
-        residuals=_per_point(measured, final),
+        residuals=misfit.per_point(final),
         noise=measured.scale * noise,
         relative=float(np.abs(final).max()),
         evaluations=count,
@@ -226,15 +237,17 @@ def _refinement(
     calibration: str | None,
     offset: float,
 ) -> list[float | None]:
-    """The Gauss–Newton step of x on a lattice with cells half as large; None where that has no answer."""
+    """The Gauss–Newton step of x on a lattice with cells half as large, of what the data see; None where that
+    lattice has no answer."""
     nx, ny, layers = settings["grid"]
     finer = (2 * nx - 1, 2 * ny - 1, layers)
     predict, _, axes = _predictor(scene, measured, "lumped", finer, calibration, 0)
+    misfit = Misfit(measured, axes, offset)
     try:
-        residuals, slopes = _misfit(measured, axes, offset)(predict(unknowns, x, _asked(measured, axes)))
+        residuals, slopes = misfit.of(predict(unknowns, x, misfit.asked))
     except NotReached:
         return [None] * len(unknowns)
-    step: list[float | None] = np.linalg.lstsq(slopes, -residuals)[0].tolist()
+    step: list[float | None] = np.linalg.lstsq(slopes, -residuals, rcond=THRESHOLD)[0].tolist()
     return step
 
 
@@ -291,39 +304,3 @@ def _predictor(
     along_x, along_y = near_square(scene.sheet, elements)
     axes = surface.plan_grid(scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
     return reference(scene, model, elements), {"elements": [along_x, along_y]}, axes
-
-
-def _asked(measured: Measured, axes: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
-    return surface.plan_points(axes) if isinstance(measured, Surface) else measured.points
-
-
-def _misfit(
-    measured: Measured, axes: tuple[np.ndarray, np.ndarray], offset: float
-) -> Callable[[Prediction], tuple[np.ndarray, np.ndarray]]:
-    """From a prediction to residuals (m,) and their slopes (m, n), as shares of the largest measurement."""
-    scale = measured.scale
-
-    def of_points(predicted: Prediction) -> tuple[np.ndarray, np.ndarray]:
-        assert isinstance(measured, Displacements)
-        given = measured.measured
-        slopes = np.stack([slope[given] for slope in predicted.slopes], axis=1)
-        return (predicted.displacement - measured.displacement)[given] / scale, slopes / scale
-
-    def of_surface(predicted: Prediction) -> tuple[np.ndarray, np.ndarray]:
-        found = surface.feet(axes, surface.Field(axes, predicted.displacement), measured.points)
-        slopes = [
-            np.einsum("nc,nc->n", found.normals, surface.Field(axes, slope).at(found.points))
-            for slope in predicted.slopes
-        ]
-        return (offset - found.distances) / scale, np.stack(slopes, axis=1) / scale
-
-    return of_points if isinstance(measured, Displacements) else of_surface
-
-
-def _per_point(measured: Measured, residuals: np.ndarray) -> np.ndarray:
-    """Residuals [m] in the shape of the measurements."""
-    if isinstance(measured, Surface):
-        return residuals * measured.scale
-    out = np.full(measured.displacement.shape, np.nan)
-    out[measured.measured] = residuals * measured.scale
-    return out

@@ -30,11 +30,12 @@ FARTHEST = 2.0  # a displacement of so many sides is a wrong unit
 @dataclass(frozen=True)
 class Displacements:
     """points: (n, 2) [m] of the flat sheet; displacement: (n, 3) [m], nan where not measured; time: (n,) [s]
-    of each row, or None for an equilibrium."""
+    of each row, or None for an equilibrium; source: where they come from, to be named in a refusal."""
 
     points: np.ndarray
     displacement: np.ndarray
     time: np.ndarray | None = None
+    source: str = "measured"
 
     @property
     def measured(self) -> np.ndarray:
@@ -49,9 +50,10 @@ class Displacements:
 
 @dataclass(frozen=True)
 class Surface:
-    """points: (n, 3) [m] of the deformed surface."""
+    """points: (n, 3) [m] of the deformed surface; source: as of `Displacements`."""
 
     points: np.ndarray
+    source: str = "measured"
 
     @property
     def scale(self) -> float:
@@ -104,7 +106,7 @@ def _table(path: Path, scene: Scene) -> Displacements:
         raise BadInput(f"{path}: no displacement in it")
     if times and (min(times) < 0.0 or max(times) == 0.0):
         raise BadInput(f"{path}: time: the motion starts at 0 and goes on to later times")
-    return Displacements(values[:, :2], values[:, 2:], np.array(times) if times else None)
+    return Displacements(values[:, :2], values[:, 2:], np.array(times) if times else None, str(path))
 
 
 def _probe(name: str | None, scene: Scene, where: str) -> list[float]:
@@ -169,4 +171,4 @@ def _cloud(path: Path, sheet: Sheet) -> Surface:
             f"{path}: point ({', '.join(f'{c:g}' for c in worst)}) is off the sheet; points are in metres, "
             "in the scene's axes"
         )
-    return Surface(points)
+    return Surface(points, str(path))

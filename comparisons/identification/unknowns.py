@@ -8,7 +8,7 @@ x = (value − start) · longer side.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import exp, inf
+from math import exp, inf, log
 from typing import Any
 
 from sheetbench.scenes import Chain, Clamped, Curved, Scene
@@ -19,6 +19,7 @@ from sheetbench.scenes.supports import LARGEST_TILT, contradiction
 _MATERIAL = {"young": "Pa", "poisson": "", "density": "kg/m³", "damping_time": "s", "damping_rate": "1/s"}
 DAMPING = ("damping_time", "damping_rate")
 NAMES = (*_MATERIAL, "thickness", "curvature_EDGE", "tilt_EDGE")
+FARTHEST = 1e6  # times the scene's own value, up or down, that a parameter above zero is sought
 _POISSON = (-0.99, 0.4999)
 
 
@@ -41,18 +42,24 @@ class Unknown:
         """d(value)/dx."""
         return self.value(x) if self.step is None else self.step
 
+    @property
+    def turns(self) -> bool:
+        """Whether another value may turn the deflection over: of supports, not of the sheet."""
+        return self.name.startswith(("curvature_", "tilt_"))
+
     def bounds(self) -> tuple[float, float]:
         """Of x."""
         if self.step is None:
-            return -inf, inf
+            return -log(FARTHEST), log(FARTHEST)
         return (self.low - self.start) / self.step, (self.high - self.start) / self.step
 
     def interval(self, x: float, half_width: float) -> tuple[float, float]:
         """Values at x ± half_width, within the bounds."""
-        if half_width > 700.0:  # e to that power overflows
-            return self.low, self.high
-        ends = self.value(x - half_width), self.value(x + half_width)
-        return max(ends[0], self.low), min(ends[1], self.high)
+        least, most = self.bounds()
+        return (
+            self.value(x - half_width) if x - half_width > least else self.low,
+            self.value(x + half_width) if x + half_width < most else self.high,
+        )
 
 
 def unknown(scene: Scene, name: str) -> Unknown:

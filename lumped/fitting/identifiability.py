@@ -49,7 +49,10 @@ def identifiability(names: list[str], jacobian: np.ndarray, residuals: np.ndarra
         members = np.abs(direction) > 0.1
         unseen |= members
         names_in = ", ".join(name for name, member in zip(names, members, strict=True) if member)
-        warnings.append(f"the data do not see a combination of {names_in}")
+        warnings.append(
+            f"the data do not see a combination of {names_in}: changed together they leave what was measured "
+            "as it is; seek fewer, or measure what tells them apart"
+        )
     deviation = np.sqrt(np.diag(covariance))
     for i in range(n):
         for j in range(i):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sheetbench.scenes import Clamped, FieldMesh, Solution, Status
+from sheetbench.scenes import BadInput, Clamped, FieldMesh, Solution, Status
 
 
 class Strip:
@@ -13,7 +13,7 @@ class Strip:
         sheet, material, gravity = scene.sheet, scene.material, scene.gravity
         foreign = scene.loads or scene.actuators or scene.supports != (Clamped(edge="x0"),)
         if foreign or gravity is None or any(gravity.acceleration[:2]):
-            raise ValueError("strip: knows a sheet clamped at x0 under its own weight along z, no more")
+            raise BadInput("strip: knows a sheet clamped at x0 under its own weight along z, no more")
         rigidity = material.young * sheet.thickness**3 / 12
         if settings["plane_strain"]:
             rigidity /= 1 - material.poisson**2

@@ -6,10 +6,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from importlib import import_module
+from inspect import signature
 from typing import Any
 
 from sheetbench.scenes import Scene, Solution
+from sheetbench.scenes.errors import BadInput
 
 MODELS = {
     "plate": "fem_reference.plate.statics",
@@ -17,17 +20,40 @@ MODELS = {
     "solid": "fem_reference.solid.statics",
 }
 
-__all__ = ["MODELS", "modes", "solve"]
+__all__ = ["MODELS", "check", "modes", "options", "solve"]
 
 
-def solve(scene: Scene, model: str = "shell", **options: Any) -> Solution:
+def solve(scene: Scene, model: str = "shell", **asked: Any) -> Solution:
     """The static answer of a reference model; `elements` along the shorter side, or a pair (nx, ny).
 
-    Raises ValueError for an unknown model, scenes.SceneError for a scene that no support holds.
+    Raises BadInput for an unknown model or option, scenes.SceneError for a scene that no support holds.
     """
+    check(model, asked)
+    return _solver(model)(scene, **asked)
+
+
+def check(model: str, asked: Mapping[str, Any]) -> None:
+    """Raise BadInput for a model that does not exist, an option it does not have, or one of another type."""
+    known = options(model)
+    for name, value in asked.items():
+        if name == "elements":
+            continue
+        if name not in known:
+            raise BadInput(f"{model}: no option '{name}'; it has {', '.join(known)}")
+        if isinstance(known[name], bool | int | str) and type(value) is not type(known[name]):
+            raise BadInput(f"{model}: {name} = {value!r}: not a value like {known[name]!r}")
+
+
+def options(model: str) -> dict[str, Any]:
+    """A reference model's own options with their defaults. Raises BadInput for an unknown model."""
+    _, _, *own = signature(_solver(model)).parameters.values()  # behind scene and elements
+    return {parameter.name: parameter.default for parameter in own}
+
+
+def _solver(model: str) -> Any:
     if model not in MODELS:
-        raise ValueError(f"model = {model!r}: known are {', '.join(MODELS)}")
-    return import_module(MODELS[model]).solve(scene, **options)
+        raise BadInput(f"model = {model!r}: known are {', '.join(MODELS)}")
+    return import_module(MODELS[model]).solve
 
 
 def __getattr__(name: str) -> Any:

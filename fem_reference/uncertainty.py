@@ -29,6 +29,7 @@ import numpy as np
 from fem_reference import solve
 from fem_reference.surface.mesh import divisions
 from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes.errors import BadInput
 
 SAFETY, CAUTION = 1.25, 3.0  # factors F of safety
 LEAST_ORDER, LARGEST_ORDER = 0.5, 2.0
@@ -101,11 +102,11 @@ def of_solutions(
 
 
 def estimate(answers: Sequence[np.ndarray], sizes: Sequence[float]) -> Uncertainty:
-    """Bars of answers (n, k) on two or three meshes of rising size. Raises ValueError for other numbers."""
+    """Bars of answers (n, k) on two or three meshes of rising size. Raises BadInput for other numbers."""
     if len(answers) not in (2, 3) or len(answers) != len(sizes):
-        raise ValueError(f"{len(answers)} answers on {len(sizes)} meshes: two or three of both are needed")
+        raise BadInput(f"{len(answers)} answers on {len(sizes)} meshes: two or three of both are needed")
     if any(later <= earlier for earlier, later in pairwise(sizes)):
-        raise ValueError(f"mesh sizes {list(sizes)} must rise: the finest mesh comes first")
+        raise BadInput(f"mesh sizes {list(sizes)} must rise: the finest mesh comes first")
     fine, step = answers[0], answers[0] - answers[1]
     ratio = sizes[1] / sizes[0]
     spread = np.max(answers, axis=0) - np.min(answers, axis=0)

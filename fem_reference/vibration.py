@@ -39,6 +39,7 @@ from fem_reference.solving.threads import one_blas_thread
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, divisions, rectangle
 from sheetbench.scenes import Scene, Symmetric
+from sheetbench.scenes.errors import BadInput
 
 REACH = 0.375  # of the grading
 
@@ -88,10 +89,10 @@ def modes(
     options: the model's own; of plate and shell `section`, as in their `solve`, and `graded`, whether they
     are divided finer towards the edges (they are unless told otherwise).
 
-    Raises ValueError for an unknown model or a count that the mesh cannot give.
+    Raises BadInput for an unknown model or a count that the mesh cannot give.
     """
     if model not in REST_STATES:
-        raise ValueError(f"model = {model!r}: known are {', '.join(REST_STATES)}")
+        raise BadInput(f"model = {model!r}: known are {', '.join(REST_STATES)}")
     begin = perf_counter()
     scene = scene.model_copy(update={"actuators": ()})
     along_x, along_y = divisions(scene.sheet.lengths, elements)
@@ -101,7 +102,7 @@ def modes(
         free = np.flatnonzero(~rest.held)
         rigid = _free_rigid_motions(rest)
         if not 1 <= count < len(free) - rigid:
-            raise ValueError(f"count = {count}: 1 to {len(free) - rigid - 1} on this mesh")
+            raise BadInput(f"count = {count}: 1 to {len(free) - rigid - 1} on this mesh")
         stiffness, mass = (matrix[free][:, free] for matrix in (rest.stiffness, rest.mass))
         values, vectors = _lowest(stiffness, mass, count + rigid, scene)
         done = perf_counter()

@@ -24,6 +24,7 @@ from lumped.springs import areas as cells
 from lumped.springs import links as springs
 from lumped.springs import strains
 from sheetbench.scenes import Sheet
+from sheetbench.scenes.errors import BadInput
 
 Precision = Literal["double", "single"]
 
@@ -167,9 +168,9 @@ class Assembly:
         return len(self.directional) == 0
 
     def require_energy(self) -> None:
-        """Raise ValueError when the springs have no energy."""
+        """Raise BadInput when the springs have no energy."""
         if not self.conservative:
-            raise ValueError(
+            raise BadInput(
                 "per-direction springs have no energy: descent and energy-based methods do not apply"
             )
 

@@ -21,6 +21,7 @@ from typing import Literal
 import numpy as np
 
 from sheetbench.scenes import Sheet
+from sheetbench.scenes.errors import BadInput
 
 Grid = tuple[int, int, int]
 Weights = Literal["tributary", "full"]
@@ -111,11 +112,11 @@ def build(sheet: Sheet, grid: Grid, layer_distance: float, weights: Weights = "t
     """The lattice of a sheet. `weights="full"` gives every link its family's full stiffness and every
     mass the same share, as the seed has them.
 
-    Raises ValueError for fewer than two masses a side or two layers.
+    Raises BadInput for fewer than two masses a side or two layers.
     """
     nx, ny, layers = grid
     if min(grid) < 2:
-        raise ValueError(f"grid = {nx}x{ny}x{layers}: a lattice has at least 2 masses a side and 2 layers")
+        raise BadInput(f"grid = {nx}x{ny}x{layers}: a lattice has at least 2 masses a side and 2 layers")
     lx, ly, lz = sheet.length_x / (nx - 1), sheet.length_y / (ny - 1), layer_distance
     j, i, k = (a.ravel() for a in np.meshgrid(np.arange(ny), np.arange(nx), np.arange(layers), indexing="ij"))
     positions = np.stack([i * lx, j * ly, (k - (layers - 1) / 2) * lz], axis=1)

@@ -24,19 +24,20 @@ from lumped.assembly import Assembly
 from lumped.lattice import Lattice
 from lumped.masses import masses
 from sheetbench.scenes import EDGES, EdgeLoad, FactorTable, PointLoad, Pressure, Scene
+from sheetbench.scenes.errors import BadInput
 
 
 def locate(lattice: Lattice, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Columns (n, 4) as (j nx + i) and bilinear weights (n, 4) of plan points (n, 2) [m].
 
-    Raises ValueError for points off the sheet.
+    Raises BadInput for points off the sheet.
     """
     nx, ny, _ = lattice.grid
     spacing = np.array(lattice.spacing[:2])
     grid = points / spacing
     outside = (grid < -1e-9) | (grid > np.array([nx - 1, ny - 1]) + 1e-9)
     if outside.any():
-        raise ValueError(f"point {points[outside.any(axis=1)][0].tolist()} m is off the sheet")
+        raise BadInput(f"point {points[outside.any(axis=1)][0].tolist()} m is off the sheet")
     cell = np.clip(np.floor(grid).astype(int), 0, [nx - 2, ny - 2])
     (x, y), (i, j) = (grid - cell).T, cell.T
     columns = np.stack([j * nx + i, j * nx + i + 1, (j + 1) * nx + i + 1, (j + 1) * nx + i], axis=1)

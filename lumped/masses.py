@@ -18,12 +18,13 @@ import numpy as np
 
 from lumped.lattice import Distribution, Lattice
 from sheetbench.scenes import Scene
+from sheetbench.scenes.errors import BadInput
 
 
 def masses(scene: Scene, lattice: Lattice, distribution: Distribution = "tributary") -> np.ndarray:
     """Mass of every lumped mass, (n,) [kg]; they add up to the sheet's.
 
-    Raises ValueError for an unknown distribution or, with "gregory", fewer than four masses a side.
+    Raises BadInput for an unknown distribution or, with "gregory", fewer than four masses a side.
     """
     lx, ly, _ = lattice.spacing
     nx, ny, layers = lattice.grid
@@ -31,14 +32,14 @@ def masses(scene: Scene, lattice: Lattice, distribution: Distribution = "tributa
     if distribution == "tributary":
         return per_cell * lattice.share
     if distribution != "gregory":
-        raise ValueError(f"masses = {distribution!r}: choose from tributary, gregory")
+        raise BadInput(f"masses = {distribution!r}: choose from tributary, gregory")
     plan = np.outer(_gregory(ny), _gregory(nx)).ravel()
     return per_cell * np.repeat(plan, layers)
 
 
 def _gregory(n: int) -> np.ndarray:
     if n < 4:
-        raise ValueError(f"masses = 'gregory' needs at least 4 masses a side, not {n}")
+        raise BadInput(f"masses = 'gregory' needs at least 4 masses a side, not {n}")
     weights = np.ones(n)
     weights[[0, -1]], weights[[1, -2]] = 5.0 / 12.0, 13.0 / 12.0
     return weights

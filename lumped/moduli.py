@@ -27,6 +27,7 @@ import numpy as np
 
 from lumped.lattice import STEPS
 from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
+from sheetbench.scenes.errors import BadInput
 
 SHEAR_CORRECTION = 5.0 / 6.0
 
@@ -64,7 +65,7 @@ def family_stiffness(springs: SpringSet, family: str, direction: str) -> float |
     if value.z is not None:
         return (value.x, value.y, value.z)
     if direction not in ("x", "y"):
-        raise ValueError(
+        raise BadInput(
             f"springs.{family} = {{x, y}}: only axial and cross links run along x or y; give one number"
         )
     return value.x if direction == "x" else value.y

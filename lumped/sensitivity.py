@@ -30,6 +30,7 @@ from lumped.statics.problem import Problem
 from lumped.statics.solver import pose, settle
 from sheetbench.scenes import Clamped, Curved, PerDirection, Scene, SpringSet, Status, require_static
 from sheetbench.scenes.corners import conflict
+from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.supports import contradiction
 
 STEP = 1e-4  # of a parameter, for the difference of residuals
@@ -51,7 +52,7 @@ def sensitivity(
 ) -> Sensitivity:
     """d(displacement at plan points (n, 2) [m])/d(parameter); the scene's probes unless points are given.
 
-    Raises ValueError for an unknown parameter and where the scene has no stable equilibrium on these springs.
+    Raises BadInput for an unknown parameter and where the scene has no stable equilibrium on these springs.
     """
     with one_blas_thread():
         problem, state = _equilibrium(scene, springs)
@@ -69,12 +70,12 @@ def gradient(
 ) -> dict[str, float]:
     """d/d(parameter) of Σ weights · displacement at points (n, 2) [m], weights (n, 3): one adjoint solve.
 
-    Raises ValueError as `sensitivity`, and where the tangent is unsymmetric.
+    Raises BadInput as `sensitivity`, and where the tangent is unsymmetric.
     """
     with one_blas_thread():
         problem, state = _equilibrium(scene, springs)
         if not problem.conservative:
-            raise ValueError("the adjoint is solved with a symmetric tangent: use sensitivity here")
+            raise BadInput("the adjoint is solved with a symmetric tangent: use sensitivity here")
         pull = _Sampling(problem, np.asarray(points, float)).transposed(weights)
         adjoint = state.factor.solve(problem.reduce(pull))
         slopes = {}
@@ -96,13 +97,13 @@ def spring_parameters(springs: SpringSet) -> list[str]:
 
 
 def with_spring(springs: SpringSet, name: str, value: float) -> SpringSet:
-    """The spring set with one constant (or layer_distance) changed. Raises ValueError for an unknown name."""
+    """The spring set with one constant (or layer_distance) changed. Raises BadInput for an unknown name."""
     if name in SpringSet.model_fields:
         return springs.model_copy(update={name: value})
     family, _, direction = name.rpartition("_")
     pair = getattr(springs, family, None)
     if not isinstance(pair, PerDirection) or direction not in ("x", "y"):
-        raise ValueError(f"parameter {name!r}: unknown, or without a value of its own in these springs")
+        raise BadInput(f"parameter {name!r}: unknown, or without a value of its own in these springs")
     return springs.model_copy(update={family: pair.model_copy(update={direction: value})})
 
 
@@ -141,7 +142,7 @@ def _equilibrium(scene: Scene, springs: Calibration) -> tuple[Problem, State]:
     problem = pose(scene, springs)
     outcome = settle(scene, problem, "path")
     if outcome.status is not Status.CONVERGED:
-        raise ValueError(f"scene '{scene.name}': no sensitivity of an answer that is {outcome.status}")
+        raise BadInput(f"scene '{scene.name}': no sensitivity of an answer that is {outcome.status}")
     return problem, outcome.state
 
 
@@ -152,7 +153,7 @@ def _rates(
     value = _value(scene, springs, name)
     step = next((h for kind, h in STEP_OF.items() if name.startswith(kind)), STEP * abs(value))
     if step == 0.0:
-        raise ValueError(f"parameter {name!r} is zero here: it has no scale to differentiate on")
+        raise BadInput(f"parameter {name!r} is zero here: it has no scale to differentiate on")
     sides = []
     placed = problem.prescribed(1.0)
     for sign in (1.0, -1.0):
@@ -186,9 +187,7 @@ def _bent(scene: Scene, name: str) -> float:
         curvature = getattr(actuator, "curvature", None)
         if actuator.edge == edge and isinstance(curvature, float | int):
             return float(curvature)
-    raise ValueError(
-        f"parameter {name!r}: edge {edge} has no curved support, nor an actuator of one curvature"
-    )
+    raise BadInput(f"parameter {name!r}: edge {edge} has no curved support, nor an actuator of one curvature")
 
 
 def _tilted(scene: Scene, name: str) -> Clamped:
@@ -196,7 +195,7 @@ def _tilted(scene: Scene, name: str) -> Clamped:
     for clamp in scene.supports:
         if isinstance(clamp, Clamped) and clamp.edge == edge:
             return clamp
-    raise ValueError(f"parameter {name!r}: edge {edge} has no clamp")
+    raise BadInput(f"parameter {name!r}: edge {edge} has no clamp")
 
 
 def _changed(scene: Scene, springs: Calibration, name: str, value: float) -> tuple[Scene, Calibration]:
@@ -226,7 +225,7 @@ def _changed(scene: Scene, springs: Calibration, name: str, value: float) -> tup
         clamp = _tilted(scene, name)
         supports = tuple(s.model_copy(update={"tilt": value}) if s is clamp else s for s in scene.supports)
         if said := contradiction(supports) or conflict(scene.actuators, supports, scene.sheet):
-            raise ValueError(f"parameter {name!r}: {said}")
+            raise BadInput(f"parameter {name!r}: {said}")
         return scene.model_copy(update={"supports": supports}), springs
     return scene, replace(springs, springs=with_spring(springs.springs, name, value))
 
@@ -234,7 +233,7 @@ def _changed(scene: Scene, springs: Calibration, name: str, value: float) -> tup
 def _recalibrated(scene: Scene, springs: Calibration) -> tuple[Scene, Calibration]:
     """The scene with springs for its changed sheet, by the same method."""
     if springs.method not in CLOSED:
-        raise ValueError(
+        raise BadInput(
             f"springs of calibration '{springs.method}' do not follow from the sheet and its material"
         )
     return scene, CLOSED[springs.method].make(scene.sheet, scene.material, springs.grid)

@@ -21,6 +21,7 @@ from lumped.masses import masses
 from lumped.sensitivity import spring_value, with_spring
 from lumped.statics.solver import pose
 from sheetbench.scenes import Scene, free_rigid_motions
+from sheetbench.scenes.errors import BadInput
 
 DENSE = 600  # unknowns below which all eigenvalues are computed
 
@@ -44,14 +45,14 @@ def modes(
 
     distribution: how the masses are shared out (`lumped.masses`), the springs' own unless given.
 
-    Raises ValueError when the lattice has fewer modes than asked.
+    Raises BadInput when the lattice has fewer modes than asked.
     """
     scene = scene.model_copy(update={"actuators": ()})
     problem = pose(scene, springs)
     transform = problem.constraints.transform
     rigid = len(free_rigid_motions(scene))
     if count + rigid > problem.system.unknowns - 1:
-        raise ValueError(f"count = {count}: the lattice has only {problem.system.unknowns - rigid} modes")
+        raise BadInput(f"count = {count}: the lattice has only {problem.system.unknowns - rigid} modes")
     weight = np.repeat(masses(scene, problem.assembly.lattice, distribution or springs.masses), 3)
     mass = sp.csc_array(transform.T @ sp.diags_array(weight) @ transform)
     rest = np.zeros_like(problem.loads.dead)

@@ -8,6 +8,10 @@ import time
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from sheetbench.scenes import BadInput
+
 
 def square(x: float, seconds: float = 0.0) -> dict[str, Any]:
     time.sleep(seconds)
@@ -34,7 +38,17 @@ def mark(x: int, folder: str, seconds: float) -> dict[str, Any]:
 
 
 def refuse() -> dict[str, Any]:
-    raise ValueError("x = −1: must be positive")
+    raise BadInput("x = −1: must be positive")
+
+
+def stumble(over: str) -> dict[str, Any]:
+    """Raises what code raises that has a fault, none of it a refusal."""
+    if over == "value":
+        int("not a number")
+    if over == "type":
+        len(3)  # type: ignore[arg-type]
+    np.linalg.inv(np.zeros((2, 2)))
+    return {}
 
 
 def fail() -> dict[str, Any]:

@@ -86,3 +86,13 @@ def test_the_reader_sees_every_way_to_import(tmp_path):
         'from sheetbench import scenes\nM = {"a": "fem_reference.shell.statics"}\n'
     )
     assert imported(file) == {"lumped", "comparisons", "fem_reference", "sheetbench.scenes"}
+
+
+@pytest.mark.parametrize("package", ["lumped", "fem_reference", "comparisons"])
+def test_misuse_is_refused_by_an_error_of_its_own(package):
+    """Whoever reads BadInput knows that the input is to blame, and of any other error that the program is."""
+    for path in sorted((ROOT / package).rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
+                raised = ast.unparse(node.exc.func)
+                assert raised not in ("ValueError", "TypeError"), f"{path}:{node.lineno}: {raised}"

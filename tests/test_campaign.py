@@ -78,6 +78,14 @@ def test_a_run_that_fails_is_a_row_with_its_status(store: Store) -> None:
     assert found[2].row == {"value": None}
 
 
+def test_a_fault_is_not_filed_as_the_users_mistake(store: Store) -> None:
+    found = carry_out([task("stumble", over=over) for over in ("value", "type", "matrix")], store)
+    for outcome, kind in zip(found, ("ValueError", "TypeError", "LinAlgError"), strict=True):
+        assert outcome.status == "failed"
+        assert outcome.message.startswith(f"{kind}: ")
+        assert "in stumble" in outcome.row["traceback"]
+
+
 def test_what_failed_is_done_again_only_when_asked(store: Store, tmp_path: Path) -> None:
     runs = [task("square", x=1.0), task("needs", path=str(tmp_path / "file"))]
     first = carry_out(runs, store)

@@ -152,3 +152,22 @@ def test_mujoco_refuses_what_it_does_not_have() -> None:
     for scene in (scenes.load("curved-edge"), pulled, tilted):
         solution = models.solve(scene, "mujoco")
         assert solution.status is Status.REFUSED and solution.message
+
+
+@pytest.mark.parametrize(
+    ("model", "settings", "said"),
+    [
+        ("lumped", {"elements": 4}, "lumped: no setting 'elements'; it has grid"),
+        ("lumped", {"grid": 9}, "grid = 9"),
+        ("lumped", {"grid": ["a", "b"]}, "grid = "),
+        ("plate", {"layers": 2}, "plate: no option 'layers'; it has hard_edges"),
+        ("solid", {"layers": "two"}, "solid: layers = 'two'"),
+        ("shell", {"elements": "many"}, "elements = 'many'"),
+        ("shell", {"elements": []}, "elements = "),
+    ],
+)
+def test_settings_of_our_own_models_are_looked_at_before_solving(
+    model: str, settings: dict[str, object], said: str
+) -> None:
+    with pytest.raises(BadInput, match=said):
+        models.solve(scenes.load("one-edge-clamped"), model, **settings)

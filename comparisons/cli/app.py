@@ -3,15 +3,19 @@
 A verb is a module of this package named like the verb, with a function `command`. Importing it must stay
 quick, so a verb imports what it works with inside that function.
 
-Exit status: 0 done; 2 bad input, said in one line; 3 a solver did not converge.
+Exit status: 0 done; 1 a fault of the program, with its traceback; 2 bad input, said in one line; 3 a solver
+did not converge.
 """
 
 from __future__ import annotations
 
 import sys
+import traceback
 from importlib import import_module
 
 import typer
+
+from sheetbench.scenes.errors import BadInput
 
 VERBS = (
     "scenes",
@@ -26,9 +30,9 @@ VERBS = (
     "verify",
     "modes",
 )
+FAULT = 1
 BAD_INPUT = 2
 NOT_CONVERGED = 3
-_OURS = ("sheetbench", "lumped", "fem_reference", "comparisons")
 
 app = typer.Typer(
     help="How good is your spring lattice? Lumped-mass models of soft sheets beside finite elements.",
@@ -57,16 +61,14 @@ def main(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit status."""
     try:
         app(args=arguments, prog_name="sheetbench")
-    except ValueError as error:
-        if not _refused_by_us(error):
-            raise
+    except BadInput as error:
         print(f"sheetbench: {' '.join(str(error).split())}", file=sys.stderr)
         raise SystemExit(BAD_INPUT) from None
-
-
-def _refused_by_us(error: ValueError) -> bool:
-    """Whether one of our packages refused the input; a ValueError from deeper is a fault of ours."""
-    frame = error.__traceback__
-    while frame is not None and frame.tb_next is not None:
-        frame = frame.tb_next
-    return frame is not None and frame.tb_frame.f_globals["__name__"].partition(".")[0] in _OURS
+    except Exception:
+        traceback.print_exc()
+        print(
+            "sheetbench: this is a fault of the program, not of your input: please report it, with the lines "
+            "above and the command",
+            file=sys.stderr,
+        )
+        raise SystemExit(FAULT) from None

@@ -21,7 +21,7 @@ import numpy as np
 from comparisons.identification.unknowns import Unknown, put
 from comparisons.models.grids import Grid, default_grid
 from comparisons.models.registry import calibrate, solve_reference
-from sheetbench.scenes import Scene, Status
+from sheetbench.scenes import BadInput, Scene, Status
 
 STATIC_STEP = 1e-3  # in x, for differences of solutions that are accurate to about 1e-9
 MOTION_STEP = 1e-2  # in x, for differences of runs, accurate to about 1e-5
@@ -60,7 +60,7 @@ def lattice(scene: Scene, grid: Grid | None, calibration: str | None) -> Predict
         springs = calibrate(here.sheet, here.material, grid=grid, calibration=calibration)
         try:
             found = lumped.sensitivity(here, springs, [u.name for u in unknowns], points)
-        except ValueError as error:
+        except BadInput as error:
             raise NotReached(str(error)) from None
         slopes = [found.derivatives[u.name] * u.slope(at) for u, at in zip(unknowns, x, strict=True)]
         return Prediction(found.displacement, slopes)

@@ -7,8 +7,9 @@ under the entry-point group `sheetbench.models`:
     mine = "my_package.my_module:MODEL"
 
 `settings` holds the defaults overridden by what the user asks (plain JSON data), and nothing that the
-defaults do not name. What `solve` raises as ValueError is bad input; a solve that does not get there says so
-in its Solution's status. docs/plugin.py is a short one.
+defaults do not name. What `solve` raises as `sheetbench.scenes.BadInput` is bad input, anything else a fault
+of the plug-in; a solve that does not get there says so in its Solution's status. docs/plugin.py is a short
+one.
 """
 
 from __future__ import annotations

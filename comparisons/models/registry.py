@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
+from inspect import Parameter, signature
 from math import isfinite
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -39,7 +40,7 @@ def calibrate(
 
     k [N/m] and layer_distance [m] are the calibration's own options; training: the scenes that a fitted
     one is fitted to, see `comparisons.models.training`. Raises BadInput for a name that is not a calibration
-    or lengths that are not above zero, and ValueError for options it does not take.
+    or lengths that are not above zero, and for options it does not take.
     """
     import lumped
 
@@ -64,13 +65,23 @@ def check_lattice(calibration: str | None, k: float | None, layer_distance: floa
             raise BadInput(f"{name} = {value:g} {unit}: must be greater than 0 and finite")
 
 
-def check_reference(model: str, elements: int) -> None:
-    """Raise BadInput for a reference model or a number of elements that does not exist."""
+def check_reference(
+    model: str, elements: int | Sequence[int], options: Mapping[str, Any] | None = None
+) -> None:
+    """Raise BadInput for a reference model, a number of elements or an option that does not exist."""
     import fem_reference
 
     require_choice("reference", model, fem_reference.MODELS)
-    if elements < 1:
+    counts = [elements] if isinstance(elements, int) else elements
+    if not (_whole(counts) and len(counts) <= 2):
+        raise BadInput(f"elements = {elements!r}: a number along the shorter side, or [nx, ny]")
+    if min(counts) < 1:
         raise BadInput(f"elements = {elements}: at least 1")
+    fem_reference.check(model, options or {})
+
+
+def _whole(counts: Any) -> bool:
+    return isinstance(counts, list | tuple) and len(counts) > 0 and all(type(n) is int for n in counts)
 
 
 def has_own_springs(scene: Scene, **settings: Any) -> bool:
@@ -140,7 +151,7 @@ def solve_reference(
     import fem_reference
 
     asked = [elements] if isinstance(elements, int) else list(elements)
-    check_reference(model, min(asked))
+    check_reference(model, asked, options)
     along = list(near_square(scene.sheet, asked[0])) if len(asked) == 1 else asked
     axes = [axis for axis in planes(scene) if along[axis] % 2 == 0] if symmetry else []
     if axes and model == "solid":
@@ -152,10 +163,7 @@ def solve_reference(
     def answer(part: Scene) -> Solution:
         return fem_reference.solve(part, model=model, elements=counts, **options)
 
-    try:
-        return _by_parts(scene, axes, answer)
-    except TypeError as error:
-        raise BadInput(f"{model}: {error}") from None
+    return _by_parts(scene, axes, answer)
 
 
 def _by_parts(scene: Scene, axes: Sequence[int], answer: Callable[[Scene], Solution]) -> Solution:
@@ -205,13 +213,25 @@ def solve(scene: Scene, model: str, **settings: Any) -> Solution:
 def check(model: str, settings: Mapping[str, Any]) -> None:
     """Raise BadInput for a model that does not exist, or settings that it does not know."""
     if model == "lumped":
+        known = [*_keywords(calibrate), *_keywords(solve_lumped)]
+        unknown = [name for name in settings if name not in known]
+        if unknown:
+            raise BadInput(f"lumped: no setting '{unknown[0]}'; it has {', '.join(known)}")
+        grid = settings.get("grid")
+        if grid is not None and not (_whole(grid) and len(grid) in (2, 3)):
+            raise BadInput(f"grid = {grid!r}: write [nx, ny] or [nx, ny, layers]")
         check_lattice(settings.get("calibration"), settings.get("k"), settings.get("layer_distance"))
     elif model in MODELS:
-        elements = settings.get("elements", 16)
-        check_reference(model, elements if isinstance(elements, int) else min(elements))
+        own = {name: value for name, value in settings.items() if name not in ("elements", "symmetry")}
+        check_reference(model, settings.get("elements", 16), own)
     else:
         require_choice("model", model, [*MODELS, *plugins.names()])
         plugins.settings_of(plugins.plugin(model), settings)
+
+
+def _keywords(function: Callable[..., Any]) -> list[str]:
+    parameters = signature(function).parameters.values()
+    return [parameter.name for parameter in parameters if parameter.kind is Parameter.KEYWORD_ONLY]
 
 
 @cache

@@ -59,8 +59,8 @@ def spectra(
 ) -> list[Spectrum]:
     """The lattice's spectrum, then that of each reference.
 
-    Raises BadInput for choices that do not exist, SceneError for a scene that cannot be read, ValueError for
-    a count that a mesh cannot give.
+    Raises SceneError for a scene that cannot be read, BadInput for choices that do not exist and a count
+    that a mesh cannot give.
     """
     scene = scene if isinstance(scene, Scene) else load(scene)
     if count < 1:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import traceback
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
@@ -28,6 +29,7 @@ from comparisons.report.files import plain
 from comparisons.runs.executors import Pool, processes, single_threaded
 from comparisons.runs.manifest import version
 from comparisons.runs.store import FILE, Finished, Store
+from sheetbench.scenes.errors import BadInput
 
 
 @dataclass(frozen=True)
@@ -167,10 +169,11 @@ def execute(key: str, task: str, arguments: dict[str, Any]) -> Finished:
         module, _, function = task.partition(":")
         row = getattr(import_module(module), function)(**arguments)
         status, message = str(row.get("status", "done")), str(row.get("message", ""))
-    except ValueError as error:
+    except BadInput as error:
         row, status, message = {}, "refused", str(error)
-    except Exception as error:  # a failed run is a row of the study, not the end of it
-        row, status, message = {}, "failed", f"{type(error).__name__}: {error}"
+    except Exception as error:  # a fault is a row of the study, not the end of it
+        row = {"traceback": traceback.format_exc()}
+        status, message = "failed", f"{type(error).__name__}: {error}"
     return Finished(key, status, plain(row), message, started, _now(), perf_counter() - clock)
 
 

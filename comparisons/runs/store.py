@@ -34,8 +34,9 @@ create table if not exists runs (
 class Finished:
     """A finished run: its key, how it ended, what it found (plain JSON data), when (UTC) and in how long [s].
 
-    status: the solver's where the run is a solve, else `done`; `refused` where its input was refused,
-    `failed` where it raised anything else, `lost` where it took its process down with it.
+    status: the solver's where the run is a solve, else `done`; `refused` where its input was refused (it
+    raised BadInput), `failed` where it raised anything else, a fault whose "traceback" is all the row holds;
+    `lost` where it took its process down with it.
     """
 
     key: str

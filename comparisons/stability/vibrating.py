@@ -77,10 +77,10 @@ def holds(equations: System, step: float) -> bool:
 
 def measured_limit(equations: System, guess: float) -> float:
     """The largest step at which velocity Verlet holds [s], by bisection between half and twice the guess.
-    Raises ValueError where it is not between them."""
+    Raises ArithmeticError where it is not between them."""
     low, high = 0.5 * guess, 2.0 * guess
     if not holds(equations, low) or holds(equations, high):
-        raise ValueError(f"no limit of stability between {low:.3g} s and {high:.3g} s")
+        raise ArithmeticError(f"no limit of stability between {low:.3g} s and {high:.3g} s")
     while high - low > SHARPNESS * guess:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if holds(equations, middle) else (low, middle)

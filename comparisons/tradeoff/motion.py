@@ -29,6 +29,7 @@ from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff.pareto import front, grouped, order
 from sheetbench.scenes import Scene, Status
+from sheetbench.scenes.errors import BadInput
 
 DIVISIONS = (20, 40, 100, 200, 400)  # steps in the lowest period
 SHARES = (0.9, 0.45)  # of the explicit integrator's limit
@@ -149,13 +150,13 @@ def dynamic_tradeoff(
 ) -> DynamicTradeoff:
     """Measure every integrator at every step on a lattice of consistent springs.
 
-    Raises ValueError for an integrator that does not exist. A run that diverges is a row with its status.
+    Raises BadInput for an integrator that does not exist. A run that diverges is a row with its status.
     """
     import lumped
     from lumped.dynamics.integrators import INTEGRATORS
 
     if unknown := [name for name in integrators if name not in INTEGRATORS]:
-        raise ValueError(f"integrator = {unknown[0]!r}: choose from {', '.join(INTEGRATORS)}")
+        raise BadInput(f"integrator = {unknown[0]!r}: choose from {', '.join(INTEGRATORS)}")
     shape = grid or default_grid(scene.sheet)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=shape)
     period = 1.0 / float(lumped.modes(scene, springs, 1).frequencies[0])

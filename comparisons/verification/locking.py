@@ -58,7 +58,7 @@ def _place(row: Row) -> tuple[str, str]:
     """Thickness over side and Poisson's ratio of a row, as its quantity has them."""
     found = _AT.search(row.quantity)
     if found is None:
-        raise ValueError(f"quantity = {row.quantity!r}: not a row of a locking sweep")
+        raise LookupError(f"quantity = {row.quantity!r}: not a row of a locking sweep")
     return found[1], found[2]
 
 

@@ -62,7 +62,7 @@ class Plate:
 
     @classmethod
     def on(cls, mesh: MeshQuad) -> Plate:
-        """The plate on any flat mesh of straight-sided quadrilaterals [m]; ValueError for folded ones."""
+        """The plate on any flat mesh of straight-sided quadrilaterals [m]; BadInput for folded ones."""
         require_upright(mesh)
         basis = Basis(mesh, ElementQuad2(), intorder=5)
         return cls(basis, plate_elements(basis))
@@ -78,7 +78,7 @@ class Plate:
         return dict(zip(PARTS, (element.membrane, element.curvature, element.shear), strict=True))
 
     def sample(self, fields: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Nodal fields (n, k) at plan points (p, 2) [m]: (p, k). Raises ValueError off the mesh."""
+        """Nodal fields (n, k) at plan points (p, 2) [m]: (p, k). Raises BadInput off the mesh."""
         element, local = locate(self.basis.mesh, points)
         return np.einsum("ap,pak->pk", shape_values(local), fields[self.elements.nodes[element]])
 

@@ -32,6 +32,7 @@ import numpy as np
 from skfem import ElementQuad2
 
 from fem_reference.surface.materials import Section
+from sheetbench.scenes.errors import BadInput
 
 TWO = np.array([-1.0, 1.0]) / np.sqrt(3.0)
 THREE = np.array([-1.0, 0.0, 1.0]) * np.sqrt(0.6)
@@ -113,14 +114,14 @@ class Element:
 
     @classmethod
     def build(cls, nodes: np.ndarray, section: Section) -> Element:
-        """From the nodes' plan positions (m, 9, 2) [m]. Raises ValueError if an element is inverted."""
+        """From the nodes' plan positions (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
         _, slope = shape(*GAUSS)
         jacobian = np.einsum("agi,eib->egba", slope, nodes)  # ∂x_b/∂ξ_a
         area = np.linalg.det(jacobian)
         turn = np.sign(area[:, :1])  # scikit-fem numbers some meshes clockwise
         if not np.all(area * turn > 0.0):
             worst = int(np.argmin((area * turn).min(axis=1)))
-            raise ValueError(f"element {worst} of the mesh is inverted or degenerate")
+            raise BadInput(f"element {worst} of the mesh is inverted or degenerate")
         inverse = np.linalg.inv(jacobian)  # ∂ξ_a/∂x_b
         areas = GAUSS_WEIGHTS * np.abs(area)
         in_plane, transverse = _cartesian_in_plane(inverse, areas), _cartesian_shear(inverse)

@@ -153,7 +153,7 @@ def discretise(
 def interpolate(
     mesh: MeshQuad, element_nodes: np.ndarray, nodal: np.ndarray, points: np.ndarray
 ) -> np.ndarray:
-    """A nodal field (n, k) at plan points (p, 2) [m]: (p, k). Raises ValueError off the mesh."""
+    """A nodal field (n, k) at plan points (p, 2) [m]: (p, k). Raises BadInput off the mesh."""
     element, local = locate(mesh, points)
     value, _ = shape(*(2.0 * local - 1.0))
     return np.einsum("pi,pik->pk", value, nodal[element_nodes[element]])

@@ -36,6 +36,7 @@ from fem_reference.surface import rod
 from fem_reference.surface.location import locate
 from fem_reference.surface.mesh import Elements, divisions, rectangle, require_upright
 from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.scene import require_static
 
 MESHES = {"edges": graded_rectangle, "uniform": rectangle}
@@ -53,7 +54,7 @@ def solve(
 
     layers: bricks through the thickness; law: a key of `LAWS`; clamp: one of `solid_supports.CLAMPS`;
     grading: a key of `MESHES`.
-    Raises scenes.SceneError if the supports leave a rigid motion free, ValueError for an unknown option.
+    Raises scenes.SceneError if the supports leave a rigid motion free, BadInput for an unknown option.
     """
     require_static(scene)
     begin = perf_counter()
@@ -112,9 +113,9 @@ def solve_on(
 
 
 def mesh_of(scene: Scene, elements: tuple[int, int], grading: str) -> MeshQuad:
-    """The plan mesh. Raises ValueError for an unknown grading."""
+    """The plan mesh. Raises BadInput for an unknown grading."""
     if grading not in MESHES:
-        raise ValueError(f"grading = {grading!r}: known are {', '.join(MESHES)}")
+        raise BadInput(f"grading = {grading!r}: known are {', '.join(MESHES)}")
     return MESHES[grading](scene.sheet, elements)
 
 
@@ -128,13 +129,13 @@ def discretise(
     """The discrete solid of a scene on a plan mesh of straight-sided quadrilaterals.
 
     Supports and loads act on the mesh's boundaries of their edges' names; of the scene's sheet only the
-    thickness is used. Raises ValueError for an unknown law or clamp, no layers or a folded element.
+    thickness is used. Raises BadInput for an unknown law or clamp, no layers or a folded element.
     """
     require_upright(mesh)
     if law not in LAWS:
-        raise ValueError(f"law = {law!r}: known are {', '.join(LAWS)}")
+        raise BadInput(f"law = {law!r}: known are {', '.join(LAWS)}")
     if layers < 1:
-        raise ValueError(f"layers = {layers}: at least one through the thickness")
+        raise BadInput(f"layers = {layers}: at least one through the thickness")
     columns = Columns.on(mesh, scene.sheet.thickness, layers)
     stacks = columns.positions.reshape(-1, 3)[columns.stacks]
     positions = np.concatenate([stacks[:, place] for place in columns.places])

@@ -32,6 +32,7 @@ from fem_reference.surface.edge_motion import MovedEdge
 from fem_reference.surface.rod import Rod
 from fem_reference.surface.supports import Supports
 from sheetbench.scenes import EdgeMotion, Scene, Symmetric, holds_director
+from sheetbench.scenes.errors import BadInput
 
 CLAMPS = ("shell-like", "full")
 
@@ -110,9 +111,9 @@ def into_forces(bases: np.ndarray, nodal: np.ndarray) -> np.ndarray:
 
 
 def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = ()) -> ColumnSupports:
-    """The supports of a scene; rods: of its actuators. Raises ValueError for an unknown clamp."""
+    """The supports of a scene; rods: of its actuators. Raises BadInput for an unknown clamp."""
     if clamp not in CLAMPS:
-        raise ValueError(f"clamp = {clamp!r}: known are {', '.join(CLAMPS)}")
+        raise BadInput(f"clamp = {clamp!r}: known are {', '.join(CLAMPS)}")
     on_edge = {str(on.edge): columns.edge(on.edge) for on in (*scene.supports, *scene.actuators)}
     line = shell_supports.of_scene(scene, columns.plan_nodes, on_edge)
     line = edge_motion.hold(line, scene, columns.plan_nodes, on_edge)

@@ -10,6 +10,8 @@ from __future__ import annotations
 import numpy as np
 from skfem import MeshQuad
 
+from sheetbench.scenes.errors import BadInput
+
 SLACK = 1e-9  # how far outside, in element sizes, still counts as on the edge: rounding only
 _PAIRS_AT_ONCE = 4_000_000
 _NEWTON = 8
@@ -18,7 +20,7 @@ _NEWTON = 8
 def locate(mesh: MeshQuad, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Elements (n,) and local coordinates (2, n) of plan points (n, 2) [m].
 
-    Raises ValueError, naming the first one, if a point is off the mesh.
+    Raises BadInput, naming the first one, if a point is off the mesh.
     """
     nodes = mesh.doflocs[:, mesh.dofs.element_dofs]  # (2, 4 or 9, m)
     low, high = nodes.min(axis=1), nodes.max(axis=1)
@@ -42,7 +44,7 @@ def locate(mesh: MeshQuad, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         local[:, start + point[first]] = np.clip(xi[:, first], 0.0, 1.0)
     if np.any(element < 0):
         x, y = points[np.argmax(element < 0)]
-        raise ValueError(f"plan point ({x:g}, {y:g}) is off the sheet")
+        raise BadInput(f"plan point ({x:g}, {y:g}) is off the sheet")
     return element, local
 
 

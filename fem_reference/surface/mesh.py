@@ -13,6 +13,7 @@ import numpy as np
 from skfem import MeshQuad
 
 from sheetbench.scenes import EDGES, Sheet
+from sheetbench.scenes.errors import BadInput
 
 Elements = int | tuple[int, int]
 
@@ -23,7 +24,7 @@ _QUARTERS = np.array([[0, 4, 8, 7], [4, 1, 5, 8], [8, 5, 2, 6], [7, 8, 6, 3]])
 def divisions(lengths: tuple[float, float], elements: Elements) -> tuple[int, int]:
     """Elements along x and y: a pair as given, or that many along the shorter side and near-square ones.
 
-    Raises ValueError for fewer than one element.
+    Raises BadInput for fewer than one element.
     """
     if isinstance(elements, tuple):
         along_x, along_y = elements
@@ -31,7 +32,7 @@ def divisions(lengths: tuple[float, float], elements: Elements) -> tuple[int, in
         size = min(lengths) / max(elements, 1)
         along_x, along_y = (max(elements, round(length / size)) for length in lengths)
     if along_x < 1 or along_y < 1 or (isinstance(elements, int) and elements < 1):
-        raise ValueError(f"elements = {elements}: at least one element along each side")
+        raise BadInput(f"elements = {elements}: at least one element along each side")
     return along_x, along_y
 
 
@@ -84,14 +85,14 @@ def _at(axis: int, position: float) -> Callable[[np.ndarray], np.ndarray]:
 
 
 def require_upright(mesh: MeshQuad) -> None:
-    """Raises ValueError where the corners of an element do not all turn one way, as in a folded one."""
+    """Raises BadInput where the corners of an element do not all turn one way, as in a folded one."""
     corners = mesh.p[:, mesh.t]  # (2, 4, m)
     along = np.roll(corners, -1, axis=1) - corners
     back = np.roll(corners, 1, axis=1) - corners
     turn = along[0] * back[1] - along[1] * back[0]  # (4, m) [m²]
     upright = np.all(turn * np.sign(turn[0]) > 0.0, axis=0)
     if not upright.all():
-        raise ValueError(f"element {int(np.argmin(upright))} of the mesh is inverted or degenerate")
+        raise BadInput(f"element {int(np.argmin(upright))} of the mesh is inverted or degenerate")
 
 
 def quarters(element_nodes: np.ndarray) -> np.ndarray:

@@ -34,6 +34,7 @@ from skfem import MeshQuad
 from fem_reference.shell.element import TWO
 from fem_reference.surface.loads import Line
 from sheetbench.scenes import EDGES, Chain, CurvatureTable, Scene
+from sheetbench.scenes.errors import BadInput
 
 FIRM, SLENDER = 1e3, 1e5  # firm stiffnesses over the sheet's and over the rod's own
 STRAINS = 15
@@ -105,7 +106,7 @@ def of_scene(scene: Scene, nodes: np.ndarray, sides: dict[str, np.ndarray]) -> l
     """The rods of a scene's chains, one an edge.
 
     nodes: plan positions (n, 2) [m] of the shell's nodes; sides: edge → its sides' nodes (k, 3). Raises
-    ValueError for an edge that is not straight or has no node where a base is held.
+    BadInput for an edge that is not straight or has no node where a base is held.
     """
     found: dict[str, list[tuple[str, Chain]]] = {}
     for name, actuator in zip(names(scene), scene.actuators, strict=True):
@@ -120,7 +121,7 @@ def _rod(
     edge, chains = EDGES[edge_name], [chain for _, chain in here]
     along = nodes[sides, edge.along_axis]
     if np.ptp(nodes[sides, edge.normal_axis]) > 1e-9 * np.ptp(along):
-        raise ValueError(f"actuator: edge {edge_name} of the mesh is not straight")
+        raise BadInput(f"actuator: edge {edge_name} of the mesh is not straight")
     offsets = np.array([axis_height(chain, scene.sheet.thickness) for chain in chains])
     offset = float(offsets.mean())
     half = 0.5 * np.abs(along[:, 2] - along[:, 0])  # |dX/dξ|
@@ -252,5 +253,5 @@ def _base(chain: Chain, along: np.ndarray, length: float) -> int | None:
     at = {"start": 0.0, "middle": 0.5, "end": 1.0}[chain.base] * length
     nearest = int(np.argmin(np.abs(along - at)))
     if abs(along[nearest] - at) > 1e-9 * length:
-        raise ValueError(f"actuator: no node of the mesh at the {chain.base} of edge {chain.edge}")
+        raise BadInput(f"actuator: no node of the mesh at the {chain.base} of edge {chain.edge}")
     return nearest

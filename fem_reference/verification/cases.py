@@ -19,6 +19,7 @@ from fem_reference.verification import (
     slit_annulus,
 )
 from fem_reference.verification.rows import Case, Row
+from sheetbench.scenes.errors import BadInput
 
 _SZE = "Sze, Liu & Lo 2004"
 _LEISSA = "Leissa 1973"
@@ -54,12 +55,12 @@ def run(
 ) -> Iterator[Row]:
     """The rows of the named cases, all unless given; `starting` is called before each case.
 
-    Raises ValueError for an unknown name, before anything is computed.
+    Raises BadInput for an unknown name, before anything is computed.
     """
     chosen = tuple(CASES) if names is None else tuple(names)
     for name in chosen:
         if name not in CASES:
-            raise ValueError(f"case = {name!r}: known are {', '.join(CASES)}")
+            raise BadInput(f"case = {name!r}: known are {', '.join(CASES)}")
     return _rows(chosen, starting)
 
 

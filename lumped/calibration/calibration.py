@@ -10,6 +10,7 @@ import numpy as np
 from lumped import moduli
 from lumped.lattice import Distribution, Grid
 from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
+from sheetbench.scenes.errors import BadInput
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,7 @@ def by_direction(x: float, y: float, alike: float = 1e-12) -> float | PerDirecti
 def report(method: str, sheet: Sheet, material: Material, grid: Grid, springs: SpringSet) -> Calibration:
     """The calibration with its moduli report, and notes on what it misses and why.
 
-    Raises ValueError where area springs leave a cell without positive energy.
+    Raises BadInput where area springs leave a cell without positive energy.
     """
     spacing = plan_spacing(sheet, grid)
     square = abs(spacing[0] - spacing[1]) < 1e-9 * spacing[0]
@@ -96,5 +97,5 @@ def _admissible(springs: SpringSet, whole: moduli.Moduli) -> tuple[str, ...]:
         return ()
     areas = f"area = {springs.area:.4g}, mid_area = {springs.mid_area:.4g} N/m"
     if min(np.linalg.eigvalsh(form)[0] for form in (whole.membrane, whole.bending)) <= 0.0:
-        raise ValueError(f"{areas}: the cell's energy is not positive")
+        raise BadInput(f"{areas}: the cell's energy is not positive")
     return (f"{areas}: negative area springs are admissible here, the cell's energy is positive",)

@@ -13,6 +13,7 @@ from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
 from lumped.calibration.uniform import uniform
 from lumped.lattice import Grid
 from sheetbench.scenes import Scene
+from sheetbench.scenes.errors import BadInput
 
 Option = Literal["k", "layer_distance", "targets"]
 
@@ -45,10 +46,10 @@ CLOSED: dict[str, Method] = {
 def given(scene: Scene, grid: Sequence[int] = (9, 9)) -> Calibration:
     """The springs of the scene's own [springs] table, with their moduli report.
 
-    Raises ValueError when the scene has none.
+    Raises BadInput when the scene has none.
     """
     if scene.springs is None:
-        raise ValueError(f"scene '{scene.name}' has no [springs] table")
+        raise BadInput(f"scene '{scene.name}' has no [springs] table")
     return report("scene", scene.sheet, scene.material, checked_grid(grid), scene.springs)
 
 
@@ -60,8 +61,8 @@ def default(scene: Scene) -> Calibration:
 
 
 def checked_grid(grid: Sequence[int]) -> Grid:
-    """(nx, ny, layers), layers 2 unless given. Raises ValueError below 2 masses a side or 2 layers."""
+    """(nx, ny, layers), layers 2 unless given. Raises BadInput below 2 masses a side or 2 layers."""
     nx, ny, layers = (*grid, 2) if len(grid) == 2 else tuple(grid)
     if min(nx, ny, layers) < 2:
-        raise ValueError(f"grid = {nx}x{ny}x{layers}: a lattice has at least 2 masses a side and 2 layers")
+        raise BadInput(f"grid = {nx}x{ny}x{layers}: a lattice has at least 2 masses a side and 2 layers")
     return nx, ny, layers

@@ -29,6 +29,7 @@ from lumped.calibration.calibration import Calibration, by_direction, plan_spaci
 from lumped.calibration.closed_form import closed_form
 from lumped.lattice import Grid
 from sheetbench.scenes import Material, Sheet, SpringSet
+from sheetbench.scenes.errors import BadInput
 
 CAUCHY_POISSON = 1.0 / 3.0
 
@@ -63,7 +64,7 @@ def van_gelder(
 def lloyd(sheet: Sheet, material: Material, grid: Grid, layer_distance: float | None = None) -> Calibration:
     """−n·K_ij n of the bilinear element at ν = 1/3 in each layer.
 
-    Raises ValueError for cells so long that a spring would be negative."""
+    Raises BadInput for cells so long that a spring would be negative."""
     lx, ly = plan_spacing(sheet, grid)
     strip = material.young * sheet.thickness / grid[2]
     c = strip / (1.0 - CAUCHY_POISSON**2)
@@ -76,22 +77,22 @@ def lloyd(sheet: Sheet, material: Material, grid: Grid, layer_distance: float | 
     k_xy = (c12 + c66) / 4.0
     diagonal = (lx * lx * k_xx + ly * ly * k_yy + 2.0 * lx * ly * k_xy) / (lx * lx + ly * ly)
     if min(along_x, along_y) < 0.0:
-        raise ValueError("calibration 'lloyd': cells this much longer than wide ask for negative springs")
+        raise BadInput("calibration 'lloyd': cells this much longer than wide ask for negative springs")
     return _layered("lloyd", sheet, material, grid, layer_distance, (along_x, along_y, diagonal))
 
 
 def cauchy(sheet: Sheet, material: Material, grid: Grid) -> Calibration:
-    """The isotropic central-force lattice. Raises ValueError on cells that are not square, and where a link
+    """The isotropic central-force lattice. Raises BadInput on cells that are not square, and where a link
     would be negative."""
     lx, ly = plan_spacing(sheet, grid)
     if abs(lx - ly) > 1e-9 * lx:
-        raise ValueError("calibration 'cauchy' is for square cells only")
+        raise BadInput("calibration 'cauchy' is for square cells only")
     asked = moduli.of_sheet(sheet, material, (lx, ly))
     third = np.array([[1.0, CAUCHY_POISSON, 0.0], [CAUCHY_POISSON, 1.0, 0.0], [0.0, 0.0, CAUCHY_POISSON]])
     isotropic = moduli.Moduli(asked.membrane[0, 0] * third, asked.bending[0, 0] * third, asked.shear)
     springs = closed_form(isotropic, (lx, ly), grid[2])
     if springs is None:
-        raise ValueError(f"calibration 'cauchy': {grid[2]} layers need cells as small as the sheet is thick")
+        raise BadInput(f"calibration 'cauchy': {grid[2]} layers need cells as small as the sheet is thick")
     springs = springs.model_copy(update={"area": 0.0, "mid_area": 0.0})
     return report("cauchy", sheet, material, grid, springs)
 

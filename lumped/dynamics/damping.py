@@ -18,6 +18,7 @@ from lumped.moduli import family_stiffness
 from lumped.springs import area_dampers, strain_dampers
 from lumped.springs import link_dampers as dampers
 from sheetbench.scenes import Scene
+from sheetbench.scenes.errors import BadInput
 
 
 class Damping:
@@ -102,7 +103,7 @@ def _table(table: Any, lattice: Lattice) -> list[tuple[np.ndarray, ...]]:
     for family in lattice.links:
         c = family_stiffness(table, family.name, family.direction)
         if np.ndim(c):
-            raise ValueError(
+            raise BadInput(
                 f"dampers.{family.name}: a damper acts along its link; give one number, or x and y"
             )
         parts.append((family.nodes, family.offset, family.rest_length, family.weight * float(np.max(c))))

@@ -20,6 +20,7 @@ import numpy as np
 from lumped.dynamics.integrator import Advance, Integrator, Newton, StepFailed
 from lumped.dynamics.system import State, System
 from lumped.linear.solver import SingularMatrixError
+from sheetbench.scenes.errors import BadInput
 
 ERROR = 1e-6  # of a step, relative to the largest displacement so far
 CLOSE = 1e-11  # last correction relative to the sheet's side
@@ -28,12 +29,12 @@ CLOSE = 1e-11  # last correction relative to the sheet's side
 class GeneralisedAlpha(Integrator):
     """Generalised-α with radius ρ∞; adaptive unless the step is `fixed`."""
 
-    name, order = "generalised-alpha", 2
+    name, order, options = "generalised-alpha", 2, ("radius",)
 
     def __init__(self, system: System, step: float, radius: float = 0.9, fixed: bool = True):
         super().__init__(system, step)
         if not 0.0 <= radius <= 1.0:
-            raise ValueError(f"radius = {radius:g}: the spectral radius at high frequencies lies in [0, 1]")
+            raise BadInput(f"radius = {radius:g}: the spectral radius at high frequencies lies in [0, 1]")
         self._am, self._af = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
         self._gamma = 0.5 + self._af - self._am
         self._beta = 0.25 * (self._gamma + 0.5) ** 2

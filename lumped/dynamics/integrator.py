@@ -29,11 +29,15 @@ class Advance:
 
 
 class Integrator:
-    """Takes a system from one state to the next. step: [s]; order: declared, of the displacement."""
+    """Takes a system from one state to the next.
+
+    step: [s]; order: declared, of the displacement; options: names of what else the user may choose.
+    """
 
     name: ClassVar[str]
     order: ClassVar[int]
     adaptive: ClassVar[bool] = False
+    options: ClassVar[tuple[str, ...]] = ()
 
     def __init__(self, system: System, step: float):
         self.system, self.step = system, step

@@ -21,6 +21,7 @@ from lumped.assembly import Cells
 from lumped.dynamics.integrator import Advance, Integrator, StepFailed
 from lumped.dynamics.system import State, System
 from lumped.linear.solver import Factor, ReducedSystem
+from sheetbench.scenes.errors import BadInput
 
 ITERATIONS, TOLERANCE = 2000, 1e-3
 REMEMBERED = 8
@@ -35,14 +36,14 @@ class Projective(Integrator):
     largest by the work they do.
     """
 
-    name, order = "projective", 1
+    name, order, options = "projective", 1, ("iterations", "tolerance")
 
     def __init__(
         self, system: System, step: float, iterations: int = ITERATIONS, tolerance: float = TOLERANCE
     ):
         super().__init__(system, step)
         if system.constrained:
-            raise ValueError("integrator = 'projective': does not take chains; choose another integrator")
+            raise BadInput("integrator = 'projective': does not take chains; choose another integrator")
         self._iterations, self._tolerance = iterations, tolerance
         self._factor: Factor | None = None
         self._made_for = 0.0

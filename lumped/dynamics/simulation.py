@@ -33,6 +33,7 @@ from lumped.statics.fields import field_mesh
 from lumped.statics.solver import pose, settle
 from lumped.vibration import modes
 from sheetbench.scenes import Chain, Clamped, Curved, History, Scene, Status
+from sheetbench.scenes.errors import BadInput
 
 SAMPLES_PER_PERIOD = 100
 STEPS_PER_PERIOD = 200  # of implicit integrators with a fixed step
@@ -74,14 +75,17 @@ def simulate(
     precision: of the internal force (see `lumped.assembly`). options: the integrator's own (`radius`,
     `iterations`).
 
-    Raises ValueError for an unknown integrator, a step above the limit of `verlet`, more than ten million
+    Raises BadInput for an unknown integrator, a step above the limit of `verlet`, more than ten million
     default steps of it, a folder of another run.
     """
     if integrator not in INTEGRATORS:
-        raise ValueError(f"integrator = {integrator!r}: unknown; choose from {', '.join(INTEGRATORS)}")
+        raise BadInput(f"integrator = {integrator!r}: unknown; choose from {', '.join(INTEGRATORS)}")
+    foreign = [name for name in options if name not in INTEGRATORS[integrator].options]
+    if foreign:
+        raise BadInput(f"integrator = {integrator!r}: does not take {', '.join(foreign)}")
     for name, value in (("duration", duration), ("step", step), ("every", every)):
         if value is not None and not (value > 0.0 and np.isfinite(value)):
-            raise ValueError(f"{name} = {value:g} s: must be greater than 0 and finite")
+            raise BadInput(f"{name} = {value:g} s: must be greater than 0 and finite")
     began = clock.perf_counter()
     springs = springs or default(scene)
     system = System(scene, pose(scene, springs, weights, precision))
@@ -175,23 +179,18 @@ def _prepare(
     if kind is Verlet:
         limit = step_limit(system, start.u)
         if step is not None and step > limit.step:
-            raise ValueError(f"step = {step:g} s: above the stability limit of verlet, {limit.describe()}")
+            raise BadInput(f"step = {step:g} s: above the stability limit of verlet, {limit.describe()}")
         count = duration / (SAFETY * limit.step)
         if step is None and count > MOST_DEFAULT_STEPS:
-            raise ValueError(
+            raise BadInput(
                 f"integrator = 'verlet': would take {count:.1e} steps, its stability limit being "
                 f"{limit.describe()}; choose an implicit integrator, or give a step to insist"
             )
         step = step if step is not None else SAFETY * limit.step
     wanted = step if step is not None else period / STEPS_PER_PERIOD
     steps = max(int(np.ceil(spacing / wanted - 1e-9)), 1)
-    extra: dict[str, Any] = dict(options)
-    if kind is GeneralisedAlpha:
-        extra["fixed"] = not adapts
-    try:
-        method = kind(system, spacing / steps, **extra)
-    except TypeError:
-        raise ValueError(f"integrator = {integrator!r}: does not take {', '.join(options)}") from None
+    extra: dict[str, Any] = {"fixed": not adapts} if kind is GeneralisedAlpha else {}
+    method = kind(system, spacing / steps, **options, **extra)
     return method, _Plan(samples, spacing, 0 if adapts else steps)
 
 

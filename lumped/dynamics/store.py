@@ -15,6 +15,8 @@ from typing import Any
 
 import numpy as np
 
+from sheetbench.scenes.errors import BadInput
+
 
 class MemoryStore:
     """Samples in memory; nothing to resume."""
@@ -56,9 +58,7 @@ class FolderStore:
         folder.mkdir(parents=True, exist_ok=True)
         about, text = folder / "run.json", json.dumps(asked, sort_keys=True)
         if about.exists() and json.loads(about.read_text(encoding="utf-8")) != json.loads(text):
-            raise ValueError(
-                f"store = '{folder}': holds another run; choose another folder or empty this one"
-            )
+            raise BadInput(f"store = '{folder}': holds another run; choose another folder or empty this one")
         about.write_text(text, encoding="utf-8")
         for name in ("samples.bin", "frames.bin"):
             (folder / name).touch()

@@ -27,6 +27,7 @@ from lumped.lattice import Grid
 from lumped.sensitivity import sensitivity, spring_parameters, spring_value, with_spring
 from lumped.vibration import frequency_slopes
 from sheetbench.scenes import Material, Sheet, SpringSet
+from sheetbench.scenes.errors import BadInput
 
 PRIOR = {"fit-static": 1e-3, "fit-modal": 1e-1}
 KEPT = ("vertical", "layer_distance")
@@ -50,7 +51,7 @@ def fit_static(
 ) -> FittedCalibration:
     """Springs whose displacements come nearest to those of the targets (StaticTarget).
 
-    Raises ValueError without targets, and for other kinds of them.
+    Raises BadInput without targets, and for other kinds of them.
     """
 
     def compare(target: StaticTarget, springs: Calibration, names: list[str]) -> Compared:
@@ -72,7 +73,7 @@ def fit_modal(
 ) -> FittedCalibration:
     """Springs whose natural frequencies come nearest to those of the targets (ModalTarget), in order.
 
-    Raises ValueError without targets, and for other kinds of them.
+    Raises BadInput without targets, and for other kinds of them.
     """
 
     def compare(target: ModalTarget, springs: Calibration, names: list[str]) -> Compared:
@@ -150,5 +151,5 @@ def _fit(
 def _of_kind(method: str, targets: Sequence[Target], kind: type) -> list:
     wanted = [target for target in targets if isinstance(target, kind)]
     if not wanted or len(wanted) != len(targets):
-        raise ValueError(f"calibration '{method}' needs targets, all of them {kind.__name__}")
+        raise BadInput(f"calibration '{method}' needs targets, all of them {kind.__name__}")
     return wanted

@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
+from sheetbench.scenes.errors import BadInput
+
 THRESHOLD = 1e-3  # of the largest singular value: below it a combination counts as not seen
 CORRELATED = 0.98  # |correlation| of two parameters from which on the data cannot tell them apart
 CONFIDENCE = 0.95
@@ -32,11 +34,11 @@ class Identifiability:
 def identifiability(names: list[str], jacobian: np.ndarray, residuals: np.ndarray) -> Identifiability:
     """Of parameters whose scaled Jacobian (m, n) and residuals (m,) at the fit are given.
 
-    Raises ValueError unless there are more residuals than parameters.
+    Raises BadInput unless there are more residuals than parameters.
     """
     m, n = jacobian.shape
     if m <= n:
-        raise ValueError(f"{m} residuals cannot give intervals of {n} parameters")
+        raise BadInput(f"{m} residuals cannot give intervals of {n} parameters")
     _, singular, directions = np.linalg.svd(jacobian, full_matrices=False)
     seen = singular > THRESHOLD * singular[0]
     variance = float(residuals @ residuals) / (m - n)

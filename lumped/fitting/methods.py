@@ -10,6 +10,7 @@ from lumped.calibration.methods import CLOSED, Method, checked_grid
 from lumped.fitting.fits import fit_modal, fit_static
 from lumped.fitting.targets import Target
 from sheetbench.scenes import Material, Sheet
+from sheetbench.scenes.errors import BadInput
 
 CALIBRATIONS: dict[str, Method] = {
     **CLOSED,
@@ -31,18 +32,18 @@ def calibrate(
     """Springs of a grid (nx, ny) or (nx, ny, layers) for a sheet of this material, by a named method.
 
     k [N/m] and layer_distance [m] are for the methods that take them; the fitted methods need targets.
-    Raises ValueError for an unknown method, a grid too small, an option that the method does not take or that
+    Raises BadInput for an unknown method, a grid too small, an option that the method does not take or that
     is not above zero.
     """
     if method not in CALIBRATIONS:
-        raise ValueError(f"calibration = {method!r}: unknown; choose from {', '.join(CALIBRATIONS)}")
+        raise BadInput(f"calibration = {method!r}: unknown; choose from {', '.join(CALIBRATIONS)}")
     chosen = CALIBRATIONS[method]
     asked: dict[str, Any] = {"k": k, "layer_distance": layer_distance, "targets": tuple(targets) or None}
     options = {name: value for name, value in asked.items() if value is not None}
     for name, value in options.items():
         if name not in chosen.takes:
             others = " and ".join(f"'{other}'" for other, one in CALIBRATIONS.items() if name in one.takes)
-            raise ValueError(f"calibration '{method}' takes no {name}; {name} goes with {others}")
+            raise BadInput(f"calibration '{method}' takes no {name}; {name} goes with {others}")
         if name in UNITS and not value > 0.0:
-            raise ValueError(f"{name} = {value:g} {UNITS[name]}: must be greater than 0")
+            raise BadInput(f"{name} = {value:g} {UNITS[name]}: must be greater than 0")
     return chosen.make(sheet, material, checked_grid(grid), **options)

@@ -35,6 +35,7 @@ from sheetbench.scenes import (
     Status,
     require_static,
 )
+from sheetbench.scenes.errors import BadInput
 
 STRAIN_LIMIT = 0.05  # ρ g a/E beyond which a linear spring means nothing
 LINK_STRAIN_LIMIT = 0.5  # relative elongation of a link beyond which it does not either
@@ -72,13 +73,13 @@ def solve(
     one step with the flat sheet's tangent. precision: of the internal force (`lumped.assembly`). progress:
     called once an iteration.
 
-    Raises scenes.SceneError when nothing stops a rigid motion, ValueError for linear with actuators. Every
+    Raises scenes.SceneError when nothing stops a rigid motion, BadInput for linear with actuators. Every
     other outcome is a status; where the full load was not reached, the last converged load is kept and
     `load_factor` says which.
     """
     require_static(scene)
     if linear and scene.actuators:
-        raise ValueError("linear = True: actuators turn with the sheet; solve without")
+        raise BadInput("linear = True: actuators turn with the sheet; solve without")
     began = time.perf_counter()
     _compile()
     springs = springs or default(scene)

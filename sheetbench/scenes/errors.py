@@ -1,4 +1,8 @@
-"""What a user can get wrong here: one error, whose text names the option, the value and what is allowed."""
+"""What a user can get wrong: errors of their own, whose text names the option, the value and what is allowed.
+
+Every package raises BadInput for what it is asked and cannot do, and for nothing else: an exception of any
+other type, a ValueError too, is a fault of the program and shows where it came from.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +10,11 @@ from collections.abc import Iterable
 
 
 class BadInput(ValueError):
-    """An option or argument that cannot be used as given."""
+    """An option, argument or file that cannot be used as given."""
+
+
+class SceneError(BadInput):
+    """A scene that cannot be read or asks something impossible; the text names file, key and value."""
 
 
 def require_choice(option: str, value: str, choices: Iterable[str]) -> None:

@@ -16,15 +16,12 @@ from pydantic import Field, ValidationError, model_validator
 
 from sheetbench.scenes import corners
 from sheetbench.scenes.actuators import Actuator, Chain, disagreement
+from sheetbench.scenes.errors import SceneError
 from sheetbench.scenes.loads import Load, PointLoad
 from sheetbench.scenes.quantities import Frozen, PlanPoint
 from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
 from sheetbench.scenes.springs import DamperSet, SpringSet
 from sheetbench.scenes.supports import Support, contradiction, held_axes, holds_tilt
-
-
-class SceneError(ValueError):
-    """A scene that cannot be read or asks something impossible; the text names file, key and value."""
 
 
 class Scene(Frozen):

@@ -15,8 +15,6 @@ from importlib import import_module
 
 import typer
 
-from sheetbench.scenes.errors import BadInput
-
 VERBS = (
     "scenes",
     "compare",
@@ -61,10 +59,12 @@ def main(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit status."""
     try:
         app(args=arguments, prog_name="sheetbench")
-    except BadInput as error:
-        print(f"sheetbench: {' '.join(str(error).split())}", file=sys.stderr)
-        raise SystemExit(BAD_INPUT) from None
-    except Exception:
+    except Exception as error:
+        from sheetbench.scenes.errors import BadInput  # with numpy and pydantic: help must not wait for them
+
+        if isinstance(error, BadInput):
+            print(f"sheetbench: {' '.join(str(error).split())}", file=sys.stderr)
+            raise SystemExit(BAD_INPUT) from None
         traceback.print_exc()
         print(
             "sheetbench: this is a fault of the program, not of your input: please report it, with the lines "

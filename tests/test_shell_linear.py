@@ -109,7 +109,7 @@ def test_a_limit_point_ends_with_its_load_and_a_status():
     path = trace(Spring(lambda u: 2 * u * (1 - u), lambda u: 2 - 4 * u), DirectSolver())
     assert path.status in (Status.DIVERGED, Status.STEP_LIMIT, Status.SINGULAR)
     assert 0.45 < path.load_factor <= 0.5
-    assert "load factor" in path.message
+    assert "load factor" in path.notes[-1]
 
 
 def test_overflow_is_told():

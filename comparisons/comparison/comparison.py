@@ -148,6 +148,7 @@ class Comparison:
             "status": str(solution.status),
             "advice": solution.status.advice,
             "message": solution.message,
+            "snaps": list(solution.snaps),
             "load_factor": solution.load_factor,
             "unknowns": solution.unknowns,
             "iterations": solution.iterations,

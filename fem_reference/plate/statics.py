@@ -126,13 +126,13 @@ def solve_on(
     ready = perf_counter()
 
     u = np.concatenate([fields.ravel(), np.zeros(len(rods.held))])
-    status, message = Status.CONVERGED, ""
+    status, notes = Status.CONVERGED, tuple[str, ...]()
     with one_blas_thread():
         stiffness = rods.stiffness(stiffness_matrix(scene, plate, section))
         try:
             u[free] = DirectSolver().factor(stiffness[free][:, free]).solve((force - stiffness @ u)[free])
         except SingularMatrix as error:
-            status, message = Status.SINGULAR, str(error)
+            status, notes = Status.SINGULAR, (str(error),)
         unbalanced = stiffness @ u - force
     done = perf_counter()
 
@@ -155,8 +155,8 @@ def solve_on(
         mesh=field_mesh(plate, fields, {"actuator_line_force": line} if scene.actuators else {}),
         history=(Iteration(1.0, float(np.linalg.norm(unbalanced[free]) / (size or 1.0)), 1.0),),
         load_factor=1.0 if status is Status.CONVERGED else 0.0,
-        message=message,
         actuators=exerted,
+        notes=notes,
     )
 
 

@@ -8,18 +8,17 @@ assumed, rotations are not; the weight has no couple on the director.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from time import perf_counter
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from skfem import Basis, ElementQuad2, MeshQuad
 
-from fem_reference.shell import validity as shell_watch
 from fem_reference.shell.element import Element, shape
 from fem_reference.shell.rods import RoddedShell
 from fem_reference.shell.structure import ShellStructure
-from fem_reference.solving.equilibrium import trace
+from fem_reference.shell.validity import STRETCHED, inspector, judge
+from fem_reference.solving.equilibrium import Path, trace
 from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.pseudo_transient import settler
 from fem_reference.surface import actuator_forces, edge_motion, rod
@@ -39,91 +38,94 @@ def solve(
     """The static equilibrium of a scene; elements along the shorter side (near-square), or (nx, ny).
 
     graded: finer towards the edges, uniform otherwise (see `mesh.rectangle`); where the sheet bends more than
-    stretched elements stand, it is divided evenly after all, and the message says so. section: stiffness per
+    stretched elements stand, it is divided evenly after all, and `fallback` says so. section: stiffness per
     width, from material and thickness unless given. Past limit points under conservative loads the path goes
-    on (see `relaxation`), and the message says at which load factors the sheet snapped.
+    on (see `pseudo_transient`), and `snaps` has the load factors at which the sheet snapped.
     Raises scenes.SceneError if the supports leave a rigid motion free.
     """
     require_static(scene)
-    along_x, along_y = divisions(scene.sheet.lengths, elements)
-    begin = perf_counter()
+    counts = divisions(scene.sheet.lengths, elements)
     cuts = [support.edge for support in scene.supports if isinstance(support, Symmetric)]
-    settings: dict[str, Any] = {"elements": [along_x, along_y], "graded": graded}
+    run = _run(rectangle(scene.sheet, counts, graded, cuts), scene, section, graded)
+    fallback, spent = "", None
+    if run.path.fault is STRETCHED:
+        fallback, spent, graded = "divided evenly, for it bends much", run, False
+        run = _run(rectangle(scene.sheet, counts, graded, cuts), scene, section, graded)
+    settings: dict[str, Any] = {"elements": list(counts), "graded": graded}
     if section is not None:
         settings["section"] = section._asdict()
-
-    def on(graded: bool) -> Solution:
-        mesh = rectangle(scene.sheet, (along_x, along_y), graded, cuts)
-        label, asked = f"shell {along_x} × {along_y}", {**settings, "graded": graded}
-        return solve_on(mesh, scene, label, asked, begin, section, graded)
-
-    solution = on(graded)
-    if not graded or shell_watch.STRETCHED.message not in solution.message:
-        return solution
-    even = on(False)
-    return replace(
-        even,
-        iterations=solution.iterations + even.iterations,
-        setup_seconds=even.setup_seconds - solution.solve_seconds,
-        solve_seconds=solution.solve_seconds + even.solve_seconds,
-        history=solution.history + even.history,
-        message="; ".join(filter(None, ["divided evenly, for it bends much", even.message])),
-    )
+    return _solution(scene, run, f"shell {counts[0]} × {counts[1]}", settings, fallback, spent)
 
 
-def solve_on(
-    mesh: MeshQuad,
-    scene: Scene,
-    label: str = "shell",
-    settings: dict[str, Any] | None = None,
-    begin: float | None = None,
-    section: Section | None = None,
-    graded: bool = False,
-) -> Solution:
+def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
     """The same on any flat mesh of quadrilaterals [m], straight-sided (MeshQuad) or biquadratic (MeshQuad2).
 
     Supports and loads act on the mesh's boundaries of their edges' names ("x0", …), which may lie
     anywhere; of the scene's sheet only the thickness is used, and the lengths of edges with actuators.
-    graded: give up where stretched elements bend too much (see `shell_watch`).
     """
-    begin = perf_counter() if begin is None else begin
+    return _solution(scene, _run(mesh, scene), "shell", {"elements": mesh.nelements})
+
+
+class _Run(NamedTuple):
+    """A traced path on a mesh, with the seconds that setting up and solving took."""
+
+    mesh: MeshQuad
+    structure: ShellStructure
+    nodes: np.ndarray
+    path: Path
+    setup_seconds: float
+    solve_seconds: float
+
+
+def _run(mesh: MeshQuad, scene: Scene, section: Section | None = None, graded: bool = False) -> _Run:
+    """graded: give up where stretched elements bend too much (see `validity`)."""
+    begin = perf_counter()
     structure, nodes = discretise(mesh, scene, section)
     solver = DirectSolver(structure.symmetric)
     ready = perf_counter()
-    inspect = shell_watch.inspector(scene, structure, solver, graded)
-    path = trace(structure, solver, inspect, settler(structure, solver))
-    done = perf_counter()
-    status, message = shell_watch.judge(scene, structure, path)
+    path = trace(structure, solver, inspector(scene, structure, solver, graded), settler(structure, solver))
+    return _Run(mesh, structure, nodes, path, ready - begin, perf_counter() - ready)
 
+
+def _solution(
+    scene: Scene,
+    run: _Run,
+    label: str,
+    settings: dict[str, Any],
+    fallback: str = "",
+    spent: _Run | None = None,
+) -> Solution:
+    """The answer of a run; spent: one before it that led nowhere."""
+    structure, path = run.structure, run.path
+    status, notes = judge(scene, structure, path)
     displacement, turn = path.state.change
     forces = structure.forces(path.state, path.load_factor)
     exerted, fields = {}, {}
     if isinstance(structure, RoddedShell):
         exerted = actuator_forces.wrenches(scene, structure, path.state, forces)
         fields = {"actuator_line_force": actuator_forces.line_forces(structure, path.state, forces)}
-
-    def sample(points: np.ndarray) -> np.ndarray:
-        return interpolate(mesh, structure.element_nodes, displacement, points)
-
+    runs = [run] if spent is None else [spent, run]
     return Solution(
         model="shell",
         label=label,
-        settings=settings or {"elements": mesh.nelements},
+        settings=settings,
         status=status,
         unknowns=structure.unknowns,
-        iterations=path.factorisations,
-        setup_seconds=ready - begin,
-        solve_seconds=done - ready,
-        sample=sample,
+        iterations=sum(one.path.factorisations for one in runs),
+        setup_seconds=sum(one.setup_seconds for one in runs),
+        solve_seconds=sum(one.solve_seconds for one in runs),
+        sample=lambda points: interpolate(run.mesh, structure.element_nodes, displacement, points),
         reactions=structure.supports.reactions(forces.residual[0]),
         energies=structure.energies(path.state),
         mesh=field_mesh(
-            nodes, structure.element_nodes, displacement, turn + np.array([0.0, 0.0, 1.0]), **fields
+            run.nodes, structure.element_nodes, displacement, turn + np.array([0.0, 0.0, 1.0]), **fields
         ),
-        history=tuple(path.history),
+        history=tuple(entry for one in runs for entry in one.path.history),
         load_factor=path.load_factor,
-        message=message,
         actuators=exerted,
+        snaps=tuple(path.snaps),
+        fallback=fallback,
+        notes=tuple(notes),
     )
 
 

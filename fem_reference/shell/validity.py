@@ -98,11 +98,11 @@ def weight_strain(scene: Scene) -> float:
     return weight * max(scene.sheet.lengths) / scene.material.young
 
 
-def judge(scene: Scene, structure: ShellStructure, path: Path) -> Fault:
-    """The status and message of a path that has ended: strains beyond the model, if it has come to them."""
+def judge(scene: Scene, structure: ShellStructure, path: Path) -> tuple[Status, list[str]]:
+    """The status and notes of a path that has ended: strains beyond the model, if it has come to them."""
     strain, stretched = weight_strain(scene), membrane_strain(structure, path.state)
     within = strain <= WEIGHT_LIMIT and stretched <= MEMBRANE_LIMIT
     if within or path.status is Status.NON_FINITE:
-        return Fault(path.status, path.message)
+        return path.status, path.notes
     said = f"ρ g a/E = {strain:.3g}, the mid-surface stretched by {stretched:.3g} at most"
-    return Fault(Status.STRAIN_OUTSIDE_MODEL, "; ".join(filter(None, [said, path.message])))
+    return Status.STRAIN_OUTSIDE_MODEL, [said, *path.notes]

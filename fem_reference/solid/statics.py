@@ -85,9 +85,9 @@ def solve_on(
     done = perf_counter()
 
     columns, displacement = structure.columns, path.state.displacement
-    status, message = path.status, path.message
+    status, notes = path.status, path.notes
     if status is Status.CONVERGED and structure.inside_out(path.state):
-        status, message = Status.INVERTED, "a brick has turned inside out"
+        status, notes = Status.INVERTED, ["a brick has turned inside out"]
     forces = structure.forces(path.state, path.load_factor)
     exerted = {}
     if isinstance(structure, RoddedSolid):
@@ -107,8 +107,8 @@ def solve_on(
         mesh=columns.field_mesh(displacement),
         history=tuple(path.history),
         load_factor=path.load_factor,
-        message=message,
         actuators=exerted,
+        notes=tuple(notes),
     )
 
 

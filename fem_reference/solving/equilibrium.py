@@ -66,9 +66,20 @@ class Structure(Protocol):
     def length(self, start: Any, end: Any) -> float: ...
 
 
+class Fault(NamedTuple):
+    """What makes an equilibrium worthless: the status it deserves and a sentence."""
+
+    status: Status
+    message: str
+
+
 @dataclass
 class Path:
-    """Where the tracing stands: the last equilibrium, its load factor, and what it took."""
+    """Where the tracing stands: the last equilibrium, its load factor, and what it took.
+
+    snaps: load factors that it snapped at; fault: what has ended it early; notes: what to
+    say of it.
+    """
 
     state: Any
     load_factor: float = 0.0
@@ -76,14 +87,9 @@ class Path:
     factorisations: int = 0
     limit: int = FACTORISATIONS  # of them
     history: list[Iteration] = field(default_factory=list)
-    message: str = ""
-
-
-class Fault(NamedTuple):
-    """What makes an equilibrium worthless: the status it deserves and a sentence."""
-
-    status: Status
-    message: str
+    snaps: list[float] = field(default_factory=list)
+    fault: Fault | None = None
+    notes: list[str] = field(default_factory=list)
 
 
 class StepFailed(ArithmeticError):
@@ -108,23 +114,24 @@ def trace(
     """
     with one_blas_thread():
         path = Path(structure.rest())
-        snaps: list[str] = []
         ended = _follow(structure, solver, path, inspect)
         while isinstance(ended, StepFailed):
             tried = ""
-            if settle is not None and structure.symmetric and _at_limit_point(path, ended, len(snaps)):
-                departure = _departure(structure, solver, path)
+            if settle is not None and structure.symmetric and _at_limit_point(path, ended):
+                left_at, doubt = path.load_factor, _doubt(structure, solver, path)
                 try:
                     following = _snap(structure, solver, path, inspect, settle)
                 except StepFailed as failure:
                     tried = f"; relaxed at a load factor {SNAP_STEP:g} higher, {failure}"
                 else:
-                    snaps.append(departure)
+                    path.snaps.append(left_at)
+                    path.notes.extend(doubt)
                     ended = following
                     continue
             ended = _give_up(structure, solver, path, ended, tried)
+        path.fault = ended
         path.status, said = ended or stability(structure, solver, path)
-        path.message = "; ".join(filter(None, [*snaps, said]))
+        path.notes.extend([said] if said else [])
         return path
 
 
@@ -154,18 +161,19 @@ def _follow(
     return None
 
 
-def _at_limit_point(path: Path, failure: StepFailed, snaps: int) -> bool:
+def _at_limit_point(path: Path, failure: StepFailed) -> bool:
     """Whether a path that has ended may snap; one that has not left rest, or has used its factorisations up,
     has come to no limit point."""
     stuck = failure.status is Status.STEP_LIMIT and path.load_factor > 0.0
-    return stuck and path.factorisations < path.limit and snaps < SNAPS
+    return stuck and path.factorisations < path.limit and len(path.snaps) < SNAPS
 
 
-def _departure(structure: Structure, solver: DirectSolver, path: Path) -> str:
-    """Where a path snaps, and whether it was stable until then."""
+def _doubt(structure: Structure, solver: DirectSolver, path: Path) -> list[str]:
+    """A sentence where a path that is about to snap has not been stable until then."""
     status, said = stability(structure, solver, path)
-    unstable = f", where {said}" if status is not Status.CONVERGED else ""
-    return f"snapped at load factor {path.load_factor:.4g}{unstable}"
+    if status is Status.CONVERGED:
+        return []
+    return [f"unstable before it snapped at load factor {path.load_factor:.4g}: {said}"]
 
 
 def _snap(

@@ -47,11 +47,12 @@ Branch = Literal["path", "stable"]
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a solve ended: status, the last equilibrium, and what there is to say about it."""
+    """How a solve ended: status, the last equilibrium, where it snapped, and what else there is to say."""
 
     status: Status
     state: State
-    message: str
+    snaps: tuple[float, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 def solve(
@@ -131,13 +132,13 @@ def flat_step(scene: Scene, problem: Problem) -> Outcome:
     state = replace(start, u=u, load_factor=1.0, stresses=problem.assembly.extrapolated(start.u, u))
     strain = weight_number(scene)
     if strain > STRAIN_LIMIT:
-        return Outcome(Status.STRAIN_OUTSIDE_MODEL, state, f"ρ g a/E = {strain:.3g}")
-    return Outcome(Status.CONVERGED, state, "")
+        return Outcome(Status.STRAIN_OUTSIDE_MODEL, state, notes=(f"ρ g a/E = {strain:.3g}",))
+    return Outcome(Status.CONVERGED, state)
 
 
 def _singular(problem: Problem, error: SingularMatrixError) -> Outcome:
     rest = State(np.zeros_like(problem.loads.dead), 0.0, *_nothing(problem))
-    return Outcome(Status.SINGULAR, rest, f"the flat sheet's tangent is singular: {error}")
+    return Outcome(Status.SINGULAR, rest, notes=(f"the flat sheet's tangent is singular: {error}",))
 
 
 def _of_small_displacements(solution: Solution, problem: Problem, state: State) -> Solution:
@@ -161,8 +162,9 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
     except SingularMatrixError as error:
         return _singular(problem, error)
     state, why = follow(problem, start)
+    snaps: list[float] = []
     notes: list[str] = []
-    while why and problem.fault is None and problem.descends and len(notes) < SNAPS:
+    while why and problem.fault is None and problem.descends and len(snaps) < SNAPS:
         if problem.factorisations > FACTORISATIONS:
             break
         beyond = min(1.0, state.load_factor + SNAP_STEP)
@@ -171,7 +173,7 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
         except (StepFailed, SingularMatrixError) as error:
             why = f"{why}; then {error}"
             break
-        notes.append(f"snapped at load factor {state.load_factor:.4g}")
+        snaps.append(state.load_factor)
         state, why = follow(problem, landed)
     if not why and branch == "stable" and state.negative and problem.descends:
         try:
@@ -183,12 +185,15 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
         status = Status.DIVERGED if problem.factorisations <= FACTORISATIONS else Status.STEP_LIMIT
         if problem.fault is not None:
             status = problem.fault.status
-        return Outcome(status, state, f"load factor {state.load_factor:.4g} of 1 reached: {why}")
-    return Outcome(*_judge(scene, problem, state, notes))
+        notes = [f"load factor {state.load_factor:.4g} of 1 reached: {why}"]
+        return Outcome(status, state, tuple(snaps), tuple(notes))
+    status, judged = _judge(scene, problem, state)
+    return Outcome(status, state, tuple(snaps), (*notes, *judged))
 
 
-def _judge(scene: Scene, problem: Problem, state: State, notes: list[str]) -> tuple[Status, State, str]:
+def _judge(scene: Scene, problem: Problem, state: State) -> tuple[Status, list[str]]:
     """Whether the springs mean anything at this strain, and whether the equilibrium is stable."""
+    notes: list[str] = []
     strain = link_strain(problem.assembly, state.u)
     weight_strain = weight_number(scene)
     status = Status.CONVERGED
@@ -207,7 +212,7 @@ def _judge(scene: Scene, problem: Problem, state: State, notes: list[str]) -> tu
         notes.append("per-direction springs: not central, no energy; solved with an unsymmetric tangent")
     elif not problem.conservative:
         notes.append("follower loads: solved with an unsymmetric tangent")
-    return status, state, "; ".join(notes)
+    return status, notes
 
 
 def weight_number(scene: Scene) -> float:
@@ -282,6 +287,7 @@ def _solution(
         mesh=field_mesh(problem, state.u, on_masses),
         history=tuple(problem.history),
         load_factor=state.load_factor,
-        message=outcome.message,
         actuators=wrenches,
+        snaps=outcome.snaps,
+        notes=outcome.notes,
     )

@@ -32,14 +32,15 @@ class Status(StrEnum):
         return _ADVICE[self]
 
 
+_FINER = "more masses (--lumped) or elements (--elements) may help, or a lighter load"
 _ADVICE = {
     Status.CONVERGED: "a stable equilibrium",
     Status.UNSTABLE: "an equilibrium, but not a stable one: a disturbed sheet moves on to another",
     Status.SINGULAR: "the tangent is singular: a limit point, a bifurcation or an unresisted motion",
-    Status.STEP_LIMIT: "step limit reached: use more load steps; the last converged load is kept",
-    Status.DIVERGED: "no equilibrium found: use smaller load steps; the last converged load is kept",
+    Status.STEP_LIMIT: f"no equilibrium within the steps allowed: {_FINER}; the last converged load is kept",
+    Status.DIVERGED: f"no equilibrium found: {_FINER}; the last converged load is kept",
     Status.NON_FINITE: "a number overflowed: check the magnitudes of loads and stiffnesses",
-    Status.INVERTED: "a cell turned inside out: refine the grid or use smaller load steps",
+    Status.INVERTED: f"a cell or an element turned inside out: {_FINER}",
     Status.STRAIN_OUTSIDE_MODEL: "strains beyond what a linear spring or material means: not physical",
     Status.REFUSED: "the model does not support what the scene asks",
 }
@@ -75,7 +76,9 @@ class Solution:
     sample: plan points (n, 2) [m] → mid-surface displacement (n, 3) [m]; reactions: edge → force [N] that
     the support exerts on the sheet, (3,); energies: name → [J]; iterations: tangent factorisations, all
     of them; load_factor: 1 where the full load was reached, else the last converged load; actuators: name →
-    force and moment of each segment on the sheet, (segments, 6) [N, N·m].
+    force and moment of each segment on the sheet, (segments, 6) [N, N·m]. snaps: load factors at which the
+    sheet left its load path for an equilibrium far away; fallback: what was solved in place of what was
+    asked, and why; notes: what else there is to say, a clause each.
     """
 
     model: str
@@ -92,8 +95,16 @@ class Solution:
     mesh: FieldMesh
     history: tuple[Iteration, ...] = ()
     load_factor: float = 1.0
-    message: str = ""
     actuators: dict[str, np.ndarray] = field(default_factory=dict)
+    snaps: tuple[float, ...] = ()
+    fallback: str = ""
+    notes: tuple[str, ...] = ()
+
+    @property
+    def message(self) -> str:
+        """Fallback, snaps and notes in a line, for people."""
+        snapped = (f"snapped at load factor {load_factor:.4g}" for load_factor in self.snaps)
+        return "; ".join(filter(None, [self.fallback, *snapped, *self.notes]))
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
         """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m] of the undeformed sheet."""

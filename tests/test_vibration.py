@@ -65,6 +65,7 @@ def test_a_free_sheet_has_six_rigid_motions_and_no_spurious_mode():
 
 
 def test_dense_and_sparse_eigensolvers_agree(monkeypatch):
+    """To the rounding of K, ε λ_max/λ of the lowest elastic λ: 2e-9 with an edge clamped, 2e-10 free."""
     scene = plate("x0", thickness=0.005)
     dense = parameters(scene, 9)
     monkeypatch.setattr("lumped.vibration.DENSE", 0)
@@ -73,7 +74,7 @@ def test_dense_and_sparse_eigensolvers_agree(monkeypatch):
     free = plate(thickness=0.005)
     sparse = lumped.modes(free, springs, 3).frequencies
     monkeypatch.setattr("lumped.vibration.DENSE", 10**6)
-    assert sparse == pytest.approx(lumped.modes(free, springs, 3).frequencies, rel=1e-6)
+    assert sparse == pytest.approx(lumped.modes(free, springs, 3).frequencies, rel=1e-8)
 
 
 def test_too_many_modes_are_refused():

@@ -28,6 +28,15 @@ def log(x: int, path: str, seconds: float) -> dict[str, Any]:
     return {"x": x}
 
 
+def gated(x: int, folder: str) -> dict[str, Any]:
+    """Says in a file that it has started, and as which process; from the fourth on it waits for the gate."""
+    with (Path(folder) / "started").open("a", encoding="utf-8") as file:
+        file.write(f"{x} {os.getpid()}\n")
+    while x > 3 and not (Path(folder) / "gate").exists():
+        time.sleep(0.02)
+    return {"x": x}
+
+
 def mark(x: int, folder: str, seconds: float) -> dict[str, Any]:
     """Leaves a file with its process when it starts, and another when it ends."""
     started = Path(folder) / f"{x}.started"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import json
-import os
 import signal
 import subprocess
 import sys
@@ -12,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_campaign import rows_in, wait_for
+from test_campaign import rows_in
 from test_cli import one_line, run
 
 from comparisons.models import candidate as candidates
@@ -32,6 +31,19 @@ SMALL = [
     *("tradeoff", "two-edges-clamped", "--lumped", "3,5", "--calibration", "consistent,uniform"),
     *("--plate", "", "--shell", "2,4", "--solid", "", "--elements", "8", "--repeats", "2"),
 ]
+KILLED = """
+import os, signal
+from comparisons.cli import main
+from comparisons.runs.store import Store
+kept, add = [], Store.add
+def add_and_die(store, task, arguments, outcome):
+    add(store, task, arguments, outcome)
+    kept.append(outcome)
+    if len(kept) == 4:
+        os.kill(os.getpid(), signal.SIGKILL)
+Store.add = add_and_die
+main()
+"""
 
 
 @pytest.fixture(scope="module")
@@ -43,15 +55,13 @@ def scene() -> Scene:
 def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of a small trade-off, killed once in the middle, resumed, and asked for once more."""
     folder = tmp_path_factory.mktemp("tradeoff")
-    code = "from comparisons.cli import main; main()"
-    command = [sys.executable, "-c", code, *SMALL, "--out", str(folder)]
-    first = subprocess.Popen(command, stderr=subprocess.DEVNULL)
-    wait_for(lambda: len(rows_in(folder / FILE)) >= 4)
-    os.kill(first.pid, signal.SIGKILL)
-    first.wait()
+    command = [sys.executable, "-c", "from comparisons.cli import main; main()"]
+    arguments = [*SMALL, "--out", str(folder)]
+    killed = subprocess.run([*command[:2], KILLED, *arguments], stderr=subprocess.DEVNULL)
+    assert killed.returncode == -signal.SIGKILL
     kept = rows_in(folder / FILE)
-    assert 4 <= len(kept) < 9
-    subprocess.run(command, check=True, timeout=120, capture_output=True)
+    assert len(kept) == 4
+    subprocess.run([*command, *arguments], check=True, capture_output=True)
     after = rows_in(folder / FILE)
     assert len(after) == 9
     assert {key: after[key] for key in kept} == kept  # time stamps and all

@@ -14,12 +14,16 @@ from pathlib import Path
 import campaign_tasks
 import pytest
 
-from comparisons.runs.campaign import Progress, Run, campaign, carry_out
+from comparisons.runs import campaign as runs_campaign
+from comparisons.runs.campaign import Progress, Run, campaign, carry_out, execute
 from comparisons.runs.executors import cluster
+from comparisons.runs.manifest import digest, source
 from comparisons.runs.store import FILE, Store
+from comparisons.runs.tasks import TASKS, function
+from comparisons.stability import STUDIES
 from sheetbench.scenes.errors import BadInput
 
-TASKS = Path(campaign_tasks.__file__).parent
+HERE = Path(campaign_tasks.__file__).parent
 
 
 @pytest.fixture
@@ -69,6 +73,32 @@ def test_the_key_is_what_is_asked_and_nothing_else() -> None:
     assert task("square", x=1.0).key == Run("campaign_tasks:square", {"x": 1.0}, "other", timed=True).key
     assert task("square", x=1.0).key != task("square", x=2.0).key
     assert task("square", x=(1, 2)).key == task("square", x=[1, 2]).key
+
+
+def test_the_key_holds_the_code_that_answers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """After a fix yesterday's rows are not read: they are of other code."""
+    before = task("square", x=1.0).key
+    monkeypatch.setattr(runs_campaign, "source", lambda: "other code")
+    assert task("square", x=1.0).key != before
+
+
+def test_the_source_digest_sees_names_and_contents(tmp_path: Path) -> None:
+    one, other = tmp_path / "one.py", tmp_path / "other.py"
+    one.write_text("x = 1")
+    other.write_text("x = 2")
+    digests = {digest(files) for files in ({"a": one}, {"b": one}, {"a": other}, {"a": one, "b": one})}
+    assert len(digests) == 4
+    assert source() == source() and len(source()) == 16
+
+
+def test_other_code_in_the_worker_is_a_failure_and_not_an_answer() -> None:
+    outcome = execute("a key of other code", "campaign_tasks:square", {"x": 1.0})
+    assert outcome.status == "failed" and "another version" in outcome.message
+
+
+def test_every_task_is_where_its_name_says() -> None:
+    assert all(callable(function(name)) for name in TASKS)
+    assert {study.measure for study in STUDIES.values()} <= set(TASKS)
 
 
 def test_a_run_that_fails_is_a_row_with_its_status(store: Store) -> None:
@@ -132,7 +162,7 @@ def alive(process: int) -> bool:
 
 def test_kill_9_loses_nothing_that_had_finished_and_leaves_no_worker(tmp_path: Path) -> None:
     script = (
-        f"import sys; sys.path.insert(0, {str(TASKS)!r})\n"
+        f"import sys; sys.path.insert(0, {str(HERE)!r})\n"
         "from pathlib import Path\n"
         "from comparisons.runs.campaign import Run, campaign, carry_out\n"
         "if __name__ == '__main__':\n"
@@ -180,7 +210,7 @@ def test_no_scheduler_is_said_in_a_line() -> None:
 def test_dask_cluster_loses_a_worker_mid_run_and_finishes(store: Store, tmp_path: Path) -> None:
     from distributed import LocalCluster
 
-    task_file = str(TASKS / "campaign_tasks.py")
+    task_file = str(HERE / "campaign_tasks.py")
     with LocalCluster(
         n_workers=2, threads_per_worker=1, dashboard_address=None, preload=[task_file]
     ) as local:

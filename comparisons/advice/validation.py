@@ -193,7 +193,7 @@ def study(
     def runs(task: str, asked: list[tuple[Scene, dict[str, Any]]], timed: bool) -> list[Finished]:
         wanted = [
             Run(
-                f"comparisons.advice.validation:{task}",
+                f"advice.{task}",
                 {"scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True), **rest},
                 f"{task} {scene.name}",
                 timed,

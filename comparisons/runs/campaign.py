@@ -1,8 +1,9 @@
 """Campaigns: many runs, each carried out once, kept as soon as it is done, resumed after any interruption.
 
-A run is a function's name and JSON arguments. What it finds is kept in the folder's `campaign.sqlite` under
-a hash of name, arguments and version; asked again, it is read and not run. Nothing of a finished run is ever
-changed. A run that raises is a row with its status, and so is one that takes its process down.
+A run is a task's name and JSON arguments. What it finds is kept in the folder's `campaign.sqlite` under a
+hash of name, arguments, version and source; asked again of the same code, it is read and not run. Nothing of
+a finished run is ever changed. A run that raises is a row with its status, and so is one that takes its
+process down.
 
 Timed runs never share cores with each other or with other runs of the campaign: they go one at a time, after
 the untimed ones, which go as many at a time as there are workers.
@@ -20,21 +21,21 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from importlib import import_module
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 from comparisons.report.files import plain
 from comparisons.runs.executors import Pool, processes, single_threaded
-from comparisons.runs.manifest import version
+from comparisons.runs.manifest import source, version
 from comparisons.runs.store import FILE, Finished, Store
+from comparisons.runs.tasks import function
 from sheetbench.scenes.errors import BadInput
 
 
 @dataclass(frozen=True)
 class Run:
-    """What is asked: `task` names a function, "package.module:function", called with `arguments`.
+    """What is asked: the function that `task` names (see `comparisons.runs.tasks`), called with `arguments`.
 
     The arguments are plain JSON data, and so is the dictionary that the function returns; its "status" and
     "message", if any, become those of the run. label: what people read while it runs.
@@ -48,7 +49,12 @@ class Run:
     @property
     def key(self) -> str:
         """The hash under which the run is kept."""
-        asked = {"task": self.task, "arguments": plain(self.arguments), "version": version()}
+        asked = {
+            "task": self.task,
+            "arguments": plain(self.arguments),
+            "version": version(),
+            "source": source(),
+        }
         return hashlib.sha256(json.dumps(asked, sort_keys=True, allow_nan=False).encode()).hexdigest()
 
 
@@ -166,8 +172,11 @@ def execute(key: str, task: str, arguments: dict[str, Any]) -> Finished:
     """Carry out one run here and now; whatever it raises is its outcome."""
     started, clock = _now(), perf_counter()
     try:
-        module, _, function = task.partition(":")
-        row = getattr(import_module(module), function)(**arguments)
+        if Run(task, arguments).key != key:
+            raise RuntimeError(
+                "the code changed since this was asked, or the worker has another version of it"
+            )
+        row = function(task)(**arguments)
         status, message = str(row.get("status", "done")), str(row.get("message", ""))
     except BadInput as error:
         row, status, message = {}, "refused", str(error)

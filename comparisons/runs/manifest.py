@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import platform
 import re
+from collections.abc import Mapping
 from datetime import UTC, datetime
-from importlib import metadata
+from functools import cache
+from importlib import metadata, util
 from pathlib import Path
 from typing import Any
 
 from sheetbench.scenes import Scene
+
+PACKAGES = ("sheetbench", "lumped", "fem_reference", "comparisons")
 
 
 def manifest(scene: Scene, settings: dict[str, Any], command: list[str]) -> dict[str, Any]:
@@ -25,6 +30,7 @@ def record(command: list[str]) -> dict[str, Any]:
         "command": command,
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
         "sheetbench": version(),
+        "source": source(),
         "versions": versions(),
         "machine": machine(),
     }
@@ -38,6 +44,26 @@ def today() -> str:
 def version() -> str:
     """The installed version of sheetbench."""
     return metadata.version("sheetbench")
+
+
+@cache
+def source() -> str:
+    """A digest of every Python file of the packages: a result is of this code and no other."""
+    files = {}
+    for package in PACKAGES:
+        found = util.find_spec(package)
+        for place in (found and found.submodule_search_locations) or ():
+            for path in Path(place).rglob("*.py"):
+                files[f"{package}/{path.relative_to(place).as_posix()}"] = path
+    return digest(files)
+
+
+def digest(files: Mapping[str, Path]) -> str:
+    """Sixteen digits that follow from the files' names and contents."""
+    total = hashlib.sha256()
+    for name, path in sorted(files.items()):
+        total.update(f"{name}\0{hashlib.sha256(path.read_bytes()).hexdigest()}\n".encode())
+    return total.hexdigest()[:16]
 
 
 def versions() -> dict[str, str]:

@@ -2,10 +2,10 @@
 
 Runs that failed or were lost may be forgotten, to be done again.
 
-Table `runs`: key (hash of what was asked, see `campaign.Run`), task and arguments (JSON), status, row
-(JSON, what the run found), message, started and finished (UTC, ISO 8601), seconds. A row is committed, and
-synchronised to disk, before the next run's result is looked at: killing the process loses only runs that
-had not finished.
+Table `runs`: key (hash of what was asked of which code, see `campaign.Run`), task and arguments (JSON),
+status, row (JSON, what the run found), message, started and finished (UTC, ISO 8601), seconds. A row is
+committed, and synchronised to disk, before the next run's result is looked at: killing the process loses only
+runs that had not finished.
 """
 
 from __future__ import annotations

@@ -99,7 +99,7 @@ STUDY = Study(
     "to 30 (100 in the full map). Boundary: L/2 = (1 ± ν)|κ a|, where the weight can carry a tape spring's "
     "fold.",
     cells=cells,
-    measure="comparisons.stability.curved_edge:measure",
+    measure="stability.curved-edge",
     columns=(Column("turn", form="g"), Column("load number", form="g")),
     draw=draw,
     size=(7.2, 3.6),

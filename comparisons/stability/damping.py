@@ -140,7 +140,7 @@ STUDY = Study(
     says="The first mode's coordinate against the exact damped oscillator, over one period from rest, at a "
     "hundred steps a period or Verlet's default step. `error` is relative to the start.",
     cells=cells,
-    measure="comparisons.stability.damping:measure",
+    measure="stability.damping",
     columns=(
         Column("integrator"),
         Column("damping of"),

@@ -180,7 +180,7 @@ STUDY = Study(
     "refused. Cells of 20 : 1 and more, narrower than the layers are apart, let the compressed layer zigzag "
     "between its short links: `unstable`, though the equilibrium is as good as with wider cells.",
     cells=cells,
-    measure="comparisons.stability.grid:measure",
+    measure="stability.grid",
     columns=(
         Column("clamped", form="d"),
         Column("masses", form="d"),

@@ -133,7 +133,7 @@ STUDY = Study(
     "which hardens (a wrong limit, by as much as the strain). Under a point force the shell's exact answer "
     "is infinite, and each grid and mesh has its own.",
     cells=cells,
-    measure="comparisons.stability.load:measure",
+    measure="stability.load",
     columns=(Column("kind"), Column("size", form="g"), Column("moved", "side", "%", 100.0, ".3g")),
     draw=draw,
     size=(7.2, 5.6),

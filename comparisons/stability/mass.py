@@ -110,7 +110,7 @@ STUDY = Study(
     says="Masses alternate like a chess board. `error`: of the computed limit of velocity Verlet against the "
     "measured one. The conserving midpoint rule runs at twenty times that limit.",
     cells=cells,
-    measure="comparisons.stability.mass:measure",
+    measure="stability.mass",
     columns=(
         Column("masses", form="d"),
         Column("ratio", form="g"),

@@ -117,7 +117,7 @@ STUDY = Study(
     "`error` against the shell with 12 elements a side. Boundaries: ρ g a/E = 0.05; cells twice as long as "
     "the layer in which a sheet clamped at two edges stretches.",
     cells=cells,
-    measure="comparisons.stability.slenderness:measure",
+    measure="stability.slenderness",
     columns=(
         Column("clamped", form="d"),
         Column("slenderness", form="g"),

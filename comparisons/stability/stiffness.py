@@ -92,7 +92,7 @@ STUDY = Study(
     "to 1e4 at E = 10 MPa; one family of springs multiplied by 1e-6 to 1e6. `error` against the shell; "
     "`single error`: of single precision against double. Boundary: ρ g a/E = 0.05.",
     cells=cells,
-    measure="comparisons.stability.stiffness:measure",
+    measure="stability.stiffness",
     columns=(
         Column("young", "Pa", "Pa", 1.0, "g"),
         Column("load number", form="g"),

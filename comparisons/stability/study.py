@@ -17,9 +17,9 @@ LARGE = 0.05  # an error that has to be explained
 
 @dataclass(frozen=True)
 class Study:
-    """cells: of the default map, or of the full one; measure: "package.module:function", called with a cell
-    as keyword arguments and answering with its row; columns: for the table, named like keys of the cell or of
-    the row; draw: the map onto an empty figure; says: what is varied, and what the boundary is.
+    """cells: of the default map, or of the full one; measure: a task (see `comparisons.runs.tasks`), called
+    with a cell as keyword arguments and answering with its row; columns: for the table, named like keys of
+    the cell or of the row; draw: the map onto an empty figure; says: what is varied, what the boundary is.
 
     A row has a status and, where there is a reference, the error against it as a fraction.
     """

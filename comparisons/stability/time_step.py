@@ -216,7 +216,7 @@ STUDY = Study(
     "default steps, nine tenths of the limit, under gravity. Implicit: the first mode's period (`error`), "
     "amplitude and energy over steps from 1e-6 s to 1 s.",
     cells=cells,
-    measure="comparisons.stability.time_step:measure",
+    measure="stability.time-step",
     columns=(
         Column("integrator"),
         Column("masses", form="d"),

@@ -171,7 +171,7 @@ def dynamic_tradeoff(
             "duration": duration,
             "every": every,
         }
-        return Run("comparisons.tradeoff.motion:measure", arguments, f"{integrator} {step:.3g} s", timed)
+        return Run("motion", arguments, f"{integrator} {step:.3g} s", timed)
 
     judges = [run("midpoint", period / n, False) for n in (reference, reference // 2)]
     asked = []

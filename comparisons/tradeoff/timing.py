@@ -38,7 +38,7 @@ def run(scene: Scene, model: str, settings: Mapping[str, Any], repeats: int = 5,
         "repeats": repeats if timed else 0,
     }
     label = ", ".join(f"{name} {_short(value)}" for name, value in settings.items())
-    return Run("comparisons.tradeoff.timing:measure", arguments, f"{model} {label}", timed)
+    return Run("timing", arguments, f"{model} {label}", timed)
 
 
 def measure(scene: dict[str, Any], model: str, settings: dict[str, Any], repeats: int) -> dict[str, Any]:

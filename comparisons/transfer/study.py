@@ -255,7 +255,7 @@ class _Study:
 
     def _ask(self, task: str, arguments: dict[str, Any], label: str, key: str) -> np.ndarray | None:
         """What a run found, or None where it has no answer to the whole load; planned if not yet done."""
-        run = Run(f"comparisons.transfer.tasks:{task}", arguments, label)
+        run = Run(f"transfer.{task}", arguments, label)
         self.planned.setdefault(run.key, run)
         if self.outcomes is None:
             return None

@@ -16,7 +16,7 @@ def consistent(
     """The closed form; with a given layer distance, or where it would need a negative link, bounded least
     squares on the same moduli.
 
-    Raises ValueError where area springs would leave a cell without positive energy.
+    Raises BadInput where area springs would leave a cell without positive energy.
     """
     springs = None
     if layer_distance is None:

@@ -1,0 +1,38 @@
+"""The tasks of campaigns by name: rows are kept under these names, so that moving a file loses no result.
+
+A value is "module:function"; the module is loaded where the task is carried out. The function takes JSON
+arguments and returns its row, see `comparisons.runs.campaign.Run`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+
+TASKS = {
+    "timing": "comparisons.tradeoff.timing:measure",
+    "motion": "comparisons.tradeoff.motion:measure",
+    "advice.truth": "comparisons.advice.validation:truth",
+    "advice.advice": "comparisons.advice.validation:advice",
+    "transfer.lattice": "comparisons.transfer.tasks:lattice",
+    "transfer.reference": "comparisons.transfer.tasks:reference",
+    "transfer.homogenised": "comparisons.transfer.tasks:homogenised",
+    "transfer.lattice_frequencies": "comparisons.transfer.tasks:lattice_frequencies",
+    "transfer.reference_frequencies": "comparisons.transfer.tasks:reference_frequencies",
+    "stability.time-step": "comparisons.stability.time_step:measure",
+    "stability.stiffness": "comparisons.stability.stiffness:measure",
+    "stability.slenderness": "comparisons.stability.slenderness:measure",
+    "stability.grid": "comparisons.stability.grid:measure",
+    "stability.load": "comparisons.stability.load:measure",
+    "stability.damping": "comparisons.stability.damping:measure",
+    "stability.mass": "comparisons.stability.mass:measure",
+    "stability.curved-edge": "comparisons.stability.curved_edge:measure",
+}
+
+
+def function(task: str) -> Callable[..., dict[str, Any]]:
+    """What a task is carried out by: of a name in `TASKS`, or of "module:function" for one of your own."""
+    module, _, name = TASKS.get(task, task).partition(":")
+    found: Callable[..., dict[str, Any]] = getattr(import_module(module), name)
+    return found

@@ -218,3 +218,9 @@ def test_bad_input_is_said_in_a_line(
 ) -> None:
     assert run("tradeoff", "two-edges-clamped", *arguments) == 2
     assert said in one_line(capsys)
+
+
+def test_a_scheduler_is_asked_for_a_motion_too(capsys: pytest.CaptureFixture[str]) -> None:
+    address = ("--scheduler", "tcp://127.0.0.1:9")
+    assert run("tradeoff", "two-edges-settling", "--duration", "0.1", *address) == 2
+    assert "no scheduler there" in one_line(capsys)

@@ -31,6 +31,9 @@ def command(
     scheduler: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="A dask scheduler, as tcp://host:8786.")
     ] = None,
+    retry: Annotated[
+        bool, typer.Option("--retry", help="Run again what failed in an earlier run.", show_default=False)
+    ] = False,
     json: Json = False,
     out: Out = None,
 ) -> None:
@@ -61,7 +64,13 @@ def command(
         console.campaign_progress() as progress,
     ):
         rows = survey(
-            chosen, store, full=full, workers=workers or os.cpu_count() or 1, pool=pool, progress=progress
+            chosen,
+            store,
+            full=full,
+            workers=workers or os.cpu_count() or 1,
+            pool=pool,
+            retry=retry,
+            progress=progress,
         )
     written = _write(target, chosen, rows) if target is not None else []
     if json:

@@ -85,7 +85,8 @@ def command(
     from sheetbench.scenes.errors import BadInput
 
     if duration is not None:
-        _motion(scene, duration, grid, items(integrator), workers or os.cpu_count() or 1, json, out)
+        cores = workers or os.cpu_count() or 1
+        _motion(scene, duration, grid, items(integrator), cores, scheduler, retry, json, out)
         return
     asked = load_static(scene)
     candidates = lattices(asked.sheet, items(lumped), items(calibration))
@@ -140,6 +141,8 @@ def _motion(
     grid: str | None,
     integrators: list[str],
     workers: int,
+    scheduler: str | None,
+    retry: bool,
     json: bool,
     out: Path | None,
 ) -> None:
@@ -150,6 +153,7 @@ def _motion(
     from comparisons.models.grids import parse_grid
     from comparisons.report.files import folder, to_json, write_text
     from comparisons.runs.campaign import campaign
+    from comparisons.runs.executors import pool_of
     from comparisons.runs.manifest import manifest
     from comparisons.tradeoff.motion import dynamic_tradeoff
     from sheetbench import scenes
@@ -162,10 +166,19 @@ def _motion(
     with (
         TemporaryDirectory() as scratch,
         campaign(folder(out) if out is not None else Path(scratch)) as store,
+        pool_of(scheduler) as pool,
         console.campaign_progress() as progress,
     ):
         found = dynamic_tradeoff(
-            asked, duration, store, grid=shape, integrators=integrators, workers=workers, progress=progress
+            asked,
+            duration,
+            store,
+            grid=shape,
+            integrators=integrators,
+            workers=workers,
+            pool=pool,
+            retry=retry,
+            progress=progress,
         )
     if out is not None:
         write_text(out / "motion.json", to_json(found.as_dict()))

@@ -41,6 +41,9 @@ def command(
     workers: Annotated[
         int | None, typer.Option(min=1, metavar="N", help="Processes; one a core unless given.")
     ] = None,
+    retry: Annotated[
+        bool, typer.Option("--retry", help="Run again what failed in an earlier run.", show_default=False)
+    ] = False,
     json: Json = False,
     out: Out = None,
 ) -> None:
@@ -83,6 +86,7 @@ def command(
             parts=chosen["part"][0],
             elements=elements,
             workers=workers or os.cpu_count() or 1,
+            retry=retry,
             progress=progress,
         )
     written = _write(found, out) if out is not None else []

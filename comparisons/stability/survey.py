@@ -17,16 +17,17 @@ def survey(
     full: bool = False,
     workers: int = 1,
     pool: Pool = processes,
+    retry: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> list[Row]:
     """A row per cell of every study, in order; cells that the store has are not measured again.
 
-    full: every cell, the long ones too. A cell that raises is a row with its status (`refused`, `failed` or,
-    where it took its process down, `lost`).
+    full: every cell, the long ones too. retry: what failed or was lost before is measured again. A cell that
+    raises is a row with its status (`refused`, `failed` or, where it took its process down, `lost`).
     """
     asked = [(study, cell) for study in studies for cell in study.cells(full)]
     runs = [Run(study.measure, cell, f"{study.name} {_short(cell)}") for study, cell in asked]
-    outcomes = carry_out(runs, store, workers=workers, pool=pool, progress=progress)
+    outcomes = carry_out(runs, store, workers=workers, pool=pool, retry=retry, progress=progress)
     return [row(study, cell, outcome) for (study, cell), outcome in zip(asked, outcomes, strict=True)]
 
 

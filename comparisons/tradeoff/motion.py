@@ -146,10 +146,12 @@ def dynamic_tradeoff(
     reference: int = REFERENCE,
     workers: int = 1,
     pool: Pool = processes,
+    retry: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> DynamicTradeoff:
     """Measure every integrator at every step on a lattice of consistent springs.
 
+    retry: what failed or was lost before is run again.
     Raises BadInput for an integrator that does not exist. A run that diverges is a row with its status.
     """
     import lumped
@@ -181,7 +183,7 @@ def dynamic_tradeoff(
             asked += [run(name, share * limit, True) for share in SHARES]
         else:
             asked += [run(name, period / n, True) for n in divisions]
-    found = carry_out([*judges, *asked], store, workers=workers, pool=pool, progress=progress)
+    found = carry_out([*judges, *asked], store, workers=workers, pool=pool, retry=retry, progress=progress)
     truth = found[0]
     rows = tuple(_row(r, outcome, truth, duration) for r, outcome in zip(asked, found[2:], strict=True))
     uncertainty = _row(judges[1], found[1], truth, duration)["error"]

@@ -69,17 +69,19 @@ def transfer(
     elements: int = 24,
     workers: int = 1,
     pool: Pool = processes,
+    retry: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> Transfer:
     """Carry out the parts asked for, through a campaign's store, and put their rows together.
 
     methods: names of calibrations; grids: masses a side, 4 n + 1, coarsest first; scenes: names of
-    `transfer_scenes`, all of them unless given; elements: of the shell, along a side.
+    `transfer_scenes`, all of them unless given; elements: of the shell, along a side; retry: what
+    failed or was lost before is run again.
     """
     chosen = {name: scene for name, scene in transfer_scenes().items() if scenes is None or name in scenes}
     study = _Study(chosen, tuple(methods), tuple(grids), elements)
     study.plan(parts)
-    done = carry_out(study.runs, store, workers=workers, pool=pool, progress=progress)
+    done = carry_out(study.runs, store, workers=workers, pool=pool, retry=retry, progress=progress)
     study.outcomes = dict(zip((run.key for run in study.runs), done, strict=True))
     found = Transfer(study.methods, study.grids, elements)
     for part in parts:

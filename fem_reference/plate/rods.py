@@ -152,10 +152,10 @@ def exerted(
         wrench = actuator_forces.by_segment(one.rod, nodal, flat, up)
         found.update({name: wrench / len(one.rod.names) for name in one.rod.names})
         line[on] += actuator_forces.line_force(one.rod, nodal)[0]
-    motions = [n for n, a in zip(rod.names(scene), scene.actuators, strict=True) if isinstance(a, EdgeMotion)]
+    motions = [n for n, a in scene.named_actuators().items() if isinstance(a, EdgeMotion)]
     for name, moved in zip(motions, edge_motion.moved(supports), strict=True):
         found[name] = _of_motion(moved, unbalanced)
-    return {name: found[name] for name in rod.names(scene)}, line
+    return {name: found[name] for name in scene.named_actuators()}, line
 
 
 def _of_motion(moved: MovedEdge, unbalanced: np.ndarray) -> np.ndarray:

@@ -250,11 +250,11 @@ def with_rods(forces: Forces) -> RodForces:
 
 
 def hold_bases(supports: Supports, rods: Sequence[Rod]) -> Supports:
-    """The supports with what the rods' bases hold: position and director of a node, reported by the edge."""
+    """The supports with what the rods' bases hold: position and director of a node."""
     position, director, edges = supports.position.copy(), supports.director.copy(), dict(supports.edges)
     for rod in rods:
         if rod.base is not None:
             node = rod.line[rod.base]
             position[node] = director[node] = True
-            edges[rod.edge] = (np.array([node]), np.arange(3))
+            edges[rod.held_as] = (np.array([node]), np.arange(3))
     return replace(supports, position=position, director=director, edges=edges)

@@ -22,7 +22,7 @@ from fem_reference.solid.mesh import Columns
 from fem_reference.solid.structure import Forces, SolidStructure, State
 from fem_reference.solid.supports import ColumnSupports
 from fem_reference.solving.sparsity import Union
-from fem_reference.surface import actuator_forces, rod
+from fem_reference.surface import actuator_forces
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.rod import SQUARE, Rod
 from sheetbench.scenes import EdgeMotion, Scene
@@ -177,16 +177,14 @@ class RoddedSolid(SolidStructure):
             nodal = self._about_middle(state, on_columns)[one.line]
             share = actuator_forces.by_segment(plain, nodal, middle[one.line], aside[:, 0] + [0.0, 0.0, 1.0])
             found.update({name: share / len(one.names) for name in one.names})
-        motions = [
-            n for n, a in zip(rod.names(scene), scene.actuators, strict=True) if isinstance(a, EdgeMotion)
-        ]
+        motions = [n for n, a in scene.named_actuators().items() if isinstance(a, EdgeMotion)]
         for name, moved in zip(motions, self.supports.moved, strict=True):
             nodal = moved.part[:, None] * self._about_middle(state, forces.residual)[moved.nodes]
             on = middle[moved.nodes]
             arm = on - 0.5 * (on.min(axis=0) + on.max(axis=0))
             moment = np.cross(arm, nodal[:, :3]) + nodal[:, 3:]
             found[name] = np.concatenate([nodal[:, :3].sum(axis=0), moment.sum(axis=0)])[None]
-        return {name: found[name] for name in rod.names(scene)}
+        return {name: found[name] for name in scene.named_actuators()}
 
     def _about_middle(self, state: State, nodal: np.ndarray) -> np.ndarray:
         """Force and moment about the middle node (n, 6) of nodal forces (n, levels, 3)."""

@@ -138,9 +138,9 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
         edges[str(support.edge)] = held
     for actuator in scene.actuators:
         if isinstance(actuator, EdgeMotion):
-            edges[str(actuator.edge)] = face(on_edge[actuator.edge], [0, 1, 2], False)
+            edges[actuator.held_as] = face(on_edge[actuator.edge], [0, 1, 2], False)
     for rod in rods:
         if rod.base is not None:
-            edges[rod.edge] = face(rod.line[[rod.base]], [0, 1, 2], False)
+            edges[rod.held_as] = face(rod.line[[rod.base]], [0, 1, 2], False)
     none = np.zeros((len(columns.plan_nodes), columns.levels, 3), dtype=bool)
     return ColumnSupports(line, columns, np.logical_or.reduce([none, *edges.values()]), edges, hinged, moved)

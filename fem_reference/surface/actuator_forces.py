@@ -16,7 +16,7 @@ from fem_reference.shell.rods import RoddedShell, RodForces, RodState, of_rods, 
 from fem_reference.shell.structure import Forces, State
 from fem_reference.surface import edge_motion
 from fem_reference.surface.edge_motion import MovedEdge
-from fem_reference.surface.rod import Rod, names
+from fem_reference.surface.rod import Rod
 from sheetbench.scenes import EdgeMotion, Scene
 
 _MASS = np.array([[4.0, 2.0, -1.0], [2.0, 16.0, 2.0], [-1.0, 2.0, 4.0]]) / 15.0  # ∫ N N dξ
@@ -30,10 +30,10 @@ def wrenches(scene: Scene, structure: RoddedShell, state: State, forces: Forces)
         director = state.change[1][rod.line] + np.array([0.0, 0.0, 1.0])
         share = by_segment(rod, nodal, _positions(rod, state.change[0]), director) / len(rod.names)
         found.update({name: share for name in rod.names})
-    motions = [n for n, a in zip(names(scene), scene.actuators, strict=True) if isinstance(a, EdgeMotion)]
+    motions = [n for n, a in scene.named_actuators().items() if isinstance(a, EdgeMotion)]
     for name, moved in zip(motions, edge_motion.moved(structure.supports), strict=True):
         found[name] = _of_motion(structure, moved, state, forces)
-    return {name: found[name] for name in names(scene)}
+    return {name: found[name] for name in scene.named_actuators()}
 
 
 def line_forces(structure: RoddedShell, state: State, forces: Forces) -> np.ndarray:

@@ -71,11 +71,11 @@ def hold(supports: Supports, scene: Scene, nodes: np.ndarray, on_edge: dict[str,
     position, director = supports.position.copy(), supports.director.copy()
     taken = np.concatenate([np.zeros(0, dtype=int), *(motion.nodes for motion in moving)])
     edges = {name: (on[~np.isin(on, taken)], axes) for name, (on, axes) in supports.edges.items()}
-    named = (str(actuator.edge) for actuator in scene.actuators if isinstance(actuator, EdgeMotion))
-    for edge, motion in zip(named, moving, strict=True):
+    named = (actuator.held_as for actuator in scene.actuators if isinstance(actuator, EdgeMotion))
+    for name, motion in zip(named, moving, strict=True):
         position[motion.nodes] = True
         director[motion.nodes] = True
-        edges[edge] = (motion.nodes, np.arange(3))
+        edges[name] = (motion.nodes, np.arange(3))
     return replace(
         supports, position=position, director=director, edges=edges, driven=(*supports.driven, *moving)
     )

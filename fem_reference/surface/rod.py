@@ -53,7 +53,8 @@ class Rod:
 
     nodes: (k, 3) of the shell; places: (k, 3) in `line` (p,), the shell's nodes along the edge; reference: Q₀
     (k, 9, 3); forms: H (15, 9, 9) by ξ; stiffness: (k, 15); intrinsic: strains (k, 15) at rest;
-    weight: dead force on Q (k, 9, 3) [N, N·m]; base: place of the node that is held, or None; length [m].
+    weight: dead force on Q (k, 9, 3) [N, N·m]; base: place of the node that is held, or None; held_as: its
+    name among the reactions; length [m].
     """
 
     names: tuple[str, ...]
@@ -67,6 +68,7 @@ class Rod:
     intrinsic: np.ndarray
     weight: np.ndarray
     base: int | None
+    held_as: str
     segments: int
     offset: float
 
@@ -81,14 +83,6 @@ class Rod:
     def stress(self, strain: np.ndarray, load_factor: float) -> np.ndarray:
         """Their conjugates (k, 15), the intrinsic curvature growing with the load."""
         return self.stiffness * (strain - load_factor * self.intrinsic)
-
-
-def names(scene: Scene) -> list[str]:
-    """A name for every actuator: its edge, or the edge and its number where an edge has several."""
-    edges = [str(actuator.edge) for actuator in scene.actuators]
-    if len(set(edges)) == len(edges):
-        return edges
-    return [f"{edge}.{i + 1}" for i, edge in enumerate(edges)]
 
 
 def sides(
@@ -109,7 +103,7 @@ def of_scene(scene: Scene, nodes: np.ndarray, sides: dict[str, np.ndarray]) -> l
     BadInput for an edge that is not straight or has no node where a base is held.
     """
     found: dict[str, list[tuple[str, Chain]]] = {}
-    for name, actuator in zip(names(scene), scene.actuators, strict=True):
+    for name, actuator in scene.named_actuators().items():
         if isinstance(actuator, Chain):
             found.setdefault(str(actuator.edge), []).append((name, actuator))
     return [_rod(scene, edge, here, nodes, sides[edge]) for edge, here in found.items()]
@@ -122,7 +116,7 @@ def _rod(
     along = nodes[sides, edge.along_axis]
     if np.ptp(nodes[sides, edge.normal_axis]) > 1e-9 * np.ptp(along):
         raise BadInput(f"actuator: edge {edge_name} of the mesh is not straight")
-    offsets = np.array([axis_height(chain, scene.sheet.thickness) for chain in chains])
+    offsets = np.array([chain.axis_height(scene.sheet.thickness) for chain in chains])
     offset = float(offsets.mean())
     half = 0.5 * np.abs(along[:, 2] - along[:, 0])  # |dX/dξ|
     line = np.unique(sides)
@@ -152,15 +146,11 @@ def _rod(
         stiffness=_stiffness(scene, chains[0].plane, float(rigidity.sum()), length, half),
         intrinsic=intrinsic,
         weight=_weight(scene, chains, offsets, half),
+        held_as=chains[0].held_as,
         base=_base(chains[0], nodes[line, edge.along_axis] - start, length),
         segments=chains[0].segments,
         offset=offset,
     )
-
-
-def axis_height(chain: Chain, thickness: float) -> float:
-    """Height [m] of a chain's axis along the director."""
-    return {"mid": 0.0, "top": 1.0, "bottom": -1.0}[chain.face] * (thickness / 2.0 + chain.radius)
 
 
 def pieces(chain: Chain, length: float) -> tuple[np.ndarray, np.ndarray]:

@@ -97,9 +97,9 @@ class Actuator(Protocol):
         """Derivative of the damping force by the velocity, (rows, 3, rows, 3) [N·s/m]."""
         ...
 
-    def base_reaction(self, exerted: np.ndarray) -> np.ndarray | None:
-        """Force (3,) [N] that a held base exerts on the actuator, from what holds its rows, (rows, 3); None
-        where no base is held."""
+    def reactions(self, on_masses: np.ndarray, on_rows: np.ndarray) -> dict[str, np.ndarray]:
+        """Force (3,) [N] of what holds the actuator, by its name among a solution's reactions, from what is
+        exerted on its masses (m, 3) and its rows (rows, 3); empty where nothing holds it."""
         ...
 
     def wrenches(self, positions: np.ndarray, on_masses: np.ndarray, y: np.ndarray) -> np.ndarray:

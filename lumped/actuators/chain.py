@@ -56,7 +56,7 @@ class Chain:
         self.names, self._chains, self._scale = names, tuple(chains), scale
         edge = EDGES[first.edge]
         along = np.eye(3)[edge.along_axis]
-        offsets = np.array([axis_offset(chain, sheet) for chain in chains])
+        offsets = np.array([chain.axis_height(sheet.thickness) for chain in chains])
         self.offset = float(offsets.mean())
         self._beside = offsets - self.offset
         start = np.append(np.array(sheet.edge_ends(first.edge)[0]), self.offset)
@@ -178,12 +178,12 @@ class Chain:
         out[:count, :, :count, :] = damped.reshape(count, 3, count, 3)
         return out
 
-    def base_reaction(self, exerted: np.ndarray) -> np.ndarray | None:
+    def reactions(self, on_masses: np.ndarray, on_rows: np.ndarray) -> dict[str, np.ndarray]:
         """Force on the points that the base holds."""
         if self.frames.base == "free":
-            return None
-        force: np.ndarray = exerted[self.frames.base_points].sum(axis=0)
-        return force
+            return {}
+        whole = on_rows + self.binding.T @ on_masses
+        return {self._chains[0].held_as: whole[self.frames.base_points].sum(axis=0)}
 
     def place_corner(self, end: int, layers: np.ndarray, moved: np.ndarray) -> np.ndarray:
         """Displacement (rows, 3) [m] that follows a corner's layers at the heights (l,), moved by (l, 3)."""
@@ -325,9 +325,3 @@ class Chain:
         _, first, _ = joints.angles(self._measures(self.frames.products(v)))
         gradient = self.frames.gradient(v)[self.multipliers :]
         return gradient.reshape(-1, 3, *gradient.shape[1:]), first
-
-
-def axis_offset(chain: ChainData, sheet: Sheet) -> float:
-    """Height [m] of a chain's axis above the mid-surface."""
-    side = {"mid": 0.0, "top": 1.0, "bottom": -1.0}[chain.face]
-    return side * (sheet.thickness / 2.0 + chain.radius)

@@ -6,8 +6,7 @@ in whichever component, stays with its support; one that two chains on neighbour
 with the first. A chain that ends at a corner whose director a support holds is held there too, unless the
 support moves over time: with an end that moves so the integrators do not keep the balance of energy. There,
 and beside an edge moved rigidly, the sheet alone holds it. Chains on one edge are one
-actuator model. An actuator's name is its edge, or, where an edge has several, its edge and its number in the
-scene.
+actuator model.
 """
 
 from __future__ import annotations
@@ -175,15 +174,12 @@ class Coupling:
             force[place] += resisting
         return power
 
-    def base_reactions(self, exerted: np.ndarray) -> dict[str, np.ndarray]:
-        """Force (3,) [N] of every held base on its chain, by "EDGE base", from what holds masses and rows,
-        (size, 3) [N]."""
-        found = {}
+    def reactions(self, exerted: np.ndarray) -> dict[str, np.ndarray]:
+        """Force (3,) [N] of every prescribed motion and held base, by its name among a solution's reactions,
+        from what holds masses and rows, (size, 3) [N]."""
+        found: dict[str, np.ndarray] = {}
         for actuator, place in self._each():
-            whole = exerted[place] + actuator.binding.T @ exerted[actuator.masses]
-            force = actuator.base_reaction(whole)
-            if force is not None:
-                found[f"{actuator.edge} base"] = force
+            found |= actuator.reactions(exerted[actuator.masses], exerted[place])
         return found
 
     def wrenches(self, u: np.ndarray, on_masses: np.ndarray) -> dict[str, np.ndarray]:
@@ -213,12 +209,9 @@ def _actuators(scene: Scene, lattice: Lattice) -> tuple[Actuator, ...]:
     taken = movers > 0
     for support in scene.supports:
         taken[lattice.edge_columns(support.edge)] = True
-    names = [str(a.edge) for a in scene.actuators]
-    if len(set(names)) < len(names):
-        names = [f"{edge}.{i + 1}" for i, edge in enumerate(names)]
     found: list[Actuator] = []
     for edge in dict.fromkeys(a.edge for a in scene.actuators):
-        here = [(name, a) for name, a in zip(names, scene.actuators, strict=True) if a.edge == edge]
+        here = [(name, a) for name, a in scene.named_actuators().items() if a.edge == edge]
         masses = lattice.edge_columns(edge).ravel()
         name, only = here[0]
         if isinstance(only, EdgeMotion):

@@ -33,6 +33,7 @@ class RigidMotion:
     ):
         self.names: tuple[str, ...] = (name,)
         self.edge: str = motion.edge
+        self._held_as = motion.held_as
         self.masses = masses
         ends = np.array(sheet.edge_ends(motion.edge))
         self._arms = lattice.positions[masses] - np.append(ends.mean(axis=0), 0.0)
@@ -85,9 +86,9 @@ class RigidMotion:
         """None."""
         return np.zeros((0, 3, 0, 3))
 
-    def base_reaction(self, exerted: np.ndarray) -> np.ndarray | None:
-        """None: it stands on nothing."""
-        return None
+    def reactions(self, on_masses: np.ndarray, on_rows: np.ndarray) -> dict[str, np.ndarray]:
+        """What holding the motion takes."""
+        return {self._held_as: self.share[0] @ on_masses}
 
     def wrenches(self, positions: np.ndarray, on_masses: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Force and moment about the edge's middle, where it is now."""

@@ -20,12 +20,12 @@ class Sampling:
         self._supports = list(system.problem.constraints.holders)
         nothing = np.zeros((system.assembly.pattern.size, 3))
         actuators = system.coupling.wrenches(nothing, nothing) if system.coupling is not None else {}
-        bases = system.coupling.base_reactions(nothing) if system.coupling is not None else {}
+        holders = system.coupling.reactions(nothing) if system.coupling is not None else {}
         self.columns: list[tuple[str, str, tuple[int, ...]]] = [
             ("time", "", ()),
             *(("energy", name, ()) for name in ENERGIES),
             *(("probe", name, (3,)) for name in scene.probes),
-            *(("reaction", edge, (3,)) for edge in [*self._supports, *bases]),
+            *(("reaction", edge, (3,)) for edge in [*self._supports, *holders]),
             *(("actuator", name, wrench.shape) for name, wrench in actuators.items()),
         ]
         self.width = sum(int(np.prod(shape)) for _, _, shape in self.columns)
@@ -44,7 +44,7 @@ class Sampling:
             *(reactions[edge] for edge in self._supports),
         ]
         if system.coupling is not None:
-            parts.extend(system.coupling.base_reactions(exerted).values())
+            parts.extend(system.coupling.reactions(exerted).values())
             parts.extend(w.ravel() for w in system.coupling.wrenches(state.u, exerted).values())
         return np.concatenate(parts)
 

@@ -253,7 +253,7 @@ def _solution(
     coupling = problem.assembly.coupling
     wrenches = coupling.wrenches(state.u, -unbalanced) if coupling is not None else {}
     if coupling is not None:
-        reactions |= coupling.base_reactions(-unbalanced)
+        reactions |= coupling.reactions(-unbalanced)
     columns = lattice.columns().reshape(-1, lattice.grid[2])
     mid_surface = state.u[columns].mean(axis=1)
 

@@ -11,6 +11,9 @@ curvature [1/m] is a number, a list with one value a joint (in the order of the 
 the half-length joints beside it), or a table {time, value}: linear between samples, the last value kept.
 Statics take the last value of a table, and of a motion.
 
+An actuator's name is its edge, or, where an edge has several, its edge and its number in the scene: "x1.2".
+What holds it is named among the reactions: a motion as its edge, the base of an edge's chains as "EDGE base".
+
 Actuators on one edge share its masses: chains of a pair must have the same segments, plane and base, and lie
 anywhere through the thickness. They move as one chain whose axis is the mean of theirs; the joints of each
 slide along its axis, since two inextensible rods on opposite faces could not bend together.
@@ -75,6 +78,16 @@ class Chain(Frozen):
         return self
 
     @property
+    def held_as(self) -> str:
+        """The name of its base among the reactions, where it is held."""
+        return f"{self.edge} base"
+
+    def axis_height(self, thickness: float) -> float:
+        """Height [m] of its axis along the director of a sheet of a thickness [m]."""
+        side = {"mid": 0.0, "top": 1.0, "bottom": -1.0}[self.face]
+        return side * (thickness / 2.0 + self.radius)
+
+    @property
     def joints(self) -> int:
         """Joints between segments, and the half-length joints that a held base carries."""
         between = self.segments - 1
@@ -91,6 +104,11 @@ class EdgeMotion(OverTime):
     edge: EdgeName
     displacement: tuple[Vector3, ...] = ()
     rotation: tuple[Vector3, ...] = ()
+
+    @property
+    def held_as(self) -> str:
+        """Its name among the reactions."""
+        return str(self.edge)
 
     @model_validator(mode="after")
     def _moves_something(self) -> EdgeMotion:

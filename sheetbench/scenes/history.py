@@ -21,8 +21,8 @@ class History:
 
     time: (n,) [s]; probes: name → displacement (n, 3) [m]; energies: kinetic, elastic, potential,
     dissipated and work, (n,) [J] each (potential: of constant dead loads; work: done by all other loads,
-    and by supports and commands that move); reactions: support's edge → force on the sheet (n, 3) [N],
-    and "EDGE base" → force of a held base on its chain; actuators: name → force and moment about the
+    and by supports and commands that move); reactions: as those of a `scenes.Solution`, (n, 3) [N]
+    each; actuators: name → force and moment about the
     segment's middle that each segment exerts on the sheet, (n, segments, 6) [N, N·m]; steps: taken by the
     integrator; status `converged` means that the run reached its end.
     """

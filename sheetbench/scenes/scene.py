@@ -77,6 +77,14 @@ class Scene(Frozen):
     def _extent(self) -> str:
         return f"which is 0 ≤ x ≤ {self.sheet.length_x:g} m, 0 ≤ y ≤ {self.sheet.length_y:g} m"
 
+    def named_actuators(self) -> dict[str, Actuator]:
+        """The actuators in their order by their names: an actuator's is its edge, or, where an edge has
+        several, its edge and its number."""
+        names = [str(actuator.edge) for actuator in self.actuators]
+        if len(set(names)) < len(names):
+            names = [f"{edge}.{i + 1}" for i, edge in enumerate(names)]
+        return dict(zip(names, self.actuators, strict=True))
+
     def probe_points(self) -> np.ndarray:
         """Plan points of the probes, (n, 2) [m], in the order of `probes`."""
         return np.array(list(self.probes.values()), dtype=float).reshape(-1, 2)

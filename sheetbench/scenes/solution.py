@@ -73,8 +73,9 @@ class FieldMesh:
 class Solution:
     """A model's answer to a static scene.
 
-    sample: plan points (n, 2) [m] → mid-surface displacement (n, 3) [m]; reactions: edge → force [N] that
-    the support exerts on the sheet, (3,); energies: name → [J]; iterations: tangent factorisations, all
+    sample: plan points (n, 2) [m] → mid-surface displacement (n, 3) [m]; reactions: force (3,) [N] that a
+    support or a prescribed motion exerts on the sheet, by its edge, and a held base on its chain, by "EDGE
+    base"; energies: name → [J]; iterations: tangent factorisations, all
     of them; load_factor: 1 where the full load was reached, else the last converged load; actuators: name →
     force and moment of each segment on the sheet, (segments, 6) [N, N·m]. snaps: load factors at which the
     sheet left its load path for an equilibrium far away; fallback: what was solved in place of what was

@@ -1,0 +1,61 @@
+"""Reactions: what every model names alike, a moved edge and a held base among them."""
+
+import numpy as np
+import pytest
+from dynamic_cases import scene, springs
+from numpy.testing import assert_allclose
+
+import fem_reference
+import lumped
+from sheetbench.scenes import Status
+
+WEIGHT = 9.81 * 1678.0 * 0.188**2 * 0.003
+MOVED = {
+    "kind": "motion",
+    "edge": "x1",
+    "time": [0.0, 1.0],
+    "displacement": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.01]],
+}
+CLAMPED = [{"edge": "x0", "kind": "clamped"}]
+CASES = {
+    "a moved edge": (scene(supports=CLAMPED, actuators=[MOVED]), {"x0", "x1"}, 0.0),
+    "a held base": (
+        scene(supports=[], actuators=[{"edge": "y1", "base": "start"}]),
+        {"y1 base"},
+        0.05 * 0.188,
+    ),
+    "a held base beside a clamp": (
+        scene(supports=CLAMPED, actuators=[{"edge": "x1", "base": "middle"}]),
+        {"x0", "x1 base"},
+        0.05 * 0.188,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
+def test_every_model_names_the_same_reactions_and_they_carry_the_weight(name, model):
+    asked, names, chains = CASES[name]
+    if model == "lumped":
+        solution = lumped.solve(asked, springs(asked))
+    else:
+        solution = fem_reference.solve(asked, model=model, elements=4)
+    assert solution.status is Status.CONVERGED
+    assert set(solution.reactions) == names
+    total = WEIGHT + 9.81 * chains
+    assert_allclose(sum(solution.reactions.values()), [0.0, 0.0, total], atol=1e-6 * total)
+
+
+def test_a_run_writes_down_what_a_motion_takes():
+    asked = scene(supports=CLAMPED, actuators=[MOVED], damping_rate=50.0)
+    history = lumped.simulate(asked, springs(asked), 2.0, step=5e-3, every=0.5)
+    total = history.reactions["x0"] + history.reactions["x1"]
+    assert_allclose(history.reactions["x1"], history.actuators["x1"][:, 0, :3], atol=1e-12)
+    assert np.abs(total[-1] - [0.0, 0.0, WEIGHT]).max() < 1e-3 * WEIGHT
+
+
+def test_actuators_are_named_by_their_edges_or_numbered():
+    two = scene(actuators=[{"edge": "x1"}, {"edge": "y1"}])
+    assert list(two.named_actuators()) == ["x1", "y1"]
+    pair = scene(actuators=[{"edge": "x1"}, {"edge": "x1", "face": "top"}, {"edge": "y1"}])
+    assert list(pair.named_actuators()) == ["x1.1", "x1.2", "y1.3"]

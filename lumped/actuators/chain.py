@@ -127,8 +127,8 @@ class Chain:
             out[:count, axis, :count, axis] += geometric
         flat = out.reshape(3 * self.rows, 3 * self.rows)
         place = 3 * count + np.arange(self.multipliers)
-        flat[place, : 3 * count] = by_constraint.reshape(self.multipliers, -1)
-        flat[: 3 * count, place] = by_constraint.reshape(self.multipliers, -1).T
+        flat[place, : 3 * count] = by_constraint.reshape(self.multipliers, 3 * count)
+        flat[: 3 * count, place] = by_constraint.reshape(self.multipliers, 3 * count).T
         return out
 
     def constraint_gradient(self, y: np.ndarray) -> np.ndarray:

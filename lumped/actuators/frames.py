@@ -99,7 +99,7 @@ class Frames:
             quantity(0.0, (corner, self._vector(segment, B), 0.0))
             quantity(0.0, (corner, self._vector(segment, N), 1.0))
         self.target = np.array(target)
-        index = np.array([term[:3] for term in terms])
+        index = np.array([term[:3] for term in terms], dtype=int).reshape(-1, 3)  # one held segment has none
         self._quantity, self._first, self._second = index.T
         self._weight = np.array([term[3] for term in terms])
         self._map = self._linear_map()

@@ -18,7 +18,7 @@ from sheetbench import scenes
 def test_thin_to_thick_within_2_percent(model: str) -> None:
     """h/a from 1e-5 to 0.2."""
     rows = list(run([f"locking-{model}"]))
-    assert len(rows) == 7
+    assert [row.at["h/a"] for row in rows] == [1e-5, 1e-4, 1e-3, 1e-2, 0.05, 0.1, 0.2]
     assert max(row.relative or 0.0 for row in rows) < 0.02
     assert all(row.passed for row in rows)
 
@@ -67,8 +67,8 @@ def test_a_thin_sheet_far_from_flat_does_not_lock(elements: int, within: float) 
 
 def test_picture(tmp_path: Path) -> None:
     def made(model: str, ratio: float, poisson: float) -> Row:
-        quantity = f"w D/qL⁴ at h/a = {ratio:g}, ν = {poisson:g}"
-        return relatively(f"locking-{model}", quantity, "8 × 8", 1.0, 1.001, 0.02)
+        at = {"h/a": ratio, "ν": poisson}
+        return relatively(f"locking-{model}", "w", "8 × 8", 1.0, "finer", 1.001, 0.02, at=at)
 
     rows = [made(model, ratio, 0.3) for model in ("plate", "solid") for ratio in (1e-5, 0.1)]
     picture(tmp_path / "locking.png", rows)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from itertools import groupby
 from pathlib import Path
@@ -18,7 +17,6 @@ SIZE = (4.6, 2.9)  # inches
 MARKERS = {"plate": "s", "shell": "o", "solid": "^"}
 COLOURS = {"plate": "#7d848c", "shell": "#20252b"}
 SOLID_COLOURS = ("#fbb061", "#ee6a5a", "#b8327a", "#5c187f")  # from compressible to incompressible
-_AT = re.compile(r"h/a = ([\d.e-]+), ν = ([\d.]+)")
 
 
 def picture(path: Path, rows: Sequence[Row]) -> None:
@@ -34,9 +32,9 @@ def compose(rows: Sequence[Row]) -> Figure:
     colours = iter(SOLID_COLOURS)
     for (model, poisson), curve in groupby(rows, key=_series):
         points = list(curve)
-        label = f"{model}, 8 × 8" if model != "solid" else f"solid, 8 × 8 × 1, ν = {poisson}"
+        label = f"{model}, 8 × 8" if model != "solid" else f"solid, 8 × 8 × 1, ν = {poisson:g}"
         axes.plot(
-            [float(_place(row)[0]) for row in points],
+            [row.at["h/a"] for row in points],
             [100.0 * (row.relative or 0.0) for row in points],
             marker=MARKERS[model],
             color=COLOURS.get(model) or next(colours),
@@ -54,13 +52,6 @@ def compose(rows: Sequence[Row]) -> Figure:
     return figure
 
 
-def _place(row: Row) -> tuple[str, str]:
-    """Thickness over side and Poisson's ratio of a row, as its quantity has them."""
-    found = _AT.search(row.quantity)
-    if found is None:
-        raise LookupError(f"quantity = {row.quantity!r}: not a row of a locking sweep")
-    return found[1], found[2]
-
-
-def _series(row: Row) -> tuple[str, str]:
-    return row.case.removeprefix("locking-"), _place(row)[1]
+def _series(row: Row) -> tuple[str, float]:
+    """The model and Poisson's ratio of a row."""
+    return row.case.removeprefix("locking-"), row.at["ν"]

@@ -2,7 +2,9 @@
 
 Hard simple support (deflection and the tilt along the edge held) and clamped, h/L 0.001 to 0.2. The shell
 answers for the clamped ones under a load so small that it is linear.
-Source: closed forms in Wang, Reddy & Lee, Shear Deformable Beams and Plates (2000), and converged elements.
+Sources: Navier's series in Wang, Reddy & Lee, Shear Deformable Beams and Plates (2000); for the thin clamped
+plate Taylor & Govindjee, Commun. Numer. Meth. Engng 20 (2004) 757–765. The thick clamped plates have no
+closed form: theirs is this project's plate on 48 × 48 elements.
 """
 
 from __future__ import annotations
@@ -13,13 +15,17 @@ import numpy as np
 
 from fem_reference import solve
 from fem_reference.surface.materials import bending_stiffness
-from fem_reference.verification.rows import Row, absolutely, relatively
+from fem_reference.verification.rows import OURS, Row, absolutely, relatively
 from sheetbench.scenes import EDGES, Clamped, Gravity, Hinged, Material, Scene, Sheet, Status
 
 TOLERANCE = 3e-3
 ELEMENTS = 16
 HARD_SIMPLE = {0.001: 0.00406, 0.1: 0.00427, 0.2: 0.00490}
 CLAMPED = {0.001: 0.0012653, 0.1: 0.001505, 0.2: 0.002172}
+NAVIER = "Wang, Reddy & Lee 2000"
+SERIES = "Taylor & Govindjee 2004"
+FINER = f"{OURS}, 48 × 48"
+SOURCES = {"hinged": dict.fromkeys(HARD_SIMPLE, NAVIER), "clamped": {0.001: SERIES, 0.1: FINER, 0.2: FINER}}
 SUPPORTS: dict[str, type[Clamped | Hinged]] = {"clamped": Clamped, "hinged": Hinged}
 SMALL = 1e-4  # the shell's deflection at the centre over the thickness
 
@@ -41,10 +47,12 @@ def _of(case: str, model: str, published: dict[float, float]) -> Iterator[Row]:
     found = {}
     for ratio, value in published.items():
         found[ratio] = deflection(model, kind, ratio, ELEMENTS)
-        yield relatively(case, f"w D/qL⁴ at h/L = {ratio:g}", mesh, value, found[ratio], TOLERANCE)
+        yield relatively(
+            case, f"w D/qL⁴ at h/L = {ratio:g}", mesh, value, SOURCES[kind][ratio], found[ratio], TOLERANCE
+        )
     ratio = max(published)
     change = abs(deflection(model, kind, ratio, ELEMENTS // 2) / found[ratio] - 1.0)
-    yield absolutely(case, f"change from half the mesh, {ratio:g}", mesh, 0.0, change, TOLERANCE)
+    yield absolutely(case, f"change from half the mesh, {ratio:g}", mesh, 0.0, OURS, change, TOLERANCE)
 
 
 def deflection(model: str, kind: str, ratio: float, elements: int, poisson: float = 0.3) -> float:

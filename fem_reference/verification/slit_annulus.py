@@ -20,6 +20,7 @@ from sheetbench.scenes import Clamped, EdgeLoad, Material, Scene, Sheet, Status
 TOLERANCE = 5e-3
 RADIAL, AROUND = 6, 48
 FORCE = 0.8
+SOURCE = "Sze, Liu & Lo 2004, 3.3"
 PUBLISHED = {
     0.1: (4.277, 5.876),
     0.25: (7.602, 10.288),
@@ -35,7 +36,9 @@ def rows(case: str) -> Iterator[Row]:
     for share, values in PUBLISHED.items():
         found = rise(share, RADIAL, AROUND)
         for name, published, computed in zip(("w_A", "w_B"), values, found, strict=True):
-            yield relatively(case, f"{name} at P = {share:g} P_max", mesh, published, computed, TOLERANCE)
+            yield relatively(
+                case, f"{name} at P = {share:g} P_max", mesh, published, SOURCE, computed, TOLERANCE
+            )
     smallest = min(PUBLISHED)
     coarse, fine = rise(smallest, RADIAL // 2, AROUND // 2), rise(smallest, RADIAL, AROUND)
     yield mesh_change(case, mesh, coarse, fine, TOLERANCE)

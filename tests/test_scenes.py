@@ -25,9 +25,9 @@ BAD = {
         GOOD.replace(
             "[probes]", '[[load]]\nkind = "point"\nat = [0.3, 0.0]\nforce = [0.0, 0.0, 1.0]\n[probes]'
         ),
-        ["load.0.at", "0.3"],
+        ["load 1.at", "0.3"],
     ),
-    "unknown support": (GOOD.replace('"clamped"', '"glued"'), ["support.0", "glued", "clamped"]),
+    "unknown support": (GOOD.replace('"clamped"', '"glued"'), ["support 1", "glued", "clamped"]),
     "two supports on an edge": (
         GOOD.replace("[probes]", '[[support]]\nedge = "x0"\nkind = "hinged"\n[probes]'),
         ["x0", "two supports"],

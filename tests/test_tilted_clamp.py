@@ -256,7 +256,7 @@ def test_degrees_are_refused(tmp_path) -> None:
     text = scenes.catalogue()["one-edge-clamped"].read_text(encoding="utf-8")
     path = tmp_path / "scene.toml"
     path.write_text(text.replace('kind = "clamped"', 'kind = "clamped"\ntilt = 5.0'), encoding="utf-8")
-    with pytest.raises(SceneError, match=r"support.0.tilt: 5 rad is more than π/2"):
+    with pytest.raises(SceneError, match=r"support 1.tilt: 5 rad is more than π/2"):
         scenes.load(path)
     path.write_text(text.replace('kind = "clamped"', 'kind = "clamped"\ntilt = 0.05'), encoding="utf-8")
     assert scenes.load(path).supports == (Clamped(edge="x0", tilt=0.05),)

@@ -170,15 +170,13 @@ def _checked(kind: type[Quantities], data: dict[str, Any]) -> Quantities:
     from pydantic import ValidationError
 
     from sheetbench.scenes.errors import BadInput
+    from sheetbench.scenes.refusals import in_one_line
 
     try:
         return kind.model_validate(data)
     except ValidationError as error:
-        fault = error.errors()[0]
-        if not fault["loc"]:
-            raise BadInput(str(fault["ctx"]["error"])) from None
-        key = str(fault["loc"][0])
-        option = "side" if key.startswith("length") else key
-        raise BadInput(
-            f"--{option} = {fault['input']!r}: {fault['msg'][0].lower()}{fault['msg'][1:]}"
-        ) from None
+        said = in_one_line(error, kind)
+        if error.errors()[0]["loc"]:
+            key = str(error.errors()[0]["loc"][0])
+            said = f"--{'side' if key.startswith('length') else key}{said.removeprefix(key)}"
+        raise BadInput(said) from None

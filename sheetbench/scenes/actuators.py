@@ -25,7 +25,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from sheetbench.scenes.quantities import Frozen, NonNegative, Number, Positive, Vector3
+from sheetbench.scenes.quantities import Frozen, NonNegative, Number, Positive, Unit, Vector3
 from sheetbench.scenes.sheet import EdgeName
 from sheetbench.scenes.tables import OverTime
 
@@ -36,7 +36,8 @@ Base = Literal["free", "start", "middle", "end"]
 class CurvatureTable(OverTime):
     """Intrinsic curvature over time: time (n,) [s], increasing; value (n,) [1/m], one for all joints."""
 
-    value: tuple[Number, ...]
+    value: Annotated[tuple[Number, ...], Unit("1/m")]
+    """Intrinsic curvature of all joints at each time; statics take the last one."""
 
 
 def _form(value: Any) -> str:
@@ -57,16 +58,29 @@ class Chain(Frozen):
     """A chain of `segments` rigid segments; bending_stiffness [N·m²], line_density [kg/m], radius [m]."""
 
     kind: Literal["chain"] = "chain"
+    """A flexible chain of rigid segments bound to an edge; it carries weight and inertia of its own."""
     edge: EdgeName
+    """The edge it is bound to, which has no support."""
     segments: Annotated[int, Field(ge=1, strict=True)]
-    bending_stiffness: Positive
-    line_density: Positive
-    radius: Positive
+    """Rigid segments, of equal length; they need not coincide with masses."""
+    bending_stiffness: Annotated[Positive, Unit("N·m²")]
+    """EI of the chain; a joint's stiffness is EI divided by a segment's length."""
+    line_density: Annotated[Positive, Unit("kg/m")]
+    """Mass per length of the chain."""
+    radius: Annotated[Positive, Unit("m")]
+    """Of its round cross-section, for the rotary inertia and, on a face, the distance of its axis."""
     face: Literal["mid", "top", "bottom"] = "mid"
-    curvature: Curvature = 0.0
-    damping_time: NonNegative = 0.0
+    """Where its axis lies: in the mid-surface, or thickness/2 + radius above (top) or below (bottom) it."""
+    curvature: Annotated[Curvature, Unit("1/m")] = 0.0
+    """Intrinsic curvature: a number, one a joint, or a table over time; > 0 lifts the ends towards +z (plane
+    "normal", "spatial") or bends them outwards ("inplane")."""
+    damping_time: Annotated[NonNegative, Unit("s")] = 0.0
+    """Every joint has a damper of damping_time times its stiffness."""
     plane: Plane = "normal"
+    """It bends in the plane of the edge and the sheet's normal ("normal"), in the sheet's plane ("inplane"),
+    or in both ("spatial")."""
     base: Base = "free"
+    """Held nowhere ("free"), or at its middle or at the end where the edge starts or ends."""
 
     @model_validator(mode="after")
     def _one_curvature_a_joint(self) -> Chain:
@@ -101,9 +115,13 @@ class EdgeMotion(OverTime):
     `rotation` (n, 3) [rad] at the times `time` (n,) [s], linear between samples."""
 
     kind: Literal["motion"]
+    """The edge moved rigidly as prescribed over time."""
     edge: EdgeName
-    displacement: tuple[Vector3, ...] = ()
-    rotation: tuple[Vector3, ...] = ()
+    """The edge that is moved, which has no support."""
+    displacement: Annotated[tuple[Vector3, ...], Unit("m")] = ()
+    """[ux, uy, uz] of the edge's middle at each time."""
+    rotation: Annotated[tuple[Vector3, ...], Unit("rad")] = ()
+    """Rotation vector [about x, about y, about z] of the edge about its middle at each time, right-handed."""
 
     @property
     def held_as(self) -> str:

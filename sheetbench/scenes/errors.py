@@ -12,9 +12,17 @@ from collections.abc import Iterable
 class BadInput(ValueError):
     """An option, argument or file that cannot be used as given."""
 
+    def __init__(self, text: str) -> None:
+        super().__init__(printable(text))
+
 
 class SceneError(BadInput):
     """A scene that cannot be read or asks something impossible; the text names file, key and value."""
+
+
+def printable(text: str) -> str:
+    """The text with its control characters written out, so that none of a file's reaches a terminal."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
 
 
 def require_choice(option: str, value: str, choices: Iterable[str]) -> None:

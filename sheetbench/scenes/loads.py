@@ -17,7 +17,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from sheetbench.scenes.quantities import Number, PlanPoint, Vector3
+from sheetbench.scenes.quantities import Number, PlanPoint, Unit, Vector3
 from sheetbench.scenes.sheet import EdgeName
 from sheetbench.scenes.tables import Loading
 
@@ -26,17 +26,24 @@ class PointLoad(Loading):
     """A dead force [N] at plan point `at` [m]."""
 
     kind: Literal["point"] = "point"
-    at: PlanPoint
-    force: Vector3
+    """A dead force at a point of the mid-surface."""
+    at: Annotated[PlanPoint, Unit("m")]
+    """Plan point [x, y] of the undeformed sheet where the force acts."""
+    force: Annotated[Vector3, Unit("N")]
+    """Along x, y and z; it keeps its direction while the sheet moves."""
 
 
 class EdgeLoad(Loading):
     """A dead force [N/m] and a moment [N·m/m] along an edge."""
 
     kind: Literal["edge"] = "edge"
+    """A dead force and a moment along an edge."""
     edge: EdgeName
-    force_per_length: Vector3 = (0.0, 0.0, 0.0)
-    moment_per_length: Number = 0.0
+    """The edge that is loaded."""
+    force_per_length: Annotated[Vector3, Unit("N/m")] = (0.0, 0.0, 0.0)
+    """Along x, y and z, per undeformed length of the edge; it keeps its direction."""
+    moment_per_length: Annotated[Number, Unit("N·m/m")] = 0.0
+    """About the current edge; > 0 turns the edge so that material just outside it would move towards +z."""
 
     @model_validator(mode="after")
     def _loads_something(self) -> EdgeLoad:
@@ -49,7 +56,9 @@ class Pressure(Loading):
     """A follower pressure [Pa]."""
 
     kind: Literal["pressure"] = "pressure"
-    value: Number
+    """A follower pressure on the whole sheet."""
+    value: Annotated[Number, Unit("Pa")]
+    """> 0 pushes along the sheet's current normal, at first +z; per current area."""
 
 
 Load = Annotated[PointLoad | EdgeLoad | Pressure, Field(discriminator="kind")]

@@ -1,10 +1,15 @@
-"""Validated numbers and the frozen base of every scene object. All quantities are in SI units."""
+"""Validated numbers with their units, and the frozen base of every scene object. All are in SI units."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from dataclasses import dataclass
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, Strict
+from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, Strict, ValidationError
+
+from sheetbench.scenes.errors import SceneError
+from sheetbench.scenes.refusals import in_one_line
+from sheetbench.scenes.schema import sentences
 
 Number = Annotated[float, Strict(), Field(allow_inf_nan=False)]
 Positive = Annotated[Number, Field(gt=0)]
@@ -13,7 +18,48 @@ Vector3 = tuple[Number, Number, Number]
 PlanPoint = tuple[Number, Number]
 
 
+@dataclass(frozen=True)
+class Unit:
+    """The SI unit of a number or of every number in a list; it stands as `unit` in the JSON Schema."""
+
+    symbol: str
+
+    def __get_pydantic_json_schema__(self, core: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return {**handler(core), "unit": self.symbol}
+
+
 class Frozen(BaseModel):
-    """Base of the scene objects: immutable, and unknown keys are refused."""
+    """Base of the scene objects: immutable, and unknown keys are refused.
+
+    A sentence below each key says what it is and which sign it has; the JSON Schema, the reference page
+    (docs/scene.md) and the files that `sheetbench new` writes are made of these. Objects built with values
+    that make no sense raise SceneError, in one line; values without a name are the keys in their order.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True)
+
+    def __init__(self, *values: Any, **keys: Any) -> None:
+        names = list(type(self).model_fields)
+        if len(values) > len(names):
+            raise TypeError(f"{type(self).__name__} has {len(names)} keys: {', '.join(names)}")
+        for name, value in zip(names, values, strict=False):
+            if name in keys:
+                raise TypeError(f"{type(self).__name__}: {name} is given twice")
+            keys[name] = value
+        try:
+            super().__init__(**keys)
+        except ValidationError as error:
+            raise SceneError(f"{type(self).__name__}: {in_one_line(error, type(self))}") from None
+
+    # what is read from a file or lies within another object is built without the above, so that the whole
+    # scene's faults are told together
+    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        schema = handler(core)
+        keys = handler.resolve_ref_schema(schema).get("properties", {})
+        for name, field in cls.model_fields.items():  # pydantic would read the sources at every import
+            if name in (said := sentences(cls)):
+                keys[field.alias or name]["description"] = said[name]
+        return schema

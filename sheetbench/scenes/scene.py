@@ -9,7 +9,7 @@ from __future__ import annotations
 import tomllib
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import Field, ValidationError, model_validator
@@ -18,7 +18,8 @@ from sheetbench.scenes import corners
 from sheetbench.scenes.actuators import Actuator, Chain, disagreement
 from sheetbench.scenes.errors import SceneError
 from sheetbench.scenes.loads import Load, PointLoad
-from sheetbench.scenes.quantities import Frozen, PlanPoint
+from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
+from sheetbench.scenes.refusals import in_one_line
 from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
 from sheetbench.scenes.springs import DamperSet, SpringSet
 from sheetbench.scenes.supports import Support, contradiction, held_axes, holds_tilt
@@ -31,16 +32,30 @@ class Scene(Frozen):
     """
 
     name: str = Field(min_length=1)
+    """A short name, for tables and messages."""
     title: str = ""
+    """A line for headings and pictures."""
     sheet: Sheet
+    """The flat, stress-free sheet."""
     material: Material
+    """What the sheet is made of."""
     gravity: Gravity | None = None
+    """The sheet's weight; without this table the sheet is weightless."""
     supports: tuple[Support, ...] = Field(default=(), alias="support")
+    """How edges are held, at most one support an edge."""
     loads: tuple[Load, ...] = Field(default=(), alias="load")
+    """Forces, moments and pressures, which add up."""
     actuators: tuple[Actuator, ...] = Field(default=(), alias="actuator")
+    """What moves edges that have no support."""
     springs: SpringSet | None = None
+    """The lattice's own spring constants, as `sheetbench calibrate --toml` writes them; no other model reads
+    them."""
     dampers: DamperSet | None = None
-    probes: dict[str, PlanPoint] = Field(default_factory=dict)
+    """The lattice's own dampers along its links in `simulate`, in place of the material's damping_time, which
+    area and strain springs keep."""
+    probes: Annotated[dict[str, PlanPoint], Unit("m")] = Field(default_factory=dict)
+    """Named plan points [x, y] of the undeformed sheet where displacements are told; without this table P1 is
+    the centre, P4 the corner farthest from the supports, P2 and P3 are the middles of the sides beside P4."""
 
     @model_validator(mode="before")
     @classmethod
@@ -51,8 +66,11 @@ class Scene(Frozen):
             except ValidationError:
                 return data  # the sheet's own fault is the one to report
             supports = data.get("support") or data.get("supports") or ()
+            if not isinstance(supports, list | tuple):
+                return data
             edges = [s.get("edge") if isinstance(s, dict) else getattr(s, "edge", None) for s in supports]
-            data = {**data, "probes": default_probes(sheet, [e for e in edges if e in EDGES])}
+            named = [edge for edge in edges if isinstance(edge, str) and edge in EDGES]
+            data = {**data, "probes": default_probes(sheet, named)}
         return data
 
     @model_validator(mode="after")
@@ -60,9 +78,9 @@ class Scene(Frozen):
         for name, point in self.probes.items():
             if not self._on_sheet(point):
                 raise ValueError(f"probes.{name} = {list(point)} is off the sheet, {self._extent()}")
-        for i, load in enumerate(self.loads):
+        for number, load in enumerate(self.loads, start=1):
             if isinstance(load, PointLoad) and not self._on_sheet(load.at):
-                raise ValueError(f"load.{i}.at = {list(load.at)} is off the sheet, {self._extent()}")
+                raise ValueError(f"load {number}.at = {list(load.at)} is off the sheet, {self._extent()}")
         if said := contradiction(self.supports):
             raise ValueError(f"support: {said}")
         if said := disagreement(self.actuators, {support.edge for support in self.supports}):
@@ -162,7 +180,7 @@ def load(scene: str | Path) -> Scene:
     known = catalogue()
     path = known.get(str(scene)) or Path(scene)
     try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
+        data = tomllib.loads(path.read_text(encoding="utf-8-sig"))  # some editors put a mark before the text
     except FileNotFoundError:
         names = ", ".join(known)
         raise SceneError(f"{scene}: no such file, and no catalogue scene of that name ({names})") from None
@@ -170,31 +188,11 @@ def load(scene: str | Path) -> Scene:
         raise SceneError(f"{scene}: cannot be read as text: {error}") from None
     except tomllib.TOMLDecodeError as error:
         raise SceneError(f"{scene}: not a TOML file: {error}") from None
+    except RecursionError:
+        raise SceneError(f"{scene}: not a scene: tables or lists within each other without end") from None
+    except ValueError:  # from `int`, which TOMLDecodeError does not cover
+        raise SceneError(f"{scene}: not a scene: a number of more digits than can be read") from None
     try:
         return Scene.model_validate(data)
     except ValidationError as error:
-        raise SceneError(f"{scene}: {_in_one_line(error)}") from None
-
-
-def _in_one_line(error: ValidationError) -> str:
-    said = []
-    for fault in error.errors():
-        key = ".".join(str(part) for part in fault["loc"] if part not in _UNION_TAGS)
-        value = fault["input"]
-        if fault["type"] == "extra_forbidden":
-            said.append(f"{key} = {value!r}: unknown key")
-        elif fault["type"] == "missing":
-            said.append(f"{key}: missing")
-        elif fault["type"] == "value_error":
-            text = str(fault["ctx"]["error"])
-            said.append(f"{key}: {text}" if key else text)
-        else:
-            message = fault["msg"][0].lower() + fault["msg"][1:]
-            said.append(f"{key} = {value!r}: {message}")
-    return "; ".join(said)
-
-
-_UNION_TAGS = (
-    {"clamped", "hinged", "held", "curved", "symmetric", "point", "edge", "pressure", "chain", "motion"}
-    | {"constant", "each joint", "over time"}  # forms of an actuator's curvature
-)
+        raise SceneError(f"{scene}: {in_one_line(error, Scene)}") from None

@@ -6,14 +6,15 @@ An edge is named by the axis it is normal to and the end of that axis: x0, x1, y
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from pydantic import Field, model_validator
 
-from sheetbench.scenes.quantities import Frozen, NonNegative, Number, PlanPoint, Positive, Vector3
+from sheetbench.scenes.quantities import Frozen, NonNegative, Number, PlanPoint, Positive, Unit, Vector3
 from sheetbench.scenes.tables import Loading
 
 EdgeName = Literal["x0", "x1", "y0", "y1"]
+Length = Annotated[Positive, Unit("m")]
 
 
 class Edge(NamedTuple):
@@ -41,9 +42,16 @@ EDGES: dict[str, Edge] = {
 class Sheet(Frozen):
     """A flat rectangular sheet: sides and thickness [m]."""
 
-    length_x: Positive
-    length_y: Positive
-    thickness: Positive
+    length_x: Length
+    """Side along x: the sheet lies in 0 ≤ x ≤ length_x."""
+    length_y: Length
+    """Side along y: the sheet lies in 0 ≤ y ≤ length_y."""
+    thickness: Length
+    """Thickness, half of it above and half below the mid-surface z = 0; at most the shorter side."""
+
+    if TYPE_CHECKING:
+
+        def __init__(self, length_x: float, length_y: float, thickness: float) -> None: ...
 
     @model_validator(mode="after")
     def _thinner_than_wide(self) -> Sheet:
@@ -76,14 +84,31 @@ class Material(Frozen):
     c = damping_time · k; damping_rate [1/s] gives every mass a damping force rate · m · velocity.
     """
 
-    young: Positive
+    young: Annotated[Positive, Unit("Pa")]
+    """Young's modulus E: 1 MPa is 1.0e6."""
     poisson: Annotated[Number, Field(gt=-1, lt=0.5)]
-    density: Positive
-    damping_time: NonNegative = 0.0
-    damping_rate: NonNegative = 0.0
+    """Poisson's ratio ν, below 0.5: rubber and silicone are about 0.48 to 0.499."""
+    density: Annotated[Positive, Unit("kg/m³")]
+    """Density ρ: water's is 1000."""
+    damping_time: Annotated[NonNegative, Unit("s")] = 0.0
+    """Stiffness-proportional damping: every spring has a damper of damping_time times its stiffness."""
+    damping_rate: Annotated[NonNegative, Unit("1/s")] = 0.0
+    """Mass-proportional damping: a force damping_rate · mass · velocity on every mass, against its motion."""
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            young: float,
+            poisson: float,
+            density: float,
+            damping_time: float = 0.0,
+            damping_rate: float = 0.0,
+        ) -> None: ...
 
 
 class Gravity(Loading):
     """A uniform acceleration [m/s²] of every mass; may have a `history`, as loads do."""
 
-    acceleration: Vector3
+    acceleration: Annotated[Vector3, Unit("m/s²")]
+    """Along x, y and z: [0.0, 0.0, -9.81] for a sheet that lies level, z pointing up."""

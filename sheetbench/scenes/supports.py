@@ -21,7 +21,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, field_validator
 
-from sheetbench.scenes.quantities import Frozen, Number, Vector3
+from sheetbench.scenes.quantities import Frozen, Number, Unit, Vector3
 from sheetbench.scenes.sheet import EDGES, EdgeName, Sheet
 from sheetbench.scenes.tables import OverTime
 
@@ -35,19 +35,24 @@ class Motion(OverTime):
     time: (n,) [s], increasing; displacement: (n, 3) [m].
     """
 
-    displacement: tuple[Vector3, ...]
+    displacement: Annotated[tuple[Vector3, ...], Unit("m")]
+    """[ux, uy, uz] of the whole edge at each time."""
 
 
 class _EdgeSupport(Frozen):
     edge: EdgeName
+    """The edge that is supported."""
     motion: Motion | None = None
+    """How the support moves over time, in `simulate` only: statics leave it where it is."""
 
 
 class Clamped(_EdgeSupport):
     """Mid-surface and director held, the director turned about the edge by `tilt` [rad]."""
 
     kind: Literal["clamped"] = "clamped"
-    tilt: Number = 0.0
+    """Mid-surface and its normal held."""
+    tilt: Annotated[Number, Unit("rad")] = 0.0
+    """The clamp turned about the edge, at most π/2 either way; > 0 lets the sheet start off downwards."""
 
     @field_validator("tilt")
     @classmethod
@@ -61,13 +66,16 @@ class Hinged(_EdgeSupport):
     """Mid-surface held, director free."""
 
     kind: Literal["hinged"] = "hinged"
+    """Mid-surface held, free to turn."""
 
 
 class Held(_EdgeSupport):
     """Named components of the mid-surface's displacement held."""
 
     kind: Literal["held"] = "held"
+    """Some components of the mid-surface's displacement held, free to turn."""
     components: tuple[Component, ...] = Field(min_length=1)
+    """Which of "x", "y" and "z" are held, for instance ["z"] for an edge that slides on a rail."""
 
     @field_validator("components")
     @classmethod
@@ -81,15 +89,20 @@ class Curved(_EdgeSupport):
     """Clamped to a rod bent to `curvature` [1/m]."""
 
     kind: Literal["curved"] = "curved"
-    curvature: Number
+    """Clamped to a rigid rod bent in the plane of the edge and z."""
+    curvature: Annotated[Number, Unit("1/m")]
+    """Of the rod; > 0 lifts the edge's ends towards +z, its middle stays where it is."""
 
 
 class Symmetric(Frozen):
     """The plane of symmetry through which the sheet is cut."""
 
     kind: Literal["symmetric"] = "symmetric"
+    """A plane of symmetry: beyond the edge the sheet goes on as its own mirror image."""
     edge: EdgeName
+    """The edge where the sheet is cut."""
     motion: None = None
+    """A plane of symmetry does not move."""
 
 
 AnySupport = Clamped | Hinged | Held | Curved | Symmetric

@@ -7,16 +7,18 @@ history   a factor [-] on a load or on gravity; without one it acts in full from
 from __future__ import annotations
 
 from itertools import pairwise
+from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from sheetbench.scenes.quantities import Frozen, Number
+from sheetbench.scenes.quantities import Frozen, Number, Unit
 
 
 class OverTime(Frozen):
     """Base of the tables: time (n,) [s], increasing, and n samples of everything else that is a list."""
 
-    time: tuple[Number, ...] = Field(min_length=1)
+    time: Annotated[tuple[Number, ...], Unit("s")] = Field(min_length=1)
+    """Increasing times; linear between them, the first sample before and the last one after."""
 
     @model_validator(mode="after")
     def _one_sample_each(self) -> OverTime:
@@ -35,12 +37,14 @@ class FactorTable(OverTime):
     """A factor over time: time (n,) [s], factor (n,) [-]."""
 
     factor: tuple[Number, ...]
+    """What the load is multiplied by at each time; statics take the last one."""
 
 
 class Loading(Frozen):
     """Base of loads and gravity, whose `history` scales them over time."""
 
     history: FactorTable | None = None
+    """A factor over time; without it the load acts in full from t = 0 on."""
 
     @property
     def last_factor(self) -> float:

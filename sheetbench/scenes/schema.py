@@ -1,0 +1,91 @@
+"""The scene language as a JSON Schema (draft 2020-12), read off the types: every key, unit, bound, default.
+
+Editors complete and check a scene with it; the reference page and the refusals are made of it too. Beside the
+standard's keywords a number has `unit`, its SI unit. Absent is absent: TOML has no null.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+from functools import cache
+from itertools import pairwise
+from typing import Any
+
+from pydantic import BaseModel
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
+
+
+class _AsWritten(GenerateJsonSchema):
+    """Without null, which no scene can hold, and without titles, which only repeat the keys."""
+
+    def nullable_schema(self, schema: Any) -> JsonSchemaValue:
+        return self.generate_inner(schema["schema"])
+
+    def field_title_should_be_set(self, schema: Any) -> bool:
+        return False
+
+
+@cache
+def json_schema(model: type[BaseModel]) -> dict[str, Any]:
+    """The schema of a scene or a part of it; classes under `$defs`."""
+    schema = model.model_json_schema(by_alias=True, schema_generator=_AsWritten)
+    for table in (schema, *schema.get("$defs", {}).values()):
+        keys = table.get("properties", {})
+        for name in [name for name, key in keys.items() if key.get("type") == "null"]:
+            del keys[name]
+        for key in keys.values():
+            if key.get("default", 0) is None:
+                del key["default"]
+            for one in key.get("items", {}).get("discriminator", {}).get("mapping", {}).values():
+                _ask_for_kind(schema["$defs"][one.rpartition("/")[2]])
+    return schema
+
+
+def _ask_for_kind(table: dict[str, Any]) -> None:
+    """A table of several kinds has to say which it is: only an object in Python knows that by itself."""
+    table["properties"]["kind"].pop("default", None)
+    table["required"] = sorted({"kind", *table.get("required", ())}, key=list(table["properties"]).index)
+
+
+@cache
+def sentences(table: type[BaseModel]) -> dict[str, str]:
+    """What stands below each key of a class and of its bases, from their source."""
+    found: dict[str, str] = {}
+    for each in reversed(table.__mro__):
+        if not (issubclass(each, BaseModel) and each.model_fields):
+            continue
+        try:
+            source = ast.parse(inspect.getsource(each))
+        except OSError:  # installed without its source
+            continue
+        body = next(node.body for node in source.body if isinstance(node, ast.ClassDef))
+        for key, below in pairwise(body):
+            match key, below:
+                case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=str(text))):
+                    found[name] = " ".join(text.split())
+    return found
+
+
+def resolved(schema: dict[str, Any], node: dict[str, Any]) -> dict[str, Any]:
+    """The node that a reference stands for, with the description given beside it."""
+    if "$ref" not in node:
+        return node
+    return {**schema["$defs"][node["$ref"].rpartition("/")[2]], **_without_reference(node)}
+
+
+def _without_reference(node: dict[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in node.items() if key != "$ref"}
+
+
+def branches(schema: dict[str, Any], node: dict[str, Any]) -> list[dict[str, Any]]:
+    """The alternatives of a node: its kinds, or the forms that a value may have; itself where it has none."""
+    node = resolved(schema, node)
+    either = node.get("oneOf") or node.get("anyOf")
+    return [node] if either is None else [part for each in either for part in branches(schema, each)]
+
+
+def kind(table: dict[str, Any]) -> str | None:
+    """The `kind` that a table's key of that name asks for."""
+    key: dict[str, Any] = table.get("properties", {}).get("kind", {})
+    return key.get("const")

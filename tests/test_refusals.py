@@ -138,7 +138,7 @@ STRANGE: list[Any] = [
     {},
     {"x": 1.0},
 ]
-PYDANTIC = set("Input input tuple valid instance dictionary tag constrained union".split())
+PYDANTIC = set(["Input", "input", "tuple", "valid", "instance", "dictionary", "tag", "constrained", "union"])
 
 
 def places(data: Any) -> list[tuple[Any, Any]]:

@@ -26,8 +26,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from lumped.lattice import STEPS
-from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
-from sheetbench.scenes.errors import BadInput
+from lumped.springs import constants
+from sheetbench.scenes import Material, Sheet, SpringSet
 
 SHEAR_CORRECTION = 5.0 / 6.0
 
@@ -54,31 +54,6 @@ class Moduli:
         if square:
             return {**names, "S": self.shear[0]}
         return {**names, "D22": d[1, 1], "A22": a[1, 1], "Sx": self.shear[0], "Sy": self.shear[1]}
-
-
-def family_stiffness(springs: SpringSet, family: str, direction: str) -> float | tuple[float, float, float]:
-    """Stiffness [N/m] of the links of a family that run in a direction: a number, or (kx, ky, kz) of the
-    seed's per-direction law when the scene gives x, y and z."""
-    value = getattr(springs, family)
-    if not isinstance(value, PerDirection):
-        return value
-    if value.z is not None:
-        return (value.x, value.y, value.z)
-    if direction not in ("x", "y"):
-        raise BadInput(
-            f"springs.{family} = {{x, y}}: only axial and cross links run along x or y; give one number"
-        )
-    return value.x if direction == "x" else value.y
-
-
-def strain_stiffness(springs: SpringSet, cells: str) -> tuple[str, tuple[float, float, float]]:
-    """Name and stiffness [N/m], of ε1, ε2 and γ, of the strain springs on the cells called "area"
-    (each layer) or "mid_area" (the mid-surface)."""
-    if cells == "area":
-        return "shear", (0.0, 0.0, springs.shear)
-    stretch = springs.mid_stretch
-    x, y = (stretch.x, stretch.y) if isinstance(stretch, PerDirection) else (stretch, stretch)
-    return "mid_strain", (x, y, springs.mid_shear)
 
 
 def link_forms(spacing: tuple[float, float, float]) -> dict[tuple[str, str], np.ndarray]:
@@ -113,7 +88,7 @@ def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: 
     """Moduli of an interior patch of the lattice with these springs."""
     layer, gap = np.zeros((6, 6)), np.zeros((6, 6))
     for (family, direction), form in link_forms(spacing).items():
-        k = np.mean(family_stiffness(springs, family, direction))
+        k = np.mean(constants.along(springs, family, direction))
         if family in ("axial", "diagonal"):
             layer += k * form
         else:
@@ -121,8 +96,8 @@ def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: 
     dilation = np.zeros((3, 3))
     dilation[:2, :2] = 1.0
     in_layer = layer[:3, :3] + springs.area * dilation
-    in_layer += np.diag(strain_stiffness(springs, "area")[1])
-    mid_surface = springs.mid_area * dilation + np.diag(strain_stiffness(springs, "mid_area")[1])
+    in_layer += np.diag(constants.of_strains(springs, "area")[1])
+    mid_surface = springs.mid_area * dilation + np.diag(constants.of_strains(springs, "mid_area")[1])
     in_gap = gap[:3, :3].copy()
     if gap[3, 3] > 0.0:
         in_gap -= np.outer(gap[:3, 3], gap[:3, 3]) / gap[3, 3]

@@ -25,10 +25,11 @@ import numpy as np
 from lumped.calibration import CLOSED, Calibration
 from lumped.linear.threads import one_blas_thread
 from lumped.loads import locate
+from lumped.springs import constants
 from lumped.statics.equilibrium import State
 from lumped.statics.problem import Problem
 from lumped.statics.solver import pose, settle
-from sheetbench.scenes import Clamped, Curved, PerDirection, Scene, SpringSet, Status, require_static
+from sheetbench.scenes import Clamped, Curved, Scene, Status, require_static
 from sheetbench.scenes.corners import conflict
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.supports import contradiction
@@ -83,36 +84,6 @@ def gradient(
             _, rate, moved = _rates(scene, springs, problem, state, name)
             slopes[name] = float(adjoint @ rate + np.sum(pull * moved))
         return slopes
-
-
-def spring_parameters(springs: SpringSet) -> list[str]:
-    """Names of the spring constants that are not zero, one a direction where directions differ."""
-    names: list[str] = []
-    for name, value in springs:
-        if isinstance(value, PerDirection):
-            names.extend(f"{name}_{direction}" for direction in "xy" if getattr(value, direction))
-        elif value and name != "layer_distance":
-            names.append(name)
-    return names
-
-
-def with_spring(springs: SpringSet, name: str, value: float) -> SpringSet:
-    """The spring set with one constant (or layer_distance) changed. Raises BadInput for an unknown name."""
-    if name in SpringSet.model_fields:
-        return springs.model_copy(update={name: value})
-    family, _, direction = name.rpartition("_")
-    pair = getattr(springs, family, None)
-    if not isinstance(pair, PerDirection) or direction not in ("x", "y"):
-        raise BadInput(f"parameter {name!r}: unknown, or without a value of its own in these springs")
-    return springs.model_copy(update={family: pair.model_copy(update={direction: value})})
-
-
-def spring_value(springs: SpringSet, name: str) -> float:
-    """The value of one spring constant (or layer_distance) by name."""
-    if name in SpringSet.model_fields:
-        return float(getattr(springs, name))
-    family, _, direction = name.rpartition("_")
-    return float(getattr(getattr(springs, family), direction))
 
 
 class _Sampling:
@@ -174,8 +145,8 @@ def _value(scene: Scene, springs: Calibration, name: str) -> float:
         return _bent(scene, name)
     if name.startswith("tilt_"):
         return _tilted(scene, name).tilt
-    with_spring(springs.springs, name, 1.0)  # refuses unknown names
-    return spring_value(springs.springs, name)
+    constants.changed(springs.springs, name, 1.0)  # refuses unknown names
+    return constants.value_of(springs.springs, name)
 
 
 def _bent(scene: Scene, name: str) -> float:
@@ -227,7 +198,7 @@ def _changed(scene: Scene, springs: Calibration, name: str, value: float) -> tup
         if said := contradiction(supports) or conflict(scene.actuators, supports, scene.sheet):
             raise BadInput(f"parameter {name!r}: {said}")
         return scene.model_copy(update={"supports": supports}), springs
-    return scene, replace(springs, springs=with_spring(springs.springs, name, value))
+    return scene, replace(springs, springs=constants.changed(springs.springs, name, value))
 
 
 def _recalibrated(scene: Scene, springs: Calibration) -> tuple[Scene, Calibration]:

@@ -18,7 +18,7 @@ from lumped.calibration import Calibration
 from lumped.lattice import Distribution
 from lumped.linear.threads import one_blas_thread
 from lumped.masses import masses
-from lumped.sensitivity import spring_value, with_spring
+from lumped.springs import constants
 from lumped.statics.solver import pose
 from sheetbench.scenes import Scene, free_rigid_motions
 from sheetbench.scenes.errors import BadInput
@@ -88,11 +88,11 @@ def frequency_slopes(
     modal = np.einsum("n,knq,knq->k", weight, found.shapes, found.shapes)
     slopes = {}
     for name in parameters:
-        step = 1e-3 * abs(spring_value(springs.springs, name))
+        step = 1e-3 * abs(constants.value_of(springs.springs, name))
         sides = []
         for sign in (1.0, -1.0):
-            value = spring_value(springs.springs, name) + sign * step
-            changed = pose(scene, replace(springs, springs=with_spring(springs.springs, name, value)))
+            value = constants.value_of(springs.springs, name) + sign * step
+            changed = pose(scene, replace(springs, springs=constants.changed(springs.springs, name, value)))
             stiffness = [float(np.sum(shape * _product(changed, rest, shape))) for shape in found.shapes]
             sides.append(np.array(stiffness))
         squares = (sides[0] - sides[1]) / (2.0 * step) / modal

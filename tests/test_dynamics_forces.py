@@ -6,33 +6,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_lattice_mechanics import ALL, assembly_of, dense, derivative, state
 
-from lumped.dynamics import discrete_gradients as conserving
-from lumped.springs import area_dampers, strain_dampers, strains
-from lumped.springs import link_dampers as dampers
-
 GRIDS = [(3, 4, 2), (3, 3, 3)]
 
 
-def damper_force(assembly, u, v, scale=1.0):
-    links, force = assembly.links, np.zeros_like(u)
-    row = (links.nodes, links.offset, links.rest_length, scale * links.stiffness)
-    power = dampers.add_forces(u, v, *row, force)
-    for c in assembly.cells:
-        power += area_dampers.add_forces(u, v, c.nodes, c.diagonals, scale * c.stiffness, force)
-    for c in assembly.strains:
-        power += strain_dampers.add_forces(u, v, c.nodes, c.diagonals, scale * c.stiffness, force)
-    return power, force
+def dampers_of(assembly):
+    return [family.damped(1.0) for family in assembly.springs]
 
 
-def average_force(assembly, start, end):
-    links, force = assembly.links, np.zeros_like(start)
-    row = (links.nodes, links.offset, links.rest_length, links.stiffness)
-    conserving.add_link_forces(start, end, *row, force)
-    for c in assembly.cells:
-        conserving.add_cell_forces(start, end, c.nodes, c.diagonals, c.stiffness, force)
-    for c in assembly.strains:
-        strains.add_average_forces(start, end, c.nodes, c.diagonals, c.stiffness, force)
-    return force
+def damper_force(assembly, u, v):
+    force = np.zeros_like(u)
+    return sum(dampers.add_force(u, v, force) for dampers in dampers_of(assembly)), force
 
 
 @pytest.mark.parametrize("grid", GRIDS)
@@ -44,18 +27,9 @@ def test_damper_force_and_tangents_are_derivatives(grid):
     assert np.allclose(potential.ravel(), force.ravel(), atol=1e-7 * np.abs(force).max())
     assert power == pytest.approx(np.sum(force * v), rel=1e-12)
     by_velocity, by_displacement = (np.zeros((assembly.pattern.blocks, 3, 3)) for _ in range(2))
-    links = assembly.links
-    row = (links.nodes, links.offset, links.rest_length, links.stiffness, links.slots)
-    dampers.add_velocity_tangent(u, *row, 0.5, by_velocity)
-    dampers.add_displacement_tangent(u, v, *row, by_displacement)
-    for c in assembly.cells:
-        cell = (c.nodes, c.diagonals, c.stiffness, c.slots)
-        area_dampers.add_velocity_tangent(u, *cell, 0.5, by_velocity)
-        area_dampers.add_displacement_tangent(u, v, *cell, by_displacement)
-    for c in assembly.strains:
-        cell = (c.nodes, c.diagonals, c.stiffness, c.slots)
-        strain_dampers.add_velocity_tangent(u, *cell, 0.5, by_velocity)
-        strain_dampers.add_displacement_tangent(u, v, *cell, by_displacement)
+    for dampers in dampers_of(assembly):
+        dampers.add_velocity_tangent(u, 0.5, by_velocity)
+        dampers.add_displacement_tangent(u, v, by_displacement)
     numeric = derivative(lambda w: damper_force(assembly, u, w)[1], v)
     assert np.allclose(2.0 * dense(assembly, by_velocity), numeric, atol=1e-7 * np.abs(numeric).max())
     numeric = derivative(lambda w: damper_force(assembly, w, v)[1], u)
@@ -68,7 +42,7 @@ def test_average_forces_give_back_the_energy_and_conserve_momentum(seed, size):
     assembly = assembly_of(**ALL)
     start = state(assembly, seed=seed)
     end = start + state(assembly, size=size, seed=seed + 1)
-    force = average_force(assembly, start, end)
+    force = assembly.average_force(start, end)
     stored = assembly.force(end)[0] - assembly.force(start)[0]
     moved = np.sum(force * (end - start))
     assert moved == pytest.approx(stored, abs=1e-12 * max(assembly.force(end)[0], assembly.force(start)[0]))
@@ -82,7 +56,7 @@ def test_average_forces_give_back_the_energy_and_conserve_momentum(seed, size):
 def test_average_force_of_equal_states_is_the_force(grid):
     assembly = assembly_of(grid, **ALL)
     u = state(assembly)
-    assert np.allclose(average_force(assembly, u, u), assembly.force(u)[1], atol=1e-11)
+    assert np.allclose(assembly.average_force(u, u), assembly.force(u)[1], atol=1e-11)
 
 
 @settings(max_examples=20, deadline=None)

@@ -8,7 +8,7 @@ import pytest
 import fem_reference
 import lumped
 from lumped import ModalTarget, StaticTarget, identifiability
-from lumped.sensitivity import with_spring
+from lumped.springs import constants
 from lumped.vibration import frequency_slopes
 from sheetbench import scenes
 
@@ -31,7 +31,7 @@ def shell():
 def test_fit_static_recovers_the_springs_that_made_the_data():
     true = lumped.calibrate(SHEET, MATERIAL, (5, 5)).springs
     for name, factor in (("axial", 1.1), ("diagonal", 0.9), ("area", 1.2)):
-        true = with_spring(true, name, factor * getattr(true, name))
+        true = constants.changed(true, name, factor * getattr(true, name))
     made = replace(lumped.calibrate(SHEET, MATERIAL, (5, 5)), springs=true)
     targets = [StaticTarget(s, POINTS, lumped.solve(s, made).displacement(POINTS)) for s in TRAINING]
     fitted = lumped.calibrate(SHEET, MATERIAL, (5, 5), "fit-static", targets=targets)
@@ -81,7 +81,9 @@ def test_frequency_slopes_against_differences():
         )
         sides = [
             lumped.modes(
-                scene, replace(springs, springs=with_spring(springs.springs, name, k * (1 + sign * 1e-4))), 3
+                scene,
+                replace(springs, springs=constants.changed(springs.springs, name, k * (1 + sign * 1e-4))),
+                3,
             ).frequencies
             for sign in (1, -1)
         ]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import lumped
-from lumped.sensitivity import spring_parameters, with_spring
+from lumped.springs import constants
 from sheetbench import scenes
 from sheetbench.scenes import Clamped, EdgeLoad, PointLoad
 
@@ -39,12 +39,12 @@ def assert_close(mine, theirs, within=2e-5):
 def test_every_spring_constant(grid):
     scene = scene_of("two-edges-clamped")
     springs = springs_of(scene, grid)
-    names = [*spring_parameters(springs.springs), "layer_distance"]
+    names = [*constants.names(springs.springs), "layer_distance"]
     assert len(names) >= 8
     found = lumped.sensitivity(scene, springs, names)
 
     def change(scene, springs, value, name):
-        return scene, replace(springs, springs=with_spring(springs.springs, name, value))
+        return scene, replace(springs, springs=constants.changed(springs.springs, name, value))
 
     for name in names:
         value = found.values[name]

@@ -8,17 +8,11 @@ entry for them. damping_rate × m v acts on every mass. What has a zero coeffici
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from lumped.assembly import Assembly, Cells
-from lumped.lattice import Lattice
-from lumped.moduli import family_stiffness
-from lumped.springs import area_dampers, strain_dampers
-from lumped.springs import link_dampers as dampers
+from lumped.assembly import Assembly
+from lumped.springs.families import table_dampers
 from sheetbench.scenes import Scene
-from sheetbench.scenes.errors import BadInput
 
 
 class Damping:
@@ -31,37 +25,21 @@ class Damping:
         self._coupling = assembly.coupling
         self._coupling_slots = assembly.coupling_slots if assembly.coupling is not None else np.empty(0, int)
         self._rate = scene.material.damping_rate * mass
-        time = scene.material.damping_time
         if scene.dampers is not None:
-            parts = _table(scene.dampers, assembly.lattice)
+            self._dampers = [table_dampers(assembly.lattice, assembly.pattern, scene.dampers)]
         else:
-            k = [assembly.links.stiffness, assembly.directional.stiffness.mean(axis=-1)]
-            parts = [
-                (links.nodes, links.offset, links.rest_length, time * stiffness)
-                for links, stiffness in zip((assembly.links, assembly.directional), k, strict=True)
-                if len(links)
-            ]
-        nodes, offset, rest, damping = (np.concatenate(part) for part in zip(*parts, strict=True))
-        some = damping > 0.0
-        self._links = (nodes[some], offset[some], rest[some], damping[some])
-        a, b = self._links[0].T
-        self._link_slots = np.stack([assembly.pattern.slots(*p) for p in ((a, a), (a, b), (b, a), (b, b))], 1)
-        self._cells: list[tuple[Any, Cells, np.ndarray]] = []  # kernels, cells, coefficients
-        if scene.dampers is None and time > 0.0:
-            self._cells += [(area_dampers, c, time * c.stiffness) for c in assembly.cells]
-            self._cells += [(strain_dampers, c, time * c.stiffness) for c in assembly.strains]
+            time = scene.material.damping_time
+            self._dampers = [family.damped(time) for family in assembly.springs] if time else []
         self._diagonal = assembly.pattern.slots(np.arange(len(mass)), np.arange(len(mass)))
         in_chains = any(getattr(a, "damping_time", 0.0) > 0.0 for a in scene.actuators)
-        self.proportional = scene.dampers is None and not scene.actuators and not len(assembly.directional)
-        self.present = bool(some.any() or self._cells or self._rate.any() or in_chains)
+        self.proportional = scene.dampers is None and not scene.actuators and assembly.conservative
+        self.present = bool(self._dampers or self._rate.any() or in_chains)
 
     def add_force(self, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
         """Add the damping force, signed as an internal one; the power taken [W]."""
         if not self.present:
             return 0.0
-        power = dampers.add_forces(u, v, *self._links, force)
-        for kernels, c, damping in self._cells:
-            power += kernels.add_forces(u, v, c.nodes, c.diagonals, damping, force)
+        power = sum(dampers.add_force(u, v, force) for dampers in self._dampers)
         masses = len(self._rate)
         resisting = self._rate[:, None] * v[:masses]
         force[:masses] += resisting
@@ -74,37 +52,18 @@ class Damping:
         """Add scale × the derivative of the force by the velocity to the 3×3 blocks."""
         if not self.present:
             return
-        dampers.add_velocity_tangent(u, *self._links, self._link_slots, scale, blocks)
-        for kernels, c, damping in self._cells:
-            kernels.add_velocity_tangent(u, c.nodes, c.diagonals, damping, c.slots, scale, blocks)
+        for dampers in self._dampers:
+            dampers.add_velocity_tangent(u, scale, blocks)
         blocks[self._diagonal] += scale * self._rate[:, None, None] * np.eye(3)
         if self._coupling is not None:
             self._coupling.add_damping_tangent(u, scale, self._coupling_slots, blocks)
 
     def add_displacement_tangent(self, u: np.ndarray, v: np.ndarray, blocks: np.ndarray) -> None:
         """Add the derivative of the lattice's damping force by the displacement, which is unsymmetric."""
-        if not self.present:
-            return
-        dampers.add_displacement_tangent(u, v, *self._links, self._link_slots, blocks)
-        for kernels, c, damping in self._cells:
-            kernels.add_displacement_tangent(u, v, c.nodes, c.diagonals, damping, c.slots, blocks)
+        for dampers in self._dampers:
+            dampers.add_displacement_tangent(u, v, blocks)
 
-    def link_weights(self, h: float) -> tuple[np.ndarray, np.ndarray]:
-        """Slots (m, 4) and c/h (m,) [N/m] of the link dampers: what they add to a step's stiffness."""
-        return self._link_slots, self._links[3] / h
-
-    def cell_weights(self, h: float) -> list[tuple[Cells, np.ndarray]]:
-        """The damped cells with c/h [N/m]."""
-        return [(c, damping / h) for _, c, damping in self._cells]
-
-
-def _table(table: Any, lattice: Lattice) -> list[tuple[np.ndarray, ...]]:
-    parts: list[tuple[np.ndarray, ...]] = []
-    for family in lattice.links:
-        c = family_stiffness(table, family.name, family.direction)
-        if np.ndim(c):
-            raise BadInput(
-                f"dampers.{family.name}: a damper acts along its link; give one number, or x and y"
-            )
-        parts.append((family.nodes, family.offset, family.rest_length, family.weight * float(np.max(c))))
-    return parts
+    def add_bound(self, step: float, blocks: np.ndarray) -> None:
+        """Add what the dampers bring to the bound of a step's stiffness, see `Family.add_bound`."""
+        for dampers in self._dampers:
+            dampers.add_bound(step, blocks)

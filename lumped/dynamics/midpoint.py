@@ -2,7 +2,7 @@
 
     M (v₁ − v₀)/h + f̄(u₀, u₁) + f_damp(ū, Δu/h) + J(ū)ᵀ λ = f_ext(ū, t̄),   Δu = ½ h (v₀ + v₁),   Φ(u₁) = 0
 
-with the discrete gradient f̄ of the elastic energy (`lumped.dynamics.discrete_gradients`,
+with the discrete gradient f̄ of the elastic energy (`add_average_forces` of the springs and of
 `lumped.actuators.joints`): f̄·Δu = ΔE exactly, J(ū) Δu = ΔΦ = 0 since Φ is quadratic, constant dead loads do
 exactly their potential's work, all others f_ext(ū, t̄)·Δu, and dampers take h P(ū, Δu/h) ≥ 0. Energy is held
 to the tolerance of the iteration; linear and angular momentum of a free sheet too. Source: Simo and Tarnow

@@ -17,7 +17,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from lumped.assembly import Cells
 from lumped.dynamics.integrator import Advance, Integrator, StepFailed
 from lumped.dynamics.system import State, System
 from lumped.linear.solver import Factor, ReducedSystem
@@ -99,39 +98,11 @@ class Projective(Integrator):
         """Factors of M/h² + L."""
         system, assembly = self.system, self.system.assembly
         blocks = system.mass_blocks / h**2
-        unit = np.eye(3)
-        rows = [(links.slots, links.stiffness) for links in (assembly.links,) if len(links)]
-        if len(assembly.directional):
-            rows.append((assembly.directional.slots, assembly.directional.stiffness.max(axis=1)))
-        rows.append(system.damping.link_weights(h))
-        for slots, weight in rows:
-            for column, sign in enumerate((1.0, -1.0, -1.0, 1.0)):
-                np.add.at(blocks, slots[:, column], sign * weight[:, None, None] * unit)
-        cells = [(c, c.stiffness) for c in assembly.cells + assembly.strains]
-        for c, stiffness in [*cells, *system.damping.cell_weights(h)]:
-            p, k = c.nodes.shape[2], stiffness if stiffness.ndim == 1 else _on_diagonals(c, stiffness)
-            for corner in range(4):
-                for other in (corner, (corner + 2) % 4):
-                    sign = 1.0 if other == corner else -1.0
-                    slots = c.slots[:, corner * p : (corner + 1) * p, other * p : (other + 1) * p]
-                    weight = sign * np.abs(k) / p**2
-                    np.add.at(blocks, slots, weight[:, None, None, None, None] * unit)
+        for family in assembly.springs:
+            family.add_bound(blocks)
+        system.damping.add_bound(h, blocks)
         reduced = ReducedSystem(assembly.pattern, system.transform, symmetric=True)
         return reduced.factor(blocks)
-
-
-def _on_diagonals(cells: Cells, stiffness: np.ndarray) -> np.ndarray:
-    """What strain springs (c, 3) weigh at most on either diagonal, (c,) [N/m]."""
-    a, b = (np.linalg.norm(d, axis=1) / 2.0 for d in np.moveaxis(_sum_and_difference(cells), 1, 0))
-    k1, k2, k3 = np.abs(stiffness).T
-    weight: np.ndarray = 0.5 * (k1 * b / a + k2 * a / b + 2.0 * k3 * (a / b + b / a))
-    return weight
-
-
-def _sum_and_difference(cells: Cells) -> np.ndarray:
-    """Twice the sides, (c, 2, 3) [m]: d1 − d2 and d1 + d2."""
-    d1, d2 = cells.diagonals[:, 0], cells.diagonals[:, 1]
-    return np.stack([d1 - d2, d1 + d2], axis=1)
 
 
 def _two_loops(

@@ -17,11 +17,8 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from lumped.actuators import Drive
-from lumped.dynamics import discrete_gradients as conserving
 from lumped.dynamics.damping import Damping
 from lumped.masses import masses
-from lumped.springs import links as springs
-from lumped.springs import strains
 from lumped.statics.problem import Problem
 from sheetbench.scenes import Scene, held_axes, holds_director
 
@@ -138,17 +135,7 @@ class System:
 
     def average_elastic(self, start: np.ndarray, end: np.ndarray, time: float) -> np.ndarray:
         """Internal force whose work from `start` to `end` is the energy stored, commands as at `time`."""
-        force = np.zeros_like(start)
-        row = self.assembly.links
-        conserving.add_link_forces(start, end, row.nodes, row.offset, row.rest_length, row.stiffness, force)
-        for c in self.assembly.cells:
-            conserving.add_cell_forces(start, end, c.nodes, c.diagonals, c.stiffness, force)
-        for c in self.assembly.strains:
-            strains.add_average_forces(start, end, c.nodes, c.diagonals, c.stiffness, force)
-        d = self.assembly.directional
-        if len(d):
-            middle = 0.5 * (start + end)
-            springs.add_directional_forces(middle, d.nodes, d.offset, d.rest_length, d.stiffness, force)
+        force = self.assembly.average_force(start, end)
         if self.coupling is not None:
             self.coupling.add_average_force(start, end, self.drive(time), force)
         return force

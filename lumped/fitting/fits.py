@@ -24,7 +24,8 @@ from lumped.calibration.consistent import consistent
 from lumped.fitting.identifiability import Identifiability, identifiability
 from lumped.fitting.targets import ModalTarget, StaticTarget, Target
 from lumped.lattice import Grid
-from lumped.sensitivity import sensitivity, spring_parameters, spring_value, with_spring
+from lumped.sensitivity import sensitivity
+from lumped.springs import constants
 from lumped.vibration import frequency_slopes
 from sheetbench.scenes import Material, Sheet, SpringSet
 from sheetbench.scenes.errors import BadInput
@@ -97,20 +98,20 @@ def _fit(
     compare: Callable[[Any, Calibration, list[str]], Compared],
 ) -> FittedCalibration:
     """The fit of `method` to targets, from the springs `first` on."""
-    names = [name for name in spring_parameters(first.springs) if name not in KEPT]
-    start = {name: spring_value(first.springs, name) for name in names}
+    names = [name for name in constants.names(first.springs) if name not in KEPT]
+    start = {name: constants.value_of(first.springs, name) for name in names}
     signed = {name for name in names if name in ("area", "mid_area")}
-    unit = spring_value(first.springs, "diagonal")
+    unit = constants.value_of(first.springs, "diagonal")
 
     def springs_of(change: np.ndarray) -> Calibration:
         springs: SpringSet = first.springs
         for name, x in zip(names, change, strict=True):
             value = start[name] + unit * x if name in signed else start[name] * np.exp(x)
-            springs = with_spring(springs, name, float(value))
+            springs = constants.changed(springs, name, float(value))
         return replace(first, method=method, springs=springs)
 
     def jacobian(slopes: dict[str, np.ndarray], springs: SpringSet) -> np.ndarray:
-        scale = {name: unit if name in signed else spring_value(springs, name) for name in names}
+        scale = {name: unit if name in signed else constants.value_of(springs, name) for name in names}
         return np.stack([slopes[name] * scale[name] for name in names], axis=1)
 
     kept: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}

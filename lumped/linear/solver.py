@@ -19,8 +19,8 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import LinearOperator, eigs, onenormest, splu
 
-from lumped.assembly import Pattern
 from lumped.linear.saddle_point import Saddle
+from lumped.pattern import Pattern
 
 rslab: Any
 try:

@@ -16,19 +16,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from lumped.springs.areas import _cross, _diagonals, _geometry, add_tangent
-
-
-@njit(cache=True)
-def _scatter(nodes, c, pair, force) -> None:
-    """Add forces (2, 3) on the two diagonals of cell c to its masses."""
-    p = nodes.shape[2]
-    for q in range(3):
-        for s in range(p):
-            force[nodes[c, 0, s], q] -= pair[0, q] / p
-            force[nodes[c, 2, s], q] += pair[0, q] / p
-            force[nodes[c, 1, s], q] -= pair[1, q] / p
-            force[nodes[c, 3, s], q] += pair[1, q] / p
+from lumped.springs.areas import add_tangent, cross, diagonal_changes, measure, scatter
 
 
 @njit(cache=True)
@@ -38,8 +26,8 @@ def rates(u: np.ndarray, v: np.ndarray, nodes, diagonals, damping) -> np.ndarray
     normal, work = np.empty(3), np.empty(3)
     out = np.empty(len(nodes))
     for c in range(len(nodes)):
-        _, area, _ = _geometry(u, nodes, diagonals, c, change, current, normal, gradient, work)
-        _diagonals(v, nodes, c, change)
+        _, area, _ = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        diagonal_changes(v, nodes, c, change)
         rate = 0.0
         for q in range(3):
             rate += gradient[0, q] * change[0, q] + gradient[1, q] * change[1, q]
@@ -54,8 +42,8 @@ def add_forces(u, v, nodes, diagonals, damping, force) -> float:
     normal, work = np.empty(3), np.empty(3)
     power = 0.0
     for c in range(len(nodes)):
-        _, area, _ = _geometry(u, nodes, diagonals, c, change, current, normal, gradient, work)
-        _diagonals(v, nodes, c, change)
+        _, area, _ = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        diagonal_changes(v, nodes, c, change)
         rate = 0.0
         for q in range(3):
             rate += gradient[0, q] * change[0, q] + gradient[1, q] * change[1, q]
@@ -64,7 +52,7 @@ def add_forces(u, v, nodes, diagonals, damping, force) -> float:
         for q in range(3):
             gradient[0, q] *= stress
             gradient[1, q] *= stress
-        _scatter(nodes, c, gradient, force)
+        scatter(nodes, c, gradient, force)
     return power
 
 
@@ -85,22 +73,22 @@ def add_displacement_tangent(u, v, nodes, diagonals, damping, slots, blocks) -> 
     turned = np.empty((2, 3))
     p = nodes.shape[2]
     for c in range(len(nodes)):
-        _, area, size = _geometry(u, nodes, diagonals, c, change, current, normal, gradient, work)
-        _diagonals(v, nodes, c, change)
-        _cross(change[0], current[1], turning)
-        _cross(current[0], change[1], work)
+        _, area, size = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        diagonal_changes(v, nodes, c, change)
+        cross(change[0], current[1], turning)
+        cross(current[0], change[1], work)
         along = 0.0
         for q in range(3):
             turning[q] += work[q]
             along += normal[q] * turning[q]
         for q in range(3):
             turning[q] = (turning[q] - along * normal[q]) / size
-        _cross(change[1], normal, turned[0])
-        _cross(current[1], turning, work)
+        cross(change[1], normal, turned[0])
+        cross(current[1], turning, work)
         for q in range(3):
             turned[0, q] = 0.5 * (turned[0, q] + work[q])
-        _cross(turning, current[0], turned[1])
-        _cross(normal, change[0], work)
+        cross(turning, current[0], turned[1])
+        cross(normal, change[0], work)
         for q in range(3):
             turned[1, q] = 0.5 * (turned[1, q] + work[q])
         for corner in range(4):

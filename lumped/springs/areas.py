@@ -21,14 +21,14 @@ from numba import njit
 
 
 @njit(cache=True)
-def _cross(a, b, out):
+def cross(a, b, out):
     out[0] = a[1] * b[2] - a[2] * b[1]
     out[1] = a[2] * b[0] - a[0] * b[2]
     out[2] = a[0] * b[1] - a[1] * b[0]
 
 
 @njit(cache=True)
-def _diagonals(u, nodes, c, change):
+def diagonal_changes(u, nodes, c, change):
     """Change of the two diagonals of cell c, (2, 3), into `change`."""
     p = nodes.shape[2]
     for q in range(3):
@@ -41,14 +41,14 @@ def _diagonals(u, nodes, c, change):
 
 
 @njit(cache=True)
-def _geometry(u, nodes, diagonals, c, change, current, normal, gradient, work):
+def measure(u, nodes, diagonals, c, change, current, normal, gradient, work):
     """Relative area change, rest area, |c|; fills normal (3,) and gradient (2, 3) = ∂a/∂d1, ∂a/∂d2."""
-    _diagonals(u, nodes, c, change)
+    diagonal_changes(u, nodes, c, change)
     d1, d2 = diagonals[c, 0], diagonals[c, 1]
     for q in range(3):
         current[0, q] = d1[q] + change[0, q]
         current[1, q] = d2[q] + change[1, q]
-    _cross(current[0], current[1], normal)
+    cross(current[0], current[1], normal)
     size = math.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
     rest_x, rest_y, rest_z = (
         d1[1] * d2[2] - d1[2] * d2[1],
@@ -57,20 +57,32 @@ def _geometry(u, nodes, diagonals, c, change, current, normal, gradient, work):
     )
     rest = math.sqrt(rest_x**2 + rest_y**2 + rest_z**2)
     # |c| − |c0| = (2 c0·δ + δ·δ)/(|c| + |c0|) with δ = δd1 × d2 + current d1 × δd2: no digits lost
-    _cross(change[0], d2, work)
+    cross(change[0], d2, work)
     dx, dy, dz = work[0], work[1], work[2]
-    _cross(current[0], change[1], work)
+    cross(current[0], change[1], work)
     dx, dy, dz = dx + work[0], dy + work[1], dz + work[2]
     growth = 2.0 * (rest_x * dx + rest_y * dy + rest_z * dz) + dx * dx + dy * dy + dz * dz
     strain = growth / (size + rest) / rest
     for q in range(3):
         normal[q] /= size
-    _cross(current[1], normal, gradient[0])
-    _cross(normal, current[0], gradient[1])
+    cross(current[1], normal, gradient[0])
+    cross(normal, current[0], gradient[1])
     for q in range(3):
         gradient[0, q] *= 0.5
         gradient[1, q] *= 0.5
     return strain, 0.5 * rest, size
+
+
+@njit(cache=True)
+def scatter(nodes, c, pair, force) -> None:
+    """Add forces (2, 3) on the two diagonals of cell c to its masses."""
+    p = nodes.shape[2]
+    for q in range(3):
+        for s in range(p):
+            force[nodes[c, 0, s], q] -= pair[0, q] / p
+            force[nodes[c, 2, s], q] += pair[0, q] / p
+            force[nodes[c, 1, s], q] -= pair[1, q] / p
+            force[nodes[c, 3, s], q] += pair[1, q] / p
 
 
 @njit(cache=True)
@@ -80,7 +92,7 @@ def stresses(u: np.ndarray, nodes, diagonals, stiffness) -> np.ndarray:
     normal, work = np.empty(3), np.empty(3)
     out = np.empty(len(nodes))
     for c in range(len(nodes)):
-        strain, _, _ = _geometry(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        strain, _, _ = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
         out[c] = stiffness[c] * strain
     return out
 
@@ -92,8 +104,8 @@ def extrapolated_stresses(u, step, nodes, diagonals, stiffness) -> np.ndarray:
     normal, work = np.empty(3), np.empty(3)
     out = np.empty(len(nodes))
     for c in range(len(nodes)):
-        strain, area, _ = _geometry(u, nodes, diagonals, c, change, current, normal, gradient, work)
-        _diagonals(step, nodes, c, change)
+        strain, area, _ = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        diagonal_changes(step, nodes, c, change)
         growth = 0.0
         for q in range(3):
             growth += gradient[0, q] * change[0, q] + gradient[1, q] * change[1, q]
@@ -106,20 +118,56 @@ def add_forces(u, nodes, diagonals, stiffness, force) -> float:
     """Add the internal force to `force` (n, 3) [N]; returns the energy [J]."""
     change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     normal, work = np.empty(3), np.empty(3)
-    p = nodes.shape[2]
     energy = 0.0
     for c in range(len(nodes)):
-        strain, area, _ = _geometry(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        strain, area, _ = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
         stress = stiffness[c] * strain
         energy += 0.5 * stress * strain * area
         for q in range(3):
-            first, second = stress * gradient[0, q] / p, stress * gradient[1, q] / p
-            for s in range(p):
-                force[nodes[c, 0, s], q] -= first
-                force[nodes[c, 2, s], q] += first
-                force[nodes[c, 1, s], q] -= second
-                force[nodes[c, 3, s], q] += second
+            gradient[0, q] *= stress
+            gradient[1, q] *= stress
+        scatter(nodes, c, gradient, force)
     return energy
+
+
+@njit(cache=True)
+def _products(d):
+    """g11, g12, g22 of two vectors (2, 3)."""
+    g11 = d[0, 0] * d[0, 0] + d[0, 1] * d[0, 1] + d[0, 2] * d[0, 2]
+    g12 = d[0, 0] * d[1, 0] + d[0, 1] * d[1, 1] + d[0, 2] * d[1, 2]
+    g22 = d[1, 0] * d[1, 0] + d[1, 1] * d[1, 1] + d[1, 2] * d[1, 2]
+    return g11, g12, g22
+
+
+@njit(cache=True)
+def add_average_forces(start, end, nodes, diagonals, stiffness, force) -> None:
+    """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it:
+
+    τ̄ (ḡ22 d̄1 − ḡ12 d̄2, ḡ11 d̄2 − ḡ12 d̄1)/(|c0| + |c1|),   τ̄ = k ((a0 + a1)/2a_rest − 1)
+
+    with g_ij = d_i·d_j, bars for means and |c| = 2 a: |c|² = g11 g22 − g12² is quadratic in g, and g in d, so
+    that the mean values give the differences exactly. Derived here, after Simo and Tarnow (1992).
+    """
+    first, second, pair = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
+    for c in range(len(nodes)):
+        diagonal_changes(start, nodes, c, first)
+        diagonal_changes(end, nodes, c, second)
+        for d in range(2):
+            for q in range(3):
+                first[d, q] += diagonals[c, d, q]
+                second[d, q] += diagonals[c, d, q]
+        a11, a12, a22 = _products(first)
+        b11, b12, b22 = _products(second)
+        r11, r12, r22 = _products(diagonals[c])
+        size = math.sqrt(a11 * a22 - a12 * a12) + math.sqrt(b11 * b22 - b12 * b12)
+        rest = math.sqrt(r11 * r22 - r12 * r12)
+        g11, g12, g22 = 0.5 * (a11 + b11), 0.5 * (a12 + b12), 0.5 * (a22 + b22)
+        stress = stiffness[c] * (0.5 * size / rest - 1.0) / size
+        for q in range(3):
+            d1, d2 = 0.5 * (first[0, q] + second[0, q]), 0.5 * (first[1, q] + second[1, q])
+            pair[0, q] = stress * (g22 * d1 - g12 * d2)
+            pair[1, q] = stress * (g11 * d2 - g12 * d1)
+        scatter(nodes, c, pair, force)
 
 
 @njit(cache=True)
@@ -131,7 +179,7 @@ def add_tangent(u, nodes, diagonals, stiffness, stress, slots, blocks) -> None:
     hessian = np.empty((2, 3, 2, 3))  # in (δd1, δd2)
     spin = np.empty((2, 3, 3))  # δc = spin[0] δd1 + spin[1] δd2
     for c in range(len(nodes)):
-        _, area, size = _geometry(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        _, area, size = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
         for q in range(3):
             for r in range(3):
                 spin[0, q, r] = spin[1, q, r] = 0.0

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from lumped.springs.links import _stretch
+from lumped.springs.links import stretch
 
 
 @njit(cache=True)
@@ -21,7 +21,7 @@ def add_forces(u: np.ndarray, v: np.ndarray, nodes, offset, rest_length, damping
     power = 0.0
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
-        _, _, nx, ny, nz = _stretch(u, nodes, offset, rest_length, m)
+        _, _, nx, ny, nz = stretch(u, nodes, offset, rest_length, m)
         rate = nx * (v[b, 0] - v[a, 0]) + ny * (v[b, 1] - v[a, 1]) + nz * (v[b, 2] - v[a, 2])
         pull = damping[m] * rate
         power += pull * rate
@@ -39,7 +39,7 @@ def add_velocity_tangent(u, nodes, offset, rest_length, damping, slots, scale, b
     """Add scale × the derivative of the force with respect to the velocity, c n nᵀ, to the 3×3 blocks."""
     n = np.empty(3)
     for m in range(len(nodes)):
-        _, _, n[0], n[1], n[2] = _stretch(u, nodes, offset, rest_length, m)
+        _, _, n[0], n[1], n[2] = stretch(u, nodes, offset, rest_length, m)
         for p in range(3):
             for q in range(3):
                 value = scale * damping[m] * n[p] * n[q]
@@ -55,7 +55,7 @@ def add_displacement_tangent(u, v, nodes, offset, rest_length, damping, slots, b
     n, across = np.empty(3), np.empty(3)
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
-        _, length, n[0], n[1], n[2] = _stretch(u, nodes, offset, rest_length, m)
+        _, length, n[0], n[1], n[2] = stretch(u, nodes, offset, rest_length, m)
         rate = 0.0
         for q in range(3):
             rate += n[q] * (v[b, q] - v[a, q])

@@ -4,9 +4,11 @@ A link of rest vector d0, rest length L, stiffness k and relative displacement d
 the elongation e = r − L written as (2 d0·du + du·du)/(r + L), which loses no digits when du is small.
 Tension N = k e; force ± N n on its ends; tangent k n nᵀ + (N/r)(I − n nᵀ). The tangent takes N as an
 argument of its own so that a solver may put in the extrapolated tension of Magisano, Leonetti and
-Garcea (2017) or its positive part. Arrays: displacement (n, 3) [m]; nodes (m, 2); offset (m, 3) [m];
-rest_length (m,) [m]; stiffness (m,) [N/m]; tension (m,) [N]; slots (m, 4) block numbers aa, ab, ba, bb;
-blocks (b, 3, 3) [N/m], added to.
+Garcea (2017) or its positive part. The average force over a step depends on positions through scalar products
+only, which conserves momentum, and its quotient cannot vanish below.
+
+Arrays: displacement (n, 3) [m]; nodes (m, 2); offset (m, 3) [m]; rest_length (m,) [m]; stiffness (m,) [N/m];
+tension (m,) [N]; slots (m, 4) block numbers aa, ab, ba, bb; blocks (b, 3, 3) [N/m], added to.
 """
 
 from __future__ import annotations
@@ -18,7 +20,7 @@ from numba import njit
 
 
 @njit(cache=True, inline="always")
-def _stretch(u, nodes, offset, rest_length, m):
+def stretch(u, nodes, offset, rest_length, m):
     """Elongation, current length and unit vector of link m."""
     a, b = nodes[m, 0], nodes[m, 1]
     dx, dy, dz = u[b, 0] - u[a, 0], u[b, 1] - u[a, 1], u[b, 2] - u[a, 2]
@@ -31,21 +33,21 @@ def _stretch(u, nodes, offset, rest_length, m):
 
 
 @njit(cache=True)
-def tensions(u: np.ndarray, nodes, offset, rest_length, stiffness) -> np.ndarray:
+def stresses(u: np.ndarray, nodes, offset, rest_length, stiffness) -> np.ndarray:
     """Tension of every link, (m,) [N]."""
     out = np.empty(len(nodes))
     for m in range(len(nodes)):
-        out[m] = stiffness[m] * _stretch(u, nodes, offset, rest_length, m)[0]
+        out[m] = stiffness[m] * stretch(u, nodes, offset, rest_length, m)[0]
     return out
 
 
 @njit(cache=True)
-def extrapolated_tensions(u, step, nodes, offset, rest_length, stiffness) -> np.ndarray:
+def extrapolated_stresses(u, step, nodes, offset, rest_length, stiffness) -> np.ndarray:
     """Tensions k (e(u) + n·δ) that the linearisation at u predicts after `step` (n, 3) [m]; (m,) [N]."""
     out = np.empty(len(nodes))
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
-        e, _, nx, ny, nz = _stretch(u, nodes, offset, rest_length, m)
+        e, _, nx, ny, nz = stretch(u, nodes, offset, rest_length, m)
         along = (
             nx * (step[b, 0] - step[a, 0]) + ny * (step[b, 1] - step[a, 1]) + nz * (step[b, 2] - step[a, 2])
         )
@@ -59,7 +61,7 @@ def add_forces(u, nodes, offset, rest_length, stiffness, force) -> float:
     energy = 0.0
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
-        e, _, nx, ny, nz = _stretch(u, nodes, offset, rest_length, m)
+        e, _, nx, ny, nz = stretch(u, nodes, offset, rest_length, m)
         tension = stiffness[m] * e
         energy += 0.5 * tension * e
         force[a, 0] -= tension * nx
@@ -72,11 +74,29 @@ def add_forces(u, nodes, offset, rest_length, stiffness, force) -> float:
 
 
 @njit(cache=True)
+def add_average_forces(start, end, nodes, offset, rest_length, stiffness, force) -> None:
+    """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it:
+
+    k (e0 + e1)/(l0 + l1) r̄, with r̄ the mean of relative positions, since l1² − l0² = 2 r̄·Δr and
+    ½ k (e1² − e0²) = force·Δr (Simo and Tarnow 1992, Gonzalez 1996).
+    """
+    for m in range(len(nodes)):
+        a, b = nodes[m, 0], nodes[m, 1]
+        e0, l0, _, _, _ = stretch(start, nodes, offset, rest_length, m)
+        e1, l1, _, _, _ = stretch(end, nodes, offset, rest_length, m)
+        pull = stiffness[m] * (e0 + e1) / (l0 + l1)
+        for q in range(3):
+            mean = offset[m, q] + 0.5 * (start[b, q] - start[a, q] + end[b, q] - end[a, q])
+            force[a, q] -= pull * mean
+            force[b, q] += pull * mean
+
+
+@njit(cache=True)
 def add_tangent(u, nodes, offset, rest_length, stiffness, tension, slots, blocks) -> None:
     """Add k n nᵀ + (N/r)(I − n nᵀ) of every link to the 3×3 blocks."""
     n = np.empty(3)
     for m in range(len(nodes)):
-        _, length, n[0], n[1], n[2] = _stretch(u, nodes, offset, rest_length, m)
+        _, length, n[0], n[1], n[2] = stretch(u, nodes, offset, rest_length, m)
         across = tension[m] / length
         along = stiffness[m] - across
         aa, ab, ba, bb = slots[m, 0], slots[m, 1], slots[m, 2], slots[m, 3]
@@ -89,34 +109,3 @@ def add_tangent(u, nodes, offset, rest_length, stiffness, tension, slots, blocks
                 blocks[bb, p, q] += value
                 blocks[ab, p, q] -= value
                 blocks[ba, p, q] -= value
-
-
-@njit(cache=True)
-def add_directional_forces(u, nodes, offset, rest_length, stiffness, force) -> None:
-    """The seed's per-direction law F_q = k_q Δ_q (1 − L/r), stiffness (m, 3) [N/m]; it has no energy."""
-    for m in range(len(nodes)):
-        a, b = nodes[m, 0], nodes[m, 1]
-        e, _, nx, ny, nz = _stretch(u, nodes, offset, rest_length, m)
-        for q, n in ((0, nx), (1, ny), (2, nz)):
-            value = stiffness[m, q] * e * n
-            force[a, q] -= value
-            force[b, q] += value
-
-
-@njit(cache=True)
-def add_directional_tangent(u, nodes, offset, rest_length, stiffness, slots, blocks) -> None:
-    """Tangent of the per-direction law, diag(k) [n nᵀ + (e/r)(I − n nᵀ)]: unsymmetric for unequal k."""
-    n = np.empty(3)
-    for m in range(len(nodes)):
-        e, length, n[0], n[1], n[2] = _stretch(u, nodes, offset, rest_length, m)
-        across = e / length
-        for p in range(3):
-            for q in range(3):
-                value = (1.0 - across) * n[p] * n[q]
-                if p == q:
-                    value += across
-                value *= stiffness[m, p]
-                blocks[slots[m, 0], p, q] += value
-                blocks[slots[m, 3], p, q] += value
-                blocks[slots[m, 1], p, q] -= value
-                blocks[slots[m, 2], p, q] -= value

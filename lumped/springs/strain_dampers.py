@@ -12,14 +12,14 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from lumped.springs.areas import _diagonals
-from lumped.springs.strains import A_SIGNS, B_SIGNS, _pull, _sides, add_tangent
+from lumped.springs.areas import diagonal_changes
+from lumped.springs.strains import A_SIGNS, B_SIGNS, add_tangent, measure, scatter
 
 
 @njit(cache=True)
 def _rates(v, nodes, diagonals, c, change, sides, a0, b0, moving):
     """ε̇1, ε̇2, γ̇; fills moving (2, 3), the velocities of the sides."""
-    _diagonals(v, nodes, c, change)
+    diagonal_changes(v, nodes, c, change)
     r1 = r2 = r3 = 0.0
     for q in range(3):
         va, vb = 0.5 * (change[0, q] - change[1, q]), 0.5 * (change[0, q] + change[1, q])
@@ -36,7 +36,7 @@ def rates(u: np.ndarray, v: np.ndarray, nodes, diagonals, damping) -> np.ndarray
     change, sides, moving = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     out = np.empty((len(nodes), 3))
     for c in range(len(nodes)):
-        _, _, _, a0, b0 = _sides(u, nodes, diagonals, c, change, sides)
+        _, _, _, a0, b0 = measure(u, nodes, diagonals, c, change, sides)
         r1, r2, r3 = _rates(v, nodes, diagonals, c, change, sides, a0, b0, moving)
         out[c, 0], out[c, 1], out[c, 2] = damping[c, 0] * r1, damping[c, 1] * r2, damping[c, 2] * r3
     return out
@@ -48,11 +48,11 @@ def add_forces(u, v, nodes, diagonals, damping, force) -> float:
     change, sides, moving = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     power = 0.0
     for c in range(len(nodes)):
-        _, _, _, a0, b0 = _sides(u, nodes, diagonals, c, change, sides)
+        _, _, _, a0, b0 = measure(u, nodes, diagonals, c, change, sides)
         r1, r2, r3 = _rates(v, nodes, diagonals, c, change, sides, a0, b0, moving)
         t1, t2, t3 = damping[c, 0] * r1, damping[c, 1] * r2, damping[c, 2] * r3
         power += (t1 * r1 + t2 * r2 + t3 * r3) * np.sqrt(a0 * b0)
-        _pull(nodes, c, t1, t2, t3, sides, a0, b0, force)
+        scatter(nodes, c, t1, t2, t3, sides, a0, b0, force)
     return power
 
 
@@ -70,7 +70,7 @@ def add_displacement_tangent(u, v, nodes, diagonals, damping, slots, blocks) -> 
     change, sides, moving = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     p = nodes.shape[2]
     for c in range(len(nodes)):
-        _, _, _, a0, b0 = _sides(u, nodes, diagonals, c, change, sides)
+        _, _, _, a0, b0 = measure(u, nodes, diagonals, c, change, sides)
         _rates(v, nodes, diagonals, c, change, sides, a0, b0, moving)
         area = np.sqrt(a0 * b0)
         for m in range(4):

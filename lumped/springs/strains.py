@@ -18,16 +18,16 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from lumped.springs.areas import _diagonals
+from lumped.springs.areas import diagonal_changes
 
 A_SIGNS = np.array([-0.5, 0.5, 0.5, -0.5])  # a = Σ A_SIGNS[corner] x[corner]
 B_SIGNS = np.array([-0.5, -0.5, 0.5, 0.5])
 
 
 @njit(cache=True)
-def _sides(u, nodes, diagonals, c, change, sides):
+def measure(u, nodes, diagonals, c, change, sides):
     """Strains ε1, ε2, γ and the squares a0², b0²; fills change (2, 3) of the sides, and sides (2, 3)."""
-    _diagonals(u, nodes, c, change)
+    diagonal_changes(u, nodes, c, change)
     first = second = shear = a0 = b0 = 0.0
     for q in range(3):
         a, b = (
@@ -52,7 +52,7 @@ def stresses(u: np.ndarray, nodes, diagonals, stiffness) -> np.ndarray:
     change, sides = np.empty((2, 3)), np.empty((2, 3))
     out = np.empty((len(nodes), 3))
     for c in range(len(nodes)):
-        e1, e2, shear, _, _ = _sides(u, nodes, diagonals, c, change, sides)
+        e1, e2, shear, _, _ = measure(u, nodes, diagonals, c, change, sides)
         out[c, 0], out[c, 1], out[c, 2] = stiffness[c, 0] * e1, stiffness[c, 1] * e2, stiffness[c, 2] * shear
     return out
 
@@ -63,8 +63,8 @@ def extrapolated_stresses(u, step, nodes, diagonals, stiffness) -> np.ndarray:
     change, sides = np.empty((2, 3)), np.empty((2, 3))
     out = np.empty((len(nodes), 3))
     for c in range(len(nodes)):
-        e1, e2, shear, a0, b0 = _sides(u, nodes, diagonals, c, change, sides)
-        _diagonals(step, nodes, c, change)
+        e1, e2, shear, a0, b0 = measure(u, nodes, diagonals, c, change, sides)
+        diagonal_changes(step, nodes, c, change)
         for q in range(3):
             da, db = 0.5 * (change[0, q] - change[1, q]), 0.5 * (change[0, q] + change[1, q])
             e1 += sides[0, q] * da / a0
@@ -75,7 +75,7 @@ def extrapolated_stresses(u, step, nodes, diagonals, stiffness) -> np.ndarray:
 
 
 @njit(cache=True)
-def _pull(nodes, c, t1, t2, t3, sides, a0, b0, force):
+def scatter(nodes, c, t1, t2, t3, sides, a0, b0, force):
     """Add the forces of stresses t1, t2, t3 on sides (2, 3) of cell c."""
     p = nodes.shape[2]
     area = np.sqrt(a0 * b0)
@@ -94,10 +94,10 @@ def add_forces(u, nodes, diagonals, stiffness, force) -> float:
     change, sides = np.empty((2, 3)), np.empty((2, 3))
     energy = 0.0
     for c in range(len(nodes)):
-        e1, e2, shear, a0, b0 = _sides(u, nodes, diagonals, c, change, sides)
+        e1, e2, shear, a0, b0 = measure(u, nodes, diagonals, c, change, sides)
         t1, t2, t3 = stiffness[c, 0] * e1, stiffness[c, 1] * e2, stiffness[c, 2] * shear
         energy += 0.5 * (t1 * e1 + t2 * e2 + t3 * shear) * np.sqrt(a0 * b0)
-        _pull(nodes, c, t1, t2, t3, sides, a0, b0, force)
+        scatter(nodes, c, t1, t2, t3, sides, a0, b0, force)
     return energy
 
 
@@ -109,15 +109,15 @@ def add_average_forces(start, end, nodes, diagonals, stiffness, force) -> None:
     """
     change, first, second = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     for c in range(len(nodes)):
-        e1, e2, e3, a0, b0 = _sides(start, nodes, diagonals, c, change, first)
-        f1, f2, f3, _, _ = _sides(end, nodes, diagonals, c, change, second)
+        e1, e2, e3, a0, b0 = measure(start, nodes, diagonals, c, change, first)
+        f1, f2, f3, _, _ = measure(end, nodes, diagonals, c, change, second)
         for q in range(3):
             first[0, q] = 0.5 * (first[0, q] + second[0, q])
             first[1, q] = 0.5 * (first[1, q] + second[1, q])
         t1 = 0.5 * stiffness[c, 0] * (e1 + f1)
         t2 = 0.5 * stiffness[c, 1] * (e2 + f2)
         t3 = 0.5 * stiffness[c, 2] * (e3 + f3)
-        _pull(nodes, c, t1, t2, t3, first, a0, b0, force)
+        scatter(nodes, c, t1, t2, t3, first, a0, b0, force)
 
 
 @njit(cache=True)
@@ -127,7 +127,7 @@ def add_tangent(u, nodes, diagonals, stiffness, stress, slots, blocks) -> None:
     gradient = np.empty((3, 4, 3))  # of each strain at each corner
     p = nodes.shape[2]
     for c in range(len(nodes)):
-        _, _, _, a0, b0 = _sides(u, nodes, diagonals, c, change, sides)
+        _, _, _, a0, b0 = measure(u, nodes, diagonals, c, change, sides)
         area = np.sqrt(a0 * b0)
         for corner in range(4):
             for q in range(3):

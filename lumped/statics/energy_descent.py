@@ -12,7 +12,6 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
-from lumped.assembly import Stresses
 from lumped.linear.solver import Factor, SingularMatrixError
 from lumped.statics.equilibrium import COARSE, State, StepFailed, polish
 from lumped.statics.problem import Problem
@@ -83,13 +82,7 @@ def _definite_factor(problem: Problem, u: np.ndarray, load_factor: float, wait: 
         except SingularMatrixError:
             pass
         wait = PROJECTED_RUN
-    stresses = problem.assembly.stresses(u)
-    tensile = Stresses(
-        np.maximum(stresses.links, 0.0),
-        tuple(np.maximum(stress, 0.0) for stress in stresses.cells),
-        tuple(np.zeros_like(stress) for stress in stresses.strains),
-    )
-    return problem.factor(problem.tangent(u, load_factor, tensile)), wait - 1
+    return problem.factor(problem.tangent(u, load_factor, problem.assembly.harmless(u))), wait - 1
 
 
 def _unknowns(problem: Problem, u: np.ndarray) -> np.ndarray:

@@ -12,6 +12,7 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
+from lumped.springs.families import Links
 from sheetbench.scenes import Status
 
 COLLAPSED = 1e-6  # of a link's rest length
@@ -32,8 +33,8 @@ def broken(assembly: Assembly, u: np.ndarray) -> Fault | None:
     if not finite.all():
         where = place(lattice, int(np.argmin(finite)))
         return Fault(Status.NON_FINITE, f"the mass at {where} has left the range of numbers")
-    for links in (assembly.links, assembly.directional):
-        if len(links):
+    for links in assembly.springs:
+        if isinstance(links, Links) and len(links):
             a, b = links.nodes.T
             share = np.linalg.norm(links.offset + u[b] - u[a], axis=1) / links.rest_length
             if share.min() < COLLAPSED:

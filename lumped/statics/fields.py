@@ -13,6 +13,7 @@ import numpy as np
 
 from lumped.assembly import Stresses
 from lumped.lattice import Lattice
+from lumped.springs.families import Cells
 from lumped.statics.problem import Problem
 from sheetbench.scenes import FieldMesh
 
@@ -28,11 +29,13 @@ def field_mesh(
     (layer_cells,) = (c.nodes[:, :, 0] for c in lattice.cells if c.name == "area")
     quads, masses = len(layer_cells), lattice.mass_count
     cell_energy = np.zeros(quads)
-    for cell, stress in assembly.cell_stresses(stresses):
-        energy = cell.energies(stress)
-        layers = quads // len(energy)
-        cell_energy += np.tile(energy / layers, layers)
-    link_energy = 0.5 * stresses.links**2 / links.stiffness
+    for family, stress in zip(assembly.springs, stresses, strict=True):
+        if isinstance(family, Cells):
+            energy = family.energies(stress)
+            layers = quads // len(energy)
+            cell_energy += np.tile(energy / layers, layers)
+    tension = stresses[0]
+    link_energy = links.energies(tension)
     per_plan_cell = _links_by_cell(lattice, links.nodes, link_energy)
     layers = quads // len(per_plan_cell)
     per_plan_cell += cell_energy.reshape(layers, -1).sum(axis=0)
@@ -46,9 +49,9 @@ def field_mesh(
             "mass_share": lattice.share,
         },
         cell_data={
-            "tension": [stresses.links, np.zeros(quads)],
-            "strain": [stresses.links / links.stiffness / links.rest_length, np.zeros(quads)],
-            "family": [links.family.astype(float), np.full(quads, -1.0)],
+            "tension": [tension, np.zeros(quads)],
+            "strain": [tension / links.stiffness / links.rest_length, np.zeros(quads)],
+            "family": [links.kind.astype(float), np.full(quads, -1.0)],
             "elastic_energy": [link_energy, cell_energy],
             "cell_energy": [np.zeros(len(links)), all_energy],
         },

@@ -229,7 +229,7 @@ def link_strain(assembly: Assembly, u: np.ndarray) -> float:
     in_plane = np.abs(links.offset[:, 2]) == 0.0
     if not in_plane.any():
         return 0.0
-    tension = assembly.stresses(u).links[in_plane]
+    tension = links.stresses(u)[in_plane]
     return float(np.max(np.abs(tension / links.stiffness[in_plane] / links.rest_length[in_plane])))
 
 

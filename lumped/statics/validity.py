@@ -104,7 +104,7 @@ def _stretch_share(assembly: Assembly, u: np.ndarray) -> float:
     if total <= 0.0 or len(in_plane) == 0:
         return 0.0
     layers_ = lattice.grid[2]
-    elongation = assembly.stresses(u).links[in_plane] / links.stiffness[in_plane]
+    elongation = links.stresses(u)[in_plane] / links.stiffness[in_plane]
     column = links.nodes[in_plane] // layers_
     _, member = np.unique(column[:, 0] * lattice.mass_count + column[:, 1], return_inverse=True)
     count = np.bincount(member)

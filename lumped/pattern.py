@@ -1,0 +1,38 @@
+"""Block sparsity of a lattice's matrices: which masses act on each other, where their 3×3 blocks stand."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+class Pattern:
+    """Sorted pairs (row, column) of masses that act on each other, stored as in BSR."""
+
+    def __init__(self, size: int, rows: np.ndarray, columns: np.ndarray):
+        keys = np.unique(rows.astype(np.int64) * size + columns)
+        self.size, self._keys = size, keys
+        self.rows, self.indices = keys // size, (keys % size).astype(np.int32)
+        self.indptr = np.searchsorted(self.rows, np.arange(size + 1)).astype(np.int32)
+
+    @property
+    def blocks(self) -> int:
+        """Number of blocks."""
+        return len(self._keys)
+
+    def slots(self, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
+        """Block numbers of pairs (any shape)."""
+        found: np.ndarray = np.searchsorted(self._keys, np.asarray(rows, np.int64) * self.size + columns)
+        return found.astype(np.int32)
+
+    def among(self, nodes: np.ndarray) -> np.ndarray:
+        """Block numbers of every pair within each row of masses (m, p): (m, p, p)."""
+        return self.slots(nodes[:, :, None], nodes[:, None, :])
+
+
+def neighbours(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Ordered pairs of masses that may act on each other: any two in the four columns of one cell of the
+    plan, columns: (ny, nx, layers)."""
+    around = np.stack([columns[:-1, :-1], columns[:-1, 1:], columns[1:, 1:], columns[1:, :-1]], axis=2)
+    nodes = around.reshape(-1, 4 * columns.shape[2])
+    p = nodes.shape[1]
+    return np.repeat(nodes, p, axis=1).ravel(), np.tile(nodes, (1, p)).ravel()

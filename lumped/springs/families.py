@@ -1,0 +1,233 @@
+"""The families of springs, and the table that makes them of a lattice and a spring set: `FAMILIES`.
+
+Only what has stiffness is made. A new family is a module of compiled loops, a class here that says what its
+arrays are, and a row of the table.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from lumped.lattice import CellFamily, Lattice
+from lumped.pattern import Pattern
+from lumped.springs import (
+    area_dampers,
+    areas,
+    constants,
+    directional,
+    link_dampers,
+    links,
+    strain_dampers,
+    strains,
+)
+from lumped.springs.family import Dampers, Family
+from sheetbench.scenes import SpringSet
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.springs import DamperSet
+
+
+@dataclass(frozen=True, eq=False)
+class Links(Family):
+    """Central links, all together: offset (m, 3) [m] rest vectors, rest_length (m,) [m], kind (m,) numbers
+    into the lattice's `names`."""
+
+    offset: np.ndarray
+    rest_length: np.ndarray
+    kind: np.ndarray
+    names: tuple[str, ...]
+
+    springs: ClassVar[Any] = links
+    dampers: ClassVar[Any] = link_dampers
+
+    @property
+    def geometry(self) -> tuple[np.ndarray, ...]:
+        """Rest vectors and their lengths."""
+        return self.offset, self.rest_length
+
+    def energies(self, stress: np.ndarray) -> np.ndarray:
+        """½ N²/k."""
+        return 0.5 * stress**2 / self.stiffness
+
+    def by_name(self, energies: np.ndarray) -> dict[str, float]:
+        """By kind of link."""
+        sums = np.bincount(self.kind, energies, minlength=len(self.names))
+        return dict(zip(self.names, sums.tolist(), strict=True))
+
+    def add_bound(self, blocks: np.ndarray) -> None:
+        """k (I, −I; −I, I)."""
+        for column, sign in enumerate((1.0, -1.0, -1.0, 1.0)):
+            np.add.at(blocks, self.slots[:, column], sign * self.stiffness[:, None, None] * np.eye(3))
+
+
+@dataclass(frozen=True, eq=False)
+class DirectionalLinks(Links):
+    """Links of the seed's per-direction law, stiffness (m, 3); neither energy nor stress."""
+
+    springs: ClassVar[Any] = directional
+    conservative: ClassVar[bool] = False
+
+    def add_average_force(self, start: np.ndarray, end: np.ndarray, force: np.ndarray) -> None:
+        """The force in the middle of the step, for want of an energy."""
+        self.add_force(0.5 * (start + end), force)
+
+    def stresses(self, u: np.ndarray) -> np.ndarray:
+        """None: the tangent takes none."""
+        return np.zeros(len(self))
+
+    def extrapolated(self, u: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """None."""
+        return np.zeros(len(self))
+
+    def energies(self, stress: np.ndarray) -> np.ndarray:
+        """None."""
+        return np.zeros(len(self))
+
+    def add_bound(self, blocks: np.ndarray) -> None:
+        """That of central links as stiff as the stiffest direction."""
+        self._central(self.stiffness.max(axis=1)).add_bound(blocks)
+
+    def damped(self, time: float) -> Dampers:
+        """Dampers along the links, of the mean stiffness."""
+        return Dampers(self._central(time * self.stiffness.mean(axis=1)))
+
+    def _central(self, stiffness: np.ndarray) -> Links:
+        return Links(self.nodes, stiffness, self.slots, self.offset, self.rest_length, self.kind, self.names)
+
+
+@dataclass(frozen=True, eq=False)
+class Cells(Family):
+    """Springs of one kind on cells: nodes (c, 4, p), rest diagonals (c, 2, 3) [m]."""
+
+    diagonals: np.ndarray
+    name: str
+
+    @property
+    def geometry(self) -> tuple[np.ndarray, ...]:
+        """Rest diagonals."""
+        return (self.diagonals,)
+
+    def energies(self, stress: np.ndarray) -> np.ndarray:
+        """½ τ²/k a0, summed over a cell's strains where it has several."""
+        rest_area = 0.5 * np.linalg.norm(np.cross(self.diagonals[:, 0], self.diagonals[:, 1]), axis=1)
+        k = self.stiffness
+        density = 0.5 * np.divide(stress**2, k, out=np.zeros_like(k), where=k != 0.0)
+        return rest_area * density.reshape(len(density), -1).sum(axis=1)
+
+    def by_name(self, energies: np.ndarray) -> dict[str, float]:
+        """All under the one name."""
+        return {self.name: float(energies.sum())}
+
+    def add_bound(self, blocks: np.ndarray) -> None:
+        """|k| (I, −I; −I, I) for each of the diagonals."""
+        p, k = self.nodes.shape[2], np.abs(self._on_diagonals())
+        for corner in range(4):
+            for other, sign in ((corner, 1.0), ((corner + 2) % 4, -1.0)):
+                slots = self.slots[:, corner * p : (corner + 1) * p, other * p : (other + 1) * p]
+                np.add.at(blocks, slots, (sign * k / p**2)[:, None, None, None, None] * np.eye(3))
+
+    def _on_diagonals(self) -> np.ndarray:
+        """What the springs weigh at most on either diagonal, (c,) [N/m]."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, eq=False)
+class AreaSprings(Cells):
+    """Area springs, stiffness (c,)."""
+
+    springs: ClassVar[Any] = areas
+    dampers: ClassVar[Any] = area_dampers
+
+    def _on_diagonals(self) -> np.ndarray:
+        return self.stiffness
+
+
+@dataclass(frozen=True, eq=False)
+class StrainSprings(Cells):
+    """Strain springs, stiffness (c, 3) of ε1, ε2, γ."""
+
+    springs: ClassVar[Any] = strains
+    dampers: ClassVar[Any] = strain_dampers
+
+    def harmless(self, stress: np.ndarray) -> np.ndarray:
+        """None: a shear stress of either sign softens some motion."""
+        return np.zeros_like(stress)
+
+    def _on_diagonals(self) -> np.ndarray:
+        d1, d2 = self.diagonals[:, 0], self.diagonals[:, 1]
+        a, b = np.linalg.norm(d1 - d2, axis=1), np.linalg.norm(d1 + d2, axis=1)  # twice the sides
+        k1, k2, k3 = np.abs(self.stiffness).T
+        weight: np.ndarray = 0.5 * (k1 * b / a + k2 * a / b + 2.0 * k3 * (a / b + b / a))
+        return weight
+
+
+def link_springs(lattice: Lattice, pattern: Pattern, table: SpringSet | DamperSet) -> Iterator[Links]:
+    """Central links, first and even where there are none; then those of a per-direction law."""
+    names = tuple(dict.fromkeys(family.name for family in lattice.links))
+    stiffness, kind = [], []
+    for family in lattice.links:
+        stiffness.append(family.weight[:, None] * constants.along(table, family.name, family.direction))
+        kind.append(np.full(len(family.nodes), names.index(family.name)))
+    k, number = np.concatenate(stiffness), np.concatenate(kind)
+    nodes, offset, rest = (
+        np.concatenate([getattr(family, part) for family in lattice.links])
+        for part in ("nodes", "offset", "rest_length")
+    )
+    unequal = (k != k[:, :1]).any(axis=1)
+
+    def chosen(kind: type[Links], which: np.ndarray, k: np.ndarray) -> Links:
+        slots = pattern.among(nodes[which]).reshape(-1, 4)
+        return kind(nodes[which], k[which], slots, offset[which], rest[which], number[which], names)
+
+    yield chosen(Links, ~unequal & (k[:, 0] > 0.0), k[:, 0])
+    if unequal.any():
+        yield chosen(DirectionalLinks, unequal, k)
+
+
+def area_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[AreaSprings]:
+    """On the cells of the layers and of the mid-surface."""
+    for cells in lattice.cells:
+        k = getattr(springs, cells.name)
+        if k != 0.0:
+            stiffness = np.full(len(cells.nodes), k)
+            yield AreaSprings(cells.nodes, stiffness, *_on_cells(lattice, pattern, cells), cells.name)
+
+
+def strain_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[StrainSprings]:
+    """On the cells of the layers and of the mid-surface."""
+    for cells in lattice.cells:
+        name, three = constants.of_strains(springs, cells.name)
+        if any(three):
+            stiffness = np.tile(three, (len(cells.nodes), 1))
+            yield StrainSprings(cells.nodes, stiffness, *_on_cells(lattice, pattern, cells), name)
+
+
+def _on_cells(lattice: Lattice, pattern: Pattern, cells: CellFamily) -> tuple[np.ndarray, np.ndarray]:
+    """Slots and rest diagonals of cells."""
+    corners = lattice.positions[cells.nodes].mean(axis=2)
+    diagonals = np.stack([corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]], axis=1)
+    return pattern.among(cells.nodes.reshape(len(cells.nodes), -1)), diagonals
+
+
+FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] = (
+    link_springs,
+    area_springs,
+    strain_springs,
+)
+
+
+def families(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> tuple[Family, ...]:
+    """The springs of a spring set on a lattice, the central links first."""
+    return tuple(family for make in FAMILIES for family in make(lattice, pattern, springs))
+
+
+def table_dampers(lattice: Lattice, pattern: Pattern, table: DamperSet) -> Dampers:
+    """The dampers of a scene's [dampers] table, along the links. Raises BadInput for x, y and z apart."""
+    along_links, *others = link_springs(lattice, pattern, table)
+    if others:
+        name = others[0].names[others[0].kind[0]]
+        raise BadInput(f"dampers.{name}: a damper acts along its link; give one number, or x and y")
+    return Dampers(along_links)

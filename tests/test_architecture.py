@@ -11,9 +11,9 @@ import pytest
 ROOT = Path(__file__).parent.parent
 ALLOWED = {
     "sheetbench/scenes": {"sheetbench.scenes"},
-    "lumped": {"sheetbench.scenes", "lumped"},
+    "lumped": {"sheetbench.scenes", "sheetbench.files", "lumped"},
     "fem_reference": {"sheetbench.scenes", "fem_reference"},
-    "comparisons": {"sheetbench.scenes", "lumped", "fem_reference", "comparisons"},
+    "comparisons": {"sheetbench.scenes", "sheetbench.files", "lumped", "fem_reference", "comparisons"},
 }
 
 
@@ -21,8 +21,8 @@ PACKAGES = ("sheetbench", "lumped", "fem_reference", "comparisons")
 
 
 def imported(path: Path) -> set[str]:
-    """Our packages that a file imports, `sheetbench.scenes` apart from the face; a literal's name counts,
-    but for the name of the plug-ins' entry points."""
+    """Our packages that a file imports, scenes and files apart from the face; a literal's name counts, but
+    for the name of the plug-ins' entry points."""
     names = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
@@ -34,11 +34,8 @@ def imported(path: Path) -> set[str]:
             names.add(node.value)  # tables of modules that are loaded when asked for
     names.discard("sheetbench.models")
     parts = (name.split(".") for name in names)
-    return {
-        "sheetbench.scenes" if part[:2] == ["sheetbench", "scenes"] else part[0]
-        for part in parts
-        if part[0] in PACKAGES
-    }
+    ground = (["sheetbench", "scenes"], ["sheetbench", "files"])
+    return {".".join(part[:2]) if part[:2] in ground else part[0] for part in parts if part[0] in PACKAGES}
 
 
 @pytest.mark.parametrize("package", ALLOWED)

@@ -1,6 +1,10 @@
 """`sheetbench simulate`: its document and files, measured histories, resuming after a kill, memory."""
 
+import contextlib
 import json
+import os
+import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -16,6 +20,8 @@ from dynamic_cases import scene, springs
 import lumped
 from comparisons.cli import main
 from comparisons.motion import history as histories
+from sheetbench.files import only_writer
+from sheetbench.scenes import BadInput
 
 HERE = Path(__file__).parent
 RUN = ["simulate", "two-edges-settling", "--lumped", "4", "--duration", "0.1"]
@@ -140,8 +146,145 @@ def test_a_killed_run_resumes_to_the_last_digit(tmp_path, name):
         assert (tmp_path / "killed" / file).read_bytes() == (tmp_path / "whole" / file).read_bytes()
     assert killed_at < samples.stat().st_size
     assert resumed.steps == whole.steps and np.array_equal(resumed.time, whole.time)
-    with pytest.raises(ValueError, match="holds another run"):
-        lumped.simulate(asked, springs(asked, 4), 2.0 * duration, store=tmp_path / "killed", **options)
+    assert 0.0 < resumed.resumed_from < duration and whole.resumed_from == 0.0
+
+
+STILL = {"integrator": "verlet", "every": 0.002, "frames": 5}
+LENGTH = 0.11  # s, one checkpoint
+
+
+@pytest.fixture(scope="module")
+def run_kept(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("kept") / "run"
+    asked = scene(damping_time=1e-3)
+    return folder, lumped.simulate(asked, springs(asked, 3), LENGTH, store=folder, **STILL)
+
+
+@pytest.fixture
+def kept(run_kept, tmp_path):
+    """A folder with a finished run, and how to run it again."""
+    folder, history = tmp_path / "run", run_kept[1]
+    shutil.copytree(run_kept[0], folder)
+    asked = scene(damping_time=1e-3)
+
+    def again(duration=LENGTH, **other):
+        return lumped.simulate(asked, springs(asked, 3), duration, store=folder, **{**STILL, **other})
+
+    return folder, history, again
+
+
+def test_a_longer_duration_goes_on_with_the_run(kept, tmp_path):
+    """To the last bit what a run of that length gives; frames go on at their distance."""
+    folder, _, again = kept
+    longer = again(2.0 * LENGTH)
+    asked = scene(damping_time=1e-3)
+    at_once = lumped.simulate(asked, springs(asked, 3), 2.0 * LENGTH, store=tmp_path / "at once", **STILL)
+    assert longer.resumed_from == pytest.approx(50 * 0.002)
+    assert (folder / "samples.bin").read_bytes() == (tmp_path / "at once" / "samples.bin").read_bytes()
+    assert longer.time[-1] == pytest.approx(2.0 * LENGTH) and longer.steps == at_once.steps
+    assert np.allclose(longer.extra["frame_times"], 0.002 * np.array([0, 14, 28, 41, 55, 69, 82, 96, 110]))
+    assert len(longer.extra["frames"]) == 9
+    with pytest.raises(BadInput, match=r"duration = 0.11 s: the run that is kept there is one of 0.22 s"):
+        again()
+
+
+def test_another_run_in_the_folder_is_refused_by_what_differs(kept):
+    folder, _, again = kept
+    before = (folder / "run.json").read_bytes()
+    with pytest.raises(BadInput, match=r"holds another run \(of another every, step\)"):
+        again(step=1e-5, every=0.001)
+    assert (folder / "run.json").read_bytes() == before
+
+
+@pytest.mark.parametrize("name", ["samples.bin", "frames.bin"])
+@pytest.mark.parametrize("left", [0, 0.5, None])
+def test_files_shorter_than_the_checkpoint_says_are_refused(kept, name, left):
+    """They were filled up with zeros, and the run was said to be converged."""
+    folder, _, again = kept
+    path = folder / name
+    if left is None:
+        path.unlink()
+    else:
+        os.truncate(path, int(left * path.stat().st_size) - 3 * (left > 0))
+    before = {file.name: file.read_bytes() for file in folder.iterdir()}
+    with pytest.raises(BadInput, match=rf"{name}: holds .* that the checkpoint counts; remove the folder"):
+        again()
+    assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
+
+
+@pytest.mark.parametrize(
+    "name, content, said",
+    [
+        ("run.json", b"", "run.json: is damaged"),
+        ("run.json", b"{}", "run.json: is damaged"),
+        ("run.json", b"[1]", "run.json: is damaged"),
+        ("run.json", b"\xff\xfe", "run.json: is damaged"),
+        ("run.json", None, "run.json: is missing beside a checkpoint"),
+        ("checkpoint.npz", b"not a checkpoint", "checkpoint.npz: is damaged"),
+        ("checkpoint.npz", b"", "checkpoint.npz: is damaged"),
+        ("checkpoint.npz", 0.5, "checkpoint.npz: is damaged"),
+    ],
+)
+def test_damaged_files_are_refused_in_a_line_with_the_remedy(kept, name, content, said):
+    folder, history, again = kept
+    path = folder / name
+    if content is None:
+        path.unlink()
+    else:
+        path.write_bytes(path.read_bytes()[: path.stat().st_size // 2] if content == 0.5 else content)
+    with pytest.raises(BadInput, match=rf"{said}.*; remove the folder {folder}"):
+        again()
+    shutil.rmtree(folder)
+    assert np.array_equal(again().probes["P4"], history.probes["P4"])
+
+
+def test_a_run_has_one_writer(kept):
+    """Two at once left rows of both in one file, which no command could read again."""
+    folder, history, again = kept
+    with (
+        only_writer(folder),
+        pytest.raises(BadInput, match=f"{folder}: another process writes here; wait until it has ended"),
+    ):
+        again()
+    assert np.array_equal(again().probes["P4"], history.probes["P4"])
+
+
+@pytest.mark.parametrize("name", ["run.json", "samples.bin", "frames.bin", "checkpoint.npz", ".lock"])
+def test_a_planted_link_is_never_written_through(tmp_path, name):
+    victim, folder = tmp_path / "victim", tmp_path / "run"
+    victim.write_text("mine")
+    folder.mkdir()
+    (folder / name).symlink_to(victim)
+    asked = scene(damping_time=1e-3)
+    with contextlib.suppress(BadInput):
+        lumped.simulate(asked, springs(asked, 3), LENGTH, store=folder, **STILL)
+    assert victim.read_text() == "mine"
+
+
+def test_a_full_disk_is_said_and_the_run_goes_on_when_there_is_room(tmp_path, run_kept):
+    """A limit on file sizes stands for the disk: frames.bin fits, then samples.bin is full, at any place."""
+    folder, history = tmp_path / "run", run_kept[1]
+    asked = scene(damping_time=1e-3)
+
+    def start():
+        return lumped.simulate(asked, springs(asked, 3), LENGTH, store=folder, **STILL)
+
+    full = (run_kept[0] / "samples.bin").stat().st_size
+    for most in (10, full // 2, full - 10):
+        with at_most(most), pytest.raises(BadInput, match=r"run\S*: cannot be written, file too large: "):
+            start()
+    assert np.array_equal(start().probes["P4"], history.probes["P4"])
+
+
+@contextlib.contextmanager
+def at_most(size):
+    """No file may grow beyond so many bytes."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
 def test_memory_does_not_grow_with_the_duration(tmp_path):

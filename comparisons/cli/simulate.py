@@ -92,6 +92,8 @@ def command(
     else:
         console.heading(asked.name, asked.title)
         console.note(f"{history.label}, {history.integrator}, {history.steps} steps")
+        if history.resumed_from:
+            console.note(f"went on from {history.resumed_from:.4g} s, which an earlier run had reached")
         console.show(histories.summary(history, truth))
         spread = float(abs(history.balance - history.balance[0]).max())
         scale = max(float(abs(e).max()) for e in history.energies.values())

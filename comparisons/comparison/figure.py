@@ -17,9 +17,9 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
 from comparisons.comparison.comparison import Comparison
-from comparisons.report.files import whole
 from comparisons.report.stage import DARK, GREY, Stage
 from comparisons.report.vtk import plan_mesh
+from sheetbench.files import whole
 from sheetbench.scenes import Scene, Solution
 
 WIDTH, DPI = 7.2, 170  # inches: the text width of a two-column paper

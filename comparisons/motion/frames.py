@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.report.files import folder, whole, write_text
+from comparisons.report.files import folder, write_text
 from comparisons.report.vtk import write_mesh
+from sheetbench.files import whole
 from sheetbench.scenes import FieldMesh, History, Scene
 
 PIXELS, COLOURS, PER_SECOND, MOST = 480, 96, 12, 50

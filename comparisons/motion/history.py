@@ -16,8 +16,8 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from comparisons.report.files import whole
 from comparisons.report.table import Column, Table
+from sheetbench.files import whole
 from sheetbench.scenes import History
 from sheetbench.scenes.errors import BadInput
 
@@ -90,6 +90,7 @@ def as_dict(history: History, measured: dict[str, Measured]) -> dict[str, Any]:
         "integrator": history.integrator,
         "label": history.label,
         "settings": history.settings,
+        "resumed_from": history.resumed_from,
         "energies": history.energies,
         "reactions": history.reactions,
         "actuators": history.actuators,

@@ -1,29 +1,17 @@
-"""Files that are either whole or absent: each is written beside its name and moved there when done."""
+"""Folders and documents: where files go, and plain data as JSON."""
 
 from __future__ import annotations
 
 import json
 import math
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from sheetbench.files import whole
 from sheetbench.scenes.errors import BadInput
-
-
-@contextmanager
-def whole(path: Path) -> Iterator[Path]:
-    """A path with the same suffix to write to; what was written takes `path`'s place at the end."""
-    partial = path.with_name(f".{path.stem}.{os.getpid()}.partial{path.suffix}")
-    try:
-        yield partial
-        os.replace(partial, path)
-    finally:
-        partial.unlink(missing_ok=True)
 
 
 def write_text(path: Path, text: str) -> None:
@@ -33,11 +21,14 @@ def write_text(path: Path, text: str) -> None:
 
 
 def folder(path: Path, option: str = "--out") -> Path:
-    """The folder, made if need be. Raises BadInput where it cannot be."""
+    """The folder, made if need be. Raises BadInput where it cannot be, or not be written to."""
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise BadInput(f"{option} = '{path}': cannot make this folder: {error.strerror}") from None
+        why = "a link to nothing stands there" if path.is_symlink() else error.strerror
+        raise BadInput(f"{option} = '{path}': cannot make this folder: {why}") from None
+    if not os.access(path, os.W_OK | os.X_OK):
+        raise BadInput(f"{option} = '{path}': cannot be written to; make it writable, or choose another")
     return path
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from comparisons.comparison.comparison import Comparison
 from comparisons.models.grids import near_square
-from comparisons.report.files import whole
+from sheetbench.files import whole
 from sheetbench.scenes import FieldMesh, Sheet, Solution
 
 PLAN_CELLS = 64

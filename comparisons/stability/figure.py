@@ -12,9 +12,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
-from comparisons.report.files import whole
 from comparisons.report.style import GREY, STYLE
 from comparisons.stability.study import LARGE, Row, Study, percent
+from sheetbench.files import whole
 
 DPI = 200
 MAP_STYLE = {**STYLE, "axes.titlesize": 8, "axes.titleweight": "bold", "axes.titlelocation": "left"}

@@ -11,10 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from comparisons.report.files import whole
 from comparisons.report.style import GREY, STYLE
 from comparisons.tradeoff.pareto import grouped
 from comparisons.tradeoff.statics import Tradeoff
+from sheetbench.files import whole
 
 WIDTH, HEIGHT, DPI = 7.2, 3.9, 200  # inches: the text width of a two-column paper
 MARKERS = {"lumped": "o", "plate": "v", "shell": "s", "solid": "D"}

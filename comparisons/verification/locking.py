@@ -10,8 +10,8 @@ import matplotlib
 from matplotlib.figure import Figure
 
 from comparisons.comparison.figure import DPI, FONT
-from comparisons.report.files import whole
 from fem_reference.verification import Row
+from sheetbench.files import whole
 
 SIZE = (4.6, 2.9)  # inches
 MARKERS = {"plate": "s", "shell": "o", "solid": "^"}

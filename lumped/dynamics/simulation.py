@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from contextlib import ExitStack
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -22,30 +23,18 @@ from lumped.dynamics.constraints import Projection
 from lumped.dynamics.generalised_alpha import GeneralisedAlpha
 from lumped.dynamics.integrator import Integrator, StepFailed
 from lumped.dynamics.integrators import INTEGRATORS
+from lumped.dynamics.plan import Plan, plan_run
 from lumped.dynamics.sampling import Sampling
-from lumped.dynamics.step_limit import SAFETY, step_limit
 from lumped.dynamics.store import FolderStore, MemoryStore
 from lumped.dynamics.system import State, System
-from lumped.dynamics.verlet import Verlet
 from lumped.lattice import Weights
 from lumped.linear.threads import one_blas_thread
 from lumped.statics.fields import field_mesh
 from lumped.statics.solver import pose, settle
-from lumped.vibration import modes
 from sheetbench.scenes import Chain, Clamped, Curved, History, Scene, Status
 from sheetbench.scenes.errors import BadInput
 
-SAMPLES_PER_PERIOD = 100
-STEPS_PER_PERIOD = 200  # of implicit integrators with a fixed step
-MOST_DEFAULT_STEPS = 10_000_000  # that an explicit run takes unasked: an hour or more
 SAMPLES_PER_CHECKPOINT = 50
-
-
-@dataclass(frozen=True)
-class _Plan:
-    samples: int
-    every: float
-    steps: int  # between samples; 0 where the integrator adapts
 
 
 def simulate(
@@ -68,15 +57,17 @@ def simulate(
     step [s]: of the integrator, never exceeded; without it `verlet` takes 0.9 of its limit,
     `generalised-alpha` adapts to its error, the others take 1/200 of the lowest period. every [s]: distance
     of samples, 1/100 of the lowest period unless given; no step is longer, and what a load's history does
-    within a step may go unseen. store: a folder to stream to; a run that was stopped
-    goes on from there. frames: whole displacements to keep, evenly over the run, in `extra`: "frames"
+    within a step may go unseen. store: a folder to stream to; a run that was stopped goes on
+    from there, and one that is to last longer now goes on, sampled as it was. frames: whole displacements to
+    keep, evenly over the run, in `extra`: "frames"
     (n, masses, 3), "frame_times" (n,), the "mesh" they belong to and "axes", of each edge with chains the
     rest places (p, 3) and displacements (n, p, 3) [m] of its axis. progress: called with the time reached.
     precision: of the internal force (see `lumped.assembly`). options: the integrator's own (`radius`,
     `iterations`).
 
     Raises BadInput for an unknown integrator, a step above the limit of `verlet`, more than ten million
-    default steps of it, a folder of another run.
+    default steps of it; for a folder that cannot be written to, that another process writes to, that holds
+    another run, or whose files are damaged.
     """
     if integrator not in INTEGRATORS:
         raise BadInput(f"integrator = {integrator!r}: unknown; choose from {', '.join(INTEGRATORS)}")
@@ -90,46 +81,54 @@ def simulate(
     springs = springs or default(scene)
     system = System(scene, pose(scene, springs, weights, precision))
     start = _start(system, springs, weights)
-    method, plan = _prepare(system, springs, start, duration, step, integrator, every, options)
+    plan = plan_run(system, springs, start, duration, step, integrator, every)
     sampling = Sampling(system)
     nx, ny, layers = springs.grid
     settings: dict[str, Any] = {
         "grid": [nx, ny, layers],
         "calibration": springs.method,
         "layer_distance": springs.layer_distance,
-        "step": "adaptive" if plan.steps == 0 else plan.every / plan.steps,
-        "every": plan.every,
         **options,
     }
     if precision != "double":
         settings["precision"] = precision
-    shown = {round(i) for i in np.linspace(0, plan.samples, frames)}
     masses = system.assembly.lattice.mass_count
+    axes = system.coupling.axes() if system.coupling is not None else {}
+    drawn = np.concatenate([np.arange(masses), *(rows for rows, _ in axes.values())])
     asked = {
         "scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True),
         "springs": springs.as_dict()["springs"],
         "integrator": integrator,
+        "step": step,
+        "every": every,
         "settings": settings,
         "weights": weights,
         "frames": frames,
         "columns": [[kind, name, list(shape)] for kind, name, shape in sampling.columns],
+        "axes": {edge: len(rows) for edge, (rows, _) in axes.items()},
     }
-    axes = system.coupling.axes() if system.coupling is not None else {}
-    drawn = np.concatenate([np.arange(masses), *(rows for rows, _ in axes.values())])
-    if axes:
-        asked["axes"] = {edge: len(rows) for edge, (rows, _) in axes.items()}
-    kept: FolderStore | MemoryStore = MemoryStore(sampling.width, len(drawn))
-    if store is not None:
-        kept = FolderStore(store, sampling.width, len(drawn), {**asked, "samples": plan.samples})
-    # kernels are compiled, or loaded, in the set-up
-    system.matrix(start.u, start.v, 0.0, 1.0, 1.0, 1.0)
-    system.average_elastic(start.u, start.u, 0.0)
-    ready = clock.perf_counter()
-    with one_blas_thread():
-        status, message, steps = _run(system, method, plan, sampling, kept, start, shown, drawn, progress)
-    done = clock.perf_counter()
-    parts = sampling.split(kept.samples())
-    whole = kept.frames()
+    with ExitStack() as open_store:
+        kept: FolderStore | MemoryStore = MemoryStore(sampling.width, len(drawn))
+        if store is not None:
+            kept = open_store.enter_context(FolderStore(store, sampling.width, len(drawn), asked))
+            if kept.plan is not None:
+                plan = Plan(**kept.plan).longer(duration)
+            kept.begin(asdict(plan))
+        method = _method(system, plan, integrator, options)
+        # kernels are compiled, or loaded, in the set-up
+        system.matrix(start.u, start.v, 0.0, 1.0, 1.0, 1.0)
+        system.average_elastic(start.u, start.u, 0.0)
+        shown = plan.shown(frames)
+        ready = clock.perf_counter()
+        with one_blas_thread():
+            status, message, steps, resumed_from = _run(
+                system, method, plan, sampling, kept, start, set(shown), drawn, progress
+            )
+        done = clock.perf_counter()
+        parts = sampling.split(kept.samples())
+        whole = kept.frames()
+    settings["step"] = "adaptive" if plan.adapts else plan.every / plan.steps
+    settings["every"] = plan.every
     return History(
         label=f"lumped {nx}×{ny}×{layers} {springs.method}",
         integrator=integrator,
@@ -144,68 +143,37 @@ def simulate(
         steps=steps,
         setup_seconds=ready - began,
         solve_seconds=done - ready,
+        resumed_from=resumed_from,
         extra={
             "frames": whole[:, :masses],
             "axes": {
                 edge: (rest, whole[:, np.searchsorted(drawn, rows)]) for edge, (rows, rest) in axes.items()
             },
-            "frame_times": plan.every * np.array(sorted(shown)),
+            "frame_times": plan.every * np.array(shown),
             "mesh": field_mesh(system.problem, start.u, np.zeros_like(start.u)),
         },
     )
 
 
-def _prepare(
-    system: System,
-    springs: Calibration,
-    start: State,
-    duration: float,
-    step: float | None,
-    integrator: str,
-    every: float | None,
-    options: dict[str, float],
-) -> tuple[Integrator, _Plan]:
-    """The integrator and how its steps fit the samples."""
+def _method(system: System, plan: Plan, integrator: str, options: dict[str, float]) -> Integrator:
     kind = INTEGRATORS[integrator]
-    period = 1.0 / float(modes(system.scene, springs, 1).frequencies[0])
-    spacing = every if every is not None else period / SAMPLES_PER_PERIOD
-    if step is not None and every is None:
-        spacing = max(spacing, step)
-    samples = (
-        max(round(duration / spacing), 1) if every is not None else int(np.ceil(duration / spacing - 1e-9))
-    )
-    spacing = duration / samples
-    adapts = kind is GeneralisedAlpha and step is None
-    if kind is Verlet:
-        limit = step_limit(system, start.u)
-        if step is not None and step > limit.step:
-            raise BadInput(f"step = {step:g} s: above the stability limit of verlet, {limit.describe()}")
-        count = duration / (SAFETY * limit.step)
-        if step is None and count > MOST_DEFAULT_STEPS:
-            raise BadInput(
-                f"integrator = 'verlet': would take {count:.1e} steps, its stability limit being "
-                f"{limit.describe()}; choose an implicit integrator, or give a step to insist"
-            )
-        step = step if step is not None else SAFETY * limit.step
-    wanted = step if step is not None else period / STEPS_PER_PERIOD
-    steps = max(int(np.ceil(spacing / wanted - 1e-9)), 1)
-    extra: dict[str, Any] = {"fixed": not adapts} if kind is GeneralisedAlpha else {}
-    method = kind(system, spacing / steps, **options, **extra)
-    return method, _Plan(samples, spacing, 0 if adapts else steps)
+    extra: dict[str, Any] = {"fixed": not plan.adapts} if kind is GeneralisedAlpha else {}
+    return kind(system, plan.every / plan.steps, **options, **extra)
 
 
 def _run(
     system: System,
     method: Integrator,
-    plan: _Plan,
+    plan: Plan,
     sampling: Sampling,
     kept: FolderStore | MemoryStore,
     state: State,
     shown: set[int],
     drawn: np.ndarray,
     progress: Callable[[float], None] | None,
-) -> tuple[Status, str, int]:
-    """Take the run to its end, or from its last checkpoint to its end; status, message and steps taken.
+) -> tuple[Status, str, int, float]:
+    """Take the run to its end, or from its last checkpoint to its end: status, message, steps taken, and the
+    time [s] from which it went on.
 
     shown: the samples at which to keep a frame; drawn: the rows of the displacement that make one.
     """
@@ -213,6 +181,8 @@ def _run(
     checkpoint = kept.resume()
     if checkpoint is not None:
         state = State(float(checkpoint["time"]), checkpoint["u"], checkpoint["v"], checkpoint["a"])
+        if progress is not None:
+            progress(state.time)
         done, steps = int(checkpoint["done"]), int(checkpoint["steps"])
         dissipated, work, round_about, origin = (float(x) for x in checkpoint["energies"])
         method.recall(
@@ -224,20 +194,21 @@ def _run(
         kept.sample(row)
         if 0 in shown:
             kept.frame(state.u[drawn])
+    began = state.time
     while done < plan.samples:
         goal = (done + 1) * plan.every
         try:
             taken = 0
-            while (taken < plan.steps) if plan.steps else (goal - state.time > 1e-9 * plan.every):
-                advance = method.advance(state, plan.every / plan.steps if plan.steps else goal - state.time)
+            while (goal - state.time > 1e-9 * plan.every) if plan.adapts else (taken < plan.steps):
+                advance = method.advance(state, goal - state.time if plan.adapts else plan.every / plan.steps)
                 state, taken = advance.state, taken + 1
                 dissipated += advance.dissipated
                 work += advance.work
-                stuck = watchdog.stagnates(state, taken) if not plan.steps else None
+                stuck = watchdog.stagnates(state, taken) if plan.adapts else None
                 if stuck is not None:
-                    return stuck.status, stuck.message, steps + taken
+                    return stuck.status, stuck.message, steps + taken, began
         except StepFailed as failure:
-            return Status.DIVERGED, f"at {state.time:.6g} s: {failure}", steps
+            return Status.DIVERGED, f"at {state.time:.6g} s: {failure}", steps, began
         state = replace(state, time=goal)
         steps += taken
         row = sampling.row(state, dissipated, work)
@@ -246,7 +217,7 @@ def _run(
         if fault is None or fault.status is not Status.NON_FINITE:
             kept.sample(row)
         if fault is not None:
-            return fault.status, fault.message, steps
+            return fault.status, fault.message, steps, began
         done += 1
         if done in shown:
             kept.frame(state.u[drawn])
@@ -264,7 +235,7 @@ def _run(
             kept.checkpoint({**content, **own, "energies": [dissipated, work, round_about, origin]})
         if progress is not None:
             progress(state.time)
-    return Status.CONVERGED, "", steps
+    return Status.CONVERGED, "", steps, began
 
 
 def _start(system: System, springs: Calibration, weights: Weights) -> State:

@@ -1,21 +1,29 @@
 """Where a run's samples go: to memory, or to a folder that grows while the run goes on and can be resumed.
 
-A folder holds `run.json` (what was asked, and the columns), `samples.bin` (rows of float64, one a sample),
-`frames.bin` (displacements (rows, 3) float64, one a frame) and `checkpoint.npz`, replaced as a whole.
-Rows after the last checkpoint are dropped on resuming and computed again, so that a resumed run gives the
-same file to the last bit. Memory does not grow with the duration.
+A folder holds `run.json` (what was asked, and how it is sampled), `samples.bin` (rows of float64, one a
+sample), `frames.bin` (displacements (rows, 3) float64, one a frame) and `checkpoint.npz`. Those that are not
+appended to are replaced as a whole. Rows after the last checkpoint are dropped on resuming and computed
+again, so that a resumed run gives the same file to the last bit. Memory does not grow with the duration. A
+folder has one writer at a time; links in it are not followed.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import zipfile
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Any
+from types import TracebackType
+from typing import Any, BinaryIO, Self
 
 import numpy as np
 
+from sheetbench.files import NOT_FOLLOWED, only_writer, whole, writing
 from sheetbench.scenes.errors import BadInput
+
+APPENDED = ("samples", "frames")
 
 
 class MemoryStore:
@@ -51,63 +59,138 @@ class MemoryStore:
 
 
 class FolderStore:
-    """Samples in a folder. asked: JSON-able description of the run; a folder of another run is refused."""
+    """Samples in a folder, open while it is entered.
+
+    asked: JSON-able description of the run. plan: how the run there is sampled, None in a new folder.
+    Entering raises BadInput for a folder of another run, one that another process writes to or that cannot be
+    written, and for damaged files.
+    """
 
     def __init__(self, folder: Path, width: int, rows: int, asked: dict[str, Any]):
         self.folder, self._width, self._rows = folder, width, rows
-        folder.mkdir(parents=True, exist_ok=True)
-        about, text = folder / "run.json", json.dumps(asked, sort_keys=True)
-        if about.exists() and json.loads(about.read_text(encoding="utf-8")) != json.loads(text):
-            raise BadInput(f"store = '{folder}': holds another run; choose another folder or empty this one")
-        about.write_text(text, encoding="utf-8")
-        for name in ("samples.bin", "frames.bin"):
-            (folder / name).touch()
+        self._asked = json.loads(json.dumps(asked))
+        self._held = ExitStack()
+        self.plan: dict[str, Any] | None = None
+
+    def __enter__(self) -> Self:
+        with writing(self.folder):
+            self.folder.mkdir(parents=True, exist_ok=True)
+        self._held.enter_context(only_writer(self.folder))
+        try:
+            self.plan = self._kept()
+        except BaseException:
+            self._held.close()
+            raise
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._held.close()
+
+    def begin(self, plan: dict[str, Any]) -> None:
+        """Note what is asked and how it is to be sampled."""
+        if plan != self.plan:
+            with whole(self.folder / "run.json") as partial:
+                text = json.dumps({"asked": self._asked, "plan": plan}, sort_keys=True)
+                partial.write_text(text, encoding="utf-8")
+        self.plan = plan
 
     def sample(self, row: np.ndarray) -> None:
         """Append one sample (width,)."""
-        self._append("samples.bin", row)
+        self._append("samples", row)
 
     def frame(self, displacement: np.ndarray) -> None:
         """Append one frame (rows, 3)."""
-        self._append("frames.bin", displacement)
+        self._append("frames", displacement)
 
     def checkpoint(self, content: dict[str, Any]) -> None:
         """Replace the checkpoint; what was appended so far is on disk before it is."""
-        sizes = {name: self._synced(f"{name}.bin") for name in ("samples", "frames")}
-        partial = self.folder / "checkpoint.partial.npz"
-        with partial.open("wb") as file:
+        sizes = {name: self._synced(name) for name in APPENDED}
+        with whole(self.folder / "checkpoint.npz") as partial, partial.open("xb") as file:
             np.savez(file, **{**content, **sizes})
             file.flush()
             os.fsync(file.fileno())
-        os.replace(partial, self.folder / "checkpoint.npz")
 
     def resume(self) -> dict[str, Any] | None:
-        """The last checkpoint, with the files cut back to it; None, and empty files, where there is none."""
+        """The last checkpoint, with the files cut back to it; None, and empty files, where there is none.
+
+        Raises BadInput for a damaged checkpoint, and for files that are missing or shorter than it says.
+        """
         path = self.folder / "checkpoint.npz"
-        content = dict(np.load(path)) if path.exists() else None
-        for name in ("samples", "frames"):
-            os.truncate(self.folder / f"{name}.bin", int(content[name]) if content is not None else 0)
+        if not path.exists():
+            self._cut(dict.fromkeys(APPENDED, 0))
+            return None
+        try:
+            content = dict(np.load(path))
+            sizes = {name: int(content[name]) for name in APPENDED}
+        except (OSError, ValueError, LookupError, EOFError, zipfile.BadZipFile) as error:
+            raise self._damaged(path, f"is damaged ({error})") from None
+        for name, size in sizes.items():
+            place = self._file(name)
+            there = place.stat().st_size if place.exists() else 0
+            if there < size:
+                raise self._damaged(place, f"holds {there} of the {size} bytes that the checkpoint counts")
+        self._cut(sizes)
         return content
 
     def samples(self) -> np.ndarray:
         """All samples, (n, width), mapped from the file."""
-        return self._mapped("samples.bin", (self._width,))
+        return self._mapped("samples", (self._width,))
 
     def frames(self) -> np.ndarray:
         """All frames, (n, rows, 3), mapped from the file."""
-        return self._mapped("frames.bin", (self._rows, 3))
+        return self._mapped("frames", (self._rows, 3))
+
+    def _kept(self) -> dict[str, Any] | None:
+        """How the run that is kept here is sampled."""
+        path = self.folder / "run.json"
+        if not path.exists():
+            if (self.folder / "checkpoint.npz").exists():
+                raise self._damaged(path, "is missing beside a checkpoint")
+            return None
+        try:
+            kept = json.loads(path.read_text(encoding="utf-8"))
+            asked, plan = dict(kept["asked"]), dict(kept["plan"])
+        except (OSError, ValueError, TypeError, LookupError) as error:
+            raise self._damaged(path, f"is damaged ({error})") from None
+        other = [name for name in {**asked, **self._asked} if asked.get(name) != self._asked.get(name)]
+        if other:
+            raise BadInput(
+                f"{self.folder}: holds another run (of another {', '.join(other)}); choose another folder or "
+                "remove this one"
+            )
+        return plan
+
+    def _cut(self, sizes: dict[str, int]) -> None:
+        """Cut the files that are appended to down to so many bytes, making them where they are not."""
+        for name, size in sizes.items():
+            with self._opened(name, os.O_WRONLY | os.O_CREAT) as file:
+                os.ftruncate(file.fileno(), size)
+
+    def _damaged(self, path: Path, said: str) -> BadInput:
+        return BadInput(f"{path}: {said}; remove the folder {self.folder} to start the run over")
+
+    def _file(self, name: str) -> Path:
+        return self.folder / f"{name}.bin"
+
+    @contextmanager
+    def _opened(self, name: str, flags: int) -> Iterator[BinaryIO]:
+        path = self._file(name)
+        with writing(path), os.fdopen(os.open(path, flags | NOT_FOLLOWED, 0o666), "wb") as file:
+            yield file
 
     def _append(self, name: str, values: np.ndarray) -> None:
-        with (self.folder / name).open("ab") as file:
+        with self._opened(name, os.O_WRONLY | os.O_APPEND) as file:
             file.write(np.ascontiguousarray(values, dtype=float).tobytes())
 
     def _synced(self, name: str) -> int:
-        with (self.folder / name).open("rb") as file:
+        with self._opened(name, os.O_WRONLY | os.O_APPEND) as file:
             os.fsync(file.fileno())
             return os.fstat(file.fileno()).st_size
 
     def _mapped(self, name: str, shape: tuple[int, ...]) -> np.ndarray:
-        path = self.folder / name
+        path = self._file(name)
         if path.stat().st_size == 0:
             return np.empty((0, *shape))
         return np.memmap(path, dtype=float, mode="r").reshape(-1, *shape)

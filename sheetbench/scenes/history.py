@@ -24,7 +24,8 @@ class History:
     and by supports and commands that move); reactions: as those of a `scenes.Solution`, (n, 3) [N]
     each; actuators: name → force and moment about the
     segment's middle that each segment exerts on the sheet, (n, segments, 6) [N, N·m]; steps: taken by the
-    integrator; status `converged` means that the run reached its end.
+    integrator; status `converged` means that the run reached its end; resumed_from: what lies
+    before is an earlier run's, which this one took up [s].
     """
 
     label: str
@@ -40,6 +41,7 @@ class History:
     steps: int
     setup_seconds: float
     solve_seconds: float
+    resumed_from: float = 0.0
     extra: dict[str, Any] = field(default_factory=dict)
 
     @property

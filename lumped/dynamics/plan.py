@@ -1,0 +1,88 @@
+"""How samples divide a run, and steps the time between samples."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lumped.calibration import Calibration
+from lumped.dynamics.generalised_alpha import GeneralisedAlpha
+from lumped.dynamics.integrators import INTEGRATORS
+from lumped.dynamics.step_limit import SAFETY, step_limit
+from lumped.dynamics.system import State, System
+from lumped.dynamics.verlet import Verlet
+from lumped.vibration import modes
+from sheetbench.scenes.errors import BadInput
+
+SAMPLES_PER_PERIOD = 100
+STEPS_PER_PERIOD = 200  # of implicit integrators with a fixed step
+MOST_DEFAULT_STEPS = 10_000_000  # that an explicit run takes unasked: an hour or more
+
+
+@dataclass(frozen=True)
+class Plan:
+    """samples: after the start, `every` [s] apart; steps: between two of them, where the integrator `adapts`
+    the first one's; first: samples of the run as it began, before it was to last longer.
+    """
+
+    samples: int
+    every: float
+    steps: int
+    adapts: bool
+    first: int
+
+    def longer(self, duration: float) -> Plan:
+        """The same run up to the first sample at or after `duration` [s]; BadInput if it ends before that."""
+        samples = int(np.ceil(duration / self.every - 1e-9))
+        if samples < self.samples:
+            raise BadInput(
+                f"duration = {duration:g} s: the run that is kept there is one of "
+                f"{self.samples * self.every:g} s; ask for that or longer, or choose another folder"
+            )
+        return replace(self, samples=samples)
+
+    def shown(self, frames: int) -> list[int]:
+        """Samples to keep whole: `frames` evenly over the run as it began, and on at that distance."""
+        if frames < 2:
+            return list(range(frames))
+        apart = self.first / (frames - 1)
+        return sorted({round(i * apart) for i in range(int(self.samples / apart + 1e-9) + 1)})
+
+
+def plan_run(
+    system: System,
+    springs: Calibration,
+    start: State,
+    duration: float,
+    step: float | None,
+    integrator: str,
+    every: float | None,
+) -> Plan:
+    """How a run that begins is sampled and stepped; see `lumped.simulate` for the defaults.
+
+    Raises BadInput for a step above the limit of `verlet`, or too many of them.
+    """
+    kind = INTEGRATORS[integrator]
+    period = 1.0 / float(modes(system.scene, springs, 1).frequencies[0])
+    spacing = every if every is not None else period / SAMPLES_PER_PERIOD
+    if step is not None and every is None:
+        spacing = max(spacing, step)
+    samples = (
+        max(round(duration / spacing), 1) if every is not None else int(np.ceil(duration / spacing - 1e-9))
+    )
+    spacing = duration / samples
+    if kind is Verlet:
+        limit = step_limit(system, start.u)
+        if step is not None and step > limit.step:
+            raise BadInput(f"step = {step:g} s: above the stability limit of verlet, {limit.describe()}")
+        count = duration / (SAFETY * limit.step)
+        if step is None and count > MOST_DEFAULT_STEPS:
+            raise BadInput(
+                f"integrator = 'verlet': would take {count:.1e} steps, its stability limit being "
+                f"{limit.describe()}; choose an implicit integrator, or give a step to insist"
+            )
+        step = step if step is not None else SAFETY * limit.step
+    wanted = step if step is not None else period / STEPS_PER_PERIOD
+    steps = max(int(np.ceil(spacing / wanted - 1e-9)), 1)
+    return Plan(samples, spacing, steps, kind is GeneralisedAlpha and step is None, samples)

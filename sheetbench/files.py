@@ -1,0 +1,115 @@
+"""Files of results: whole or absent, with one writer at a time, and a line that says so where they cannot be.
+
+A file is written beside its name and moved there when done. What stood there stays as it was until then, and
+a link that stands there is replaced, not followed. What a killed writer left beside a name is removed by the
+next that writes there.
+"""
+
+from __future__ import annotations
+
+import errno
+import fcntl
+import os
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from sheetbench.scenes.errors import BadInput
+
+LOCK = ".lock"
+PARTIAL = re.compile(r"\.(?P<stem>.+)\.(?P<process>\d+)\.partial(?P<suffix>\..*)?")
+NOT_FOLLOWED = os.O_CLOEXEC | os.O_NOFOLLOW
+REMEDIES = {
+    errno.ENOSPC: "free some and run the same command again",
+    errno.EDQUOT: "free some and run the same command again",
+    errno.EFBIG: "raise the limit, or write elsewhere",
+    errno.EACCES: "make it writable, or choose another folder",
+    errno.EPERM: "make it writable, or choose another folder",
+    errno.EROFS: "choose another folder",
+    errno.EISDIR: "a folder stands there: move it away",
+    errno.EEXIST: "a file stands there: choose another folder",
+    errno.ENOTDIR: "a part of the path is a file: choose another folder",
+    errno.ELOOP: "a link stands there: remove it",
+    errno.ENOENT: "the folder is gone: run the same command again",
+    errno.EIO: "the disk is at fault: choose another folder",
+    errno.ENOLCK: "this file system knows no locks: choose another folder",
+    errno.ENOTSUP: "this file system knows no locks: choose another folder",
+}
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Around what writes a file: a full disk, a missing right, … is a BadInput that names file and remedy."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno not in REMEDIES or _elsewhere(error.filename, path):
+            raise
+        said = (error.strerror or str(error)).lower()
+        raise BadInput(f"{path}: cannot be written, {said}: {REMEDIES[error.errno]}") from error
+
+
+@contextmanager
+def whole(path: Path) -> Iterator[Path]:
+    """A path with the same suffix to write to; what was written takes `path`'s place at the end."""
+    partial = path.with_name(f".{path.stem}.{os.getpid()}.partial{path.suffix}")
+    with writing(path):
+        _clear(path)
+        try:
+            yield partial
+            os.replace(partial, path)
+        finally:
+            with suppress(OSError):
+                partial.unlink(missing_ok=True)
+
+
+@contextmanager
+def only_writer(folder: Path) -> Iterator[None]:
+    """Be the only process that writes into a folder, until the end or the death of this one.
+
+    Raises BadInput where another process is. What the lock is held on, `.lock`, stays behind empty.
+    """
+    path = folder / LOCK
+    with writing(path):
+        descriptor = os.open(path, os.O_RDWR | os.O_CREAT | NOT_FOLLOWED, 0o666)
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            os.close(descriptor)
+            raise BadInput(
+                f"{folder}: another process writes here; wait until it has ended, or choose another folder"
+            ) from None
+        except BaseException:
+            os.close(descriptor)
+            raise
+    try:
+        yield
+    finally:
+        os.close(descriptor)
+
+
+def _elsewhere(named: object, path: Path) -> bool:
+    """Whether an error names a file that is neither beside `path` nor on the way to it."""
+    if not isinstance(named, str):
+        return False
+    return Path(named).parent != path.parent and not path.is_relative_to(named)
+
+
+def _clear(path: Path) -> None:
+    """Remove what killed writers left beside a name."""
+    for name in os.listdir(path.parent):
+        found = PARTIAL.fullmatch(name)
+        same = found and (found["stem"], found["suffix"] or "") == (path.stem, path.suffix)
+        if found and same and not _lives(int(found["process"])):
+            (path.parent / name).unlink(missing_ok=True)
+
+
+def _lives(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (PermissionError, OverflowError):
+        return True
+    return True

@@ -1,0 +1,101 @@
+"""Files of results are whole or absent, have one writer, and say in a line where they cannot be written."""
+
+from __future__ import annotations
+
+import errno
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from comparisons.report.files import folder
+from sheetbench.files import only_writer, whole, writing
+from sheetbench.scenes import BadInput
+
+
+def test_a_file_is_whole_or_as_it_was(tmp_path: Path) -> None:
+    path = tmp_path / "file.txt"
+    path.write_text("before")
+    with pytest.raises(ZeroDivisionError), whole(path) as partial:
+        partial.write_text("half")
+        raise ZeroDivisionError
+    assert path.read_text() == "before"
+    with whole(path) as partial:
+        partial.write_text("after")
+    assert path.read_text() == "after"
+    assert [found.name for found in tmp_path.iterdir()] == ["file.txt"]
+
+
+def test_a_planted_link_is_replaced_and_not_followed(tmp_path: Path) -> None:
+    victim = tmp_path / "victim"
+    victim.write_text("mine")
+    (tmp_path / "file.txt").symlink_to(victim)
+    with whole(tmp_path / "file.txt") as partial:
+        partial.write_text("ours")
+    assert victim.read_text() == "mine" and not (tmp_path / "file.txt").is_symlink()
+
+
+def test_what_killed_writers_left_is_cleared_and_what_living_ones_write_is_not(tmp_path: Path) -> None:
+    dead = subprocess.Popen([sys.executable, "-c", ""])
+    dead.wait()
+    left = tmp_path / f".file.{dead.pid}.partial.txt"
+    others = [
+        tmp_path / name
+        for name in (
+            f".file.{os.getppid()}.partial.txt",
+            f".other.{dead.pid}.partial.txt",
+            ".file.partial.txt",
+        )
+    ]
+    for path in (left, *others):
+        path.write_text("half")
+    with whole(tmp_path / "file.txt") as partial:
+        partial.write_text("whole")
+    assert not left.exists() and all(path.exists() for path in others)
+
+
+@pytest.mark.parametrize(
+    ("number", "said"),
+    [
+        (errno.ENOSPC, "no space left on device: free some"),
+        (errno.EROFS, "read-only file system: choose another folder"),
+        (errno.EACCES, "permission denied: make it writable"),
+    ],
+)
+def test_what_stands_in_the_way_is_said_with_the_remedy(tmp_path: Path, number: int, said: str) -> None:
+    path = tmp_path / "file.txt"
+    with pytest.raises(BadInput, match=f"{path}: cannot be written, {said}"), whole(path):
+        raise OSError(number, os.strerror(number))
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_fault_elsewhere_is_not_laid_at_the_files_door(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match="font"), writing(tmp_path / "file.txt"):
+        Path("/nowhere/font.ttf").read_bytes()
+
+
+def test_a_folder_has_one_writer_until_that_ends_or_dies(tmp_path: Path) -> None:
+    refused = pytest.raises(BadInput, match=f"{tmp_path}: another process writes here")
+    with only_writer(tmp_path), refused, only_writer(tmp_path):
+        pass
+    code = (
+        "import os, sys; from pathlib import Path; from sheetbench.files import only_writer\n"
+        "only_writer(Path(sys.argv[1])).__enter__(); os._exit(9)"
+    )
+    assert subprocess.run([sys.executable, "-c", code, str(tmp_path)]).returncode == 9
+    with only_writer(tmp_path):
+        pass
+
+
+def test_a_folder_that_cannot_be_had_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "link").symlink_to(tmp_path / "nothing")
+    with pytest.raises(BadInput, match="a link to nothing stands there"):
+        folder(tmp_path / "link")
+    (tmp_path / "file").touch()
+    with pytest.raises(BadInput, match="Not a directory"):
+        folder(tmp_path / "file" / "under")
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    with pytest.raises(BadInput, match="cannot be written to; make it writable"):
+        folder(tmp_path)

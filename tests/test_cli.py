@@ -6,6 +6,7 @@ import json
 import subprocess
 import sys
 import tomllib
+from importlib.metadata import version
 from pathlib import Path
 
 import fake_solutions
@@ -56,10 +57,47 @@ def test_importing_the_command_line_imports_nothing_heavy() -> None:
     assert done.stdout.strip() == "[]"
 
 
-def test_help_lists_the_verbs(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("--help") == 0
+@pytest.mark.parametrize("asked", [(), ("--help",)])
+def test_help_lists_the_verbs(asked: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(*asked) == 0
     printed = capsys.readouterr().out
     assert all(verb in printed for verb in ("scenes", "compare", "calibrate"))
+
+
+def test_version_is_said_alone(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("--version") == 0
+    assert capsys.readouterr().out == f"sheetbench {version('sheetbench')}\n"
+
+
+def test_a_shell_can_complete_the_verbs(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("_SHEETBENCH_COMPLETE", "complete_bash")
+    monkeypatch.setenv("COMP_WORDS", "sheetbench tr")
+    monkeypatch.setenv("COMP_CWORD", "1")
+    run()
+    assert {"tradeoff", "transfer"} <= set(capsys.readouterr().out.split())
+
+
+@pytest.mark.parametrize(
+    ("grid", "verb"),
+    [
+        ("2x2", ["compare"]),
+        ("3x2", ["compare"]),
+        ("2x2", ["modes", "--count", "1"]),
+        ("2x2", ["simulate", "--duration", "0.01"]),
+    ],
+)
+def test_a_grid_whose_masses_are_all_held_is_named(
+    tmp_path: Path, grid: str, verb: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    edges = "".join(f'[[support]]\nedge = "{edge}"\nkind = "clamped"\n' for edge in ("x0", "x1", "y0", "y1"))
+    text = "name = 'frame'\n[sheet]\nlength_x = 0.2\nlength_y = 0.2\nthickness = 0.002\n"
+    text += "[material]\nyoung = 1e6\npoisson = 0.3\ndensity = 1000.0\n"
+    path = written(tmp_path, text + edges)
+    assert run(verb[0], str(path), "--lumped", grid, *verb[1:]) == 2
+    said = capsys.readouterr().err.splitlines()[-1]
+    assert f"{grid.replace('x', '×')}×2" in said and "every mass" in said
 
 
 @pytest.mark.parametrize("fault", BAD)
@@ -99,7 +137,7 @@ def test_scene_that_floats_leaves_with_2_and_names_the_file(
         (("calibrate", "two-edges-clamped", "--side", "18cm"), ["--side", "18cm"]),
         (("calibrate", "two-edges-clamped", "--side", "0.001"), ["thickness", "0.001"]),
         (("calibrate", "two-edges-clamped", "--method", "guess"), ["guess", "consistent"]),
-        (("calibrate", "two-edges-clamped", "--k", "550"), ["k", "550"]),
+        (("calibrate", "two-edges-clamped", "--k", "550"), ["k", "consistent", "uniform"]),
         (("calibrate", "two-edges-clamped", "--toml", "--json"), ["--toml", "--json"]),
     ],
 )

@@ -35,8 +35,7 @@ NOT_CONVERGED = 3
 app = typer.Typer(
     help="How good is your spring lattice? Lumped-mass models of soft sheets beside finite elements.",
     epilog="SCENE is a name that 'sheetbench scenes' lists, or a path to a TOML file.",
-    add_completion=False,
-    no_args_is_help=True,
+    invoke_without_command=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
@@ -44,15 +43,23 @@ for _verb in VERBS:
     app.command(_verb)(import_module(f"comparisons.cli.{_verb}").command)
 
 
-@app.callback()
-def _options(
-    version: bool = typer.Option(False, "--version", help="Print the version and stop.", is_eager=True),
-) -> None:
-    if version:
-        from importlib.metadata import version as installed
+def _print_version(asked: bool) -> None:
+    if asked:
+        from importlib.metadata import version
 
-        print(f"sheetbench {installed('sheetbench')}")
+        print(f"sheetbench {version('sheetbench')}")
         raise typer.Exit
+
+
+@app.callback()
+def _help_where_nothing_is_asked(
+    context: typer.Context,
+    _version: bool = typer.Option(
+        False, "--version", help="Print the version and stop.", is_eager=True, callback=_print_version
+    ),
+) -> None:
+    if context.invoked_subcommand is None:
+        print(context.get_help(), end="")
 
 
 def main(arguments: list[str] | None = None) -> None:

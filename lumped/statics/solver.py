@@ -115,10 +115,13 @@ def pose(
     weights: Weights = "tributary",
     precision: Precision = "double",
 ) -> Problem:
-    """The lattice of a scene under its supports and loads."""
+    """The lattice of a scene under its supports and loads. Raises BadInput if no mass is left to move."""
     couple = partial(Coupling, scene) if scene.actuators else None
     assembly = Assembly(scene.sheet, springs, weights, couple, precision)
     constraints = constrain(scene, assembly.lattice, assembly.coupling)
+    if not constraints.transform.shape[1]:
+        grid = "×".join(str(n) for n in assembly.lattice.grid)
+        raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
     return Problem(assembly, constraints, Loads(scene, assembly), max(scene.sheet.lengths))
 
 

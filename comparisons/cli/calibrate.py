@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+from warnings import warn
 
 import typer
 
@@ -139,14 +140,20 @@ def _training(name: str, sheet: Sheet, material: Material) -> list[Scene]:
 def _sheet_and_material(
     scene: str | None, sheet: dict[str, float | None], material: dict[str, float | None]
 ) -> tuple[Sheet, Material]:
-    """The scene's sheet and material with what is given put in its place, or those of the options alone."""
+    """The scene's sheet and material with what is given put in its place, or those of the options alone.
+
+    Warns of what the options make implausible.
+    """
     from sheetbench import scenes
-    from sheetbench.scenes.errors import BadInput
+    from sheetbench.scenes.errors import BadInput, Implausible
+    from sheetbench.scenes.plausibility import material_slips, sheet_slips
 
     sheet_data: dict[str, Any] = {}
     material_data: dict[str, Any] = {"density": DENSITY}
+    known: list[str] = []  # slips of the scene's own, which loading it has told
     if scene is not None:
         loaded = scenes.load(scene)
+        known = [*sheet_slips(loaded.sheet), *material_slips(loaded.material)]
         sheet_data, material_data = loaded.sheet.model_dump(), loaded.material.model_dump()
     sheet_data |= {key: value for key, value in sheet.items() if value is not None}
     material_data |= {key: value for key, value in material.items() if value is not None}
@@ -162,7 +169,11 @@ def _sheet_and_material(
     ]
     if missing:
         raise BadInput(f"missing {', '.join(missing)}; give them, or a SCENE to take them from")
-    return _checked(scenes.Sheet, sheet_data), _checked(scenes.Material, material_data)
+    changed = _checked(scenes.Sheet, sheet_data), _checked(scenes.Material, material_data)
+    for said in [*sheet_slips(changed[0]), *material_slips(changed[1])]:
+        if said not in known:
+            warn(Implausible(said), stacklevel=2)
+    return changed
 
 
 def _checked(kind: type[Quantities], data: dict[str, Any]) -> Quantities:

@@ -13,12 +13,14 @@ from inspect import Parameter, signature
 from math import isfinite
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
+from warnings import warn
 
 from comparisons.models import plugins
 from comparisons.models.grids import Grid, default_grid, near_square
 from comparisons.models.symmetry import half, planes, whole
 from sheetbench.scenes import History, Material, Scene, Sheet, Solution, load
-from sheetbench.scenes.errors import BadInput, require_choice
+from sheetbench.scenes.errors import BadInput, Implausible, require_choice
+from sheetbench.scenes.plausibility import layer_slips
 
 if TYPE_CHECKING:
     from lumped import Calibration
@@ -40,13 +42,17 @@ def calibrate(
 
     k [N/m] and layer_distance [m] are the calibration's own options; training: the scenes that a fitted
     one is fitted to, see `comparisons.models.training`. Raises BadInput for a name that is not a calibration
-    or lengths that are not above zero, and for options it does not take.
+    or lengths that are not above zero, and for options it does not take; warns of a layer distance that is
+    hardly meant.
     """
     import lumped
 
     check_lattice(calibration, k, layer_distance)
     method = calibration or "consistent"
     grid = grid or default_grid(sheet)
+    if layer_distance is not None:
+        for said in layer_slips(sheet, layer_distance, "layer-distance"):
+            warn(Implausible(said), stacklevel=2)
     if lumped.CALIBRATIONS[method].fitted and k is None:
         from comparisons.models.training import fitted
 

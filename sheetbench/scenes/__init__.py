@@ -1,10 +1,11 @@
 """What is asked: sheet, material, supports, loads, probes, the catalogue, published figures; no solver."""
 
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable, EdgeMotion
-from sheetbench.scenes.errors import BadInput, SceneError
+from sheetbench.scenes.errors import BadInput, Implausible, SceneError
+from sheetbench.scenes.files import catalogue, load
 from sheetbench.scenes.history import History
 from sheetbench.scenes.loads import EdgeLoad, Load, PointLoad, Pressure
-from sheetbench.scenes.scene import Scene, catalogue, free_rigid_motions, load, require_static
+from sheetbench.scenes.scene import Scene, free_rigid_motions, require_static
 from sheetbench.scenes.sheet import EDGES, Edge, Gravity, Material, Sheet
 from sheetbench.scenes.solution import FieldMesh, Iteration, Solution, Status
 from sheetbench.scenes.springs import DamperSet, PerDirection, SpringSet
@@ -41,6 +42,7 @@ __all__ = [
     "Held",
     "Hinged",
     "History",
+    "Implausible",
     "Iteration",
     "Load",
     "Material",

@@ -20,6 +20,13 @@ class SceneError(BadInput):
     """A scene that cannot be read or asks something impossible; the text names file, key and value."""
 
 
+class Implausible(UserWarning):
+    """A scene that can be solved and is hardly meant; the text names file, key, value and unit."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(printable(text))
+
+
 def printable(text: str) -> str:
     """The text with its control characters written out, so that none of a file's reaches a terminal."""
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)

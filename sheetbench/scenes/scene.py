@@ -1,14 +1,11 @@
 """A scene: what is asked of a model, in raw physics (E, ν, ρ, geometry, supports, loads, probes; SI).
 
-A scene knows no solver. It is read from TOML with `load` or built as `Scene(…)`, validated once, and
-frozen; see `sheetbench.scenes.supports` and `sheetbench.scenes.loads` for what the words mean.
+A scene knows no solver. It is read from TOML (`sheetbench.scenes.files`) or built as `Scene(…)`, validated
+once, and frozen; see `sheetbench.scenes.supports` and `sheetbench.scenes.loads` for what the words mean.
 """
 
 from __future__ import annotations
 
-import tomllib
-from importlib import resources
-from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -19,7 +16,6 @@ from sheetbench.scenes.actuators import Actuator, Chain, disagreement
 from sheetbench.scenes.errors import SceneError
 from sheetbench.scenes.loads import Load, PointLoad
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
-from sheetbench.scenes.refusals import in_one_line
 from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
 from sheetbench.scenes.springs import DamperSet, SpringSet
 from sheetbench.scenes.supports import Support, contradiction, held_axes, holds_tilt
@@ -164,35 +160,3 @@ def require_static(scene: Scene) -> None:
 
 def _cross_matrix(v: np.ndarray) -> np.ndarray:
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
-
-
-def catalogue() -> dict[str, Path]:
-    """Names and files of the scenes that come with the package."""
-    folder = Path(str(resources.files("sheetbench.scenes") / "catalogue"))
-    return {path.stem: path for path in sorted(folder.glob("*.toml"))}
-
-
-def load(scene: str | Path) -> Scene:
-    """The scene of a catalogue name or of a TOML file.
-
-    Raises SceneError, in one line that names the file, the key, the value and what is allowed.
-    """
-    known = catalogue()
-    path = known.get(str(scene)) or Path(scene)
-    try:
-        data = tomllib.loads(path.read_text(encoding="utf-8-sig"))  # some editors put a mark before the text
-    except FileNotFoundError:
-        names = ", ".join(known)
-        raise SceneError(f"{scene}: no such file, and no catalogue scene of that name ({names})") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise SceneError(f"{scene}: cannot be read as text: {error}") from None
-    except tomllib.TOMLDecodeError as error:
-        raise SceneError(f"{scene}: not a TOML file: {error}") from None
-    except RecursionError:
-        raise SceneError(f"{scene}: not a scene: tables or lists within each other without end") from None
-    except ValueError:  # from `int`, which TOMLDecodeError does not cover
-        raise SceneError(f"{scene}: not a scene: a number of more digits than can be read") from None
-    try:
-        return Scene.model_validate(data)
-    except ValidationError as error:
-        raise SceneError(f"{scene}: {in_one_line(error, Scene)}") from None

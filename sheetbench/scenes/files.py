@@ -1,0 +1,51 @@
+"""Scenes in files: the catalogue that comes with the package, and TOML files of one's own."""
+
+from __future__ import annotations
+
+import tomllib
+from importlib import resources
+from pathlib import Path
+from warnings import warn
+
+from pydantic import ValidationError
+
+from sheetbench.scenes.errors import Implausible, SceneError
+from sheetbench.scenes.plausibility import slips
+from sheetbench.scenes.refusals import in_one_line
+from sheetbench.scenes.scene import Scene
+
+
+def catalogue() -> dict[str, Path]:
+    """Names and files of the scenes that come with the package."""
+    folder = Path(str(resources.files("sheetbench.scenes") / "catalogue"))
+    return {path.stem: path for path in sorted(folder.glob("*.toml"))}
+
+
+def load(scene: str | Path) -> Scene:
+    """The scene of a catalogue name or of a TOML file.
+
+    Raises SceneError, in one line that names the file, the key, the value and what is allowed. Warns
+    (Implausible) of what can be solved and is hardly meant.
+    """
+    known = catalogue()
+    path = known.get(str(scene)) or Path(scene)
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8-sig"))  # some editors put a mark before the text
+    except FileNotFoundError:
+        names = ", ".join(known)
+        raise SceneError(f"{scene}: no such file, and no catalogue scene of that name ({names})") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise SceneError(f"{scene}: cannot be read as text: {error}") from None
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError(f"{scene}: not a TOML file: {error}") from None
+    except RecursionError:
+        raise SceneError(f"{scene}: not a scene: tables or lists within each other without end") from None
+    except ValueError:  # from `int`, which TOMLDecodeError does not cover
+        raise SceneError(f"{scene}: not a scene: a number of more digits than can be read") from None
+    try:
+        loaded = Scene.model_validate(data)
+    except ValidationError as error:
+        raise SceneError(f"{scene}: {in_one_line(error, Scene)}") from None
+    for said in slips(loaded):
+        warn(Implausible(f"{scene}: {said}"), stacklevel=2)
+    return loaded

@@ -1,0 +1,106 @@
+"""Slips that no rule forbids: numbers that are fine in SI units and hardly meant, nearly always a unit.
+
+Each is said in a sentence that names the key, the value, the unit and how the likely quantity is written.
+Hardly meant are E below 1 kPa or above 10 GPa, a density outside 100 to 20 000 kg/m³, sides above 10 m, a
+thickness over a quarter of the shorter side, a gravity other than the Earth's, and layers of springs much
+nearer to or farther from each other than the sheet is thick; and a sheet that nothing moves.
+"""
+
+from __future__ import annotations
+
+from math import hypot
+
+from sheetbench.scenes.scene import Scene
+from sheetbench.scenes.sheet import Gravity, Material, Sheet
+
+SOFTEST, STIFFEST = 1e3, 1e10  # Pa: agar, and the stiffest polymers
+LIGHTEST, HEAVIEST = 100.0, 20_000.0  # kg/m³: foam, gold
+LARGEST = 10.0  # m, of a side
+THICKEST = 0.25  # of the shorter side
+EARTH = (9.3, 10.3)  # m/s²; anything else is another planet or another unit
+LAYERS = 5.0  # times thicker or thinner than the sheet
+
+
+def slips(scene: Scene) -> tuple[str, ...]:
+    """Sentences about what was hardly meant; for most scenes none."""
+    said = [*sheet_slips(scene.sheet), *material_slips(scene.material)]
+    if scene.gravity is not None:
+        said += _gravity(scene.gravity)
+    if scene.springs is not None:
+        said += layer_slips(scene.sheet, scene.springs.layer_distance, "springs.layer_distance")
+    if _unmoved(scene):
+        said.append("no gravity, load, actuator or bent support: nothing moves the sheet, all stays at zero")
+    return tuple(said)
+
+
+def sheet_slips(sheet: Sheet) -> list[str]:
+    """Lengths that are not in metres."""
+    sizes = {key: getattr(sheet, key) for key in ("length_x", "length_y", "thickness")}
+    if max(sheet.lengths) > LARGEST:
+        written = ", ".join(f"{key} = {value:g} m" for key, value in sizes.items())
+        side = max(sheet.lengths)
+        return [f"{written}: lengths are in metres; {side:g} mm is written {side / 1e3:g}"]
+    shorter = min(sheet.lengths)
+    if sheet.thickness > THICKEST * shorter:
+        return [
+            f"thickness = {sheet.thickness:g} m is {sheet.thickness / shorter:.2g} of the shorter side, "
+            f"{shorter:g} m, which is no thin sheet; lengths are in metres"
+        ]
+    return []
+
+
+def material_slips(material: Material) -> list[str]:
+    """A modulus that is not in pascals, a density that is not in kilograms a cubic metre."""
+    said = []
+    young, density = material.young, material.density
+    if young < SOFTEST:
+        said.append(
+            f"young = {young:g} Pa is softer than any solid sheet; "
+            f"it is in pascals: {young:g} MPa is written {young:g}e6, {young:g} kPa {young:g}e3"
+        )
+    elif young > STIFFEST:
+        said.append(
+            f"young = {young:g} Pa is {young / 1e9:g} GPa, stiffer than any soft sheet; it is in pascals"
+        )
+    if density < LIGHTEST:
+        said.append(
+            f"density = {density:g} kg/m³ is lighter than foam; "
+            f"it is in kg/m³: {density:g} g/cm³ is written {1e3 * density:g}"
+        )
+    elif density > HEAVIEST:
+        said.append(f"density = {density:g} kg/m³ is heavier than any metal; water's is 1000 kg/m³")
+    return said
+
+
+def layer_slips(sheet: Sheet, distance: float, key: str = "layer_distance") -> list[str]:
+    """A distance of neighbouring layers [m] far from the sheet's thickness; `key` is how it was given."""
+    ratio = distance / sheet.thickness
+    if 1.0 / LAYERS <= ratio <= LAYERS:
+        return []
+    times = f"{_three_digits(ratio)} times the thickness, {sheet.thickness:g} m"
+    return [f"{key} = {distance:g} m is {times}; lengths are in metres"]
+
+
+def _three_digits(value: float) -> str:
+    return f"{float(format(value, '.3g')):g}"  # 1000, not 1e+03
+
+
+def _gravity(gravity: Gravity) -> list[str]:
+    size = hypot(*gravity.acceleration)
+    if size == 0.0 or EARTH[0] <= size <= EARTH[1]:
+        return []
+    likely = f": {size:g} mm/s² is written {size / 1e3:g}" if EARTH[0] <= size / 1e3 <= EARTH[1] else ""
+    return [
+        f"gravity.acceleration = {list(gravity.acceleration)} is {size:g} m/s² strong, not the Earth's 9.81; "
+        f"it is in m/s²{likely}"
+    ]
+
+
+def _unmoved(scene: Scene) -> bool:
+    """Whether nothing whatever moves the sheet; its modes are all there is to ask for."""
+    weight = scene.gravity is not None and any(scene.gravity.acceleration)
+    bent = any(
+        getattr(support, "tilt", 0.0) or getattr(support, "curvature", 0.0) or support.motion is not None
+        for support in scene.supports
+    )
+    return not (weight or bent or scene.loads or scene.actuators)

@@ -1,0 +1,93 @@
+"""Numbers that are fine in SI units and hardly meant are said once, with the unit, and solved."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import pytest
+from test_cli import run
+
+from sheetbench import scenes
+from sheetbench.scenes import Implausible
+from sheetbench.scenes.plausibility import slips
+
+GOOD = scenes.catalogue()["one-edge-clamped"].read_text(encoding="utf-8")
+SPRINGS = """[springs]
+axial = 1.0
+diagonal = 1.0
+vertical = 1.0
+cross = 1.0
+cross_diagonal = 1.0
+layer_distance = 2.0
+[probes]"""
+SLIPS = {
+    "E in MPa": ("54.5e6", "54.5", ["young = 54.5 Pa", "54.5 MPa is written 54.5e6"]),
+    "E of a metal": ("54.5e6", "2.0e11", ["young = 2e+11 Pa is 200 GPa"]),
+    "density in g/cm³": ("1678.0", "1.1", ["density = 1.1 kg/m³", "1.1 g/cm³ is written 1100"]),
+    "density of nothing": ("1678.0", "30000.0", ["density = 30000 kg/m³", "heavier than any metal"]),
+    "a thick sheet": ("0.003", "0.05", ["thickness = 0.05 m", "0.188 m", "metres"]),
+    "gravity in mm/s²": ("-9.81", "-9810.0", ["9810 m/s²", "9810 mm/s² is written 9.81"]),
+    "another planet": ("-9.81", "-1.0", ["gravity.acceleration = [0.0, 0.0, -1.0]", "9.81", "m/s²"]),
+    "layers far apart": ("[probes]", SPRINGS, ["springs.layer_distance = 2 m", "667 times the thickness"]),
+    "no load": ("[0.0, 0.0, -9.81]", "[0.0, 0.0, 0.0]", ["nothing moves the sheet"]),
+}
+IN_MILLIMETRES = GOOD.replace("0.188", "188.0").replace("0.003", "3.0").replace("0.094", "94.0")
+
+
+def written(folder: Path, text: str) -> str:
+    path = folder / "scene.toml"
+    path.write_text(text, encoding="utf-8")
+    return str(path)
+
+
+@pytest.mark.parametrize("slip", SLIPS)
+def test_a_slip_is_said_with_file_key_value_and_unit(tmp_path: Path, slip: str) -> None:
+    instead_of, stands, said = SLIPS[slip]
+    assert instead_of in GOOD
+    path = written(tmp_path, GOOD.replace(instead_of, stands))
+    with pytest.warns(Implausible) as caught:
+        scenes.load(path)
+    (warning,) = caught
+    text = str(warning.message)
+    assert text.startswith(f"{path}: ") and all(part in text for part in said)
+    assert "\n" not in text
+
+
+def test_a_scene_in_millimetres_is_said_to_be_one(tmp_path: Path) -> None:
+    with pytest.warns(Implausible, match=r"length_x = 188 m, .*thickness = 3 m: .* 188 mm is written 0.188"):
+        scenes.load(written(tmp_path, IN_MILLIMETRES))
+
+
+def test_what_is_plausible_is_not_remarked_on() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for name in scenes.catalogue():
+            assert slips(scenes.load(name)) == ()
+
+
+def test_every_verb_says_it_once_on_standard_error(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = written(tmp_path, GOOD.replace("54.5e6", "54.5"))
+    assert run("calibrate", path, "--grid", "5", "--method", "fit-modal", "--json") == 0  # loads it twice
+    printed = capsys.readouterr()
+    assert printed.err.count("young = 54.5 Pa") == 1
+    assert "softer" not in printed.out
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--young", "54.5"), ["54.5 MPa is written 54.5e6"]),
+        (("--thickness", "3", "--side", "188"), ["188 mm is written 0.188"]),
+        (("--density", "1.1"), ["1.1 g/cm³ is written 1100"]),
+        (("--layer-distance", "3"), ["layer-distance = 3 m", "1000 times"]),
+    ],
+)
+def test_options_are_weighed_too(
+    options: tuple[str, ...], said: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("calibrate", "one-edge-clamped", "--grid", "5", *options) == 0
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 1 and all(part in lines[0] for part in said)

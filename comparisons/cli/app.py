@@ -80,7 +80,7 @@ def _warnings_in_a_line() -> Iterator[list[str]]:
         file: TextIO | None = None,
         line: str | None = None,
     ) -> None:
-        if not category.__module__.startswith("sheetbench."):
+        if category.__module__.split(".")[0] != "sheetbench":
             usual(message, category, filename, lineno, file, line)
         elif str(message) not in said:
             from comparisons.cli import console

@@ -17,7 +17,7 @@ class Strip:
         rigidity = material.young * sheet.thickness**3 / 12
         if settings["plane_strain"]:
             rigidity /= 1 - material.poisson**2
-        load = material.density * sheet.thickness * gravity.acceleration[2] * gravity.last_factor
+        load = material.density * sheet.thickness * gravity.last_acceleration[2]
         length = sheet.length_x
 
         def displacement(points):

@@ -28,7 +28,7 @@ import numpy as np
 
 from fem_reference import solve
 from fem_reference.surface.mesh import divisions
-from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes import Scene, Solution
 from sheetbench.scenes.errors import BadInput
 
 SAFETY, CAUTION = 1.25, 3.0  # factors F of safety
@@ -94,7 +94,7 @@ def of_solutions(
     usable = [
         (solution.displacement(points), size)
         for solution, size in zip(solutions, sizes, strict=True)
-        if solution.status in (Status.CONVERGED, Status.UNSTABLE) and solution.load_factor == 1.0
+        if solution.comparable
     ]
     if len(usable) < 2 or usable[0][1] != sizes[0]:
         return None

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from comparisons.comparison.comparison import comparable, error
+from comparisons.comparison.comparison import error
 from comparisons.models import registry as models
 from comparisons.models.candidate import Candidate
 from comparisons.models.grids import near_square
@@ -41,7 +41,7 @@ class Trial:
     @property
     def usable(self) -> bool:
         """Whether the answer is a stable equilibrium under the whole load."""
-        return self.solution.status is Status.CONVERGED and comparable(self.solution)
+        return self.solution.status is Status.CONVERGED and self.solution.comparable
 
 
 class Probing:

@@ -38,7 +38,7 @@ def scales(scene: Scene) -> Scales:
     rigidity = material.young * sheet.thickness**3 / (12.0 * (1.0 - material.poisson**2))
     load = 0.0
     if scene.gravity is not None:
-        acceleration = abs(scene.gravity.last_factor) * float(np.linalg.norm(scene.gravity.acceleration))
+        acceleration = float(np.linalg.norm(scene.gravity.last_acceleration))
         load += material.density * sheet.thickness * acceleration
     for acting in scene.loads:
         factor = abs(acting.last_factor)

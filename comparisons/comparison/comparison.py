@@ -44,12 +44,6 @@ def _ratio(difference: float, size: float) -> float | None:
     return ratio if np.isfinite(ratio) else None
 
 
-def comparable(solution: Solution) -> bool:
-    """Whether the solution is an equilibrium under the whole load, stable and physical or not."""
-    equilibria = (Status.CONVERGED, Status.UNSTABLE, Status.STRAIN_OUTSIDE_MODEL)
-    return solution.status in equilibria and solution.load_factor == 1.0
-
-
 @dataclass(frozen=True)
 class Difference:
     """How far one model is from another at one probe, as a fraction of the other's displacement there.
@@ -93,7 +87,7 @@ class Comparison:
 
     def error(self, solution: Solution) -> float | None:
         """The solution's error against the reference."""
-        if solution is self.reference or not (comparable(solution) and comparable(self.reference)):
+        if solution is self.reference or not (solution.comparable and self.reference.comparable):
             return None
         points = self.scene.probe_points()
         return error(solution.displacement(points), self.reference.displacement(points))
@@ -107,7 +101,7 @@ class Comparison:
         for solution in self.solutions:
             if solution is self.reference:
                 continue
-            both = comparable(solution) and comparable(self.reference)
+            both = solution.comparable and self.reference.comparable
             for name, value in self.probes(solution).items():
                 off = relative(value, truth[name], least) if both else None
                 told_apart = None
@@ -212,7 +206,7 @@ def compare(
     if choice is None and asked["calibration"] is None and not has_own_springs(scene, **asked):
         solutions.append(run("lumped", COMPANION, **{**asked, "calibration": "uniform"}))
     bar = None
-    if (reference in CHEAP if uncertainty is None else uncertainty) and comparable(solutions[1]):
+    if (reference in CHEAP if uncertainty is None else uncertainty) and solutions[1].comparable:
         starting(f"{reference} on coarser meshes")
         bar = error_bar(scene, solutions[1], elements, lambda n: solve(scene, reference, elements=n))
     return Comparison(scene, tuple(solutions), bar)

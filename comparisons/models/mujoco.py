@@ -106,7 +106,7 @@ class _Grid:
             pinned |= row >= 0
         gravity = np.zeros(3)
         if self.scene.gravity is not None:
-            gravity = self.scene.gravity.last_factor * np.array(self.scene.gravity.acceleration)
+            gravity = np.array(self.scene.gravity.last_acceleration)
         material, thickness = self.scene.material, self.scene.sheet.thickness
         return f"""<mujoco>
           <option timestep="{settings["time_step"]}" gravity="{_words(gravity)}" integrator="discrete">

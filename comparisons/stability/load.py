@@ -23,6 +23,7 @@ from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import SIDE, compare, lattice, loaded, outcome, sheet
 from comparisons.stability.study import Cell, Row, Study, percent
+from sheetbench.scenes.strains import WEIGHT_LIMIT
 
 SLENDERNESS, POISSON, ONE_G = 0.016, 0.48, 2.0
 GRID = (9, 9)
@@ -82,7 +83,7 @@ def _mirrored(size: float) -> Row:
 
 def draw(figure: Figure, rows: list[Row]) -> None:
     """A panel a kind, a strip of tiles a model, the boundary drawn over."""
-    limit = 0.05 * 12.0 * (1.0 - POISSON**2) / SLENDERNESS**2 / ONE_G
+    limit = WEIGHT_LIMIT * 12.0 * (1.0 - POISSON**2) / SLENDERNESS**2 / ONE_G
     panels = (
         ("weight", limit, "Weight [g] of the seed's sheet; beyond the line ρ g a/E > 0.05"),
         ("compression", 1.0, "Compression / Euler load; band: between a beam's and a wide plate's"),

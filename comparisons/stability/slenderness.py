@@ -20,6 +20,7 @@ from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import compare, sheet
 from comparisons.stability.study import Cell, Row, Study
 from sheetbench.scenes.sheet import EdgeName
+from sheetbench.scenes.strains import WEIGHT_LIMIT
 
 EDGES: dict[int, tuple[EdgeName, ...]] = {1: ("x0",), 2: ("x0", "y0")}
 MASSES = {1: 33, 2: 17}
@@ -75,7 +76,7 @@ def draw(figure: Figure, rows: list[Row]) -> None:
         maps.tiles(below, reached, *place, text=lambda r: str(r["iterations"]))
         at = np.logspace(-6, 0, 100)
         for axis in (above, below):
-            axis.plot(at, 0.05 * strength / at**2, **maps.THEORY)
+            axis.plot(at, WEIGHT_LIMIT * strength / at**2, **maps.THEORY)
         if n == 2:
             cell = 1.0 / (MASSES[2] - 1)
             above.plot(at, 32.0 * at / np.sqrt(strength) / cell**2, **{**maps.THEORY, "ls": "--"})

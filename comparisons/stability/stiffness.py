@@ -19,6 +19,7 @@ from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import compare, sheet
 from comparisons.stability.study import Cell, Row, Study
+from sheetbench.scenes.strains import WEIGHT_LIMIT
 
 SLENDERNESS, SCALED_LOAD, CONTRAST_LOAD = 0.016, 10.0, 3.0
 FAMILIES = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
@@ -64,7 +65,7 @@ def draw(figure: Figure, rows: list[Row]) -> None:
         top.remove()
         maps.tiles(left, scaled, lambda r: r["cell"]["young"], lambda r: 0.0, scale=("log", "linear"))
         maps.tiles(right, fixed, lambda r: r["cell"]["load_number"], lambda r: 0.0, scale=("log", "linear"))
-        right.axvline(0.6 * (1.0 - 0.48**2) / SLENDERNESS**2, **maps.THEORY)
+        right.axvline(WEIGHT_LIMIT * 12.0 * (1.0 - 0.48**2) / SLENDERNESS**2, **maps.THEORY)
         left.set(xlabel="Young's modulus [Pa]", yticks=[])
         right.set(xlabel="load number ρ g h a³/D", yticks=[])
         left.set_title("Load scaled with E: error [%]")

@@ -27,9 +27,8 @@ from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff import timing
 from comparisons.tradeoff.pareto import FLOOR_FACTOR, front, grouped, order
 from fem_reference.uncertainty import coarser, estimate
-from sheetbench.scenes import Scene, Status, require_static
+from sheetbench.scenes import Scene, comparable, require_static
 
-COMPARABLE = (str(Status.CONVERGED), str(Status.UNSTABLE), str(Status.STRAIN_OUTSIDE_MODEL))
 REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the rows
 
 
@@ -164,7 +163,7 @@ def _errors(outcome: Finished, truth: Finished, weights: np.ndarray) -> tuple[fl
 
 
 def _comparable(outcome: Finished) -> bool:
-    return outcome.status in COMPARABLE and outcome.row["load_factor"] == 1.0
+    return comparable(outcome.status, outcome.row.get("load_factor", 0.0))
 
 
 def _row(scene: Scene, run: Run, outcome: Finished) -> dict[str, Any]:

@@ -25,10 +25,9 @@ from comparisons.comparison.comparison import error
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
-from comparisons.tradeoff.statics import COMPARABLE
 from comparisons.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_scenes
 from comparisons.transfer.tasks import FINE
-from sheetbench.scenes import Scene
+from sheetbench.scenes import Scene, comparable
 
 FITTED = ("fit-static", "fit-modal")
 METHODS = ("consistent", "moduli", *FITTED, "uniform", "cauchy", "axial", "van-gelder", "lloyd")
@@ -212,7 +211,7 @@ class _Study:
         return [
             f"{run.label}: {done.status}: {done.message}"
             for run in self.runs
-            if (done := self.outcomes[run.key]).status not in (*COMPARABLE, "done")
+            if not _answered(done := self.outcomes[run.key])
         ]
 
     def _lattice(
@@ -262,8 +261,12 @@ class _Study:
         if self.outcomes is None:
             return None
         done = self.outcomes[run.key]
-        whole = done.row.get("load_factor", 1.0) == 1.0 and done.status in (*COMPARABLE, "done")
-        return np.array(done.row[key], dtype=float) if whole else None
+        return np.array(done.row[key], dtype=float) if _answered(done) else None
+
+
+def _answered(done: Finished) -> bool:
+    """Whether a run ended with what may be used: what it was to do done, or an answer to compare."""
+    return done.status == "done" or comparable(done.status, done.row.get("load_factor", 1.0))
 
 
 def _plain(scene: Scene) -> dict[str, Any]:

@@ -46,6 +46,7 @@ from sheetbench.scenes import (
     Scene,
     Solution,
     Status,
+    outside_model,
     rod_middle,
 )
 from sheetbench.scenes.scene import require_static
@@ -135,6 +136,9 @@ def solve_on(
             status, notes = Status.SINGULAR, (str(error),)
         unbalanced = stiffness @ u - force
     done = perf_counter()
+    outside = outside_model(scene, stretch(plate, u[: fields.size]))
+    if outside and status is Status.CONVERGED:
+        status, notes = Status.STRAIN_OUTSIDE_MODEL, (outside,)
 
     size = np.linalg.norm(force) + np.linalg.norm(np.delete(unbalanced, free))
     fields, nodal = u[: fields.size].reshape(-1, 5), unbalanced[: fields.size].reshape(-1, 5)
@@ -154,7 +158,7 @@ def solve_on(
         energies={**by_part, "rod": rods.energy(u)} if rods.rods else by_part,
         mesh=field_mesh(plate, fields, {"actuator_line_force": line} if scene.actuators else {}),
         history=(Iteration(1.0, float(np.linalg.norm(unbalanced[free]) / (size or 1.0)), 1.0),),
-        load_factor=1.0 if status is Status.CONVERGED else 0.0,
+        load_factor=0.0 if status is Status.SINGULAR else 1.0,
         actuators=exerted,
         notes=notes,
     )
@@ -190,6 +194,14 @@ def energies(scene: Scene, plate: Plate, u: np.ndarray, section: Section | None 
         strain = np.einsum("mqic,mc->mqi", operator, nodal)
         out[part] = 0.5 * float(np.einsum("mq,mqi,ij,mqj", areas, strain, sections[part], strain))
     return out
+
+
+def stretch(plate: Plate, u: np.ndarray) -> float:
+    """The largest strain along x or y, the mean over an element, of the unknowns u (5 n,)."""
+    areas = plate.elements.areas
+    strain = np.einsum("mqic,mc->mqi", plate.elements.membrane[:, :, :2], u[plate.elements.unknowns])
+    mean = np.einsum("mq,mqi->mi", areas, strain) / areas.sum(axis=1, keepdims=True)
+    return float(np.abs(mean).max())
 
 
 def constrain(
@@ -233,8 +245,8 @@ def loads(scene: Scene, plate: Plate) -> np.ndarray:
     force = np.zeros((plate.basis.N, 5))
     area = share(plate.basis)
     if scene.gravity is not None:
-        weight = scene.material.density * scene.sheet.thickness * np.array(scene.gravity.acceleration)
-        force[:, :3] += np.outer(area, scene.gravity.last_factor * weight)
+        per_area = scene.material.density * scene.sheet.thickness
+        force[:, :3] += np.outer(per_area * area, scene.gravity.last_acceleration)
     for load in scene.loads:
         factor = load.last_factor
         if isinstance(load, PointLoad):

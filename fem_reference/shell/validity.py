@@ -1,8 +1,7 @@
 """What the shell watches for in its own answers: elements turned inside out or stretched, strains too large.
 
 inverted   (φ,r × φ,s) · d, positive in the flat sheet, has reached zero at a Gauss point.
-weight     ρ g a/E, the strain of a sheet of side a that hangs by its own weight: beyond 0.05 a linear law of
-           stress and strain means nothing; nor does it where the mid-surface is stretched by half.
+strained   the mid-surface stretched, or the sheet too heavy, for a linear law (`scenes.outside_model`).
 stretched  In an element of sides b ≥ l the membrane shear's assumed strains do not see a motion v along b
            that goes like P₂(2y/b) across it. It changes along l at the cost of the stretch along b alone, so
            that the bending moment M = D κ along l, doing work 2 M v,x ψ,x with the director's turn ψ, may
@@ -27,10 +26,8 @@ from fem_reference.shell.element import BENDING, GAUSS, MEMBRANE, shape
 from fem_reference.shell.structure import ShellStructure, State
 from fem_reference.solving.equilibrium import Fault, Path, stability
 from fem_reference.solving.linear import DirectSolver
-from sheetbench.scenes import Scene, Status
+from sheetbench.scenes import Scene, Status, outside_model
 
-WEIGHT_LIMIT = 0.05
-MEMBRANE_LIMIT = 0.5
 STRETCH_LIMIT = 5.0
 STRETCHED = Fault(Status.UNSTABLE, "elements are stretched too far for how much they bend: divide it evenly")
 FLAT = 1e-6  # of the element's area in the flat sheet, below which it counts as turned inside out
@@ -90,19 +87,9 @@ def _sides(structure: ShellStructure) -> np.ndarray:
     return np.stack([np.linalg.norm(nodes[:, a] - nodes[:, b], axis=1) for a, b in ((5, 7), (6, 4))], axis=1)
 
 
-def weight_strain(scene: Scene) -> float:
-    """ρ g a/E, a the longer side."""
-    if scene.gravity is None:
-        return 0.0
-    weight = scene.material.density * float(np.linalg.norm(scene.gravity.acceleration))
-    return weight * max(scene.sheet.lengths) / scene.material.young
-
-
 def judge(scene: Scene, structure: ShellStructure, path: Path) -> tuple[Status, list[str]]:
     """The status and notes of a path that has ended: strains beyond the model, if it has come to them."""
-    strain, stretched = weight_strain(scene), membrane_strain(structure, path.state)
-    within = strain <= WEIGHT_LIMIT and stretched <= MEMBRANE_LIMIT
-    if within or path.status is Status.NON_FINITE:
+    outside = outside_model(scene, membrane_strain(structure, path.state))
+    if not outside or path.status is Status.NON_FINITE:
         return path.status, path.notes
-    said = f"ρ g a/E = {strain:.3g}, the mid-surface stretched by {stretched:.3g} at most"
-    return Status.STRAIN_OUTSIDE_MODEL, [said, *path.notes]
+    return Status.STRAIN_OUTSIDE_MODEL, [outside, *path.notes]

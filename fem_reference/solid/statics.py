@@ -35,7 +35,8 @@ from fem_reference.surface import loads as shell_loads
 from fem_reference.surface import rod
 from fem_reference.surface.location import locate
 from fem_reference.surface.mesh import Elements, divisions, rectangle, require_upright
-from sheetbench.scenes import Scene, Solution, Status
+from fem_reference.surface.stretch import largest_stretch
+from sheetbench.scenes import Scene, Solution, Status, outside_model
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.scene import require_static
 
@@ -88,6 +89,10 @@ def solve_on(
     status, notes = path.status, path.notes
     if status is Status.CONVERGED and structure.inside_out(path.state):
         status, notes = Status.INVERTED, ["a brick has turned inside out"]
+    if LAWS[law].quadratic and status is not Status.NON_FINITE:
+        stretch = largest_stretch(*(structure.mid_surface(at) for at in (0.0, displacement)))
+        if outside := outside_model(scene, stretch):
+            status, notes = Status.STRAIN_OUTSIDE_MODEL, [outside, *notes]
     forces = structure.forces(path.state, path.load_factor)
     exerted = {}
     if isinstance(structure, RoddedSolid):

@@ -197,6 +197,10 @@ class SolidStructure:
                 np.add.at(external, on, spread)
         return external
 
+    def mid_surface(self, displacement: np.ndarray | float) -> np.ndarray:
+        """Mean places (m, 9, 3) [m] of the columns at the nodes of the plan's elements."""
+        return self._surface(self.columns.positions + displacement)[:, :9]
+
     def _surface(self, positions: np.ndarray) -> np.ndarray:
         """Mean and director at the nodes of the plan's elements, (m, 18, 3)."""
         averages = np.einsum("pl,nlc->pnc", self.columns.averages, positions)[:, self.columns.plan_elements]

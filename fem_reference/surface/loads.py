@@ -197,8 +197,8 @@ def of_scene(
     count, corners = len(nodes), nodes[element_nodes]
     dead, followers = np.zeros((count, 3)), list[Follower]()
     if scene.gravity is not None:
-        weight = scene.material.density * scene.sheet.thickness * np.array(scene.gravity.acceleration)
-        dead += area_force(areas, element_nodes, count, scene.gravity.last_factor * weight)
+        per_area = scene.material.density * scene.sheet.thickness
+        dead += area_force(areas, element_nodes, count, per_area * np.array(scene.gravity.last_acceleration))
     for load in scene.loads:
         factor = load.last_factor
         match load:

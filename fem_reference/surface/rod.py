@@ -227,7 +227,7 @@ def _weight(scene: Scene, chains: Sequence[Chain], offsets: np.ndarray, half: np
     """Dead force on Q (k, 9, 3) of the chains' weight on their axes."""
     out = np.zeros((len(half), 9, 3))
     if scene.gravity is not None:
-        acceleration = scene.gravity.last_factor * np.array(scene.gravity.acceleration)
+        acceleration = np.array(scene.gravity.last_acceleration)
         for chain, offset in zip(chains, offsets, strict=True):
             line = chain.line_density * acceleration
             nodal = half[:, None, None] * _SHARES[:, None] * line

@@ -11,7 +11,7 @@ from typing import Any, Literal
 import numpy as np
 
 from lumped.actuators import Coupling
-from lumped.assembly import Assembly, Precision
+from lumped.assembly import Assembly, Precision, Stresses
 from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
 from lumped.lattice import Weights
@@ -33,12 +33,12 @@ from sheetbench.scenes import (
     Sheet,
     Solution,
     Status,
+    outside_model,
     require_static,
 )
 from sheetbench.scenes.errors import BadInput
 
-STRAIN_LIMIT = 0.05  # ρ g a/E beyond which a linear spring means nothing
-LINK_STRAIN_LIMIT = 0.5  # relative elongation of a link beyond which it does not either
+STRETCH = "largest in-plane link strain"
 SNAPS = 12  # of one load path
 SNAP_STEP = 0.02  # in load factor, past the point where the path ended
 
@@ -133,9 +133,8 @@ def flat_step(scene: Scene, problem: Problem) -> Outcome:
         return _singular(problem, error)
     u = predictor(problem, start, 1.0)
     state = replace(start, u=u, load_factor=1.0, stresses=problem.assembly.extrapolated(start.u, u))
-    strain = weight_number(scene)
-    if strain > STRAIN_LIMIT:
-        return Outcome(Status.STRAIN_OUTSIDE_MODEL, state, notes=(f"ρ g a/E = {strain:.3g}",))
+    if outside := outside_model(scene, link_stretch(problem.assembly, state.stresses), STRETCH):
+        return Outcome(Status.STRAIN_OUTSIDE_MODEL, state, notes=(outside,))
     return Outcome(Status.CONVERGED, state)
 
 
@@ -197,12 +196,10 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
 def _judge(scene: Scene, problem: Problem, state: State) -> tuple[Status, list[str]]:
     """Whether the springs mean anything at this strain, and whether the equilibrium is stable."""
     notes: list[str] = []
-    strain = link_strain(problem.assembly, state.u)
-    weight_strain = weight_number(scene)
     status = Status.CONVERGED
-    if weight_strain > STRAIN_LIMIT or strain > LINK_STRAIN_LIMIT:
+    if outside := outside_model(scene, link_stretch(problem.assembly, state.stresses), STRETCH):
         status = Status.STRAIN_OUTSIDE_MODEL
-        notes.append(f"ρ g a/E = {weight_strain:.3g}, largest in-plane link strain {strain:.3g}")
+        notes.append(outside)
     elif state.negative:
         status = Status.UNSTABLE
         notes.append(f"{state.negative} directions of negative curvature")
@@ -218,21 +215,13 @@ def _judge(scene: Scene, problem: Problem, state: State) -> tuple[Status, list[s
     return status, notes
 
 
-def weight_number(scene: Scene) -> float:
-    """ρ g a/E, the strain at which a sheet of side a hangs under its own weight."""
-    if scene.gravity is None:
-        return 0.0
-    acceleration = abs(scene.gravity.last_factor) * float(np.linalg.norm(scene.gravity.acceleration))
-    return scene.material.density * acceleration * max(scene.sheet.lengths) / scene.material.young
-
-
-def link_strain(assembly: Assembly, u: np.ndarray) -> float:
-    """Largest relative elongation of the in-plane central links."""
+def link_stretch(assembly: Assembly, stresses: Stresses) -> float:
+    """Largest relative change of length of the in-plane central links."""
     links = assembly.links
     in_plane = np.abs(links.offset[:, 2]) == 0.0
     if not in_plane.any():
         return 0.0
-    tension = links.stresses(u)[in_plane]
+    tension = stresses[0][in_plane]  # the links come first
     return float(np.max(np.abs(tension / links.stiffness[in_plane] / links.rest_length[in_plane])))
 
 

@@ -7,8 +7,9 @@ from sheetbench.scenes.history import History
 from sheetbench.scenes.loads import EdgeLoad, Load, PointLoad, Pressure
 from sheetbench.scenes.scene import Scene, free_rigid_motions, require_static
 from sheetbench.scenes.sheet import EDGES, Edge, Gravity, Material, Sheet
-from sheetbench.scenes.solution import FieldMesh, Iteration, Solution, Status
+from sheetbench.scenes.solution import FieldMesh, Iteration, Solution, Status, comparable
 from sheetbench.scenes.springs import DamperSet, PerDirection, SpringSet
+from sheetbench.scenes.strains import outside_model, weight_strain
 from sheetbench.scenes.supports import (
     Clamped,
     Curved,
@@ -59,11 +60,14 @@ __all__ = [
     "Support",
     "Symmetric",
     "catalogue",
+    "comparable",
     "free_rigid_motions",
     "held_axes",
     "holds_director",
     "holds_tilt",
     "load",
+    "outside_model",
     "require_static",
     "rod_middle",
+    "weight_strain",
 ]

@@ -112,3 +112,9 @@ class Gravity(Loading):
 
     acceleration: Annotated[Vector3, Unit("m/s²")]
     """Along x, y and z: [0.0, 0.0, -9.81] for a sheet that lies level, z pointing up."""
+
+    @property
+    def last_acceleration(self) -> Vector3:
+        """The acceleration [m/s²] in the end, and in statics."""
+        x, y, z = (self.last_factor * component for component in self.acceleration)
+        return x, y, z

@@ -46,6 +46,15 @@ _ADVICE = {
 }
 
 
+def comparable(status: str, load_factor: float) -> bool:
+    """Whether an answer that ended so may be compared with others: an equilibrium under the whole load,
+    stable and physical or not."""
+    return status in _EQUILIBRIA and load_factor == 1.0
+
+
+_EQUILIBRIA = (Status.CONVERGED, Status.UNSTABLE, Status.STRAIN_OUTSIDE_MODEL)
+
+
 @dataclass(frozen=True)
 class Iteration:
     """One equilibrium iteration: load factor, residual relative to the forces, step length [m]."""
@@ -106,6 +115,11 @@ class Solution:
         """Fallback, snaps and notes in a line, for people."""
         snapped = (f"snapped at load factor {load_factor:.4g}" for load_factor in self.snaps)
         return "; ".join(filter(None, [self.fallback, *snapped, *self.notes]))
+
+    @property
+    def comparable(self) -> bool:
+        """Whether it may be compared with others, as `comparable` has it."""
+        return comparable(self.status, self.load_factor)
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
         """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m] of the undeformed sheet."""

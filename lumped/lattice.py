@@ -22,8 +22,8 @@ import numpy as np
 
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grid import Grid
 
-Grid = tuple[int, int, int]
 Weights = Literal["tributary", "full"]
 Distribution = Literal["tributary", "gregory"]  # of the mass, see `lumped.masses`
 

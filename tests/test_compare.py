@@ -12,10 +12,9 @@ import pytest
 from comparisons.comparison import comparison as displacement
 from comparisons.comparison import tables as summary
 from comparisons.comparison.comparison import Comparison, compare
-from comparisons.models.grids import default_grid, near_square, parse_grid
 from comparisons.report.files import to_json
 from sheetbench import scenes
-from sheetbench.scenes import Scene, Sheet, Status
+from sheetbench.scenes import Scene, Status
 from sheetbench.scenes.errors import BadInput
 
 SMALL = {"grid": (5, 5, 2), "elements": 4}
@@ -161,18 +160,3 @@ def test_settings_that_do_not_exist_are_refused_before_any_solve(
 ) -> None:
     with pytest.raises(BadInput, match=said):
         compare(scene, starting=pytest.fail, **settings)
-
-
-def test_default_grid_has_near_square_cells() -> None:
-    assert default_grid(Sheet(length_x=0.188, length_y=0.188, thickness=0.003)) == (9, 9, 2)
-    assert default_grid(Sheet(length_x=0.1, length_y=0.3, thickness=0.003)) == (9, 25, 2)
-    assert near_square(Sheet(length_x=0.3, length_y=0.1, thickness=0.003), 16) == (48, 16)
-
-
-def test_grids_are_read_as_people_write_them() -> None:
-    assert parse_grid("9", "--lumped") == (9, 9, 2)
-    assert parse_grid("9x13", "--lumped") == (9, 13, 2)
-    assert parse_grid("5×7×3", "--lumped") == (5, 7, 3)
-    for text in ("", "9x", "1", "9x9x1", "3.5", "9x9x2x2", "-4"):
-        with pytest.raises(BadInput, match="--lumped"):
-            parse_grid(text, "--lumped")

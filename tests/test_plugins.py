@@ -158,7 +158,7 @@ def test_mujoco_refuses_what_it_does_not_have() -> None:
     ("model", "settings", "said"),
     [
         ("lumped", {"elements": 4}, "lumped: no setting 'elements'; it has grid"),
-        ("lumped", {"grid": 9}, "grid = 9"),
+        ("lumped", {"grid": 1}, "grid = 1x1x2"),
         ("lumped", {"grid": ["a", "b"]}, "grid = "),
         ("plate", {"layers": 2}, "plate: no option 'layers'; it has hard_edges"),
         ("solid", {"layers": "two"}, "solid: layers = 'two'"),

@@ -18,9 +18,9 @@ from threadpoolctl import threadpool_limits
 from comparisons.comparison.comparison import error
 from comparisons.models import registry as models
 from comparisons.models.candidate import Candidate
-from comparisons.models.grids import near_square
 from comparisons.models.symmetry import planes
 from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes.grid import near_square
 
 JUDGES = (4, 6, 8, 12, 16, 24, 32)  # elements along the shorter side
 FIRST = 3  # of them are always solved

@@ -7,7 +7,7 @@ from warnings import warn
 
 import typer
 
-from comparisons.cli.options import Json, Out, command_line
+from comparisons.cli.options import Grid, Json, Out, command_line
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -31,12 +31,7 @@ def command(
         typer.Option(metavar="KG/M3", help="Density; 1000 kg/m³ unless given.", show_default=False),
     ] = None,
     side: Annotated[str | None, typer.Option(metavar="M", help="Sides: 0.188 or 0.188x0.3 (x by y).")] = None,
-    grid: Annotated[
-        str | None,
-        typer.Option(
-            metavar="GRID", help="Masses: 9, 9x13 or 9x13x2; 9 along the shorter side unless given."
-        ),
-    ] = None,
+    grid: Grid = None,
     method: Annotated[str, typer.Option(metavar="NAME", help="consistent, uniform, …")] = "consistent",
     k: Annotated[
         float | None, typer.Option(metavar="N/M", help="Stiffness of every spring (uniform only).")
@@ -62,6 +57,7 @@ def command(
     from comparisons.report.files import folder, to_json, write_text
     from comparisons.runs.manifest import record
     from sheetbench.scenes.errors import BadInput
+    from sheetbench.scenes.grid import MASSES
 
     if toml and json:
         raise BadInput("--toml and --json: choose one")
@@ -73,7 +69,7 @@ def command(
     calibration = calibrate(
         sheet,
         material,
-        grid=parse_grid(grid, "--grid") if grid is not None else None,
+        grid=parse_grid(sheet, grid) if grid is not None else MASSES,
         calibration=method,
         k=k,
         layer_distance=layer_distance,

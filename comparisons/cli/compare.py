@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, Scene, command_line
+from comparisons.cli.options import Grid, Json, Out, Scene, command_line
 
 if TYPE_CHECKING:
     from comparisons.comparison.comparison import Comparison
@@ -14,14 +14,7 @@ if TYPE_CHECKING:
 
 def command(
     scene: Scene,
-    lumped: Annotated[
-        str | None,
-        typer.Option(
-            metavar="GRID",
-            help="Masses of the lattice: 9, 9x13 or 9x13x2 (along x, along y, layers); 9 along the shorter "
-            "side unless given.",
-        ),
-    ] = None,
+    lumped: Grid = None,
     calibration: Annotated[
         str | None,
         typer.Option(
@@ -66,12 +59,10 @@ def command(
     from comparisons.comparison.comparison import compare, load_static
     from comparisons.comparison.output import Output
     from comparisons.comparison.tables import complaints
-    from comparisons.models.grids import parse_grid
     from comparisons.report.files import folder, to_json
     from sheetbench.scenes import Solution
 
     asked = load_static(scene)
-    grid = parse_grid(lumped, "--lumped") if lumped is not None else None
     given = {"--lumped": lumped, "--calibration": calibration, "--k": k, "--layer-distance": layer_distance}
     check_auto(auto, tolerance, given)
     output = Output(folder(out), command_line()) if out is not None else None
@@ -91,7 +82,7 @@ def command(
 
         comparison = compare(
             asked,
-            grid=grid,
+            grid=lumped,
             calibration=calibration,
             k=k,
             layer_distance=layer_distance,

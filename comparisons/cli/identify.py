@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, Scene, command_line
+from comparisons.cli.options import Grid, Json, Out, Scene, command_line
 
 
 def command(
@@ -29,10 +29,7 @@ def command(
         ),
     ] = "young",
     model: Annotated[str, typer.Option(metavar="MODEL", help="lumped, shell or solid.")] = "lumped",
-    lumped: Annotated[
-        str | None,
-        typer.Option(metavar="GRID", help="Masses of the lattice; 9 along the shorter side unless given."),
-    ] = None,
+    lumped: Grid = None,
     calibration: Annotated[
         str | None,
         typer.Option(metavar="NAME", help="How k follows from E, ν and h; consistent unless given."),
@@ -61,7 +58,6 @@ def command(
     from comparisons.identification.identification import identify
     from comparisons.identification.measurements import read
     from comparisons.identification.prediction import NotReached
-    from comparisons.models.grids import parse_grid
     from comparisons.report.files import folder, to_json, write_text
     from comparisons.runs.manifest import manifest
 
@@ -75,7 +71,7 @@ def command(
                 data,
                 [name.strip() for name in unknown.split(",")],
                 model=model,
-                grid=parse_grid(lumped, "--lumped") if lumped is not None else None,
+                grid=lumped,
                 calibration=calibration,
                 elements=elements,
                 offset=offset,

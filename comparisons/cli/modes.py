@@ -6,19 +6,13 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, Scene, command_line
+from comparisons.cli.options import Grid, Json, Out, Scene, command_line
 
 
 def command(
     scene: Scene,
     count: Annotated[int, typer.Option(metavar="N", help="How many modes, lowest first.")] = 10,
-    lumped: Annotated[
-        str | None,
-        typer.Option(
-            metavar="GRID",
-            help="Masses of the lattice: 9, 9x13 or 9x13x2; 9 a side unless given.",
-        ),
-    ] = None,
+    lumped: Grid = None,
     calibration: Annotated[
         str | None, typer.Option(metavar="NAME", help="How k is found; consistent unless given.")
     ] = None,
@@ -34,7 +28,6 @@ def command(
 ) -> None:
     """List the natural frequencies of the lattice and of a reference about the undeformed sheet."""
     from comparisons.cli import console
-    from comparisons.models.grids import parse_grid
     from comparisons.modes import spectra as modes
     from comparisons.report.files import folder, to_json, write_text
     from comparisons.runs.manifest import manifest
@@ -46,7 +39,7 @@ def command(
         found = modes.spectra(
             asked,
             count=count,
-            grid=parse_grid(lumped, "--lumped") if lumped is not None else None,
+            grid=lumped,
             calibration=calibration,
             references=reference or ["shell"],
             elements=elements,

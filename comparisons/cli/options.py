@@ -17,6 +17,17 @@ Out = Annotated[
     Path | None,
     typer.Option("--out", metavar="DIR", help="Write files into this folder.", show_default=False),
 ]
+Grid = Annotated[
+    str | None,
+    typer.Option(
+        "--lumped",
+        "--grid",
+        metavar="GRID",
+        help="Masses of the lattice: 9, along the shorter side with near-square cells; 9x13, along x and y; "
+        "9x13x3, with layers, else 2. 9 unless given.",
+        show_default=False,
+    ),
+]
 
 
 def command_line() -> list[str]:

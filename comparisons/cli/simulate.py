@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, Scene, command_line
+from comparisons.cli.options import Grid, Json, Out, Scene, command_line
 
 if TYPE_CHECKING:
     from comparisons.motion.history import Measured
@@ -28,12 +28,7 @@ def command(
     integrator: Annotated[
         str, typer.Option(metavar="NAME", help="generalised-alpha, verlet, midpoint or projective.")
     ] = "generalised-alpha",
-    lumped: Annotated[
-        str | None,
-        typer.Option(
-            metavar="GRID", help="Masses: 9, 9x13 or 9x13x2; 9 along the shorter side unless given."
-        ),
-    ] = None,
+    lumped: Grid = None,
     calibration: Annotated[
         str | None, typer.Option(metavar="NAME", help="consistent, uniform, …; consistent unless given.")
     ] = None,
@@ -52,7 +47,7 @@ def command(
     """Simulate the lattice from rest. With --out the run streams to a folder; the same command resumes it."""
     from comparisons.cli import console
     from comparisons.cli.app import NOT_CONVERGED
-    from comparisons.models.grids import parse_grid
+    from comparisons.models.grids import scene_grid
     from comparisons.models.registry import simulate
     from comparisons.motion import history as histories
     from comparisons.report.files import folder, to_json
@@ -60,7 +55,7 @@ def command(
 
     asked = scenes.load(scene)
     truth = histories.read_measured(measured, list(asked.probes)) if measured is not None else {}
-    grid = parse_grid(lumped, "--lumped") if lumped is not None else None
+    grid = scene_grid(asked, lumped)
     last = 0
 
     with console.progress() as progress:

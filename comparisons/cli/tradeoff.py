@@ -12,22 +12,34 @@ from comparisons.cli.options import Json, Out, Scene, command_line
 if TYPE_CHECKING:
     from comparisons.tradeoff.statics import Tradeoff
 
+GRIDS = "3,5,9,17,33"
+
 
 def command(
     scene: Scene,
     lumped: Annotated[
-        str, typer.Option(metavar="GRIDS", help="Masses along the shorter side, or NxM, NxMxL.")
-    ] = "3,5,9,17,33",
+        str | None,
+        typer.Option(
+            "--lumped",
+            "--grid",
+            metavar="GRIDS",
+            help="Masses of lattices: along the shorter side with near-square cells, or NxM, NxMxL. "
+            "3,5,9,17,33 unless given; with --duration one lattice, 9 unless given.",
+            show_default=False,
+        ),
+    ] = None,
     calibration: Annotated[str, typer.Option(metavar="NAMES", help="Calibrations of every grid.")] = (
         "consistent,uniform"
     ),
-    plate: Annotated[str, typer.Option(metavar="ELEMENTS", help="Linear plate: elements a side.")] = "8",
-    shell: Annotated[str, typer.Option(metavar="ELEMENTS", help="Nonlinear shell: elements a side.")] = (
-        "2,4,8,12,16"
-    ),
-    solid: Annotated[str, typer.Option(metavar="ELEMENTS", help="Nonlinear solid: elements a side.")] = (
-        "2,4,8"
-    ),
+    plate: Annotated[
+        str, typer.Option(metavar="ELEMENTS", help="Elements of the linear plate along the shorter side.")
+    ] = "8",
+    shell: Annotated[
+        str, typer.Option(metavar="ELEMENTS", help="Elements of the nonlinear shell, likewise.")
+    ] = ("2,4,8,12,16"),
+    solid: Annotated[
+        str, typer.Option(metavar="ELEMENTS", help="Elements of the nonlinear solid, likewise.")
+    ] = ("2,4,8"),
     model: Annotated[
         list[str] | None,
         typer.Option(metavar="NAME:KEY=VALUE,…", help="A plug-in with its settings; may be repeated."),
@@ -51,11 +63,8 @@ def command(
         float | None,
         typer.Option(
             metavar="S",
-            help="Trade of the motion over so many seconds instead: integrators and steps, on --grid.",
+            help="Trade of the motion over so many seconds instead: integrators and steps, on one lattice.",
         ),
-    ] = None,
-    grid: Annotated[
-        str | None, typer.Option(metavar="GRID", help="With --duration: the lattice, 9 unless given.")
     ] = None,
     integrator: Annotated[
         str, typer.Option(metavar="NAMES", help="With --duration: the integrators.")
@@ -86,10 +95,10 @@ def command(
 
     if duration is not None:
         cores = workers or os.cpu_count() or 1
-        _motion(scene, duration, grid, items(integrator), cores, scheduler, retry, json, out)
+        _motion(scene, duration, lumped, items(integrator), cores, scheduler, retry, json, out)
         return
     asked = load_static(scene)
-    candidates = lattices(asked.sheet, items(lumped), items(calibration))
+    candidates = lattices(asked.sheet, items(GRIDS if lumped is None else lumped), items(calibration))
     for name, sizes in (("plate", plate), ("shell", shell), ("solid", solid)):
         candidates += references(name, items(sizes))
     candidates += [parse_model(text) for text in model or ()]
@@ -150,7 +159,6 @@ def _motion(
     from tempfile import TemporaryDirectory
 
     from comparisons.cli import console
-    from comparisons.models.grids import parse_grid
     from comparisons.report.files import folder, to_json, write_text
     from comparisons.runs.campaign import campaign
     from comparisons.runs.executors import pool_of
@@ -162,7 +170,6 @@ def _motion(
     if not duration > 0.0:
         raise BadInput(f"--duration = {duration:g}: seconds, more than 0")
     asked = scenes.load(name)
-    shape = parse_grid(grid, "--grid") if grid is not None else None
     with (
         TemporaryDirectory() as scratch,
         campaign(folder(out) if out is not None else Path(scratch)) as store,
@@ -173,7 +180,7 @@ def _motion(
             asked,
             duration,
             store,
-            grid=shape,
+            grid=grid,
             integrators=integrators,
             workers=workers,
             pool=pool,

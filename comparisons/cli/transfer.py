@@ -20,9 +20,16 @@ def command(
             metavar="NAMES", help="Calibrations, with commas; all unless given.", show_default=False
         ),
     ] = None,
-    grids: Annotated[str, typer.Option(metavar="N,N,…", help="Masses a side, 4 n + 1, coarsest first.")] = (
-        "9,17,33"
-    ),
+    grids: Annotated[
+        str,
+        typer.Option(
+            "--grids",
+            "--grid",
+            "--lumped",
+            metavar="N,N,…",
+            help="Masses along the shorter side, 4 n + 1, coarsest first.",
+        ),
+    ] = "9,17,33",
     scenes: Annotated[
         str | None,
         typer.Option(metavar="NAMES", help="Scenes of the study; all unless given.", show_default=False),

@@ -20,7 +20,7 @@ import numpy as np
 
 from comparisons.comparison.error_bar import CHEAP, ErrorBar, error_bar
 from comparisons.models.candidate import Candidate
-from comparisons.models.grids import Grid
+from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.registry import check_lattice, check_reference, has_own_springs, solve
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static
 
@@ -158,7 +158,7 @@ class Comparison:
 def compare(
     scene: Scene | str | Path,
     *,
-    grid: Grid | None = None,
+    grid: Asked = None,
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,
@@ -171,7 +171,8 @@ def compare(
 ) -> Comparison:
     """Solve a scene with the lattice and with a reference, and put the answers side by side.
 
-    grid: masses along x and y, and layers; by default nine along the shorter side. calibration: by default
+    grid: masses, 9 by default: a number is along the shorter side, with near-square cells; (nx, ny) or "9x13"
+    along x and y; (nx, ny, layers). calibration: by default
     `consistent`, and then the uniform calibration is solved too and shown alongside as `lumped-uniform`;
     where `k` [N/m] is given the default is `uniform`, and where the scene brings its own [springs] they are
     used alone. layer_distance [m]. elements: along the shorter side. uncertainty: find the reference's error
@@ -188,7 +189,7 @@ def compare(
     require_static(scene)
     check_lattice(calibration, k, layer_distance)
     check_reference(reference, elements)
-    asked: dict[str, Any] = {"grid": grid, "layer_distance": layer_distance, "k": k}
+    asked: dict[str, Any] = {"grid": scene_grid(scene, grid), "layer_distance": layer_distance, "k": k}
     asked["calibration"] = "uniform" if calibration is None and k is not None else calibration
 
     def run(model: str, name: str, **settings: Any) -> Solution:

@@ -36,12 +36,13 @@ from comparisons.identification.prediction import (
     reference,
 )
 from comparisons.identification.unknowns import DAMPING, Unknown, unknown
-from comparisons.models.grids import Grid, default_grid, near_square
+from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.registry import check_lattice, check_reference
 from lumped import CALIBRATIONS, identifiability
 from lumped.fitting.identifiability import THRESHOLD
 from sheetbench.scenes import Scene, require_static
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grid import near_square
 
 MODELS = ("lumped", "shell", "solid")
 REFUSED = 1e3  # residual, in units of the data, where the model has no answer: the step is shortened
@@ -113,7 +114,7 @@ def identify(
     names: Sequence[str],
     *,
     model: str = "lumped",
-    grid: Grid | None = None,
+    grid: Asked = None,
     calibration: str | None = None,
     elements: int = 16,
     offset: float = 0.0,
@@ -122,8 +123,9 @@ def identify(
 ) -> Identification:
     """The unknowns of these names, from measurements.
 
-    grid, calibration: of the lattice; elements: of a reference; offset [m]: where a cloud was taken along the
-    surface's normal, 0 on the mid-surface. refine: whether to look at a finer lattice too (not for motions).
+    grid (as `comparisons.models.grids` reads it), calibration: of the lattice; elements: of a reference;
+    offset [m]: where a cloud was taken along the surface's normal, 0 on the mid-surface. refine: whether to
+    look at a finer lattice too (not for motions).
     progress: told of every evaluation.
 
     Raises BadInput for names, models and data that do not go together, and NotReached where the model has no
@@ -289,18 +291,18 @@ def _predictor(
     scene: Scene,
     measured: Measured,
     model: str,
-    grid: Grid | None,
+    grid: Asked,
     calibration: str | None,
     elements: int,
 ) -> tuple[Predictor, dict[str, Any], tuple[np.ndarray, np.ndarray]]:
     """The predictor, its settings, and the plan grid on which it gives a whole surface."""
     if model == "lumped":
-        grid = grid or default_grid(scene.sheet)
-        settings = {"grid": list(grid), "calibration": calibration or "consistent"}
-        axes = surface.plan_grid(scene.sheet.lengths, grid[:2])
+        masses = scene_grid(scene, grid)
+        settings = {"grid": list(masses), "calibration": calibration or "consistent"}
+        axes = surface.plan_grid(scene.sheet.lengths, masses[:2])
         if isinstance(measured, Displacements) and measured.time is not None:
-            return motion(scene, grid, calibration, measured.time), settings, axes
-        return lattice(scene, grid, calibration), settings, axes
+            return motion(scene, masses, calibration, measured.time), settings, axes
+        return lattice(scene, masses, calibration), settings, axes
     along_x, along_y = near_square(scene.sheet, elements)
     axes = surface.plan_grid(scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
     return reference(scene, model, elements), {"elements": [along_x, along_y]}, axes

@@ -19,9 +19,9 @@ from typing import Any
 import numpy as np
 
 from comparisons.identification.unknowns import Unknown, put
-from comparisons.models.grids import Grid, default_grid
 from comparisons.models.registry import calibrate, solve_reference
 from sheetbench.scenes import BadInput, Scene, Status
+from sheetbench.scenes.grid import Grid
 
 STATIC_STEP = 1e-3  # in x, for differences of solutions that are accurate to about 1e-9
 MOTION_STEP = 1e-2  # in x, for differences of runs, accurate to about 1e-5
@@ -49,11 +49,9 @@ def set_in(scene: Scene, unknowns: Sequence[Unknown], x: np.ndarray) -> Scene:
     return scene
 
 
-def lattice(scene: Scene, grid: Grid | None, calibration: str | None) -> Predictor:
+def lattice(scene: Scene, grid: Grid, calibration: str | None) -> Predictor:
     """Statics through the lattice."""
     import lumped
-
-    grid = grid or default_grid(scene.sheet)
 
     def predict(unknowns: Sequence[Unknown], x: np.ndarray, points: np.ndarray) -> Prediction:
         here = set_in(scene, unknowns, x)
@@ -80,13 +78,11 @@ def reference(scene: Scene, model: str, elements: int) -> Predictor:
     return _by_differences(scene, displacement, STATIC_STEP)
 
 
-def motion(scene: Scene, grid: Grid | None, calibration: str | None, time: np.ndarray) -> Predictor:
+def motion(scene: Scene, grid: Grid, calibration: str | None, time: np.ndarray) -> Predictor:
     """Motion of the lattice from rest; row i of the points is asked at time[i] [s]."""
     from scipy.interpolate import CubicSpline
 
     import lumped
-
-    grid = grid or default_grid(scene.sheet)
 
     def displacement(here: Scene, points: np.ndarray) -> np.ndarray:
         places, which = np.unique(points, axis=0, return_inverse=True)

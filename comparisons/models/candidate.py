@@ -11,9 +11,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-from comparisons.models.grids import LAYERS, near_square, parse_grid
+from comparisons.models.grids import parse_grid
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grid import LAYERS
 
 
 @dataclass(frozen=True)
@@ -43,11 +44,9 @@ def series(model: str, settings: dict[str, Any]) -> str:
     return " ".join(part for part in (model, *said) if part)
 
 
-def lattices(
-    sheet: Sheet, grids: Iterable[str], calibrations: Iterable[str], option: str = "--lumped"
-) -> list[Candidate]:
+def lattices(sheet: Sheet, grids: Iterable[str], calibrations: Iterable[str]) -> list[Candidate]:
     """Every calibration on every grid, coarse grids first. Raises BadInput for what is not a grid."""
-    shapes = [_shape(sheet, text, option) for text in grids]
+    shapes = [parse_grid(sheet, text) for text in grids]
     return [
         Candidate("lumped", {"grid": list(shape), "calibration": name})
         for name in calibrations
@@ -83,11 +82,3 @@ def parse_model(text: str) -> Candidate:
 def items(text: str | None) -> list[str]:
     """The parts of a list as people write it: 5,9,17."""
     return [part.strip() for part in (text or "").split(",") if part.strip()]
-
-
-def _shape(sheet: Sheet, text: str, option: str) -> tuple[int, int, int]:
-    if not text.isdigit():
-        return parse_grid(text, option)
-    along, _, layers = parse_grid(text, option)
-    cells = near_square(sheet, along - 1)
-    return cells[0] + 1, cells[1] + 1, layers

@@ -1,36 +1,21 @@
-"""Grids of a sheet: how many masses lie along x and y, as a number of cells or as the user writes it.
+"""Grids as the user writes them: `N` along the shorter side, `NxM` along x and y, `NxMxL` with layers.
 
-A grid is (nx, ny, layers), counted in masses: 9 × 9 masses have 8 × 8 cells.
+What the numbers mean is said in `sheetbench.scenes.grid`.
 """
 
 from __future__ import annotations
 
-from sheetbench.scenes import Sheet
+from collections.abc import Sequence
+
+from sheetbench.scenes import Scene, Sheet
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grid import Grid, grid_of
 
-Grid = tuple[int, int, int]
-LAYERS = 2
-MASSES = 9
-
-
-def near_square(sheet: Sheet, cells: int) -> tuple[int, int]:
-    """Cells along x and y: `cells` along the shorter side, and cells as square as that allows."""
-    shorter = min(sheet.lengths)
-    along_x, along_y = (max(cells, round(cells * length / shorter)) for length in sheet.lengths)
-    return along_x, along_y
+Asked = int | Sequence[int] | str | None
 
 
-def default_grid(sheet: Sheet) -> Grid:
-    """Nine masses along the shorter side, near-square cells, two layers."""
-    along_x, along_y = near_square(sheet, MASSES - 1)
-    return along_x + 1, along_y + 1, LAYERS
-
-
-def parse_grid(text: str, option: str) -> Grid:
-    """The grid of `N` (N × N masses), `NxM` or `NxMxL`.
-
-    Raises BadInput naming the option.
-    """
+def parse_grid(sheet: Sheet, text: str) -> Grid:
+    """The grid of `N`, `NxM` or `NxMxL`. Raises BadInput naming the option, under both its names."""
     parts = text.lower().replace("×", "x").split("x")
     try:
         numbers = [int(part) for part in parts]
@@ -38,9 +23,14 @@ def parse_grid(text: str, option: str) -> Grid:
         numbers = []
     if len(numbers) not in (1, 2, 3) or min(numbers) < 2:
         raise BadInput(
-            f"{option} = '{text}': not a grid; write 9, 9x13 or 9x13x2 "
-            "(masses along x, masses along y, layers; each at least 2)"
+            f"--lumped = '{text}', the same as --grid: not a grid; write 9 (masses along the shorter side, "
+            "near-square cells), 9x13 (along x and y) or 9x13x3 (with layers), each at least 2"
         )
-    if len(numbers) == 1:
-        numbers *= 2
-    return numbers[0], numbers[1], numbers[2] if len(numbers) == 3 else LAYERS
+    return grid_of(sheet, numbers)
+
+
+def scene_grid(scene: Scene, asked: Asked = None) -> Grid:
+    """The grid asked for, as text or as numbers, or else nine masses along the shorter side."""
+    if isinstance(asked, str):
+        return parse_grid(scene.sheet, asked)
+    return grid_of(scene.sheet) if asked is None else grid_of(scene.sheet, asked)

@@ -16,10 +16,11 @@ from typing import TYPE_CHECKING, Any
 from warnings import warn
 
 from comparisons.models import plugins
-from comparisons.models.grids import Grid, default_grid, near_square
+from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.symmetry import half, planes, whole
 from sheetbench.scenes import History, Material, Scene, Sheet, Solution, load
 from sheetbench.scenes.errors import BadInput, Implausible, require_choice
+from sheetbench.scenes.grid import MASSES, grid_of, near_square
 from sheetbench.scenes.plausibility import layer_slips
 
 if TYPE_CHECKING:
@@ -32,13 +33,15 @@ def calibrate(
     sheet: Sheet,
     material: Material,
     *,
-    grid: Grid | None = None,
+    grid: int | Sequence[int] = MASSES,
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,
     training: Sequence[Scene] | None = None,
 ) -> Calibration:
     """Springs of a lattice; by default consistent ones for nine masses along the shorter side.
+
+    grid: a number is along the shorter side, with near-square cells; or (nx, ny), (nx, ny, layers).
 
     k [N/m] and layer_distance [m] are the calibration's own options; training: the scenes that a fitted
     one is fitted to, see `comparisons.models.training`. Raises BadInput for a name that is not a calibration
@@ -49,14 +52,13 @@ def calibrate(
 
     check_lattice(calibration, k, layer_distance)
     method = calibration or "consistent"
-    grid = grid or default_grid(sheet)
     if layer_distance is not None:
         for said in layer_slips(sheet, layer_distance, "layer-distance"):
             warn(Implausible(said), stacklevel=2)
     if lumped.CALIBRATIONS[method].fitted and k is None:
         from comparisons.models.training import fitted
 
-        return fitted(sheet, material, grid, method, layer_distance, training)
+        return fitted(sheet, material, grid_of(sheet, grid), method, layer_distance, training)
     return lumped.calibrate(sheet, material, grid=grid, method=method, k=k, layer_distance=layer_distance)
 
 
@@ -96,22 +98,27 @@ def has_own_springs(scene: Scene, **settings: Any) -> bool:
     return scene.springs is not None and all(choice is None for choice in chosen)
 
 
-def solve_lumped(scene: Scene, *, linear: bool = False, symmetry: bool = False, **settings: Any) -> Solution:
-    """The lattice's static answer with the settings of `calibrate`, which counts as set-up.
+def scene_springs(scene: Scene, *, grid: Asked = None, **settings: Any) -> Calibration:
+    """Springs of a lattice for a scene, with the settings of `calibrate`: its own [springs] if it has them
+    and no calibration, k or layer distance is given. grid: as `comparisons.models.grids` reads it."""
+    import lumped
 
-    Where no calibration, k or layer distance is given, a scene's own [springs] are used if it has them.
+    masses = scene_grid(scene, grid)
+    if has_own_springs(scene, **settings):
+        return lumped.given(scene, masses)
+    return calibrate(scene.sheet, scene.material, grid=masses, **settings)
+
+
+def solve_lumped(scene: Scene, *, linear: bool = False, symmetry: bool = False, **settings: Any) -> Solution:
+    """The lattice's static answer with the settings of `scene_springs`, which count as set-up.
+
     linear: one step with the flat sheet's tangent. symmetry: solve a half or a quarter where scene and grid
     allow it (see `comparisons.models.symmetry`).
     """
     import lumped
 
     started = perf_counter()
-    if "grid" in settings and settings["grid"] is not None:
-        settings["grid"] = tuple(settings["grid"])
-    if has_own_springs(scene, **settings):
-        springs = lumped.given(scene, settings.get("grid") or default_grid(scene.sheet))
-    else:
-        springs = calibrate(scene.sheet, scene.material, **settings)
+    springs = scene_springs(scene, **settings)
     grid = list(springs.grid)
     axes = [axis for axis in planes(scene) if grid[axis] % 2 and grid[axis] > 3] if symmetry else []
     for axis in axes:
@@ -126,17 +133,14 @@ def simulate(
     scene: Scene,
     duration: float,
     *,
-    grid: Grid | None = None,
+    grid: Asked = None,
     calibration: str | None = None,
     **settings: Any,
 ) -> History:
     """The lattice's motion over `duration` [s]; settings are those of `lumped.simulate`."""
     import lumped
 
-    if has_own_springs(scene, calibration=calibration):
-        springs = lumped.given(scene, grid or default_grid(scene.sheet))
-    else:
-        springs = calibrate(scene.sheet, scene.material, grid=grid, calibration=calibration)
+    springs = scene_springs(scene, grid=grid, calibration=calibration)
     return lumped.simulate(scene, springs, duration, **settings)
 
 
@@ -204,7 +208,7 @@ def solve(scene: Scene, model: str, **settings: Any) -> Solution:
     The name is one of `MODELS` or of an installed plug-in (`comparisons.models.plugins`). Settings are plain
     data.
     """
-    check(model, settings)
+    check(scene, model, settings)
     started = perf_counter()
     warm(model)
     warming = perf_counter() - started
@@ -216,16 +220,14 @@ def solve(scene: Scene, model: str, **settings: Any) -> Solution:
     return replace(solution, setup_seconds=solution.setup_seconds + warming)
 
 
-def check(model: str, settings: Mapping[str, Any]) -> None:
-    """Raise BadInput for a model that does not exist, or settings that it does not know."""
+def check(scene: Scene, model: str, settings: Mapping[str, Any]) -> None:
+    """Raise BadInput for a model that does not exist, or settings that it cannot use on this scene."""
     if model == "lumped":
         known = [*_keywords(calibrate), *_keywords(solve_lumped)]
         unknown = [name for name in settings if name not in known]
         if unknown:
             raise BadInput(f"lumped: no setting '{unknown[0]}'; it has {', '.join(known)}")
-        grid = settings.get("grid")
-        if grid is not None and not (_whole(grid) and len(grid) in (2, 3)):
-            raise BadInput(f"grid = {grid!r}: write [nx, ny] or [nx, ny, layers]")
+        scene_grid(scene, settings.get("grid"))
         check_lattice(settings.get("calibration"), settings.get("k"), settings.get("layer_distance"))
     elif model in MODELS:
         own = {name: value for name, value in settings.items() if name not in ("elements", "symmetry")}

@@ -13,10 +13,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from comparisons.models.grids import Grid
 from lumped import Calibration, ModalTarget, StaticTarget
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet, Status
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grid import Grid
 
 POINTS = 8  # along each side
 FREQUENCIES = 4

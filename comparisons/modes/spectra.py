@@ -15,11 +15,12 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.models.grids import Grid, default_grid
-from comparisons.models.registry import calibrate, check_lattice, check_reference, has_own_springs
+from comparisons.models.grids import Asked, scene_grid
+from comparisons.models.registry import check_lattice, check_reference, scene_springs
 from comparisons.report.table import Column, Table
 from sheetbench.scenes import Scene, load
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grid import Grid
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,7 @@ def spectra(
     scene: Scene | str | Path,
     *,
     count: int = 10,
-    grid: Grid | None = None,
+    grid: Asked = None,
     calibration: str | None = None,
     references: Sequence[str] = ("shell",),
     elements: int = 16,
@@ -68,22 +69,19 @@ def spectra(
     check_lattice(calibration, None, None)
     for reference in references:
         check_reference(reference, elements)
+    masses = scene_grid(scene, grid)
     starting("lumped")
-    found = [_lattice(scene, count, grid, calibration)]
+    found = [_lattice(scene, count, masses, calibration)]
     for reference in references:
         starting(reference)
         found.append(_reference(scene, reference, count, elements))
     return found
 
 
-def _lattice(scene: Scene, count: int, grid: Grid | None, calibration: str | None) -> Spectrum:
+def _lattice(scene: Scene, count: int, grid: Grid, calibration: str | None) -> Spectrum:
     import lumped
 
-    grid = grid or default_grid(scene.sheet)
-    if has_own_springs(scene, calibration=calibration):
-        springs = lumped.given(scene, grid)
-    else:
-        springs = calibrate(scene.sheet, scene.material, grid=grid, calibration=calibration)
+    springs = scene_springs(scene, grid=grid, calibration=calibration)
     begin = perf_counter()
     modes = lumped.modes(scene, springs, count)
     seconds = perf_counter() - begin

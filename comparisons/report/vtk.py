@@ -11,9 +11,9 @@ import meshio
 import numpy as np
 
 from comparisons.comparison.comparison import Comparison
-from comparisons.models.grids import near_square
 from sheetbench.files import whole
 from sheetbench.scenes import FieldMesh, Sheet, Solution
+from sheetbench.scenes.grid import near_square
 
 PLAN_CELLS = 64
 

@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.models.grids import Grid, default_grid
+from comparisons.models.grids import Asked, scene_grid
 from comparisons.report.table import Column, Table
 from comparisons.runs import manifest
 from comparisons.runs.campaign import Progress, Run, carry_out
@@ -30,6 +30,7 @@ from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff.pareto import front, grouped, order
 from sheetbench.scenes import Scene, Status
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grid import Grid
 
 DIVISIONS = (20, 40, 100, 200, 400)  # steps in the lowest period
 SHARES = (0.9, 0.45)  # of the explicit integrator's limit
@@ -140,7 +141,7 @@ def dynamic_tradeoff(
     duration: float,
     store: Store,
     *,
-    grid: Grid | None = None,
+    grid: Asked = None,
     integrators: Sequence[str] = ("generalised-alpha", "midpoint", "projective", "verlet"),
     divisions: Sequence[int] = DIVISIONS,
     reference: int = REFERENCE,
@@ -159,7 +160,7 @@ def dynamic_tradeoff(
 
     if unknown := [name for name in integrators if name not in INTEGRATORS]:
         raise BadInput(f"integrator = {unknown[0]!r}: choose from {', '.join(INTEGRATORS)}")
-    shape = grid or default_grid(scene.sheet)
+    shape = scene_grid(scene, grid)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=shape)
     period = 1.0 / float(lumped.modes(scene, springs, 1).frequencies[0])
     every = period / SAMPLES

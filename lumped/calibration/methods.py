@@ -11,9 +11,9 @@ from lumped.calibration.consistent import consistent
 from lumped.calibration.least_squares import fit_moduli
 from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
 from lumped.calibration.uniform import uniform
-from lumped.lattice import Grid
 from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grid import MASSES, grid_of
 
 Option = Literal["k", "layer_distance", "targets"]
 
@@ -43,26 +43,18 @@ CLOSED: dict[str, Method] = {
 }
 
 
-def given(scene: Scene, grid: Sequence[int] = (9, 9)) -> Calibration:
-    """The springs of the scene's own [springs] table, with their moduli report.
+def given(scene: Scene, grid: int | Sequence[int] = MASSES) -> Calibration:
+    """The springs of the scene's own [springs] table on a grid (`sheetbench.scenes.grid`), with their report.
 
     Raises BadInput when the scene has none.
     """
     if scene.springs is None:
         raise BadInput(f"scene '{scene.name}' has no [springs] table")
-    return report("scene", scene.sheet, scene.material, checked_grid(grid), scene.springs)
+    return report("scene", scene.sheet, scene.material, grid_of(scene.sheet, grid), scene.springs)
 
 
 def default(scene: Scene) -> Calibration:
-    """The scene's own springs, or else consistent ones, on 9 × 9 × 2."""
+    """The scene's own springs, or else consistent ones, on nine masses along the shorter side."""
     if scene.springs is not None:
         return given(scene)
-    return consistent(scene.sheet, scene.material, (9, 9, 2))
-
-
-def checked_grid(grid: Sequence[int]) -> Grid:
-    """(nx, ny, layers), layers 2 unless given. Raises BadInput below 2 masses a side or 2 layers."""
-    nx, ny, layers = (*grid, 2) if len(grid) == 2 else tuple(grid)
-    if min(nx, ny, layers) < 2:
-        raise BadInput(f"grid = {nx}x{ny}x{layers}: a lattice has at least 2 masses a side and 2 layers")
-    return nx, ny, layers
+    return consistent(scene.sheet, scene.material, grid_of(scene.sheet))

@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from typing import Any
 
 from lumped.calibration.calibration import Calibration
-from lumped.calibration.methods import CLOSED, Method, checked_grid
+from lumped.calibration.methods import CLOSED, Method
 from lumped.fitting.fits import fit_modal, fit_static
 from lumped.fitting.targets import Target
 from sheetbench.scenes import Material, Sheet
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grid import MASSES, grid_of
 
 CALIBRATIONS: dict[str, Method] = {
     **CLOSED,
@@ -23,14 +24,15 @@ UNITS = {"k": "N/m", "layer_distance": "m"}
 def calibrate(
     sheet: Sheet,
     material: Material,
-    grid: Sequence[int] = (9, 9),
+    grid: int | Sequence[int] = MASSES,
     method: str = "consistent",
     k: float | None = None,
     layer_distance: float | None = None,
     targets: Sequence[Target] = (),
 ) -> Calibration:
-    """Springs of a grid (nx, ny) or (nx, ny, layers) for a sheet of this material, by a named method.
+    """Springs of a grid for a sheet of this material, by a named method.
 
+    grid: masses along the shorter side, (nx, ny) or (nx, ny, layers), see `sheetbench.scenes.grid`.
     k [N/m] and layer_distance [m] are for the methods that take them; the fitted methods need targets.
     Raises BadInput for an unknown method, a grid too small, an option that the method does not take or that
     is not above zero.
@@ -43,7 +45,8 @@ def calibrate(
     for name, value in options.items():
         if name not in chosen.takes:
             others = " and ".join(f"'{other}'" for other, one in CALIBRATIONS.items() if name in one.takes)
-            raise BadInput(f"calibration '{method}' takes no {name}; {name} goes with {others}")
+            given = f"{name} = {value:g} {UNITS[name]}: " if name in UNITS else ""
+            raise BadInput(f"{given}calibration '{method}' takes no {name}; {name} goes with {others}")
         if name in UNITS and not value > 0.0:
             raise BadInput(f"{name} = {value:g} {UNITS[name]}: must be greater than 0")
-    return chosen.make(sheet, material, checked_grid(grid), **options)
+    return chosen.make(sheet, material, grid_of(sheet, grid), **options)

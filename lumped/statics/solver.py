@@ -67,7 +67,8 @@ def solve(
 ) -> Solution:
     """Static equilibrium of the scene on a lattice with these springs, from flat to full load.
 
-    springs: from `calibrate`; without them the scene's own [springs], or else `consistent` on 9 × 9 × 2.
+    springs: from `calibrate`; without them the scene's own [springs], or else `consistent` on nine masses
+    along the shorter side.
     branch: "path" reports the equilibrium on the load path, stable or not; "stable" leaves an unstable one
     along a direction of negative curvature and descends to a stable equilibrium. weights: "full" gives
     boundary links and masses full shares, as the seed has them. linear: the answer for small displacements,

@@ -1,0 +1,43 @@
+"""Grids of a sheet: how many masses lie along x and y and through the thickness, however they are asked for.
+
+A grid is (nx, ny, layers), counted in masses: 9 × 9 masses have 8 × 8 cells. One number is the count along
+the shorter side, and the cells are then as square as that allows; two are the counts along x and y; a third
+is the number of layers, 2 unless given.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.sheet import Sheet
+
+Grid = tuple[int, int, int]
+LAYERS = 2
+MASSES = 9  # along the shorter side, unless something else is asked for
+
+
+def near_square(sheet: Sheet, cells: int) -> tuple[int, int]:
+    """Cells along x and y: `cells` along the shorter side, and cells as square as that allows."""
+    shorter = min(sheet.lengths)
+    along_x, along_y = (max(cells, round(cells * length / shorter)) for length in sheet.lengths)
+    return along_x, along_y
+
+
+def grid_of(sheet: Sheet, asked: int | Sequence[int] = MASSES) -> Grid:
+    """The grid that is asked for by a number, or by two or three.
+
+    Raises BadInput below two masses a side or two layers, and for anything else than such numbers.
+    """
+    counts = np.atleast_1d(asked)
+    if counts.dtype.kind not in "iu" or counts.shape not in ((1,), (2,), (3,)):
+        raise BadInput(f"grid = {asked!r}: write 9, (9, 13) or (9, 13, 2)")
+    numbers = counts.tolist()
+    if len(numbers) == 1:
+        numbers = [cells + 1 for cells in near_square(sheet, numbers[0] - 1)]
+    nx, ny, layers = (*numbers, LAYERS) if len(numbers) == 2 else tuple(numbers)
+    if min(nx, ny, layers) < 2:
+        raise BadInput(f"grid = {nx}x{ny}x{layers}: a lattice has at least 2 masses a side and 2 layers")
+    return nx, ny, layers

@@ -1,0 +1,102 @@
+"""One rule for grids: a number counts along the shorter side with near-square cells, on every verb."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from test_cli import one_line, run
+
+import lumped
+from comparisons.models.grids import parse_grid, scene_grid
+from comparisons.models.registry import solve
+from sheetbench.scenes import BadInput, Clamped, Gravity, Material, Scene, Sheet
+from sheetbench.scenes.grid import grid_of, near_square
+
+SQUARE = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
+LONG = Sheet(length_x=0.2, length_y=0.1, thickness=0.003)
+RUBBER = Material(young=54.5e6, poisson=0.48, density=1678.0)
+SCENE = Scene(
+    name="long",
+    sheet=LONG,
+    material=RUBBER,
+    gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
+    support=(Clamped(edge="x0"),),
+)
+
+
+def test_a_number_counts_along_the_shorter_side() -> None:
+    assert grid_of(SQUARE) == (9, 9, 2)
+    assert grid_of(LONG) == grid_of(LONG, 9) == grid_of(LONG, np.int64(9)) == (17, 9, 2)
+    assert grid_of(Sheet(length_x=0.1, length_y=0.3, thickness=0.003)) == (9, 25, 2)
+    assert grid_of(LONG, (9, 9)) == (9, 9, 2) and grid_of(LONG, [9, 5, 3]) == (9, 5, 3)
+    assert near_square(Sheet(length_x=0.3, length_y=0.1, thickness=0.003), 16) == (48, 16)
+    for wrong in (1, (9, 1), (9, 9, 1), (9.0, 9.0), "9", (), (9, 9, 2, 2), 10**30):
+        with pytest.raises(BadInput, match="grid = "):
+            grid_of(LONG, wrong)  # type: ignore[arg-type]
+
+
+def test_grids_are_read_as_people_write_them() -> None:
+    assert parse_grid(LONG, "9") == (17, 9, 2)
+    assert parse_grid(LONG, "9x13") == (9, 13, 2)
+    assert parse_grid(LONG, "5×7×3") == (5, 7, 3)
+    for text in ("", "9x", "1", "9x9x1", "3.5", "9x9x2x2", "-4"):
+        with pytest.raises(BadInput, match=r"--lumped = .*--grid"):
+            parse_grid(LONG, text)
+
+
+def test_python_takes_a_number_too() -> None:
+    assert scene_grid(SCENE) == scene_grid(SCENE, 9) == scene_grid(SCENE, "9") == (17, 9, 2)
+    assert lumped.calibrate(LONG, RUBBER).grid == (17, 9, 2)
+    assert lumped.calibrate(LONG, RUBBER, 5).grid == (9, 5, 2)
+    assert lumped.solve(SCENE, linear=True).settings["grid"] == [17, 9, 2]
+    for grid in (3, "3", "5x3"):
+        assert solve(SCENE, "lumped", grid=grid).settings["grid"] == [5, 3, 2]
+
+
+TEXT = """
+name = "long"
+sheet = { length_x = 0.2, length_y = 0.1, thickness = 0.003 }
+material = { young = 54.5e6, poisson = 0.48, density = 1678.0 }
+gravity = { acceleration = [0.0, 0.0, -9.81] }
+support = [{ edge = "x0", kind = "clamped" }]
+"""
+VERBS = {
+    "compare": (("--elements", "2", "--no-uncertainty"), lambda d: d["solutions"][0]["settings"]["grid"]),
+    "modes": (("--elements", "2", "--count", "2"), lambda d: d["solutions"][0]["settings"]["grid"]),
+    "calibrate": ((), lambda d: d["grid"]),
+    "simulate": (("--duration", "0.01"), lambda d: d["settings"]["grid"]),
+    "identify": (("--measured", "measured.csv"), lambda d: d["settings"]["grid"]),
+}
+
+
+@pytest.mark.parametrize("option", ["--lumped", "--grid"])
+@pytest.mark.parametrize("verb", VERBS)
+def test_every_verb_means_the_same(
+    verb: str,
+    option: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("long.toml").write_text(TEXT)
+    Path("measured.csv").write_text("x,y,ux,uy,uz\n0.2,0.05,,,-0.02\n0.1,0.05,,,-0.01\n")
+    others, grid = VERBS[verb]
+    assert run(verb, "long.toml", option, "3", "--json", *others) == 0
+    assert grid(json.loads(capsys.readouterr().out)) == [5, 3, 2]
+
+
+@pytest.mark.parametrize("verb", [*VERBS, "tradeoff", "transfer"])
+def test_what_is_not_a_grid_leaves_with_2(
+    verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("long.toml").write_text(TEXT)
+    Path("measured.csv").write_text("x,y,ux,uy,uz\n0.2,0.05,,,-0.02\n0.1,0.05,,,-0.01\n")
+    asked = () if verb == "transfer" else ("long.toml",)
+    assert run(verb, *asked, "--grid", "9y", *VERBS.get(verb, [()])[0]) == 2
+    said = one_line(capsys)
+    assert "9y" in said and "--grid" in said

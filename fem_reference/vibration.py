@@ -28,7 +28,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.sparse import bsr_matrix, csr_matrix
 from scipy.sparse.linalg import LinearOperator, eigsh
-from skfem import MeshQuad
 
 from fem_reference.plate import statics as plate
 from fem_reference.shell import statics as shell
@@ -37,8 +36,8 @@ from fem_reference.solid import supports as solid_supports
 from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.threads import one_blas_thread
 from fem_reference.surface.materials import Section
-from fem_reference.surface.mesh import Elements, divisions, rectangle
-from sheetbench.scenes import Scene, Symmetric
+from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput
 
 REACH = 0.375  # of the grading
@@ -148,15 +147,10 @@ def _free_rigid_motions(rest: RestState) -> int:
     return 6 - int(np.sum(singular > 1e-9))
 
 
-def _mesh(scene: Scene, elements: tuple[int, int], graded: bool) -> MeshQuad:
-    cuts = [support.edge for support in scene.supports if isinstance(support, Symmetric)]
-    return rectangle(scene.sheet, elements, graded, cuts, REACH)
-
-
 def _plate_at_rest(
     scene: Scene, elements: tuple[int, int], section: Section | None = None, graded: bool = True
 ) -> RestState:
-    model = plate.Plate.on(_mesh(scene, elements, graded))
+    model = plate.Plate.on(mesh_of(scene, elements, graded, REACH))
     _, held, _ = plate.constrain(scene, model)
     x, y = (model.nodes - model.nodes.mean(axis=0)).T
     rigid = np.zeros((6, len(x), 5))
@@ -179,7 +173,7 @@ def _shell_at_rest(
 ) -> RestState:
     """The tangent of the shell that nothing holds or loads; the last two fields turn the director."""
     bare = scene.model_copy(update={"supports": (), "loads": (), "actuators": (), "gravity": None})
-    structure, _ = shell.discretise(_mesh(scene, elements, graded), bare, section)
+    structure, _ = shell.discretise(mesh_of(scene, elements, graded, REACH), bare, section)
     rest = structure.rest()
     stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
     return _plate_at_rest(scene, elements, graded=graded)._replace(stiffness=stiffness)
@@ -194,7 +188,7 @@ def _solid_at_rest(
 ) -> RestState:
     """The tangent of the solid that nothing holds or loads; both laws have the same."""
     bare = scene.model_copy(update={"supports": (), "loads": (), "actuators": (), "gravity": None})
-    mesh = solid.mesh_of(scene, elements, grading)
+    mesh = solid.plan_mesh(scene, elements, grading)
     structure = solid.discretise(mesh, bare, layers)
     rest = structure.rest()
     stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
@@ -210,7 +204,7 @@ def _solid_at_rest(
 
     def sample(fields: np.ndarray, points: np.ndarray) -> np.ndarray:
         displacement = solid_supports.vectors(bases, fields.reshape(columns.positions.shape))
-        return solid.sample(columns, displacement, points)
+        return columns.sample(displacement, points)
 
     return RestState(
         stiffness=(basis.T @ stiffness @ basis).tocsr(),

@@ -11,8 +11,7 @@ from fem_reference.shell.element import Element
 from fem_reference.shell.statics import discretise
 from fem_reference.shell.structure import State
 from fem_reference.solid import statics as solid
-from fem_reference.surface import loads as shell_loads
-from fem_reference.surface.loads import FollowerMoment, FollowerPressure, Line
+from fem_reference.surface.loads import FollowerMoment, FollowerPressure, Line, area_force, orientation
 from fem_reference.surface.materials import section_of
 from fem_reference.surface.mesh import rectangle
 from sheetbench import scenes
@@ -160,9 +159,7 @@ def test_no_spurious_mode_when_held(support):
     for elements in (4, 8):
         structure, _ = discretise(rectangle(SHEET, elements), scene(supports=hinged))
         matrix, _ = structure.system(structure.rest(), structure.forces(structure.rest(), 0.0), 0.0)
-        areas = shell_loads.area_force(
-            structure.element.areas, structure.element_nodes, structure.count, np.ones(1)
-        )
+        areas = area_force(structure.element.areas, structure.element_nodes, structure.count, np.ones(1))
         mass = np.concatenate(
             [np.repeat(areas, 3, axis=1), np.repeat(areas * SHEET.thickness**2 / 12, 2, axis=1)], 1
         )
@@ -225,7 +222,7 @@ def test_follower_tangents_are_exact(kind):
     mesh = distorted()
     element, nodes, element_nodes = build(mesh)
     load = (
-        FollowerPressure(3.0, shell_loads.orientation(nodes[element_nodes]))
+        FollowerPressure(3.0, orientation(nodes[element_nodes]))
         if kind == "pressure"
         else FollowerMoment(2.0, Line.along(mesh, mesh.boundaries["x1"], nodes[element_nodes]))
     )

@@ -12,7 +12,7 @@ from comparisons.comparison.comparison import error
 from comparisons.stability import equilibria
 from fem_reference.shell import statics as shell
 from fem_reference.shell.structure import ShellStructure, State
-from fem_reference.solving import pseudo_transient as relaxation
+from fem_reference.solving import pseudo_transient
 from fem_reference.solving.equilibrium import SNAPS, Path, StepFailed, trace
 from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.pseudo_transient import dragged, potential, relax, settler
@@ -232,7 +232,7 @@ def test_no_step_of_the_creep_raises_the_potential(taped, monkeypatch):
     solver = DirectSolver()
     path = trace(structure, solver)
     energies = []
-    measured = relaxation._Creep._accepts
+    measured = pseudo_transient._Creep._accepts
 
     def accepts(self, state):
         taken = measured(self, state)
@@ -240,7 +240,7 @@ def test_no_step_of_the_creep_raises_the_potential(taped, monkeypatch):
             energies.append(potential(structure, state, self.load_factor)[0])
         return taken
 
-    monkeypatch.setattr(relaxation._Creep, "_accepts", accepts)
+    monkeypatch.setattr(pseudo_transient._Creep, "_accepts", accepts)
     before, state = path.factorisations, path.state
     relax(structure, solver, path, path.load_factor + 0.01)
     assert path.state is state and path.factorisations > before

@@ -13,6 +13,7 @@ from fem_reference.solid.materials import LAWS, lame
 from fem_reference.solid.structure import State
 from fem_reference.solid.supports import into_forces, vectors
 from fem_reference.solving.linear import DirectSolver
+from fem_reference.surface.mesh import rectangle
 from sheetbench import scenes
 from sheetbench.scenes import Material, Scene, Sheet, Status
 
@@ -49,7 +50,7 @@ def block(thickness: float = 0.4, poisson: float = 0.3, supports=(), loads=()) -
 
 def distorted() -> MeshQuad:
     mesh = MeshQuad.init_tensor(*2 * [np.linspace(0.0, 1.0, 4)])
-    mesh = mesh.with_boundaries(solid.rectangle(block().sheet, 3).boundaries)
+    mesh = mesh.with_boundaries(rectangle(block().sheet, 3).boundaries)
     moved, inner = mesh.p.copy(), mesh.interior_nodes()
     moved[:, inner] += np.random.default_rng(3).uniform(-0.08, 0.08, (2, len(inner)))
     return MeshQuad(moved, mesh.t).with_boundaries(mesh.boundaries)
@@ -143,7 +144,7 @@ def test_rigid_motion_costs_nothing(law, rng):
 @pytest.mark.parametrize("mesh", ["one", "distorted"])
 def test_six_zero_modes(thickness, layers, poisson, mesh):
     """The free solid has six rigid motions and no spurious mode."""
-    plan = distorted() if mesh == "distorted" else solid.rectangle(block().sheet, 1)
+    plan = distorted() if mesh == "distorted" else rectangle(block().sheet, 1)
     structure = solid.discretise(plan, block(thickness, poisson), layers)
     rest = structure.rest()
     stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0)
@@ -190,7 +191,7 @@ def test_tangent_of_the_loaded_and_bent_structure(layers, law, rng):
             {"kind": "point", "at": (0.4, 0.3), "force": (1.0, -1.0, 0.5)},
         ],
     )
-    structure = solid.discretise(solid.graded_rectangle(scene.sheet, (2, 2)), scene, layers, law)
+    structure = solid.discretise(rectangle(scene.sheet, (2, 2), graded=True), scene, layers, law)
     bases = structure.supports.bases(0.7)
     u = structure.supports.target(0.7) + 2e-3 * rng.normal(size=structure.free.shape)
     step, local = 1e-6, np.zeros(structure.free.shape)
@@ -328,7 +329,7 @@ def test_order_of_convergence(poisson):
     errors = []
     for layers in (1, 2, 4):
         scene = block(0.5, poisson)
-        structure = solid.discretise(solid.rectangle(scene.sheet, 2 * layers), scene, layers)
+        structure = solid.discretise(rectangle(scene.sheet, 2 * layers), scene, layers)
         values, _ = shape(reference().points)
         at = np.einsum("aq,eac->eqc", values, structure.bricks.positions)
         body = lame(scene.material)[1] * (2 * np.pi**2 + 1) * exact(at)

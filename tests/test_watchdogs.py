@@ -9,7 +9,7 @@ import fem_reference
 import lumped
 from comparisons.stability.equilibria import loaded, sheet
 from comparisons.stability.vibrating import start, system
-from fem_reference.shell import validity as shell_watch
+from fem_reference.shell import validity
 from fem_reference.shell.statics import discretise
 from fem_reference.shell.structure import State as ShellState
 from fem_reference.surface.mesh import rectangle
@@ -124,10 +124,10 @@ def test_the_shell_knows_its_mid_surface_s_stretch_and_its_inverted_elements():
     change = np.zeros_like(structure.rest().change)
     change[0][:, 0] = 0.6 * nodes[:, 0]
     stretched = ShellState(change)
-    assert shell_watch.membrane_strain(structure, stretched) == pytest.approx(0.6, rel=1e-9)
-    assert shell_watch.inverted(structure, stretched) is None
+    assert validity.membrane_strain(structure, stretched) == pytest.approx(0.6, rel=1e-9)
+    assert validity.inverted(structure, stretched) is None
     change[0][:, 0] = -1.5 * nodes[:, 0]  # a mirror image of half the length
-    fault = shell_watch.inverted(structure, ShellState(change))
+    fault = validity.inverted(structure, ShellState(change))
     assert fault is not None and fault.status is Status.INVERTED and "use more elements" in fault.message
 
 

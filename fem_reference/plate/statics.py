@@ -2,10 +2,10 @@
 
     ∫ N·δε + M·δκ + Q·δγ dA = δ(loads),   N = h C ε,   M = h³/12 C κ,   Q = 5/6 h G γ
 
-with plane-stress C (see `materials`) and the strains of `plate_element`. Bending and membrane do not know of
+with plane-stress C (see `materials`) and the strains of `element`. Bending and membrane do not know of
 each other: no stiffening by stretching, no shortening by bending. Loads act on the flat sheet: pressure
 along +z, an edge moment m as −m on the tilt towards the outward normal. Actuators are linearised about the
-flat sheet (`plate_rods`, `edge_motion`), and their forces' moments taken there. So is a curved support: with
+flat sheet (`rods`, `edge_motion`), and their forces' moments taken there. So is a curved support: with
 s from the edge's middle w = κ s²/2 and the tilt along the edge is −κ s, none across it; the mid-line's
 shortening is of second order. A clamp tilted by τ holds a director's tilt of −τ towards the outward normal.
 Source: Hughes, The Finite Element Method (2000), ch. 5. SI units.
@@ -13,36 +13,35 @@ Source: Hughes, The Finite Element Method (2000), ch. 5. SI units.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_matrix
-from skfem import Basis, ElementQuad2, FacetBasis, LinearForm, MeshQuad
+from skfem import Basis, ElementQuad2, MeshQuad
 
 from fem_reference.plate import rods as plate_rods
-from fem_reference.plate.element import NODES, TILT_X, PlateElements, W, plate_elements, shape_values
+from fem_reference.plate.element import TILT_X, PlateElements, W
 from fem_reference.shell.rods import hold_bases
 from fem_reference.solving.linear import DirectSolver, SingularMatrix
 from fem_reference.solving.sparsity import Pattern
 from fem_reference.solving.threads import one_blas_thread
-from fem_reference.surface import edge_motion
-from fem_reference.surface import supports as shell_supports
-from fem_reference.surface.location import locate
+from fem_reference.surface import edge_motion, loads
+from fem_reference.surface import supports as surface_supports
+from fem_reference.surface.biquadratic import GAUSS, NODES, shape
+from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
-from fem_reference.surface.mesh import Elements, divisions, quarters, rectangle, require_upright
+from fem_reference.surface.mesh import Elements, divisions, mesh_of, quarters, require_upright
 from fem_reference.surface.rod import Rod
 from fem_reference.surface.supports import Supports
 from sheetbench.scenes import (
     EDGES,
     Clamped,
     Curved,
-    EdgeLoad,
     FieldMesh,
     Iteration,
-    PointLoad,
     Scene,
     Solution,
     Status,
@@ -65,8 +64,8 @@ class Plate:
     def on(cls, mesh: MeshQuad) -> Plate:
         """The plate on any flat mesh of straight-sided quadrilaterals [m]; BadInput for folded ones."""
         require_upright(mesh)
-        basis = Basis(mesh, ElementQuad2(), intorder=5)
-        return cls(basis, plate_elements(basis))
+        basis = Basis(mesh, ElementQuad2())
+        return cls(basis, PlateElements.build(basis.element_dofs.T, basis.doflocs.T))
 
     @property
     def nodes(self) -> np.ndarray:
@@ -80,8 +79,7 @@ class Plate:
 
     def sample(self, fields: np.ndarray, points: np.ndarray) -> np.ndarray:
         """Nodal fields (n, k) at plan points (p, 2) [m]: (p, k). Raises BadInput off the mesh."""
-        element, local = locate(self.basis.mesh, points)
-        return np.einsum("ap,pak->pk", shape_values(local), fields[self.elements.nodes[element]])
+        return interpolate(self.basis.mesh, self.elements.nodes, fields, points)
 
 
 def solve(
@@ -97,32 +95,34 @@ def solve(
     from material and thickness unless given. Raises SceneError if the supports leave a rigid motion free.
     """
     require_static(scene)
-    begin = perf_counter()
     along_x, along_y = divisions(scene.sheet.lengths, elements)
     settings: dict[str, Any] = {"elements": [along_x, along_y]}
     if hard_edges:
         settings["hard_edges"] = list(hard_edges)
     if section is not None:
         settings["section"] = section._asdict()
-    mesh = rectangle(scene.sheet, (along_x, along_y))
-    return solve_on(mesh, scene, f"plate {along_x} × {along_y}", settings, begin, hard_edges, section)
+    mesh = mesh_of(scene, (along_x, along_y))
+    return _solved(mesh, scene, f"plate {along_x} × {along_y}", settings, hard_edges, section)
 
 
-def solve_on(
+def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
+    """The same on any flat mesh of straight-sided quadrilaterals [m] with boundaries of the edges' names."""
+    return _solved(mesh, scene, "plate", {"elements": mesh.nelements})
+
+
+def _solved(
     mesh: MeshQuad,
     scene: Scene,
-    label: str = "plate",
-    settings: dict[str, Any] | None = None,
-    begin: float | None = None,
+    label: str,
+    settings: dict[str, Any],
     hard_edges: tuple[str, ...] = (),
     section: Section | None = None,
 ) -> Solution:
-    """The same on any flat mesh of straight-sided quadrilaterals [m] with boundaries of the edges' names."""
-    begin = perf_counter() if begin is None else begin
+    begin = perf_counter()
     plate = Plate.on(mesh)
     rods = plate_rods.of_scene(scene, plate.basis.mesh, plate.elements.nodes, plate.nodes)
     supports, held, fields = constrain(scene, plate, hard_edges, rods.rods)
-    force = rods.force(loads(scene, plate).ravel())
+    force = rods.force(nodal_forces(scene, plate).ravel())
     free = np.flatnonzero(~np.concatenate([held.ravel(), rods.held]))
     ready = perf_counter()
 
@@ -147,7 +147,7 @@ def solve_on(
     return Solution(
         model="plate",
         label=label,
-        settings=settings or {"elements": mesh.nelements},
+        settings=settings,
         status=status,
         unknowns=len(free),
         iterations=1,
@@ -180,7 +180,7 @@ def mass_matrix(scene: Scene, plate: Plate) -> csr_matrix:
     """Consistent mass with rotary inertia: ρh on the displacements, ρh³/12 on the tilts; (5 n, 5 n)."""
     per_area = scene.material.density * scene.sheet.thickness
     inertia = np.diag([per_area] * 3 + [per_area * scene.sheet.thickness**2 / 12.0] * 2)
-    values = plate.elements.values
+    values, _ = shape(*GAUSS)
     products = np.einsum("mq,qa,qb->mab", plate.elements.areas, values, values)
     return _assemble(plate, np.einsum("mab,ij->maibj", products, inertia))
 
@@ -212,7 +212,7 @@ def constrain(
     rods: of the scene, whose bases hold a node.
     """
     on_edge = {str(on.edge): edge_nodes(plate, on.edge) for on in (*scene.supports, *scene.actuators)}
-    supports = shell_supports.of_scene(scene, plate.nodes, on_edge)
+    supports = surface_supports.of_scene(scene, plate.nodes, on_edge)
     supports = edge_motion.hold(hold_bases(supports, rods), scene, plate.nodes, on_edge)
     held = np.column_stack([supports.position, supports.director[:, None] | supports.tilt])
     for name in hard_edges:
@@ -240,34 +240,18 @@ def edge_nodes(plate: Plate, edge: str) -> np.ndarray:
     return plate.basis.get_dofs(edge).flatten()
 
 
-def loads(scene: Scene, plate: Plate) -> np.ndarray:
+def nodal_forces(scene: Scene, plate: Plate) -> np.ndarray:
     """Work-equivalent nodal forces [N] and couples [N·m], (n, 5), with the last factor of every history."""
-    force = np.zeros((plate.basis.N, 5))
-    area = share(plate.basis)
-    if scene.gravity is not None:
-        per_area = scene.material.density * scene.sheet.thickness
-        force[:, :3] += np.outer(per_area * area, scene.gravity.last_acceleration)
-    for load in scene.loads:
-        factor = load.last_factor
-        if isinstance(load, PointLoad):
-            element, local = locate(plate.basis.mesh, np.array([load.at]))
-            nodes = plate.elements.nodes[element[0]]
-            force[nodes, :3] += factor * np.outer(shape_values(local), load.force)
-        elif isinstance(load, EdgeLoad):
-            edge, mesh = EDGES[load.edge], plate.basis.mesh
-            length = share(FacetBasis(mesh, ElementQuad2(), facets=mesh.boundaries[load.edge]))
-            force[:, :3] += factor * np.outer(length, load.force_per_length)
-            outward = edge.outward[edge.normal_axis]
-            force[:, TILT_X + edge.normal_axis] -= factor * outward * load.moment_per_length * length
-        else:
-            force[:, W] += factor * load.value * area
+    nodes, element_nodes = plate.nodes, plate.elements.nodes
+    dead, followers = loads.of_scene(scene, plate.basis.mesh, element_nodes, nodes)
+    force = np.column_stack([dead, np.zeros((len(nodes), 2))])
+    flat = np.zeros((len(element_nodes), 18, 3))
+    flat[:, :9, :2], flat[:, 9:, 2] = nodes[element_nodes], 1.0
+    for load in followers:
+        on, pull = element_nodes[load.elements], load.force(flat[load.elements])
+        np.add.at(force[:, :3], on, pull[:, :9])
+        np.add.at(force[:, 3:], on, pull[:, 9:, :2])
     return force
-
-
-def share(basis: Basis | FacetBasis, density: Callable[..., np.ndarray] | None = None) -> np.ndarray:
-    """∫ N f over the basis' surface or line, (n,), of a density f(x, y), 1 if None."""
-    form = LinearForm(lambda v, w: v if density is None else density(*w.x) * v)
-    return form.assemble(basis)
 
 
 def field_mesh(plate: Plate, fields: np.ndarray, more: dict[str, np.ndarray]) -> FieldMesh:

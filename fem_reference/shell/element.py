@@ -13,7 +13,7 @@ ones by biquadratic interpolation, which makes it the mean-square projection on 
 distorted element that projection does not keep the mean of the Cartesian strain, on which the patch test
 hangs: the difference is added back as a constant. The twist k_rs has no part that locks and stands as it is:
 projected too, as Bucalem & Bathe have it, it lets bent elements of unequal sides turn unstable (see
-`shell_watch`). The membrane's, left as it stands, locks: the error of a thin sheet's large deflections on
+`validity`). The membrane's, left as it stands, locks: the error of a thin sheet's large deflections on
 8 × 8 elements goes from 1.5 to 14 %. An element has 54 sampled strains
 
     e_k = ½ Qᵀ H_k Q − ½ Q₀ᵀ H_k Q₀,     Q = (φ_1 … φ_9, d_1 … d_9),
@@ -29,48 +29,24 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from skfem import ElementQuad2
 
+from fem_reference.surface.biquadratic import (
+    GAUSS,
+    GAUSS_WEIGHTS,
+    THREE,
+    TYING,
+    interpolation,
+    jacobians,
+    product_grid,
+    shape,
+)
 from fem_reference.surface.materials import Section
 from sheetbench.scenes.errors import BadInput
 
-TWO = np.array([-1.0, 1.0]) / np.sqrt(3.0)
-THREE = np.array([-1.0, 0.0, 1.0]) * np.sqrt(0.6)
-THREE_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 9.0
-
-
-def shape(r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Biquadratic shape functions (n, 9) and derivatives (2, n, 9) by r, s at points of [−1, 1]²."""
-    element = ElementQuad2()
-    at = (np.array([r, s], dtype=float) + 1.0) / 2.0
-    value, slope = zip(*(element.lbasis(at, i) for i in range(9)), strict=True)
-    return np.array(value).T, np.array(slope).transpose(1, 2, 0) / 2.0
-
-
-def _grid(r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    return np.repeat(r, len(s)), np.tile(s, len(r))
-
-
-def _lagrange(nodes: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Lagrange polynomials of `nodes` (m,) at points (n,): (n, m)."""
-    others = [np.delete(nodes, i) for i in range(len(nodes))]
-    return np.array(
-        [np.prod((at[:, None] - o) / (x - o), axis=1) for x, o in zip(nodes, others, strict=True)]
-    ).T
-
-
-def _interpolation(r: np.ndarray, s: np.ndarray, at: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
-    """Interpolation from the grid r × s to points `at`: (n, len(r) · len(s))."""
-    return np.einsum("na,nb->nab", _lagrange(r, at[0]), _lagrange(s, at[1])).reshape(len(at[0]), -1)
-
-
-GAUSS = _grid(THREE, THREE)
-GAUSS_WEIGHTS = np.outer(THREE_WEIGHTS, THREE_WEIGHTS).ravel()
-
 # Sampling grids of the covariant components and their interpolation to the Gauss points.
-_GRIDS = {"rr": (TWO, THREE), "ss": (THREE, TWO), "rs": (THREE, THREE)}
-_TO_GAUSS = {name: _interpolation(*_GRIDS[name], GAUSS) for name in ("rr", "ss")}
-_TO_GAUSS["rs"] = _interpolation(TWO, TWO, GAUSS) @ _interpolation(THREE, THREE, _grid(TWO, TWO))
+_GRIDS = {**TYING, "rs": (THREE, THREE)}
+_TO_GAUSS = {name: interpolation(*TYING[name], GAUSS) for name in TYING}
+_TO_GAUSS["rs"] = _TO_GAUSS["rs"] @ interpolation(THREE, THREE, product_grid(*TYING["rs"]))
 
 MEMBRANE = slice(0, 21)
 BENDING = slice(21, 42)
@@ -83,7 +59,7 @@ def _strain_forms() -> np.ndarray:
     membrane, bending, shear = [], [], []
     phi, director = slice(0, 9), slice(9, 18)
     for name, (a, b) in {"rr": (0, 0), "ss": (1, 1), "rs": (0, 1)}.items():
-        value, slope = shape(*_grid(*_GRIDS[name]))
+        value, slope = shape(*product_grid(*_GRIDS[name]))
         product = 0.5 * np.einsum("ni,nj->nij", slope[a], slope[b])
         product = product + product.transpose(0, 2, 1)  # φ,a·φ,b is ½ φᵀ (this) φ twice over
         stretch = np.zeros((len(value), 18, 18))
@@ -106,7 +82,7 @@ FORMS = _strain_forms()
 
 @dataclass(frozen=True)
 class Element:
-    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 44), areas w |det J| (m, 9) [m²]."""
+    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²]."""
 
     reference: np.ndarray
     stiffness: np.ndarray
@@ -116,7 +92,7 @@ class Element:
     def build(cls, nodes: np.ndarray, section: Section) -> Element:
         """From the nodes' plan positions (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
         _, slope = shape(*GAUSS)
-        jacobian = np.einsum("agi,eib->egba", slope, nodes)  # ∂x_b/∂ξ_a
+        jacobian = jacobians(nodes, slope)
         area = np.linalg.det(jacobian)
         turn = np.sign(area[:, :1])  # scikit-fem numbers some meshes clockwise
         if not np.all(area * turn > 0.0):

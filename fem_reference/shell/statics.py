@@ -2,7 +2,7 @@
 
 Position φ + ζ d with a unit director d at every node; membrane, bending and transverse-shear energies of
 a plane-stress St Venant–Kirchhoff sheet, ½ h E:C:E + h³/24 κ:C:κ + ½ k h G γ·γ with k = 5/6, on nine-node
-elements with assumed strains (`shell_element`), under dead and follower loads. Small strains are
+elements with assumed strains (`element`), under dead and follower loads. Small strains are
 assumed, rotations are not; the weight has no couple on the director.
 """
 
@@ -14,21 +14,20 @@ from typing import Any, NamedTuple
 import numpy as np
 from skfem import Basis, ElementQuad2, MeshQuad
 
-from fem_reference.shell.element import Element, shape
+from fem_reference.shell.element import Element
 from fem_reference.shell.rods import RoddedShell
 from fem_reference.shell.structure import ShellStructure
 from fem_reference.shell.validity import STRETCHED, inspector, judge
 from fem_reference.solving.equilibrium import Path, trace
 from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.pseudo_transient import settler
-from fem_reference.surface import actuator_forces, edge_motion, rod
-from fem_reference.surface import loads as shell_loads
-from fem_reference.surface import supports as shell_supports
+from fem_reference.surface import actuator_forces, edge_motion, loads, rod
+from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.loads import Line
-from fem_reference.surface.location import locate
+from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
-from fem_reference.surface.mesh import Elements, divisions, quarters, rectangle
-from sheetbench.scenes import FieldMesh, Scene, Solution, Symmetric
+from fem_reference.surface.mesh import Elements, divisions, mesh_of, quarters
+from sheetbench.scenes import FieldMesh, Scene, Solution
 from sheetbench.scenes.scene import require_static
 
 
@@ -45,12 +44,11 @@ def solve(
     """
     require_static(scene)
     counts = divisions(scene.sheet.lengths, elements)
-    cuts = [support.edge for support in scene.supports if isinstance(support, Symmetric)]
-    run = _run(rectangle(scene.sheet, counts, graded, cuts), scene, section, graded)
+    run = _run(mesh_of(scene, counts, graded), scene, section, graded)
     fallback, spent = "", None
     if run.path.fault is STRETCHED:
         fallback, spent, graded = "divided evenly, for it bends much", run, False
-        run = _run(rectangle(scene.sheet, counts, graded, cuts), scene, section, graded)
+        run = _run(mesh_of(scene, counts, graded), scene, section, graded)
     settings: dict[str, Any] = {"elements": list(counts), "graded": graded}
     if section is not None:
         settings["section"] = section._asdict()
@@ -139,8 +137,8 @@ def discretise(
         nodes[element_nodes], section or section_of(scene.material, scene.sheet.thickness)
     )
     on_edge = {str(edge): basis.get_dofs(edge).flatten() for edge in (s.edge for s in scene.supports)}
-    supports = shell_supports.of_scene(scene, nodes, on_edge)
-    dead, followers = shell_loads.of_scene(scene, mesh, element_nodes, nodes, element.areas)
+    supports = surface_supports.of_scene(scene, nodes, on_edge)
+    dead, followers = loads.of_scene(scene, mesh, element_nodes, nodes)
     if not scene.actuators:
         return ShellStructure(element, element_nodes, supports, dead, followers), nodes
     sides = {}
@@ -150,15 +148,6 @@ def discretise(
     supports = edge_motion.hold(supports, scene, nodes, {edge: np.unique(at) for edge, at in sides.items()})
     rods = rod.of_scene(scene, nodes, sides)
     return RoddedShell(element, element_nodes, supports, dead, followers, rods), nodes
-
-
-def interpolate(
-    mesh: MeshQuad, element_nodes: np.ndarray, nodal: np.ndarray, points: np.ndarray
-) -> np.ndarray:
-    """A nodal field (n, k) at plan points (p, 2) [m]: (p, k). Raises BadInput off the mesh."""
-    element, local = locate(mesh, points)
-    value, _ = shape(*(2.0 * local - 1.0))
-    return np.einsum("pi,pik->pk", value, nodal[element_nodes[element]])
 
 
 def field_mesh(

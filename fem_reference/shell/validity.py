@@ -22,10 +22,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from fem_reference.shell.element import BENDING, GAUSS, MEMBRANE, shape
+from fem_reference.shell.element import BENDING, MEMBRANE
 from fem_reference.shell.structure import ShellStructure, State
 from fem_reference.solving.equilibrium import Fault, Path, stability
 from fem_reference.solving.linear import DirectSolver
+from fem_reference.surface.biquadratic import GAUSS, jacobians, shape
 from sheetbench.scenes import Scene, Status, outside_model
 
 STRETCH_LIMIT = 5.0
@@ -54,7 +55,7 @@ def inverted(structure: ShellStructure, state: State) -> Fault | None:
     now = reference + structure._gather(state.change)
     along, across = np.einsum("agi,eic->aegc", slope, now[:, :9])
     area = np.einsum("egc,gi,eic->eg", np.cross(along, across), value, now[:, 9:])
-    flat = np.linalg.det(np.einsum("agi,eib->egba", slope, reference[:, :9, :2]))
+    flat = np.linalg.det(jacobians(reference[:, :9, :2], slope))
     share = (area / flat).min(axis=1)
     worst = int(np.argmin(share))
     if share[worst] > FLAT:

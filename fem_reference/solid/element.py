@@ -37,16 +37,15 @@ from skfem.quadrature import get_quadrature
 from skfem.refdom import RefHex
 
 from fem_reference.solid.materials import PAIRS, Law
+from fem_reference.surface.biquadratic import THREE, TYING, lagrange
 
 NODES = 27
-VOLUME_MODES = 6
 KEPT = 0.3  # at most, of the dropped shear: bent strips are stable up to surface strains of 0.045 (ν = 0)
-_TWO = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)
-_THREE = 0.5 + np.array([-0.5, 0.0, 0.5]) * np.sqrt(0.6)
-# Of the covariant components ξξ, ηη, ζζ, ξη, ηζ, ξζ (the order of PAIRS): the points along ξ and η between
+# Of the covariant components ξξ, ηη, ζζ, ξη, ηζ, ξζ (the order of PAIRS): the points of [−1, 1]² between
 # which the strain is interpolated, and those at which it is sampled.
-_TYING = ((_TWO, _THREE), (_THREE, _TWO), (_THREE, _THREE), (_TWO, _TWO), (_THREE, _TWO), (_TWO, _THREE))
-_SITES = (*_TYING[:3], (_THREE, _THREE), *_TYING[4:])
+_EVERY = (THREE, THREE)
+_TYING = (TYING["rr"], TYING["ss"], _EVERY, TYING["rs"], TYING["ss"], TYING["rr"])
+_SITES = (*_TYING[:3], _EVERY, *_TYING[4:])
 
 
 def shape(local: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -79,17 +78,16 @@ class Reference:
 def reference() -> Reference:
     """Sampling points, forms and interpolation on the reference brick 0 ≤ ξ, η, ζ ≤ 1."""
     points, weights = get_quadrature(RefHex, 5)
+    x, y, z = 2.0 * points - 1.0
     forms, kept, dropped = [], [], []
     for (a, b), tying, sites in zip(PAIRS, _TYING, _SITES, strict=True):
-        _, slope = shape(np.array([[x, y, z] for x in sites[0] for y in sites[1] for z in _THREE]).T)
+        sampled = [[x, y, z] for x in sites[0] for y in sites[1] for z in THREE]
+        _, slope = shape((np.array(sampled).T + 1.0) / 2.0)
         form = np.einsum("it,jt->tij", slope[:, a], slope[:, b])
         forms.append(0.5 * (form + form.swapaxes(1, 2)) * (1.0 if a == b else 2.0))
-        axes = [*zip(tying, sites, points[:2], strict=True), (_THREE, _THREE, points[2])]
-        assumed = [_lagrange(site, tie) @ _lagrange(tie, x) for tie, site, x in axes]
-        sampled = [_lagrange(site, x) for _, site, x in axes]
-        kept.append(_product(assumed))
-        dropped.append(_product(sampled) - kept[-1])
-    x, y, z = 2.0 * points - 1.0
+        axes = [*zip(tying, sites, (x, y), strict=True), (THREE, THREE, z)]
+        kept.append(_product([lagrange(tie, at) @ lagrange(site, tie) for tie, site, at in axes]))
+        dropped.append(_product([lagrange(site, at) for _, site, at in axes]) - kept[-1])
     modes = np.array([np.ones_like(x), x, y, z, z * x, z * y]).T
     levels = np.isclose(points[2][:, None], points[2]).astype(float)
     weighted = _by_component(kept), _by_component(dropped)
@@ -231,8 +229,8 @@ def _pull_back(inverse: np.ndarray) -> np.ndarray:
 
 
 def _product(axes: list[np.ndarray]) -> np.ndarray:
-    """(q, k) of the weights (k_axis, q) along ξ, η, ζ: products, the last axis fastest."""
-    return np.einsum("aq,bq,cq->qabc", *axes).reshape(axes[0].shape[1], -1)
+    """(q, k) of the weights (q, k_axis) along ξ, η, ζ: products, the last axis fastest."""
+    return np.einsum("qa,qb,qc->qabc", *axes).reshape(len(axes[0]), -1)
 
 
 def _by_component(weights: list[np.ndarray]) -> np.ndarray:
@@ -242,8 +240,3 @@ def _by_component(weights: list[np.ndarray]) -> np.ndarray:
     for component, weight in enumerate(weights):
         out[:, component, counts[component] : counts[component + 1]] = weight
     return out
-
-
-def _lagrange(nodes: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Lagrange polynomials (k, n) of the nodes (k,) at x (n,)."""
-    return np.array([np.prod([(x - b) / (a - b) for b in nodes if b != a], axis=0) for a in nodes])

@@ -6,8 +6,7 @@ N_l(ζ), and two averages of a column stand for the sheet as a surface:
 
     mean x̄ = 1/h ∫ x dζ        director D = 12/h³ ∫ ζ x dζ        (flat: the plan point and e_z)
 
-A graded mesh maps equal divisions 0 ≤ t ≤ 1 of a side to ½ (1 − cos πt): the first row is (π/2n)² of the
-side. Coordinates in metres.
+Coordinates in metres.
 """
 
 from __future__ import annotations
@@ -18,8 +17,9 @@ from functools import cached_property
 import numpy as np
 from skfem import Basis, ElementHex2, ElementQuad2, MeshQuad
 
-from fem_reference.surface.mesh import quarters, rectangle
-from sheetbench.scenes import FieldMesh, Sheet
+from fem_reference.surface.location import interpolate
+from fem_reference.surface.mesh import quarters
+from sheetbench.scenes import FieldMesh
 
 
 @dataclass(frozen=True)
@@ -94,6 +94,10 @@ class Columns:
         """Plan nodes on an edge."""
         return self.plan.get_dofs(name).flatten()
 
+    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m] of nodal ones (n, levels, 3)."""
+        return interpolate(self.plan.mesh, self.plan_elements, displacement[:, self.layers], points)
+
     def field_mesh(self, displacement: np.ndarray) -> FieldMesh:
         """Nodes and trilinear eighths of the bricks, with displacement (n, levels, 3) [m]."""
         plan = quarters(self.plan.element_dofs)
@@ -106,11 +110,3 @@ class Columns:
             [("hexahedron", np.concatenate(cells))],
             {"displacement": displacement.reshape(-1, 3)},
         )
-
-
-def graded_rectangle(sheet: Sheet, elements: tuple[int, int]) -> MeshQuad:
-    """The plan mesh of the sheet with elements that shrink towards all edges."""
-    mesh = rectangle(sheet, elements)
-    lengths = np.array(sheet.lengths)[:, None]
-    points = 0.5 * lengths * (1.0 - np.cos(np.pi * mesh.p / lengths))
-    return MeshQuad(points, mesh.t).with_boundaries(mesh.boundaries)

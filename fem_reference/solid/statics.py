@@ -2,14 +2,14 @@
 
     ∫ S(E) : δE dV = δ(loads),    E = ½ (Fᵀ F − 1)
 
-total Lagrangian, St Venant–Kirchhoff (default) or neo-Hooke (`solid_materials`), on 27-node bricks that lock
-neither in a thin sheet nor as ν → ½ (`solid_element`), in one layer or more. Displacements are the
+total Lagrangian, St Venant–Kirchhoff (default) or neo-Hooke (`materials`), on 27-node bricks that lock
+neither in a thin sheet nor as ν → ½ (`element`), in one layer or more. Displacements are the
 mid-surface's.
 
 At every edge the solid has a layer as wide as the sheet is thick: at a free one the twisting stress turns
 round, at a clamp the Poisson contraction is stopped. On a uniform mesh much coarser than that, answers
 converge like 1/n (a full clamp's stress is singular besides): the mesh is graded towards the edges. The
-default clamp is a shell's (`solid_supports`). Actuators are the shell's rods and motions (`solid_rods`). SI
+default clamp is a shell's (`supports`). Actuators are the shell's rods and motions (`rods`). SI
 units.
 """
 
@@ -21,26 +21,22 @@ from typing import Any
 import numpy as np
 from skfem import MeshQuad
 
-from fem_reference.plate.element import shape_values
-from fem_reference.shell.element import GAUSS, GAUSS_WEIGHTS
 from fem_reference.solid import supports as solid_supports
 from fem_reference.solid.element import Bricks
 from fem_reference.solid.materials import LAWS, lame
-from fem_reference.solid.mesh import Columns, graded_rectangle
+from fem_reference.solid.mesh import Columns
 from fem_reference.solid.rods import RoddedSolid
 from fem_reference.solid.structure import SolidStructure
 from fem_reference.solving.equilibrium import trace
 from fem_reference.solving.linear import DirectSolver
-from fem_reference.surface import loads as shell_loads
-from fem_reference.surface import rod
-from fem_reference.surface.location import locate
-from fem_reference.surface.mesh import Elements, divisions, rectangle, require_upright
+from fem_reference.surface import loads, rod
+from fem_reference.surface.mesh import Elements, divisions, mesh_of, require_upright
 from fem_reference.surface.stretch import largest_stretch
 from sheetbench.scenes import Scene, Solution, Status, outside_model
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.scene import require_static
 
-MESHES = {"edges": graded_rectangle, "uniform": rectangle}
+GRADINGS = ("edges", "uniform")
 
 
 def solve(
@@ -53,32 +49,32 @@ def solve(
 ) -> Solution:
     """The static equilibrium of a scene; elements along the shorter side (near-square), or (nx, ny).
 
-    layers: bricks through the thickness; law: a key of `LAWS`; clamp: one of `solid_supports.CLAMPS`;
-    grading: a key of `MESHES`.
+    layers: bricks through the thickness; law: a key of `LAWS`; clamp: one of `supports.CLAMPS`; grading: one
+    of `GRADINGS`.
     Raises scenes.SceneError if the supports leave a rigid motion free, BadInput for an unknown option.
     """
     require_static(scene)
-    begin = perf_counter()
     along_x, along_y = divisions(scene.sheet.lengths, elements)
-    mesh = mesh_of(scene, (along_x, along_y), grading)
-    settings = {"elements": [along_x, along_y], "grading": grading}
-    return solve_on(
-        mesh, scene, f"solid {along_x} × {along_y} × {layers}", settings, begin, layers, law, clamp
-    )
+    mesh = plan_mesh(scene, (along_x, along_y), grading)
+    asked = {"elements": [along_x, along_y], "grading": grading}
+    return _solved(mesh, scene, f"solid {along_x} × {along_y} × {layers}", asked, layers, law, clamp)
 
 
-def solve_on(
+def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
+    """The same on columns over any flat mesh of straight-sided quadrilaterals [m]."""
+    return _solved(mesh, scene, "solid", {"elements": mesh.nelements})
+
+
+def _solved(
     mesh: MeshQuad,
     scene: Scene,
-    label: str = "solid",
-    settings: dict[str, Any] | None = None,
-    begin: float | None = None,
+    label: str,
+    asked: dict[str, Any],
     layers: int = 1,
     law: str = "st-venant-kirchhoff",
     clamp: str = "shell-like",
 ) -> Solution:
-    """The same on columns over any flat mesh of straight-sided quadrilaterals [m]."""
-    begin = perf_counter() if begin is None else begin
+    begin = perf_counter()
     structure = discretise(mesh, scene, layers, law, clamp)
     solver = DirectSolver(structure.symmetric)
     ready = perf_counter()
@@ -100,13 +96,13 @@ def solve_on(
     return Solution(
         model="solid",
         label=label,
-        settings={**(settings or {"elements": mesh.nelements}), "layers": layers, "law": law, "clamp": clamp},
+        settings={**asked, "layers": layers, "law": law, "clamp": clamp},
         status=status,
         unknowns=structure.unknowns,
         iterations=path.factorisations,
         setup_seconds=ready - begin,
         solve_seconds=done - ready,
-        sample=lambda points: sample(columns, displacement, points),
+        sample=lambda points: columns.sample(displacement, points),
         reactions=structure.supports.reactions(forces.residual, path.load_factor),
         energies=structure.energies(path.state),
         mesh=columns.field_mesh(displacement),
@@ -117,11 +113,11 @@ def solve_on(
     )
 
 
-def mesh_of(scene: Scene, elements: tuple[int, int], grading: str) -> MeshQuad:
+def plan_mesh(scene: Scene, elements: tuple[int, int], grading: str) -> MeshQuad:
     """The plan mesh. Raises BadInput for an unknown grading."""
-    if grading not in MESHES:
-        raise BadInput(f"grading = {grading!r}: known are {', '.join(MESHES)}")
-    return MESHES[grading](scene.sheet, elements)
+    if grading not in GRADINGS:
+        raise BadInput(f"grading = {grading!r}: known are {', '.join(GRADINGS)}")
+    return mesh_of(scene, elements, graded=grading == "edges")
 
 
 def discretise(
@@ -145,21 +141,13 @@ def discretise(
     stacks = columns.positions.reshape(-1, 3)[columns.stacks]
     positions = np.concatenate([stacks[:, place] for place in columns.places])
     bricks = Bricks.build(positions, LAWS[law], lame(scene.material))
-    areas = np.abs(mesh.mapping().detDF((np.array(GAUSS) + 1.0) / 2.0)) * GAUSS_WEIGHTS / 4.0
     rods = []
     if scene.actuators:
         rods = rod.of_scene(
             scene, columns.plan_nodes, rod.sides(scene, mesh, columns.plan_elements, columns.plan_nodes)
         )
     supports = solid_supports.of_scene(scene, columns, clamp, rods)
-    dead, followers = shell_loads.of_scene(scene, mesh, columns.plan_elements, columns.plan_nodes, areas)
+    dead, followers = loads.of_scene(scene, mesh, columns.plan_elements, columns.plan_nodes)
     if scene.actuators:
         return RoddedSolid(columns, bricks, supports, dead, followers, rods)
     return SolidStructure(columns, bricks, supports, dead, followers)
-
-
-def sample(columns: Columns, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m] of nodal ones (n, levels, 3)."""
-    element, local = locate(columns.plan.mesh, points)
-    nodal = displacement[columns.plan_elements[element], columns.layers]
-    return np.einsum("ip,pic->pc", shape_values(local), nodal)

@@ -4,9 +4,9 @@ State: displacement u (n, levels, 3) and the sampled stresses s of every brick. 
 K = Bᵀ D B + Σ s_k H_k ⊗ I the step is Newton's, and `mixed` takes the stress that the last step extrapolated,
 s + D B δu, for the geometric part (see `equilibrium`: the strain is quadratic in u, as in the shell), and
 the extrapolated pressure in D: near ν = ½ the current one is a large error until volumes fit.
-Held components q, u = Z q (see `solid_supports`), go to their targets in the first step.
+Held components q, u = Z q (see `supports`), go to their targets in the first step.
 
-Loads act on the sheet as a surface, its mean position x̄ and director D (see `solid_mesh`), with the shell's
+Loads act on the sheet as a surface, its mean position x̄ and director D (see `mesh`), with the shell's
 work: a dead force or the pressure on x̄ is a body force uniform through the thickness, an edge moment
 on D a traction linear in ζ. To first order in the strain the power of pressure and moment is the shell's.
 """

@@ -15,7 +15,8 @@ structure itself does not vouch for. Where the path ends before the full load, t
 equilibrium's tangent says whether it has lost its uniqueness.
 
 A path whose corrections stop shrinking however short the step has come to a limit point. Given a `settle`, it
-goes on from the stable equilibrium that this finds a little beyond (see `relaxation`): the structure snaps.
+goes on from the stable equilibrium that this finds a little beyond (see `pseudo_transient`): the structure
+snaps.
 
 At the end the inertia of the true tangent says whether the equilibrium is stable; under follower loads, whose
 tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter of dynamics).

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.shell.element import THREE, THREE_WEIGHTS
 from fem_reference.shell.rods import RoddedShell, RodForces, RodState, of_rods, with_rods
 from fem_reference.shell.structure import Forces, State
 from fem_reference.surface import edge_motion
+from fem_reference.surface.biquadratic import THREE, THREE_WEIGHTS, side_shape
 from fem_reference.surface.edge_motion import MovedEdge
 from fem_reference.surface.rod import Rod
 from sheetbench.scenes import EdgeMotion, Scene
@@ -116,6 +116,5 @@ def _shapes(rod: Rod, along: int, places: np.ndarray) -> np.ndarray:
     first, last = nodes[side, 0], nodes[side, 2]
     xi = 2.0 * (places - first) / (last - first) - 1.0
     out = np.zeros((len(places), len(rod.line)))
-    local = np.array([xi * (xi - 1.0) / 2.0, 1.0 - xi**2, xi * (xi + 1.0) / 2.0]).T
-    np.put_along_axis(out, rod.places[side], local, axis=1)
+    np.put_along_axis(out, rod.places[side], side_shape(xi)[0], axis=1)
     return out

@@ -1,4 +1,4 @@
-"""Loads of the shell: dead nodal forces, a follower pressure and a follower edge moment.
+"""Loads of the sheet: dead nodal forces, a follower pressure and a follower edge moment.
 
 gravity    f = ∫ ρ h g N dA                       dead
 point      f = F N(x)                             dead
@@ -18,14 +18,21 @@ from typing import Protocol
 import numpy as np
 from skfem import MeshQuad
 
-from fem_reference.shell.element import GAUSS, GAUSS_WEIGHTS, THREE, THREE_WEIGHTS, shape
+from fem_reference.surface.biquadratic import (
+    GAUSS,
+    GAUSS_WEIGHTS,
+    THREE,
+    THREE_WEIGHTS,
+    areas,
+    shape,
+    side_shape,
+)
 from fem_reference.surface.location import locate
 from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene
 
 # Local nodes of the four sides, in scikit-fem's order of facets: corner, mid-side, corner.
 _SIDES = np.array([[0, 4, 1], [1, 5, 2], [2, 6, 3], [0, 7, 3]])
-_LINE = np.array([THREE * (THREE - 1) / 2, 1 - THREE**2, THREE * (THREE + 1) / 2]).T  # (3 points, 3 nodes)
-_LINE_SLOPE = np.array([THREE - 0.5, -2 * THREE, THREE + 0.5]).T
+_LINE, _LINE_SLOPE = side_shape(THREE)  # (3 points, 3 nodes)
 
 
 class Follower(Protocol):
@@ -102,9 +109,8 @@ class Line:
         rows = np.arange(len(elements))[:, None]
         ends = nodes[elements][rows, sides]
         tangent, inward = ends[:, 2] - ends[:, 0], nodes[elements, 8] - ends[:, 1]
-        wrong = (
-            tangent[:, 0] * inward[:, 1] - tangent[:, 1] * inward[:, 0] > 0
-        )  # the sheet must lie to the right
+        # The sheet must lie to the right.
+        wrong = tangent[:, 0] * inward[:, 1] - tangent[:, 1] * inward[:, 0] > 0
         sides = np.where(wrong[:, None], sides[:, ::-1], sides)
         ends = nodes[elements][rows, sides]
         return cls(elements, sides, np.linalg.norm(np.einsum("gi,eic->egc", _LINE_SLOPE, ends), axis=-1))
@@ -165,10 +171,13 @@ class FollowerMoment:
 
 
 def area_force(
-    areas: np.ndarray, element_nodes: np.ndarray, count: int, force_per_area: np.ndarray
+    element_areas: np.ndarray, element_nodes: np.ndarray, count: int, force_per_area: np.ndarray
 ) -> np.ndarray:
-    """∫ f N dA (count, 3) [N] of a dead force per area f (3,) [Pa]; areas: (m, 9), element_nodes: (m, 9)."""
-    shares = np.bincount(element_nodes.ravel(), (areas @ shape(*GAUSS)[0]).ravel(), count)
+    """∫ f N dA (count, 3) [N] of a dead force per area f (3,) [Pa].
+
+    element_areas: w |det J| at the Gauss points (m, 9) [m²]; element_nodes: (m, 9).
+    """
+    shares = np.bincount(element_nodes.ravel(), (element_areas @ shape(*GAUSS)[0]).ravel(), count)
     return shares[:, None] * force_per_area
 
 
@@ -182,23 +191,23 @@ def point_force(
     mesh: MeshQuad, element_nodes: np.ndarray, count: int, at: np.ndarray, force: np.ndarray
 ) -> np.ndarray:
     """F N(x) (count, 3) [N] of a dead force F (3,) at the plan point (2,) [m]."""
-    element, local = locate(mesh, at.reshape(1, 2))
-    value, _ = shape(*(2.0 * local - 1.0))
+    element, place = locate(mesh, at.reshape(1, 2))
+    value, _ = shape(*place)
     out = np.zeros((count, 3))
     out[element_nodes[element[0]]] = value[0][:, None] * force
     return out
 
 
 def of_scene(
-    scene: Scene, mesh: MeshQuad, element_nodes: np.ndarray, nodes: np.ndarray, areas: np.ndarray
+    scene: Scene, mesh: MeshQuad, element_nodes: np.ndarray, nodes: np.ndarray
 ) -> tuple[np.ndarray, list[Follower]]:
     """Dead nodal forces (n, 3) [N] and follower loads of a scene on a mesh that carries the edges' names;
     every load with the last factor of its history."""
     count, corners = len(nodes), nodes[element_nodes]
     dead, followers = np.zeros((count, 3)), list[Follower]()
     if scene.gravity is not None:
-        per_area = scene.material.density * scene.sheet.thickness
-        dead += area_force(areas, element_nodes, count, per_area * np.array(scene.gravity.last_acceleration))
+        per_area = scene.material.density * scene.sheet.thickness * np.array(scene.gravity.last_acceleration)
+        dead += area_force(areas(corners), element_nodes, count, per_area)
     for load in scene.loads:
         factor = load.last_factor
         match load:

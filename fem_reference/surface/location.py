@@ -2,7 +2,6 @@
 
 Solves x(ξ) = Σ N_i(ξ) x_i, scikit-fem's map of a straight-sided or biquadratic quadrilateral, by Newton's
 method in every element whose bounding box holds the point, and keeps the first in which ξ lies inside.
-Local coordinates are scikit-fem's, 0 ≤ ξ ≤ 1.
 """
 
 from __future__ import annotations
@@ -10,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from skfem import MeshQuad
 
+from fem_reference.surface.biquadratic import shape
 from sheetbench.scenes.errors import BadInput
 
 SLACK = 1e-9  # how far outside, in element sizes, still counts as on the edge: rounding only
@@ -18,7 +18,7 @@ _NEWTON = 8
 
 
 def locate(mesh: MeshQuad, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Elements (n,) and local coordinates (2, n) of plan points (n, 2) [m].
+    """Elements (n,) and their coordinates r, s (2, n) in [−1, 1] of plan points (n, 2) [m].
 
     Raises BadInput, naming the first one, if a point is off the mesh.
     """
@@ -45,11 +45,23 @@ def locate(mesh: MeshQuad, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     if np.any(element < 0):
         x, y = points[np.argmax(element < 0)]
         raise BadInput(f"plan point ({x:g}, {y:g}) is off the sheet")
-    return element, local
+    return element, 2.0 * local - 1.0
+
+
+def interpolate(
+    mesh: MeshQuad, element_nodes: np.ndarray, nodal: np.ndarray, points: np.ndarray
+) -> np.ndarray:
+    """A biquadratic nodal field (n, k) at plan points (p, 2) [m]: (p, k); element_nodes: (m, 9).
+
+    Raises BadInput off the mesh.
+    """
+    element, place = locate(mesh, points)
+    value, _ = shape(*place)
+    return np.einsum("pi,pik->pk", value, nodal[element_nodes[element]])
 
 
 def _invert(mesh: MeshQuad, elements: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Local coordinates (2, n) of x (2, n) in the elements (n,)."""
+    """Scikit-fem's local coordinates 0 ≤ ξ ≤ 1, (2, n), of x (2, n) in the elements (n,)."""
     mapping = mesh.mapping()
     xi = np.full_like(x, 0.5)
     for _ in range(_NEWTON):

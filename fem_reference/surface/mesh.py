@@ -12,7 +12,7 @@ from collections.abc import Callable, Collection
 import numpy as np
 from skfem import MeshQuad
 
-from sheetbench.scenes import EDGES, Sheet
+from sheetbench.scenes import EDGES, Scene, Sheet, Symmetric
 from sheetbench.scenes.errors import BadInput
 
 Elements = int | tuple[int, int]
@@ -70,6 +70,12 @@ def rectangle(
     mesh = MeshQuad.init_tensor(x, y)
     ends = {name: sheet.lengths[edge.normal_axis] * edge.far_end for name, edge in EDGES.items()}
     return mesh.with_boundaries({name: _at(EDGES[name].normal_axis, end) for name, end in ends.items()})
+
+
+def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float = 1.0) -> MeshQuad:
+    """The mesh of a scene's sheet, its planes of symmetry no edges (see `rectangle`)."""
+    cuts = [support.edge for support in scene.supports if isinstance(support, Symmetric)]
+    return rectangle(scene.sheet, elements, graded, cuts, reach)
 
 
 def _part(count: int, layer: int, cuts: Collection[str]) -> np.ndarray:

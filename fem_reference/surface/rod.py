@@ -31,7 +31,7 @@ from dataclasses import dataclass
 import numpy as np
 from skfem import MeshQuad
 
-from fem_reference.shell.element import TWO
+from fem_reference.surface.biquadratic import TWO, lagrange, side_shape
 from fem_reference.surface.loads import Line
 from sheetbench.scenes import EDGES, Chain, CurvatureTable, Scene
 from sheetbench.scenes.errors import BadInput
@@ -41,8 +41,7 @@ STRAINS = 15
 AXIAL, SHEAR, ASIDE, NORMAL, INPLANE, TWIST = (slice(2 * i, 2 * i + 2) for i in range(6))
 SQUARE = slice(12, 15)
 
-_VALUE = np.array([TWO * (TWO - 1) / 2, 1 - TWO**2, TWO * (TWO + 1) / 2]).T  # (2 points, 3 nodes)
-_SLOPE = np.array([TWO - 0.5, -2 * TWO, TWO + 0.5]).T
+_VALUE, _SLOPE = side_shape(TWO)  # (2 points, 3 nodes)
 _SHARES = np.array([1.0, 4.0, 1.0]) / 3.0  # ∫ N dξ
 _SAMPLES = 400  # of a side, for the mean of a piecewise curvature
 
@@ -177,10 +176,9 @@ def _mean_curvature(chain: Chain, length: float, along: np.ndarray) -> np.ndarra
     """
     bounds, values = pieces(chain, length)
     xi = (np.arange(_SAMPLES) + 0.5) / _SAMPLES * 2.0 - 1.0
-    weight = np.array([(xi - TWO[1]) / (TWO[0] - TWO[1]), (xi - TWO[0]) / (TWO[1] - TWO[0])])
     at = along[:, :1] + 0.5 * (xi + 1.0) * (along[:, 2:] - along[:, :1])
     piece = np.clip(np.searchsorted(bounds, at) - 1, 0, len(values) - 1)
-    return np.einsum("gx,ex->eg", weight, values[piece]) * 2.0 / _SAMPLES
+    return np.einsum("xg,ex->eg", lagrange(TWO, xi), values[piece]) * 2.0 / _SAMPLES
 
 
 def _forms(offset: float) -> np.ndarray:

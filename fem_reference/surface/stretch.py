@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.shell.element import GAUSS, GAUSS_WEIGHTS, shape
+from fem_reference.surface.biquadratic import GAUSS, GAUSS_WEIGHTS, shape
 
 
 def largest_stretch(rest: np.ndarray, now: np.ndarray) -> float:

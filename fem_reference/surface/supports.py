@@ -1,4 +1,4 @@
-"""What supports hold in the shell, as a function of the load factor.
+"""What supports hold in the sheet, as a function of the load factor.
 
 Of every node the position φ = X + u and the director d may be held. A rod bent to curvature κ, with s
 measured from the middle of the edge along e and the middle and its tangent unmoved, keeps arc length:
@@ -32,7 +32,7 @@ class Driver(Protocol):
 
 
 @dataclass(frozen=True)
-class Rod:
+class BentEdge:
     """nodes: (k,) on the rod; arc: s (k,) [m]; axis: 0 or 1, the edge's direction; curvature [1/m]."""
 
     nodes: np.ndarray
@@ -82,7 +82,7 @@ class Supports:
     director: np.ndarray
     tilt: np.ndarray
     edges: dict[str, tuple[np.ndarray, np.ndarray]]
-    turning: tuple[Rod | TiltedClamp, ...]
+    turning: tuple[BentEdge | TiltedClamp, ...]
     driven: tuple[Driver, ...] = ()
 
     def change(self, load_factor: float) -> np.ndarray:
@@ -110,7 +110,7 @@ def of_scene(scene: Scene, nodes: np.ndarray, on_edge: dict[str, np.ndarray]) ->
     position, director = np.zeros((len(nodes), 3), dtype=bool), np.zeros(len(nodes), dtype=bool)
     tilt = np.zeros((len(nodes), 2), dtype=bool)
     edges: dict[str, tuple[np.ndarray, np.ndarray]] = {}
-    turning: list[Rod | TiltedClamp] = []
+    turning: list[BentEdge | TiltedClamp] = []
     for support in scene.supports:
         on, axes = on_edge[support.edge], np.array(held_axes(support))
         position[np.ix_(on, axes)] = True
@@ -124,7 +124,7 @@ def of_scene(scene: Scene, nodes: np.ndarray, on_edge: dict[str, np.ndarray]) ->
             middle = (along.min() + along.max()) / 2.0
             if any(isinstance(other, Symmetric) for other in scene.supports):
                 middle = rod_middle(support, scene.supports, scene.sheet)
-            turning.append(Rod(on, along - middle, axis, support.curvature))
+            turning.append(BentEdge(on, along - middle, axis, support.curvature))
         if isinstance(support, Clamped) and support.tilt != 0.0:
             axis = EDGES[support.edge].normal_axis
             turning.append(TiltedClamp(on, axis, support.tilt * EDGES[support.edge].outward[axis]))

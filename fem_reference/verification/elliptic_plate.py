@@ -18,13 +18,13 @@ from collections.abc import Iterator
 import numpy as np
 from skfem import ElementHex2, MeshQuad, MeshQuad2
 
-from fem_reference.shell.element import GAUSS, GAUSS_WEIGHTS
 from fem_reference.solid import statics as solid
 from fem_reference.solid.element import shape
 from fem_reference.solid.materials import lame
 from fem_reference.solid.mesh import Columns
 from fem_reference.solving.linear import DirectSolver
-from fem_reference.surface import loads as shell_loads
+from fem_reference.surface.biquadratic import areas
+from fem_reference.surface.loads import area_force
 from fem_reference.verification.rows import Row, relatively
 from sheetbench.scenes import Material, Scene, Sheet
 
@@ -84,10 +84,9 @@ def _quarter(radial: int, around: int) -> MeshQuad2:
 
 def _shares(columns: Columns) -> np.ndarray:
     """∫ N dA (n,) [m²] of the upper face."""
-    stretch = columns.plan.mesh.mapping().detDF((np.array(GAUSS) + 1.0) / 2.0)
-    areas = np.abs(stretch) * GAUSS_WEIGHTS / 4.0
+    per_element = areas(columns.plan_nodes[columns.plan_elements])
     count = len(columns.plan_nodes)
-    return shell_loads.area_force(areas, columns.plan_elements, count, np.ones(1))[:, 0]
+    return area_force(per_element, columns.plan_elements, count, np.ones(1))[:, 0]
 
 
 def _at_d(columns: Columns) -> int:

@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import numpy as np
-from skfem import Basis, Functional
+from skfem import Basis, Functional, LinearForm
 
 from fem_reference.plate import statics as plate
 from fem_reference.shell import statics as shell
@@ -63,7 +63,7 @@ def _of_plate(scene: Scene, elements: int) -> tuple[float, float]:
     _, held, _ = plate.constrain(scene, model)
     free = np.flatnonzero(~held.ravel())
     force = np.zeros(held.shape)
-    force[:, 2] = plate.share(model.basis, pressure(scene))
+    force[:, 2] = share(model.basis, pressure(scene))
     stiffness = plate.stiffness_matrix(scene, model)
     fields = np.zeros(held.size)
     fields[free] = DirectSolver().factor(stiffness[free][:, free]).solve(force.ravel()[free])
@@ -75,7 +75,7 @@ def _of_shell(scene: Scene, elements: int) -> tuple[float, float]:
     """The same of the shell's first linear step from the flat sheet."""
     structure, _ = shell.discretise(rectangle(scene.sheet, elements), scene)
     basis = plate.Plate.on(rectangle(scene.sheet, elements)).basis
-    structure.dead[:, 2] = plate.share(basis, pressure(scene))
+    structure.dead[:, 2] = share(basis, pressure(scene))
     rest = structure.rest()
     forces = structure.forces(rest, 1.0)
     matrix, right = structure.system(rest, forces, 1.0, mixed=False)
@@ -94,6 +94,11 @@ def _errors(scene: Scene, basis: Basis, w: np.ndarray, tilt: np.ndarray) -> tupl
 def _error(basis: Basis, nodal: np.ndarray, exact: Callable[..., np.ndarray]) -> float:
     difference = Functional(lambda w: (w.u - exact(*w.x)) ** 2).assemble(basis, u=basis.interpolate(nodal))
     return float(np.sqrt(difference / Functional(lambda w: exact(*w.x) ** 2).assemble(basis)))
+
+
+def share(basis: Basis, density: Callable[..., np.ndarray]) -> np.ndarray:
+    """∫ N f dA over the basis' surface, (n,), of a density f(x, y)."""
+    return LinearForm(lambda v, w: density(*w.x) * v).assemble(basis)
 
 
 def _bubble(t: np.ndarray, power: int) -> np.ndarray:

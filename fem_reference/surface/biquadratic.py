@@ -1,0 +1,66 @@
+"""What nine-node elements share: biquadratic shape functions, Gauss points, and the tying points of MITC9.
+
+Coordinates r, s run from −1 to 1; nodes are in the order of scikit-fem's `ElementQuad2`: corners, mid-sides,
+centre. The sides have quadratic shape functions of one coordinate: corner, mid-side, corner.
+
+Covariant strains of a biquadratic element are sampled at `TYING` and interpolated from there, so that a thin
+element does not lock (Bucalem & Bathe, Int. J. Numer. Meth. Engng 36 (1993) 3729–3754).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from skfem import ElementQuad2
+
+NODES = 9
+TWO = np.array([-1.0, 1.0]) / np.sqrt(3.0)
+THREE = np.array([-1.0, 0.0, 1.0]) * np.sqrt(0.6)
+THREE_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 9.0
+# Along r and s, the points between which a covariant strain is interpolated; rs is sampled at 3 × 3 first.
+TYING = {"rr": (TWO, THREE), "ss": (THREE, TWO), "rs": (TWO, TWO)}
+
+
+def shape(r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Values (n, 9) and derivatives (2, n, 9) by r, s of the shape functions at points of [−1, 1]²."""
+    element = ElementQuad2()
+    at = (np.array([r, s], dtype=float) + 1.0) / 2.0
+    value, slope = zip(*(element.lbasis(at, i) for i in range(NODES)), strict=True)
+    return np.array(value).T, np.array(slope).transpose(1, 2, 0) / 2.0
+
+
+def side_shape(xi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Values and derivatives (n, 3) of the shape functions of a side at points (n,) of [−1, 1]."""
+    value = np.array([xi * (xi - 1.0) / 2.0, 1.0 - xi**2, xi * (xi + 1.0) / 2.0])
+    return value.T, np.array([xi - 0.5, -2.0 * xi, xi + 0.5]).T
+
+
+def lagrange(nodes: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Lagrange polynomials of `nodes` (m,) at points (n,): (n, m)."""
+    others = [np.delete(nodes, i) for i in range(len(nodes))]
+    return np.array(
+        [np.prod((at[:, None] - o) / (x - o), axis=1) for x, o in zip(nodes, others, strict=True)]
+    ).T
+
+
+def product_grid(r: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """The points r × s, (2, n); s runs fastest."""
+    return np.array([np.repeat(r, len(s)), np.tile(s, len(r))])
+
+
+def interpolation(r: np.ndarray, s: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Interpolation from the points r × s to points `at` (2, n): (n, len(r) · len(s))."""
+    return np.einsum("na,nb->nab", lagrange(r, at[0]), lagrange(s, at[1])).reshape(at.shape[1], -1)
+
+
+GAUSS = product_grid(THREE, THREE)
+GAUSS_WEIGHTS = np.outer(THREE_WEIGHTS, THREE_WEIGHTS).ravel()
+
+
+def jacobians(nodes: np.ndarray, slope: np.ndarray) -> np.ndarray:
+    """∂x_b/∂ξ_a (m, n, b, a) [m] of elements with nodes at (m, 9, 2) [m]; slope: (2, n, 9) of `shape`."""
+    return np.einsum("agi,eib->egba", slope, nodes)
+
+
+def areas(nodes: np.ndarray) -> np.ndarray:
+    """w |det J| (m, 9) [m²] at the Gauss points of elements with nodes at (m, 9, 2) [m]."""
+    return GAUSS_WEIGHTS * np.abs(np.linalg.det(jacobians(nodes, shape(*GAUSS)[1])))

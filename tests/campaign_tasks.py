@@ -18,6 +18,10 @@ def square(x: float, seconds: float = 0.0) -> dict[str, Any]:
     return {"status": "done", "square": x * x, "process": os.getpid()}
 
 
+def ballast(x: int, size: int) -> dict[str, Any]:
+    return {"x": x, "ballast": "x" * size}
+
+
 def log(x: int, path: str, seconds: float) -> dict[str, Any]:
     """Writes a line when it starts and one when it ends."""
     with Path(path).open("a", encoding="utf-8") as file:

@@ -9,16 +9,19 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, Future
 from pathlib import Path
+from typing import Any
 
 import campaign_tasks
 import pytest
+from limits import at_most
 
 from comparisons.runs import campaign as runs_campaign
 from comparisons.runs.campaign import Progress, Run, campaign, carry_out, execute
 from comparisons.runs.executors import cluster
 from comparisons.runs.manifest import digest, source
-from comparisons.runs.store import FILE, Store
+from comparisons.runs.store import FILE, Finished, Store
 from comparisons.runs.tasks import TASKS, function
 from comparisons.stability import STUDIES
 from sheetbench.scenes.errors import BadInput
@@ -34,6 +37,18 @@ def store(tmp_path: Path) -> Iterator[Store]:
 
 def task(name: str, **arguments: object) -> Run:
     return Run(f"campaign_tasks:{name}", arguments, name)
+
+
+class here(Executor):
+    """A pool that is this process."""
+
+    def __init__(self, workers: int) -> None:
+        pass
+
+    def submit(self, task: Callable[..., Any], /, *arguments: Any, **named: Any) -> Future[Any]:
+        future: Future[Any] = Future()
+        future.set_result(task(*arguments, **named))
+        return future
 
 
 def wait_for(condition: Callable[[], bool], seconds: float = 600.0) -> None:
@@ -196,10 +211,96 @@ def test_kill_9_loses_nothing_that_had_finished_and_leaves_no_worker(tmp_path: P
     assert sorted(x for x, _ in started()) == [0, 1, 2, 3, 4, 4, 5, 5, 6, 7]
 
 
-def test_what_is_not_a_campaign_file_is_refused(tmp_path: Path) -> None:
-    (tmp_path / FILE).write_text("not a database, but long enough to look at" * 10)
-    with pytest.raises(BadInput, match="not a campaign's file"):
-        Store(tmp_path / FILE)
+def replaced(path: Path, column: str, value: str) -> None:
+    with sqlite3.connect(path) as database:
+        database.execute(f"update runs set {column} = ?", (value,))
+    database.close()
+
+
+def foreign(path: Path) -> None:
+    path.unlink()
+    with sqlite3.connect(path) as database:
+        database.execute("create table runs (key text, something text)")
+    database.close()
+
+
+def overwritten(path: Path, first: int) -> None:
+    content = bytearray(path.read_bytes())
+    content[first : first + 3000] = bytes(range(250)) * 12
+    path.write_bytes(content)
+
+
+DAMAGE: dict[str, tuple[Callable[[Path], object], str]] = {
+    "text": (
+        lambda path: path.write_text("not a database, but long enough to look at" * 10),
+        "not a database",
+    ),
+    "half": (lambda path: path.write_bytes(path.read_bytes()[:6000]), "malformed|damaged"),
+    "head": (lambda path: overwritten(path, 0), "not a database"),
+    "middle": (lambda path: overwritten(path, 9000), "malformed|damaged"),
+    "folder": (lambda path: (path.unlink(), path.mkdir()), "unable to open database file"),
+    "schema": (foreign, "is of another program or version"),
+    "broken row": (lambda path: replaced(path, "row", '{"square": '), "the row of a run of .* is damaged"),
+    "empty row": (lambda path: replaced(path, "row", "{}"), "the row of a run of .* is damaged"),
+    "status": (lambda path: replaced(path, "status", "converged"), "the row of a run of .* is damaged"),
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_a_damaged_file_is_refused_in_a_line_with_the_remedy_and_left_alone(
+    tmp_path: Path, damage: str
+) -> None:
+    path, runs = tmp_path / FILE, [task("square", x=float(x)) for x in range(40)]
+    with campaign(tmp_path) as store:
+        for run in runs:
+            found = {"square": run.arguments["x"] ** 2, "ballast": "x" * 400}
+            store.add(run.task, run.arguments, Finished(run.key, "done", found, "", "", "", 0.0))
+    spoil, said = DAMAGE[damage]
+    spoil(path)
+    before = path.read_bytes() if path.is_file() else None
+    refused = pytest.raises(BadInput, match=f"{path}: .*({said}).*; (move it away|a folder stands there)")
+    with refused, campaign(tmp_path) as store:
+        carry_out(runs, store, pool=pytest.fail)
+    assert (path.read_bytes() if path.is_file() else None) == before
+
+
+def test_a_file_that_another_program_uses_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    connect = sqlite3.connect
+    monkeypatch.setattr(sqlite3, "connect", lambda path: connect(path, timeout=0.05))
+    with campaign(tmp_path):
+        pass
+    other = connect(tmp_path / FILE)
+    other.execute("begin exclusive")
+    refused = pytest.raises(BadInput, match="database is locked; another program uses it: close that")
+    with refused, campaign(tmp_path):
+        pass
+    other.close()
+
+
+def test_a_full_disk_ends_a_campaign_in_a_line_and_loses_nothing(tmp_path: Path) -> None:
+    """A limit on file sizes stands for the disk."""
+    runs = [task("ballast", x=x, size=20_000) for x in range(4)]
+    refused = pytest.raises(BadInput, match=f"{tmp_path / FILE}: .*; (free some space|the disk is full)")
+    with campaign(tmp_path) as store:
+        carry_out(runs[:1], store, pool=here)
+        with at_most(50_000), refused:
+            carry_out(runs, store, pool=here)
+    kept = rows_in(tmp_path / FILE)
+    assert 1 <= len(kept) < 4
+    with campaign(tmp_path) as store:
+        found = carry_out(runs, store, pool=here)
+    assert [outcome.row["x"] for outcome in found] == [0, 1, 2, 3]
+    after = rows_in(tmp_path / FILE)
+    assert {key: after[key] for key in kept} == kept
+
+
+def test_two_campaigns_at_one_folder_do_not_meet(tmp_path: Path) -> None:
+    with campaign(tmp_path) as store:
+        with pytest.raises(BadInput, match=f"{tmp_path}: another process writes here"):
+            campaign(tmp_path).__enter__()
+        carry_out([task("square", x=1.0)], store, pool=here)
+    with campaign(tmp_path) as store:
+        assert carry_out([task("square", x=1.0)], store, pool=pytest.fail)[0].status == "done"
 
 
 def test_no_scheduler_is_said_in_a_line() -> None:

@@ -3,7 +3,6 @@
 import contextlib
 import json
 import os
-import resource
 import shutil
 import signal
 import subprocess
@@ -16,6 +15,7 @@ import meshio
 import numpy as np
 import pytest
 from dynamic_cases import scene, springs
+from limits import at_most
 
 import lumped
 from comparisons.cli import main
@@ -117,6 +117,7 @@ from pathlib import Path
 sys.path.insert(0, {here!r})
 import lumped
 from dynamic_cases import scene, springs
+from limits import at_most
 store, after = Path(sys.argv[1]), []
 def kill(time):
     after.extend([time] if (store / "checkpoint.npz").exists() else [])
@@ -274,17 +275,6 @@ def test_a_full_disk_is_said_and_the_run_goes_on_when_there_is_room(tmp_path, ru
         with at_most(most), pytest.raises(BadInput, match=r"run\S*: cannot be written, file too large: "):
             start()
     assert np.array_equal(start().probes["P4"], history.probes["P4"])
-
-
-@contextlib.contextmanager
-def at_most(size):
-    """No file may grow beyond so many bytes."""
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
 def test_memory_does_not_grow_with_the_duration(tmp_path):

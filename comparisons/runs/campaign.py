@@ -18,7 +18,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -30,6 +30,7 @@ from comparisons.runs.executors import Pool, processes, single_threaded
 from comparisons.runs.manifest import source, version
 from comparisons.runs.store import FILE, Finished, Store
 from comparisons.runs.tasks import function
+from sheetbench.files import only_writer
 from sheetbench.scenes.errors import BadInput
 
 
@@ -75,12 +76,10 @@ class Progress:
 
 @contextmanager
 def campaign(folder: Path) -> Iterator[Store]:
-    """The store of a folder's campaigns, open."""
-    store = Store(folder / FILE)
-    try:
+    """The store of a folder's campaigns, open. Raises BadInput where it cannot be, see `Store`, and where
+    another process has it open."""
+    with only_writer(folder), closing(Store(folder / FILE)) as store:
         yield store
-    finally:
-        store.close()
 
 
 def carry_out(

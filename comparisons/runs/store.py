@@ -3,16 +3,19 @@
 Runs that failed or were lost may be forgotten, to be done again.
 
 Table `runs`: key (hash of what was asked of which code, see `campaign.Run`), task and arguments (JSON),
-status, row (JSON, what the run found), message, started and finished (UTC, ISO 8601), seconds. A row is
-committed, and synchronised to disk, before the next run's result is looked at: killing the process loses only
-runs that had not finished.
+status, row (JSON, what the run found), message, started and finished (UTC, ISO 8601), seconds, and a digest
+of all these. A row is committed, and synchronised to disk, before the next run's result is looked at: killing
+the process loses only runs that had not finished. A file that is damaged, locked or cannot be written is
+refused, and left as it is.
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -21,13 +24,23 @@ from comparisons.report.files import plain
 from sheetbench.scenes.errors import BadInput
 
 FILE = "campaign.sqlite"
-_TABLE = """
-create table if not exists runs (
-    key text primary key, task text not null, arguments text not null, status text not null,
-    row text not null, message text not null, started text not null, finished text not null,
-    seconds real not null
-)
-"""
+_TEXTS = ("task", "arguments", "status", "row", "message", "started", "finished")
+COLUMNS = {
+    "key": "text primary key",
+    **dict.fromkeys(_TEXTS, "text not null"),
+    "seconds": "real not null",
+    "digest": "text not null",
+}
+_REMEDIES = {
+    sqlite3.SQLITE_FULL: "free some space and run the same command again",
+    sqlite3.SQLITE_BUSY: "another program uses it: close that and run the same command again",
+    sqlite3.SQLITE_LOCKED: "another program uses it: close that and run the same command again",
+    sqlite3.SQLITE_READONLY: "make it writable, or choose another folder",
+    sqlite3.SQLITE_PERM: "make it writable, or choose another folder",
+    sqlite3.SQLITE_CANTOPEN: "a folder stands there, or it may not be read: choose another folder",
+    sqlite3.SQLITE_IOERR: "the disk is full or at fault: mend that and run the same command again",
+}
+_MOVE = "move it away to start over"
 
 
 @dataclass(frozen=True)
@@ -52,53 +65,71 @@ class Store:
     """The finished runs of a folder's campaigns."""
 
     def __init__(self, path: Path) -> None:
-        """Open or make the file. Raises BadInput for a file that is not one of these."""
+        """Open or make the file. Raises BadInput for one that is not a campaign's, damaged or read-only."""
         self.path = path
-        self._database = sqlite3.connect(path)
+        with self._said():
+            self._database = sqlite3.connect(path)
         try:
-            self._database.execute("pragma synchronous = full")
-            self._database.execute(_TABLE)
-        except sqlite3.DatabaseError as error:
+            self._prepare()
+        except BaseException:
             self._database.close()
-            raise BadInput(f"{path}: not a campaign's file: {error}") from None
+            raise
+
+    def _prepare(self) -> None:
+        columns = ", ".join(f"{name} {kind}" for name, kind in COLUMNS.items())
+        with self._said():
+            self._database.execute("pragma synchronous = full")
+            (health,) = self._database.execute("pragma quick_check(1)").fetchone()
+            if health == "ok":
+                with self._database:
+                    self._database.execute(f"create table if not exists runs ({columns})")
+            found = [name for _, name, *_ in self._database.execute("pragma table_info(runs)")]
+        if health != "ok":
+            raise BadInput(f"{self.path}: is damaged ({' '.join(health.split())}); {_MOVE}")
+        if found != list(COLUMNS):
+            raise BadInput(f"{self.path}: is of another program or version; {_MOVE}")
 
     def add(self, task: str, arguments: dict[str, Any], run: Finished) -> None:
-        """Keep a finished run."""
+        """Keep a finished run. Raises BadInput where the file cannot be written."""
         asked, found = (json.dumps(plain(part), allow_nan=False) for part in (arguments, run.row))
-        with self._database:
-            self._database.execute(
-                "insert into runs values (?, ?, ?, ?, ?, ?, ?, ?, ?)",
-                (
-                    run.key,
-                    task,
-                    asked,
-                    run.status,
-                    found,
-                    run.message,
-                    run.started,
-                    run.finished,
-                    run.seconds,
-                ),
-            )
+        values = (
+            *(run.key, task, asked, run.status, found, run.message),
+            *(run.started, run.finished, float(run.seconds)),
+        )
+        places = ", ".join("?" for _ in COLUMNS)
+        with self._said(), self._database:
+            self._database.execute(f"insert into runs values ({places})", (*values, _digest(values)))
 
     def get(self, key: str) -> Finished | None:
-        """The finished run of a key, if there is one."""
-        columns = "key, status, row, message, started, finished, seconds"
-        found = self._database.execute(f"select {columns} from runs where key = ?", (key,)).fetchone()
+        """The finished run of a key, if there is one. Raises BadInput for a row that was changed since."""
+        with self._said():
+            found = self._database.execute("select * from runs where key = ?", (key,)).fetchone()
         if found is None:
             return None
-        key, status, row, *rest = found
+        *values, digest = found
+        if _digest(values) != digest:
+            raise BadInput(f"{self.path}: the row of a run of '{values[1]}' is damaged; {_MOVE}")
+        key, _, _, status, row, *rest = values
         return Finished(key, status, json.loads(row), *rest)
 
     def forget(self, key: str) -> None:
         """Take out a run that found nothing, so that it can be done again."""
-        with self._database:
+        with self._said(), self._database:
             self._database.execute("delete from runs where key = ? and status in ('failed', 'lost')", (key,))
-
-    def keys(self) -> Iterator[str]:
-        """Keys of all finished runs."""
-        return (key for (key,) in self._database.execute("select key from runs order by finished"))
 
     def close(self) -> None:
         """Close the file."""
         self._database.close()
+
+    @contextmanager
+    def _said(self) -> Iterator[None]:
+        """What SQLite complains of, as a BadInput that names the file and the remedy."""
+        try:
+            yield
+        except sqlite3.Error as error:
+            remedy = _REMEDIES.get(getattr(error, "sqlite_errorcode", 0) & 0xFF, _MOVE)
+            raise BadInput(f"{self.path}: {error}; {remedy}") from None
+
+
+def _digest(values: Sequence[Any]) -> str:
+    return hashlib.sha256(json.dumps(values).encode()).hexdigest()[:16]

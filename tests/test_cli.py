@@ -223,7 +223,9 @@ def test_what_is_finished_is_kept_when_a_later_model_fails(
 
     monkeypatch.setattr(displacement, "solve", solve)
     assert run("compare", "two-edges-clamped", "--out", str(tmp_path)) != 0
-    assert [path.name for path in tmp_path.iterdir()] == ["lumped.vtu"]
+    assert {path.name for path in tmp_path.iterdir()} == {"lumped.vtu", "manifest.json"}
+    (run_of_compare,) = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))["runs"].values()
+    assert run_of_compare["files"] == ["lumped.vtu"] and not run_of_compare["finished"]
 
 
 def test_scenes_lists_the_catalogue_whole(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import fake_solutions
@@ -15,9 +16,10 @@ import pyvista
 
 from comparisons.calibration import tables as calibration
 from comparisons.comparison.comparison import Comparison, compare
-from comparisons.comparison.output import Output
+from comparisons.comparison.tables import draw
 from comparisons.report import files, vtk
 from comparisons.report import offscreen as rendering
+from comparisons.runs.folder import Folder
 from sheetbench import scenes
 from sheetbench.scenes import Scene
 
@@ -34,12 +36,12 @@ def comparison(scene: Scene) -> Comparison:
 
 @pytest.fixture(scope="module")
 def folder(comparison: Comparison, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    output = Output(tmp_path_factory.mktemp("out"), ["sheetbench", "compare"])
-    for solution in comparison.solutions:
-        output.solution(solution)
-    output.comparison(comparison)
-    assert sorted(output.written) == sorted(path.name for path in output.folder.iterdir())
-    return output.folder
+    place = tmp_path_factory.mktemp("out")
+    about = {"scene": comparison.scene.model_dump(mode="json", by_alias=True, exclude_none=True)}
+    kept = Folder(place, "compare", ["sheetbench", "compare"], about=about)
+    kept.report(replace(comparison.report(), pictures=()))
+    assert sorted([*kept.written, "manifest.json"]) == sorted(path.name for path in place.iterdir())
+    return place
 
 
 @pytest.mark.parametrize("name", ["lumped", "shell", "lumped-uniform", "comparison"])
@@ -120,8 +122,7 @@ def test_springs_as_toml_are_the_same_springs(scene: Scene) -> None:
 
 
 def test_picture_is_drawn_or_the_missing_packages_are_named(comparison: Comparison, tmp_path: Path) -> None:
-    output = Output(tmp_path, [])
-    impossible = output.picture(comparison)
+    impossible = draw(comparison, [tmp_path / "comparison.png"])
     if impossible is not None:
         assert rendering.PACKAGES in impossible
         pytest.skip(impossible)
@@ -138,7 +139,7 @@ def test_without_a_way_to_draw_there_is_a_sentence_and_no_picture(
     both = Comparison(
         scene, (fake_solutions.solution(scene), fake_solutions.solution(scene, "shell", -0.011))
     )
-    said = Output(tmp_path, []).picture(both)
+    said = draw(both, [tmp_path / "comparison.png"])
     rendering.why_not.cache_clear()
     assert said is not None and "libegl1" in said
     assert not list(tmp_path.iterdir())
@@ -146,7 +147,7 @@ def test_without_a_way_to_draw_there_is_a_sentence_and_no_picture(
 
 def test_what_is_not_finite_is_not_drawn(scene: Scene, tmp_path: Path) -> None:
     pair = (fake_solutions.solution(scene, size=np.nan), fake_solutions.solution(scene, "shell"))
-    said = Output(tmp_path, []).picture(Comparison(scene, pair))
+    said = draw(Comparison(scene, pair), [tmp_path / "comparison.png"])
     assert said is not None and "finite" in said
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from comparisons.cli import main
-from comparisons.modes import spectra as modes
+from comparisons.modes.spectra import spectra
 from sheetbench import scenes
 
 
@@ -28,7 +28,7 @@ def test_both_models_agree_and_files_are_left(tmp_path: Path, capsys: pytest.Cap
     assert len(lattice["frequencies_hz"]) == len(shell["frequencies_hz"]) == 6
     np.testing.assert_allclose(lattice["frequencies_hz"][:2], shell["frequencies_hz"][:2], rtol=0.03)
     assert {file.name for file in tmp_path.iterdir()} == {
-        "modes.json", "modes.csv", "modes.md", "manifest.json"
+        "modes.json", "modes.csv", "modes.md", "modes.tex", "manifest.json"
     }  # fmt: skip
     assert json.loads((tmp_path / "modes.json").read_text()) == document
 
@@ -42,10 +42,10 @@ def test_table_has_ten_modes_and_several_references(capsys: pytest.CaptureFixtur
 
 def test_a_free_sheet_has_its_rigid_motions_left_out() -> None:
     scene = scenes.load("one-edge-clamped").model_copy(update={"supports": ()})
-    found = modes.spectra(scene, count=3, grid=(7, 7, 2), elements=4)
+    found = spectra(scene, count=3, grid=(7, 7, 2), elements=4)
     assert [spectrum.rigid for spectrum in found] == [6, 6]
     assert found[0].frequencies[0] == pytest.approx(found[1].frequencies[0], rel=0.1)
-    assert any("rigid motions" in said for said in modes.notes(scene, found))
+    assert any("rigid motions" in said for said in found.report().notes)
 
 
 @pytest.mark.parametrize(

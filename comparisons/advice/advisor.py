@@ -13,13 +13,16 @@ stiffening" where they hold a share of the energy; "large displacements" where t
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from comparisons.advice.probing import Probing, Trial
 from comparisons.advice.scales import Scales, scales
 from comparisons.models.candidate import Candidate
 from sheetbench.scenes import Scene, require_static
 from sheetbench.scenes.errors import BadInput
+
+if TYPE_CHECKING:
+    from comparisons.report.report import Report
 
 NEGLIGIBLE = 0.25  # of the tolerance: an effect smaller than that is left out
 LINEAR_LOAD_NUMBER = 2.0  # beyond which no linear model is worth trying
@@ -82,6 +85,12 @@ class Advice:
             "tried": list(self.tried),
             "message": self.message,
         }
+
+    def report(self) -> Report:
+        """What is shown of it."""
+        from comparisons.advice.tables import report
+
+        return report(self)
 
 
 def advise(scene: Scene, tolerance: float | None = 0.01, budget: float | None = None) -> Advice:

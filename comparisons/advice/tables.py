@@ -4,7 +4,23 @@ from __future__ import annotations
 
 from comparisons.advice.advisor import Advice
 from comparisons.models.candidate import series
+from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
+
+
+def report(advice: Advice) -> Report:
+    """What `sheetbench advise` shows."""
+    return Report(
+        name="advice",
+        title=advice.scene.name,
+        subtitle=advice.scene.title,
+        document=advice.as_dict(),
+        tables=(tried(advice),),
+        notes=tuple(sentences(advice)),
+        complaints=() if advice.met else (advice.reason,),
+        scene=advice.scene,
+        met=advice.met,
+    )
 
 
 def tried(advice: Advice) -> Table:
@@ -29,7 +45,7 @@ def tried(advice: Advice) -> Table:
         Column("choice"),
         Column("status", prose=True),
     )
-    return Table("Quick solves; errors are distances from the finest one", columns, tuple(rows))
+    return Table("Quick solves; errors are distances from the finest one", columns, tuple(rows), "tried")
 
 
 def sentences(advice: Advice) -> list[str]:

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Any
 
+from comparisons.comparison import tables as summary
+from comparisons.report.files import write_text
+from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
 
 if TYPE_CHECKING:
     from lumped import Calibration
+    from sheetbench.scenes import Material, Sheet
 
 _UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
 _MEANINGS = {
@@ -23,6 +28,25 @@ _MEANINGS = {
     "mid_shear": "strain spring of a mid-surface cell, in-plane shear",
     "mid_stretch": "strain spring of a mid-surface cell, stretching",
 }
+
+
+def report(calibration: Calibration, sheet: Sheet, material: Material) -> Report:
+    """What `sheetbench calibrate` shows of the springs for a sheet."""
+    found = document(calibration)
+    nx, ny, layers = found.get("grid", ("?", "?", "?"))
+    fitted = [f"the targets are met within {100 * found['fit']['residual']:.2g} %"] if "fit" in found else []
+    return Report(
+        name="calibration",
+        page="table",
+        title=f"{found['method']} calibration",
+        subtitle=f"of {nx} × {ny} × {layers} masses",
+        lead=summary.sheet(sheet, material),
+        document=found,
+        tables=(springs(found), moduli(found), *([fit(found)] if "fit" in found else [])),
+        notes=(*fitted, *found.get("notes", ())),
+        attachments={"springs.toml": partial(write_text, text=to_toml(found))},
+        settings={"method": found["method"], "grid": found.get("grid")},
+    )
 
 
 def document(calibration: Calibration) -> dict[str, Any]:
@@ -55,7 +79,7 @@ def fit(calibration: dict[str, Any]) -> Table:
         for name, width in calibration["fit"]["half_widths"].items()
     )
     columns = (Column("spring"), Column("share"), Column("±", "", "%", 100.0, ".2f"))
-    return Table("What the data tell of each spring: 95 % intervals", columns, rows)
+    return Table("What the data tell of each spring: 95 % intervals", columns, rows, "fit")
 
 
 def springs(calibration: dict[str, Any]) -> Table:
@@ -69,7 +93,8 @@ def springs(calibration: dict[str, Any]) -> Table:
         Column("what it is", prose=True),
         Column("stiffness", "N/m", "N/m", 1.0, ".6g"),
     )
-    return Table("Spring constants", columns, tuple(rows))
+    said = f"layer distance {1e3 * calibration['layer_distance']:.6g} mm"
+    return Table("Spring constants", columns, tuple(rows), "springs", text=said)
 
 
 def moduli(calibration: dict[str, Any]) -> Table:
@@ -86,7 +111,7 @@ def moduli(calibration: dict[str, Any]) -> Table:
         Column("got", form=".6g"),
         Column("off by", "", "%", 100.0, "z.2f"),
     )
-    return Table("Moduli of the sheet and of the lattice", columns, tuple(rows))
+    return Table("Moduli of the sheet and of the lattice", columns, tuple(rows), "moduli")
 
 
 def to_toml(calibration: dict[str, Any]) -> str:

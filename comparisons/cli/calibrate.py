@@ -7,7 +7,7 @@ from warnings import warn
 
 import typer
 
-from comparisons.cli.options import Grid, Json, Out, command_line
+from comparisons.cli.options import Grid, Json, Out, Overwrite
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -39,9 +39,12 @@ def command(
     layer_distance: Annotated[
         float | None, typer.Option(metavar="M", help="Distance of the lattice's layers.")
     ] = None,
-    toml: Annotated[bool, typer.Option("--toml", help="Print the [springs] table for a scene file.")] = False,
+    toml: Annotated[
+        bool, typer.Option("--toml", help="Print the \\[springs] table for a scene file.")
+    ] = False,
     json: Json = False,
     out: Out = None,
+    overwrite: Overwrite = False,
 ) -> None:
     """Find the spring constants of a lattice, and report which of the sheet's moduli they meet.
 
@@ -49,13 +52,10 @@ def command(
     The fitted methods train on the SCENE; without one, on the sheet under its own weight with one edge and
     with two adjacent edges clamped.
     """
-    from comparisons.calibration import tables as report
-    from comparisons.cli import console
-    from comparisons.comparison import tables as summary
+    from comparisons.calibration import tables
+    from comparisons.cli.finish import finish
     from comparisons.models.grids import parse_grid
     from comparisons.models.registry import calibrate
-    from comparisons.report.files import folder, to_json, write_text
-    from comparisons.runs.manifest import record
     from sheetbench.scenes.errors import BadInput
     from sheetbench.scenes.grid import MASSES
 
@@ -66,46 +66,18 @@ def command(
         {"thickness": thickness, **_sides(side)},
         {"young": young, "poisson": poisson, "density": density},
     )
-    calibration = calibrate(
-        sheet,
-        material,
-        grid=parse_grid(sheet, grid) if grid is not None else MASSES,
-        calibration=method,
-        k=k,
-        layer_distance=layer_distance,
-        training=_training(scene, sheet, material) if scene is not None else None,
-    )
-    found = report.document(calibration)
-    springs, moduli = report.springs(found), report.moduli(found)
-    if out is not None:
-        files = {
-            "calibration.json": to_json(found),
-            "springs.toml": report.to_toml(found),
-            "springs.csv": springs.to_csv(),
-            "moduli.csv": moduli.to_csv(),
-            "table.md": f"{springs.to_markdown()}\n{moduli.to_markdown()}",
-            "manifest.json": to_json(
-                {**record(command_line()), "sheet": sheet.model_dump(), "material": material.model_dump()}
-            ),
-        }
-        for name, text in files.items():
-            write_text(folder(out) / name, text)
-    if json or toml:
-        print(to_json(found) if json else report.to_toml(found), end="")
-        return
-    nx, ny, layers = found.get("grid", ("?", "?", "?"))
-    console.heading(f"{found['method']} calibration", f"of {nx} × {ny} × {layers} masses")
-    console.note(summary.sheet(sheet, material))
-    console.show(springs)
-    console.note(f"layer distance {1e3 * found['layer_distance']:.6g} mm")
-    console.show(moduli)
-    if "fit" in found:
-        console.show(report.fit(found))
-        console.note(f"the targets are met within {100 * found['fit']['residual']:.2g} %")
-    for said in found.get("notes", ()):
-        console.note(said)
-    if out is not None:
-        console.note(f"Files in {out}: {', '.join(files)}")
+    about = {"sheet": sheet.model_dump(mode="json"), "material": material.model_dump(mode="json")}
+    with finish("calibrate", json, out, overwrite, about=about) as end:
+        found = calibrate(
+            sheet,
+            material,
+            grid=parse_grid(sheet, grid) if grid is not None else MASSES,
+            calibration=method,
+            k=k,
+            layer_distance=layer_distance,
+            training=_training(scene, sheet, material) if scene is not None else None,
+        )
+        end(tables.report(found, sheet, material), instead=tables.to_toml(found.as_dict()) if toml else None)
 
 
 def _sides(text: str | None) -> dict[str, float]:

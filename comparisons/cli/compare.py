@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Grid, Json, Out, Scene, command_line
-
-if TYPE_CHECKING:
-    from comparisons.comparison.comparison import Comparison
+from comparisons.cli.options import Grid, Json, Out, Overwrite, Scene
 
 
 def command(
@@ -51,36 +48,27 @@ def command(
     ] = None,
     json: Json = False,
     out: Out = None,
+    overwrite: Overwrite = False,
 ) -> None:
     """Solve a scene with the lattice and with a reference, and show what differs and what it cost."""
     from comparisons.advice.advisor import advise, check_auto
-    from comparisons.cli import console
-    from comparisons.cli.app import NOT_CONVERGED
+    from comparisons.cli.finish import finish
     from comparisons.comparison.comparison import compare, load_static
-    from comparisons.comparison.output import Output
-    from comparisons.comparison.tables import complaints
-    from comparisons.report.files import folder, to_json
-    from sheetbench.scenes import Solution
+    from comparisons.report.vtk import write_solution
 
     asked = load_static(scene)
     given = {"--lumped": lumped, "--calibration": calibration, "--k": k, "--layer-distance": layer_distance}
     check_auto(auto, tolerance, given)
-    output = Output(folder(out), command_line()) if out is not None else None
-
-    with console.progress() as progress:
+    named = calibration is not None or k is not None
+    models = {"--reference": reference, "--calibration": "named" if named else "open", "--auto": auto}
+    with finish("compare", json, out, overwrite, scene=asked, apart=models) as end:
         advice = None
         if auto:
-            progress("asking the advisor …")
+            end.progress("asking the advisor …")
             advice = advise(asked, 0.01 if tolerance is None else tolerance)
             if advice.choice is None:
-                console.warn(f"--auto: {advice.message}")
-                raise typer.Exit(NOT_CONVERGED)
-
-        def finished(solution: Solution) -> None:
-            if output is not None:
-                output.solution(solution)
-
-        comparison = compare(
+                end.stop(f"--auto: {advice.message}")
+        found = compare(
             asked,
             grid=lumped,
             calibration=calibration,
@@ -90,44 +78,7 @@ def command(
             elements=elements,
             uncertainty=uncertainty,
             choice=advice.choice if advice is not None else None,
-            starting=lambda model: progress(f"solving {model} …"),
-            finished=finished,
+            starting=lambda model: end.progress(f"solving {model} …"),
+            finished=lambda s: end.keep(f"{s.model}.vtu", lambda path: write_solution(path, s)),
         )
-        no_picture = None
-        if output is not None:
-            progress("writing files …")
-            output.comparison(comparison)
-            progress("drawing the picture …")
-            no_picture = output.picture(comparison)
-
-    if json:
-        document = comparison.as_dict()
-        print(to_json(document if advice is None else {**document, "advice": advice.as_dict()}), end="")
-    else:
-        _show(comparison)
-        if advice is not None:
-            percent = 100 * (advice.tolerance or 0.0)
-            console.note(f"The first model was chosen for {percent:g} %: {advice.reason}")
-        if output is not None:
-            console.note(f"Files in {output.folder}: {', '.join(output.written)}")
-    if no_picture:
-        console.warn(f"No picture: {no_picture}")
-    for complaint in complaints(comparison):
-        console.warn(complaint)
-    if not comparison.converged:
-        raise typer.Exit(NOT_CONVERGED)
-
-
-def _show(comparison: Comparison) -> None:
-    from comparisons.cli import console
-    from comparisons.comparison import tables as summary
-
-    scene = comparison.scene
-    console.heading(scene.name, scene.title)
-    console.note(summary.sheet(scene.sheet, scene.material))
-    console.show(summary.displacements(comparison), group_by=0, leave_out=("x", "y"))
-    console.show(summary.costs(comparison), leave_out=("what it is",))
-    console.note(" · ".join(solution.label for solution in comparison.solutions))
-    for said in summary.uncertainty(comparison):
-        console.note(said)
-    console.note(summary.explanation(comparison))
+        end(found.report(advice))

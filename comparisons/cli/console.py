@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from rich import box
 from rich.console import Console
-from rich.table import Table as RichTable
 from rich.text import Text
+
+from comparisons.report.escape import terminal
 
 if TYPE_CHECKING:
     from comparisons.report.table import Table
@@ -63,51 +63,43 @@ def _duration(seconds: float) -> str:
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
 
 
-def heading(name: str, title: str) -> None:
+def heading(title: str, subtitle: str = "") -> None:
     """What the output is about."""
-    out.print(Text.assemble((name, "bold"), f"  {title}" if title else ""))
+    said = Text.assemble((terminal(title), "bold"), f"  {terminal(subtitle)}" if subtitle else "")
+    out.print(said, soft_wrap=True)
 
 
-def show(table: Table, group_by: int | None = None, leave_out: tuple[str, ...] = ()) -> None:
-    """Print a table without the columns named in `leave_out`.
+def show(table: Table) -> None:
+    """Print a table, folded to the terminal's width; of any width where the output is no terminal."""
+    from comparisons.report.layout import blocks
 
-    Where `group_by` is a column, a repeated value is printed once and the groups are ruled off.
-    """
-    printed = RichTable(
-        title=table.caption,
-        title_justify="left",
-        title_style="bold",
-        box=box.SIMPLE_HEAD,
-        show_edge=False,
-        padding=(0, 1, 0, 0),
-    )
-    kept = [i for i, column in enumerate(table.columns) if column.name not in leave_out]
-    any_unit = any(table.columns[i].shown_unit for i in kept)
-    for column in (table.columns[i] for i in kept):
-        lines = (column.name, f"[{column.shown_unit}]") if column.shown_unit else ("", column.name)
-        header = Text("\n".join(lines) if any_unit else column.name)
-        printed.add_column(
-            header, justify="right" if column.numeric else "left", no_wrap=not column.prose, overflow="fold"
-        )
-    previous = None
-    for row in table.shown_rows():
-        key = row[group_by] if group_by is not None else None
-        if group_by is not None and key == previous:
-            row[group_by] = ""
-        elif previous is not None:
-            printed.add_section()
-        previous = key
-        printed.add_row(*(Text(row[i]) for i in kept))
     out.print()
-    out.print(printed)
+    for line in _fitted(terminal(table.caption)):
+        out.print(Text(line, style="bold"), soft_wrap=True)
+    for i, block in enumerate(blocks(table, out.width if out.is_terminal else None)):
+        if i > 0:
+            out.print()
+        for line in block.head:
+            out.print(Text(line, style="bold"), soft_wrap=True)
+        for line in [block.rule, *block.rows]:
+            out.print(Text(line), soft_wrap=True)
     out.print()
 
 
 def note(text: str) -> None:
-    """A remark under the tables."""
-    out.print(Text(text, style="dim"))
+    """A remark under the tables; its lines are broken between words."""
+    for line in terminal(text, keep="\n").split("\n"):
+        for part in _fitted(line):
+            out.print(Text(part, style="dim"), soft_wrap=True)
+
+
+def _fitted(line: str) -> list[str]:
+    """The line broken between words; a long path stays whole."""
+    import textwrap
+
+    return textwrap.wrap(line, out.width, break_long_words=False, break_on_hyphens=False) or [""]
 
 
 def warn(text: str) -> None:
     """A warning in one line, on standard error."""
-    err.print(Text(text, style="yellow"), soft_wrap=True)
+    err.print(Text(terminal(text), style="yellow"), soft_wrap=True)

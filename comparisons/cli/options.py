@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -14,7 +13,7 @@ Json = Annotated[
     bool, typer.Option("--json", help="Print one JSON document instead of tables.", show_default=False)
 ]
 Out = Annotated[
-    Path | None,
+    str | None,
     typer.Option("--out", metavar="DIR", help="Write files into this folder.", show_default=False),
 ]
 Grid = Annotated[
@@ -25,6 +24,14 @@ Grid = Annotated[
         metavar="GRID",
         help="Masses of the lattice: 9, along the shorter side with near-square cells; 9x13, along x and y; "
         "9x13x3, with layers, else 2. 9 unless given.",
+        show_default=False,
+    ),
+]
+Overwrite = Annotated[
+    bool,
+    typer.Option(
+        "--overwrite",
+        help="With --out: first remove what an earlier run left there; its manifest lists it.",
         show_default=False,
     ),
 ]

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Grid, Json, Out, Scene, command_line
-
-if TYPE_CHECKING:
-    from comparisons.motion.history import Measured
-    from sheetbench.scenes import History
+from comparisons.cli.options import Grid, Json, Out, Overwrite, Scene
 
 FRAMES = 100
 
@@ -43,89 +39,45 @@ def command(
     animate: Annotated[bool, typer.Option("--animate", help="Also draw an animation (with --out).")] = False,
     json: Json = False,
     out: Out = None,
+    overwrite: Overwrite = False,
 ) -> None:
     """Simulate the lattice from rest. With --out the run streams to a folder; the same command resumes it."""
-    from comparisons.cli import console
-    from comparisons.cli.app import NOT_CONVERGED
-    from comparisons.models.grids import scene_grid
+    from comparisons.cli.finish import finish
     from comparisons.models.registry import simulate
-    from comparisons.motion import history as histories
-    from comparisons.report.files import folder, to_json
+    from comparisons.motion.history import read_measured
+    from comparisons.motion.tables import report
     from sheetbench import scenes
 
     asked = scenes.load(scene)
-    truth = histories.read_measured(measured, list(asked.probes)) if measured is not None else {}
-    grid = scene_grid(asked, lumped)
-    last = 0
-
-    with console.progress() as progress:
+    truth = read_measured(measured, list(asked.probes)) if measured is not None else {}
+    run = {
+        "--integrator": integrator,
+        "--lumped": lumped,
+        "--calibration": calibration,
+        "--step": step,
+        "--every": every,
+    }
+    with finish("simulate", json, out, overwrite, scene=asked, apart=run) as end:
+        last = 0
 
         def reached(time: float) -> None:
             nonlocal last
             if (percent := int(20 * time / duration) * 5) > last:
                 last = percent
-                progress(f"simulated {time:.3g} of {duration:g} s ({percent} %)")
+                end.progress(f"simulated {time:.3g} of {duration:g} s ({percent} %)")
 
-        progress("setting up …")
+        end.progress("setting up …")
         history = simulate(
             asked,
             duration,
-            grid=grid,
+            grid=lumped,
             calibration=calibration,
             step=step,
             integrator=integrator,
             every=every,
-            store=folder(out) / "run" if out is not None else None,
+            store=end.place("run/"),
             frames=FRAMES if out is not None else 0,
             progress=reached,
         )
-        written, missing = [], None
-        if out is not None:
-            written, missing = _write(out, asked, history, truth, animate, progress)
-    if json:
-        print(to_json(histories.as_dict(history, truth)), end="")
-    else:
-        console.heading(asked.name, asked.title)
-        console.note(f"{history.label}, {history.integrator}, {history.steps} steps")
-        if history.resumed_from:
-            console.note(f"went on from {history.resumed_from:.4g} s, which an earlier run had reached")
-        console.show(histories.summary(history, truth))
-        spread = float(abs(history.balance - history.balance[0]).max())
-        scale = max(float(abs(e).max()) for e in history.energies.values())
-        console.note(
-            f"energy balance held to {spread / scale if scale else spread:.1e} of the largest energy"
-        )
-        if out is not None:
-            console.note(f"Files in {out}: {', '.join(written)}")
-    if missing:
-        console.warn(f"No animation: {missing}")
-    if history.status is not scenes.Status.CONVERGED:
-        console.warn(f"{history.status}: {history.message}")
-        raise typer.Exit(NOT_CONVERGED)
-
-
-def _write(out, asked, history: History, truth: dict[str, Measured], animate: bool, progress):
-    """Write the run's files; their names, and why there is no animation if one was asked for."""
-    from comparisons.motion import frames
-    from comparisons.motion import history as histories
-    from comparisons.report.files import to_json, write_text
-    from comparisons.report.offscreen import why_not
-    from comparisons.runs.manifest import manifest
-
-    progress("writing files …")
-    settings = {"integrator": history.integrator, **history.settings}
-    write_text(out / "history.json", to_json(histories.as_dict(history, truth)))
-    write_text(out / "history.csv", histories.series(history).to_csv())
-    write_text(out / "manifest.json", to_json(manifest(asked, settings, command_line())))
-    histories.plot(out / "history.png", history, asked.title or asked.name, truth)
-    shown = frames.frames(asked, history)
-    frames.write_series(out / "frames.pvd", shown)
-    written = ["history.json", "history.csv", "history.png", "frames.pvd", "manifest.json"]
-    missing = None
-    if animate:
-        missing = why_not()
-        if missing is None:
-            progress("drawing the animation …")
-            frames.animate(out / "animation.gif", asked, shown)
-            written.append("animation.gif")
-    return written, missing
+        end.place("frames/")
+        end(report(history, asked, truth, animate))

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, command_line
-
-if TYPE_CHECKING:
-    from comparisons.stability.study import Row, Study
+from comparisons.cli.options import Json, Out, Overwrite
 
 
 def command(
@@ -36,77 +32,32 @@ def command(
     ] = False,
     json: Json = False,
     out: Out = None,
+    overwrite: Overwrite = False,
 ) -> None:
     """Measure the cells of every study, in the order of docs/stability.md; an interrupted run can be resumed.
 
     Every cell ends in a status. With --out the maps, tables and texts are written there.
     """
     import os
-    from tempfile import TemporaryDirectory
 
-    from comparisons.cli import console
-    from comparisons.cli.app import NOT_CONVERGED
-    from comparisons.report.files import folder, to_json
-    from comparisons.runs.campaign import campaign
-    from comparisons.runs.executors import pool_of
-    from comparisons.stability import STUDIES, survey, texts
+    from comparisons.cli.finish import finish
+    from comparisons.stability import STUDIES, survey
+    from comparisons.stability.texts import report
     from sheetbench.scenes.errors import require_choice
 
     names = [name.strip().replace(" ", "-") for name in study or STUDIES]
     for name in names:
         require_choice("study", name, STUDIES)
     chosen = [STUDIES[name] for name in dict.fromkeys(names)]
-    target = folder(out) if out is not None else None
-    with (
-        TemporaryDirectory() as scratch,
-        campaign(target or Path(scratch)) as store,
-        pool_of(scheduler) as pool,
-        console.campaign_progress() as progress,
-    ):
-        rows = survey(
-            chosen,
-            store,
-            full=full,
-            workers=workers or os.cpu_count() or 1,
-            pool=pool,
-            retry=retry,
-            progress=progress,
-        )
-    written = _write(target, chosen, rows) if target is not None else []
-    if json:
-        print(to_json({"rows": rows}), end="")
-    else:
-        for one in chosen:
-            mine = [row for row in rows if row["study"] == one.name]
-            console.show(texts.table(one, mine), leave_out=("message", "single error", "single status"))
-            console.note(texts.text(one, mine))
-        if written:
-            console.note(f"Files in {target}: {', '.join(written)}")
-    broken = [row for row in rows if row["status"] in ("failed", "lost")]
-    for row in broken:
-        console.warn(f"{row['study']} {row['cell']}: {row['status']}: {row['message']}")
-    if broken:
-        raise typer.Exit(NOT_CONVERGED)
-
-
-def _write(target: Path, studies: list[Study], rows: list[Row]) -> list[str]:
-    """Maps, tables and texts; their names."""
-    from comparisons.report.files import to_json, write_text
-    from comparisons.runs.manifest import record
-    from comparisons.stability import texts
-    from comparisons.stability.figure import picture
-
-    files = {"stability.json": to_json({"rows": rows}), "manifest.json": to_json(record(command_line()))}
-    said, pictures = ["# Where the solvers hold\n"], []
-    for study in studies:
-        mine = [row for row in rows if row["study"] == study.name]
-        table = texts.table(study, mine)
-        files[f"{study.name}.csv"] = table.to_csv()
-        names = [f"{study.name}.png", f"{study.name}.pdf"]
-        picture(study, mine, [target / name for name in names])
-        pictures += names
-        said += [texts.text(study, mine), f"![{study.title}]({names[0]})\n", table.to_markdown()]
-    files["stability.md"] = "\n".join(said)
-    for name, text in files.items():
-        write_text(target / name, text)
-    return [*files, *pictures, "campaign.sqlite"]
+    with finish("stability", json, out, overwrite) as end:
+        with end.campaign(scheduler) as (store, pool, progress):
+            rows = survey(
+                chosen,
+                store,
+                full=full,
+                workers=workers or os.cpu_count() or 1,
+                pool=pool,
+                retry=retry,
+                progress=progress,
+            )
+        end(report(chosen, rows))

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, command_line
-
-if TYPE_CHECKING:
-    from comparisons.transfer.study import Transfer
+from comparisons.cli.options import Json, Out, Overwrite
 
 
 def command(
@@ -53,20 +49,16 @@ def command(
     ] = False,
     json: Json = False,
     out: Out = None,
+    overwrite: Overwrite = False,
 ) -> None:
     """Measure every calibration on many scenes, statics and frequencies, as the grid is refined.
 
     With --out an interrupted study is resumed.
     """
     import os
-    from tempfile import TemporaryDirectory
 
-    from comparisons.cli import console
-    from comparisons.cli.app import NOT_CONVERGED
+    from comparisons.cli.finish import finish
     from comparisons.models.candidate import items
-    from comparisons.report.files import folder, to_json
-    from comparisons.runs.campaign import campaign
-    from comparisons.transfer import tables
     from comparisons.transfer.scenes import transfer_scenes
     from comparisons.transfer.study import METHODS, PARTS, transfer
     from sheetbench.scenes.errors import require_choice
@@ -80,35 +72,21 @@ def command(
         for name in names:
             require_choice(f"--{option}", name, known)
     sizes = _grids(grids)
-    with (
-        TemporaryDirectory() as scratch,
-        campaign(folder(out) if out is not None else Path(scratch)) as store,
-        console.campaign_progress() as progress,
-    ):
-        found = transfer(
-            store,
-            methods=chosen["methods"][0],
-            grids=sizes,
-            scenes=chosen["scenes"][0],
-            parts=chosen["part"][0],
-            elements=elements,
-            workers=workers or os.cpu_count() or 1,
-            retry=retry,
-            progress=progress,
-        )
-    written = _write(found, out) if out is not None else []
-    if json:
-        print(to_json(found.as_dict()), end="")
-    else:
-        for table in tables.tables(found):
-            console.show(table, group_by=0)
-        console.note(tables.explanation(found))
-        if written:
-            console.note(f"Files in {out}: {', '.join(written)}")
-    for failure in found.failed:
-        console.warn(failure)
-    if found.failed:
-        raise typer.Exit(NOT_CONVERGED)
+    with finish("transfer", json, out, overwrite) as end:
+        with end.campaign() as (store, pool, progress):
+            found = transfer(
+                store,
+                methods=chosen["methods"][0],
+                grids=sizes,
+                scenes=chosen["scenes"][0],
+                parts=chosen["part"][0],
+                elements=elements,
+                workers=workers or os.cpu_count() or 1,
+                pool=pool,
+                retry=retry,
+                progress=progress,
+            )
+        end(found.report())
 
 
 def _grids(text: str) -> list[int]:
@@ -123,26 +101,3 @@ def _grids(text: str) -> list[int]:
     if not sizes or sizes != sorted(set(sizes)) or any(n < 5 or n % 4 != 1 for n in sizes):
         raise BadInput(f"--grids = '{text}': masses a side, 4 n + 1 of them and rising, as 9,17,33")
     return sizes
-
-
-def _write(found: Transfer, out: Path) -> list[str]:
-    """The study's files; their names."""
-    from comparisons.report.files import to_json, write_text
-    from comparisons.runs import manifest
-    from comparisons.transfer import tables
-
-    made = manifest.machine()
-    footer = (
-        f"sheetbench {manifest.version()}, Python {made['python']}, {made['processor']}, "
-        f"{made['cpu_count']} processors, {manifest.today()}.\n"
-    )
-    shown = tables.tables(found)
-    files = {
-        "transfer.json": to_json(found.as_dict()),
-        "transfer.md": "\n".join([*(t.to_markdown() for t in shown), tables.explanation(found), "", footer]),
-        "transfer.tex": "\n".join(table.to_latex() for table in shown),
-        "manifest.json": to_json(manifest.record(command_line())),
-    }
-    for name, text in files.items():
-        write_text(out / name, text)
-    return [*files, "campaign.sqlite"]

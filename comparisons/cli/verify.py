@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, command_line
+from comparisons.cli.options import Json, Out, Overwrite
 
 
 def command(
@@ -24,13 +24,11 @@ def command(
     ] = False,
     json: Json = False,
     out: Out = None,
+    overwrite: Overwrite = False,
 ) -> None:
     """Check the references against published values, one row each: exit status 3 unless all pass."""
-    from comparisons.cli import console
-    from comparisons.cli.app import NOT_CONVERGED
-    from comparisons.report.files import folder, to_json, write_text
-    from comparisons.runs.manifest import record
-    from comparisons.verification import tables as verification
+    from comparisons.cli.finish import finish
+    from comparisons.verification import tables
     from fem_reference.verification import CASES, run
     from sheetbench.scenes.errors import BadInput, require_choice
 
@@ -39,27 +37,6 @@ def command(
     if locking and case:
         raise BadInput("--locking and --case: choose one")
     chosen = [name for name in CASES if name.startswith("locking-")] if locking else case
-    target = folder(out) if out is not None else None
-    with console.progress() as progress:
-        rows = list(run(chosen, starting=lambda name: progress(f"verifying {name} …")))
-    table = verification.table(rows)
-    failed = [row for row in rows if not row.passed]
-    if target is not None:
-        write_text(target / "verification.json", to_json(verification.as_dict(rows)))
-        write_text(target / "verification.csv", table.to_csv())
-        write_text(target / "verification.md", table.to_markdown())
-        write_text(target / "manifest.json", to_json(record(command_line())))
-        if locking:
-            from comparisons.verification.locking import picture
-
-            picture(target / "locking.png", rows)
-    if json:
-        print(to_json(verification.as_dict(rows)), end="")
-    else:
-        for one in verification.by_case(rows):
-            console.show(one, leave_out=("case", "mesh"))
-        console.note(f"{len(rows) - len(failed)} of {len(rows)} rows pass")
-    for row in failed:
-        console.warn(f"{row.case}: {row.quantity}: {row.computed:g} instead of {row.published:g}")
-    if failed:
-        raise typer.Exit(NOT_CONVERGED)
+    with finish("verify", json, out, overwrite, apart={"--locking": locking}) as end:
+        rows = list(run(chosen, starting=lambda name: end.progress(f"verifying {name} …")))
+        end(tables.report(rows, locking))

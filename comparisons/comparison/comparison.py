@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,6 +23,10 @@ from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.registry import check_lattice, check_reference, has_own_springs, solve
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static
+
+if TYPE_CHECKING:
+    from comparisons.advice.advisor import Advice
+    from comparisons.report.report import Report
 
 COMPANION = "lumped-uniform"
 ROUND_OFF = 1e-9  # of the largest displacement at a probe
@@ -132,6 +136,12 @@ class Comparison:
                 if solution is not self.reference
             ],
         }
+
+    def report(self, advice: Advice | None = None) -> Report:
+        """What is shown of it; advice: by which the first model was chosen."""
+        from comparisons.comparison.tables import report
+
+        return report(self, advice)
 
     def _solution_as_dict(self, solution: Solution) -> dict[str, Any]:
         bar = self.bar if solution is self.reference else None

@@ -1,14 +1,60 @@
-"""The tables of a comparison: displacement at the probes, cost and error of each model, support forces."""
+"""What a comparison shows: displacement at the probes, cost and error of each model, support forces."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from comparisons.comparison.comparison import Comparison
+from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
+from comparisons.report.vtk import plan_mesh, write_mesh, write_solution
 from sheetbench.scenes import Material, Sheet, Solution, Status
 
+if TYPE_CHECKING:
+    from comparisons.advice.advisor import Advice
+
 _MODEL = Column("model")
+
+
+def report(comparison: Comparison, advice: Advice | None = None) -> Report:
+    """What `sheetbench compare` shows; advice: by which the first model was chosen."""
+    scene, document = comparison.scene, comparison.as_dict()
+    chosen = []
+    if advice is not None:
+        document["advice"] = advice.as_dict()
+        percent = 100 * (advice.tolerance or 0.0)
+        chosen = [f"The first model was chosen for {percent:g} %: {advice.reason}"]
+    moved, cost = displacements(comparison), costs(comparison)
+    return Report(
+        name="comparison",
+        page="table",
+        title=scene.name,
+        subtitle=scene.title,
+        lead=sheet(scene.sheet, scene.material),
+        document=document,
+        tables=(moved, cost, reactions(comparison)),
+        printed=(moved, cost),
+        notes=(
+            " · ".join(solution.label for solution in comparison.solutions),
+            *uncertainty(comparison),
+            explanation(comparison),
+            *chosen,
+        ),
+        complaints=tuple(complaints(comparison)),
+        pictures=(Picture(("comparison.png",), partial(draw, comparison), "drawing the picture …"),),
+        attachments={
+            **{f"{s.model}.vtu": partial(write_solution, solution=s) for s in comparison.solutions},
+            "comparison.vtu": partial(write_plan, comparison=comparison),
+        },
+        scene=scene,
+        settings={solution.model: solution.settings for solution in comparison.solutions},
+        met=comparison.converged,
+    )
 
 
 def _millimetres(name: str) -> Column:
@@ -39,8 +85,8 @@ def displacements(comparison: Comparison) -> Table:
     ]
     columns = (
         Column("probe"),
-        Column("x", "m", "mm", 1e3, ".4g"),
-        Column("y", "m", "mm", 1e3, ".4g"),
+        Column("x", "m", "mm", 1e3, ".4g", detail=True),
+        Column("y", "m", "mm", 1e3, ".4g", detail=True),
         _MODEL,
         _millimetres("ux"),
         _millimetres("uy"),
@@ -48,7 +94,7 @@ def displacements(comparison: Comparison) -> Table:
         Column("off by", "", "%", 100.0, "z.2f"),
         Column("±", "", "%", 100.0, ".2g"),
     )
-    return Table("Displacement of the mid-surface", columns, tuple(rows))
+    return Table("Displacement of the mid-surface", columns, tuple(rows), "table", grouped=True)
 
 
 def costs(comparison: Comparison) -> Table:
@@ -68,7 +114,7 @@ def costs(comparison: Comparison) -> Table:
     ]
     columns = (
         _MODEL,
-        Column("what it is", prose=True),
+        Column("what it is", prose=True, detail=True),
         Column("unknowns", form="d"),
         Column("factorisations", form="d"),
         Column("set-up", "s", "s", 1.0, "z.2f"),
@@ -76,7 +122,7 @@ def costs(comparison: Comparison) -> Table:
         Column("error", "", "%", 100.0, "z.2f"),
         Column("status", prose=True),
     )
-    return Table("Cost and error of each model", columns, tuple(rows))
+    return Table("Cost and error of each model", columns, tuple(rows), "models")
 
 
 def reactions(comparison: Comparison) -> Table:
@@ -87,7 +133,8 @@ def reactions(comparison: Comparison) -> Table:
         for edge, force in s.reactions.items()
     ]
     forces = tuple(Column(name, "N", "N", 1.0, "z.4f") for name in ("Fx", "Fy", "Fz"))
-    return Table("Force of each support on the sheet", (Column("edge"), _MODEL, *forces), tuple(sorted(rows)))
+    columns = (Column("edge"), _MODEL, *forces)
+    return Table("Force of each support on the sheet", columns, tuple(sorted(rows)), "reactions")
 
 
 def standing(solution: Solution) -> str:
@@ -135,3 +182,37 @@ def explanation(comparison: Comparison) -> str:
         f"off by: |u − {ref}| / |{ref}| at the probe. "
         f"error: largest component of u − {ref} over the probes / largest component of {ref}."
     )
+
+
+def write_plan(path: Path, comparison: Comparison) -> None:
+    """Write all solutions on one plan grid, `displacement_MODEL` each, and what they differ by.
+
+    `displacement` is the reference's; `difference` is the chosen lattice's from it, `difference_MODEL` any
+    other model's.
+    """
+    plan = plan_mesh(comparison.scene.sheet)
+    fields = {s.model: s.displacement(plan.points[:, :2]) for s in comparison.solutions}
+    truth = fields[comparison.reference.model]
+    plan.point_data["displacement"] = truth
+    plan.point_data["difference"] = fields[comparison.solutions[0].model] - truth
+    for solution in comparison.solutions:
+        plan.point_data[f"displacement_{solution.model}"] = fields[solution.model]
+    for solution in comparison.solutions[2:]:
+        plan.point_data[f"difference_{solution.model}"] = fields[solution.model] - truth
+    write_mesh(path, plan)
+
+
+def draw(comparison: Comparison, paths: Sequence[Path]) -> str | None:
+    """Draw the comparison; where it cannot be drawn, the reason in a sentence."""
+    from comparisons.report.offscreen import why_not
+
+    drawn = comparison.solutions[:2]
+    if not all(np.all(np.isfinite(s.mesh.point_data["displacement"])) for s in drawn):
+        return "a displacement is not a finite number"
+    impossible = why_not()
+    if impossible is None:
+        from comparisons.comparison.figure import picture
+
+        for path in paths:
+            picture(path, comparison)
+    return impossible

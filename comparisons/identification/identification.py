@@ -20,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import inf
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -43,6 +43,9 @@ from lumped.fitting.identifiability import THRESHOLD
 from sheetbench.scenes import Scene, require_static
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import near_square
+
+if TYPE_CHECKING:
+    from comparisons.report.report import Report
 
 MODELS = ("lumped", "shell", "solid")
 REFUSED = 1e3  # residual, in units of the data, where the model has no answer: the step is shortened
@@ -106,6 +109,12 @@ class Identification:
             "converged": self.converged,
             "warnings": list(self.warnings),
         }
+
+    def report(self, file: str = "") -> Report:
+        """What is shown of it; file: where the measurements were read from."""
+        from comparisons.identification.tables import report
+
+        return report(self, file)
 
 
 def identify(

@@ -6,7 +6,8 @@ import numpy as np
 
 from comparisons.identification.identification import Identification
 from comparisons.identification.measurements import Displacements
-from comparisons.report.table import Column, Table
+from comparisons.report.report import Report
+from comparisons.report.table import Column, Table, unit
 
 SHOWN = 20  # residuals on the terminal; all of them are in the files
 
@@ -14,14 +15,33 @@ _X, _Y, _Z = (Column(name, "m", "mm", 1e3, "z.2f") for name in "xyz")
 _PARTS = tuple(Column(f"off in {part}", "m", "mm", 1e3, "z.4f") for part in ("ux", "uy", "uz"))
 
 
+def report(found: Identification, file: str) -> Report:
+    """What `sheetbench identify` shows of what was found from a file."""
+    unended = [] if found.converged else [f"the search did not end within {found.evaluations} evaluations"]
+    return Report(
+        name="identification",
+        title=found.scene.name,
+        subtitle=found.scene.title,
+        document=found.as_dict(),
+        tables=(unknowns(found), residuals(found)),
+        printed=(unknowns(found), worst(found)),
+        notes=(explanation(found),),
+        complaints=(*found.warnings, *unended),
+        scene=found.scene,
+        settings={**found.settings, "measured": file},
+        met=found.converged,
+    )
+
+
 def unknowns(found: Identification) -> Table:
-    """A row per unknown; values in the SI unit named."""
+    """A row per unknown; values in the unit of the row."""
     rows = tuple(
-        (name, u.unit, u.value, *u.interval, u.refined, u.start) for name, u in found.unknowns.items()
+        (name, unit(u.unit), u.value, *u.interval, u.refined, u.start) for name, u in found.unknowns.items()
     )
     names = ("value", "from", "to", "on finer cells", "started at")
     shown = tuple(Column(name, form=".6g") for name in names)
-    return Table("What was sought, with its 95 % interval", (Column("unknown"), Column("unit"), *shown), rows)
+    columns = (Column("unknown"), Column("unit"), *shown)
+    return Table("What was sought, with its 95 % interval", columns, rows, "unknowns")
 
 
 def residuals(found: Identification) -> Table:
@@ -53,9 +73,10 @@ def _residuals(found: Identification, rows: np.ndarray, caption: str) -> Table:
             )
             for i in rows
         ]
-        return Table(caption, (*timed, _X, _Y, *_PARTS), tuple(of))
+        return Table(caption, (*timed, _X, _Y, *_PARTS), tuple(of), "residuals")
     columns = (_X, _Y, _Z, Column("distance", "m", "mm", 1e3, "z.4f"))
-    return Table(caption, columns, tuple((*map(float, points[i]), float(found.residuals[i])) for i in rows))
+    of_cloud = tuple((*map(float, points[i]), float(found.residuals[i])) for i in rows)
+    return Table(caption, columns, of_cloud, "residuals")
 
 
 def explanation(found: Identification) -> str:

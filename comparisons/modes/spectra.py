@@ -1,4 +1,4 @@
-"""Natural frequencies of a lattice beside those of a reference: tables and the JSON document.
+"""Natural frequencies of a lattice beside those of a reference.
 
 Both are about the undeformed, stress-free sheet: loads, weight and actuators have no part in them. A sheet
 that supports leave free to move has rigid motions, whose frequency is zero; they are counted and left out.
@@ -11,16 +11,18 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.registry import check_lattice, check_reference, scene_springs
-from comparisons.report.table import Column, Table
 from sheetbench.scenes import Scene, load
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import Grid
+
+if TYPE_CHECKING:
+    from comparisons.report.report import Report
 
 
 @dataclass(frozen=True)
@@ -48,6 +50,39 @@ class Spectrum:
         }
 
 
+@dataclass(frozen=True)
+class Spectra(Sequence[Spectrum]):
+    """The spectra of a scene, the lattice's first, then that of each reference."""
+
+    scene: Scene
+    found: tuple[Spectrum, ...]
+
+    @overload
+    def __getitem__(self, index: int) -> Spectrum: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Spectrum]: ...
+
+    def __getitem__(self, index: int | slice) -> Spectrum | Sequence[Spectrum]:
+        return self.found[index]
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench modes`."""
+        return {
+            "scene": self.scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+            "solutions": [spectrum.as_dict() for spectrum in self],
+        }
+
+    def report(self) -> Report:
+        """What is shown of it."""
+        from comparisons.modes.tables import report
+
+        return report(self)
+
+
 def spectra(
     scene: Scene | str | Path,
     *,
@@ -57,8 +92,8 @@ def spectra(
     references: Sequence[str] = ("shell",),
     elements: int = 16,
     starting: Callable[[str], None] = lambda model: None,
-) -> list[Spectrum]:
-    """The lattice's spectrum, then that of each reference.
+) -> Spectra:
+    """The spectra of the lattice and of each reference.
 
     Raises SceneError for a scene that cannot be read, BadInput for choices that do not exist and a count
     that a mesh cannot give.
@@ -75,7 +110,7 @@ def spectra(
     for reference in references:
         starting(reference)
         found.append(_reference(scene, reference, count, elements))
-    return found
+    return Spectra(scene, tuple(found))
 
 
 def _lattice(scene: Scene, count: int, grid: Grid, calibration: str | None) -> Spectrum:
@@ -109,37 +144,3 @@ def _reference(scene: Scene, model: str, count: int, elements: int) -> Spectrum:
         unknowns=modes.unknowns,
         seconds=modes.solve_seconds,
     )
-
-
-def as_dict(scene: Scene, found: Sequence[Spectrum]) -> dict[str, Any]:
-    """The JSON document of `sheetbench modes`."""
-    return {
-        "scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True),
-        "solutions": [spectrum.as_dict() for spectrum in found],
-    }
-
-
-def table(found: Sequence[Spectrum]) -> Table:
-    """A row per mode: the frequency of every model, and how far each is from the first reference's."""
-    names = [spectrum.model for spectrum in found]
-    first = found[1].frequencies if len(found) > 1 else None
-    rows = []
-    for i in range(len(found[0].frequencies)):
-        row: list[Any] = [i + 1, *(float(spectrum.frequencies[i]) for spectrum in found)]
-        if first is not None:
-            row.append(float(found[0].frequencies[i] / first[i] - 1.0))
-        rows.append(tuple(row))
-    columns = [Column("mode", form="d"), *(Column(name, "Hz", "Hz", 1.0, ".4g") for name in names)]
-    if first is not None:
-        columns.append(Column("off by", "", "%", 100.0, "+.2f"))
-    return Table("Natural frequencies about the flat sheet", tuple(columns), tuple(rows))
-
-
-def notes(scene: Scene, found: Sequence[Spectrum]) -> list[str]:
-    """What the table does not say: labels, rigid motions left out, actuators left out."""
-    said = [" · ".join(spectrum.label for spectrum in found)]
-    if found[0].rigid:
-        said.append(f"{found[0].rigid} rigid motions, free of any frequency, are left out")
-    if scene.actuators:
-        said.append("actuators have no part in these modes: they are those of the sheet alone")
-    return said

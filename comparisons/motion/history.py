@@ -128,9 +128,8 @@ def summary(history: History, measured: dict[str, Measured]) -> Table:
         rows.append((name, *(float(x) for x in u[-1]), float(np.abs(u).max()), off))
     millimetres = [Column(name, "m", "mm", 1e3, "z.3f") for name in (*COMPONENTS, "largest")]
     columns = (Column("probe"), *millimetres, Column("off by", "", "%", 100.0, "z.2f"))
-    return Table(
-        f"Displacement at {history.time[-1]:g} s, and largest component on the way", columns, tuple(rows)
-    )
+    caption = f"Displacement at {history.time[-1]:g} s, and largest component on the way"
+    return Table(caption, columns, tuple(rows), "probes")
 
 
 def plot(path: Path, history: History, title: str, measured: dict[str, Measured]) -> None:

@@ -20,16 +20,19 @@ def write_text(path: Path, text: str) -> None:
         partial.write_text(text, encoding="utf-8")
 
 
-def folder(path: Path, option: str = "--out") -> Path:
+def folder(path: Path | str, option: str = "--out") -> Path:
     """The folder, made if need be. Raises BadInput where it cannot be, or not be written to."""
+    if path == "":
+        raise BadInput(f"{option} = '': name a folder; '.' is the current one")
+    made = Path(path)
     try:
-        path.mkdir(parents=True, exist_ok=True)
+        made.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        why = "a link to nothing stands there" if path.is_symlink() else error.strerror
+        why = "a link to nothing stands there" if made.is_symlink() else error.strerror
         raise BadInput(f"{option} = '{path}': cannot make this folder: {why}") from None
-    if not os.access(path, os.W_OK | os.X_OK):
+    if not os.access(made, os.W_OK | os.X_OK):
         raise BadInput(f"{option} = '{path}': cannot be written to; make it writable, or choose another")
-    return path
+    return made
 
 
 def plain(value: Any) -> Any:

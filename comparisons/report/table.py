@@ -1,7 +1,8 @@
 """Tables: columns with units, rows of plain values, and the ways to write them.
 
 Values are kept in SI units. CSV has them as they are, with the unit in the header; Markdown, LaTeX and the
-terminal show them scaled and rounded (a displacement in mm, a time in ms).
+terminal show them scaled and rounded (a displacement in mm, a time in ms). Negative numbers have a minus sign
+(U+2212) there, in CSV a hyphen, as other programs read it.
 """
 
 from __future__ import annotations
@@ -9,14 +10,32 @@ from __future__ import annotations
 import csv
 import io
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
+
+from comparisons.report.escape import cell, csv_cell, latex, markdown, terminal
+
+
+class Unit(NamedTuple):
+    """The unit of a row's numbers, as a cell of that row: in SI, as people read it, the factor between."""
+
+    si: str
+    shown: str
+    scale: float = 1.0
+
+
+_SHOWN = {unit.si: unit for unit in (Unit("Pa", "MPa", 1e-6), Unit("m", "mm", 1e3), Unit("s", "ms", 1e3))}
+
+
+def unit(si: str) -> Unit:
+    """A unit as a cell, shown as everywhere else: pressures in MPa, lengths in mm, times in ms."""
+    return _SHOWN.get(si, Unit(si, si))
 
 
 @dataclass(frozen=True)
 class Column:
     """A column's name, the SI unit of its values, and how to show them: unit, scale and format.
 
-    Numbers have a format; prose may be broken over lines.
+    Numbers have a format; prose may be broken over lines. A detail is left out on terminals and in LaTeX.
     """
 
     name: str
@@ -25,6 +44,7 @@ class Column:
     scale: float = 1.0
     form: str = ""
     prose: bool = False
+    detail: bool = False
 
     @property
     def numeric(self) -> bool:
@@ -36,50 +56,70 @@ class Column:
         unit = self.shown_unit if shown else self.unit
         return f"{self.name} [{unit}]" if unit else self.name
 
-    def show(self, value: Any) -> str:
-        """A value as people read it; a dash where there is none."""
+    def show(self, value: Any, scale: float = 1.0) -> str:
+        """A value as people read it; a dash where there is none.
+
+        scale: that of the row's own unit, for columns that have none themselves.
+        """
         if value is None or value != value:
             return "–"
+        if isinstance(value, Unit):
+            return value.shown
         if not self.numeric:
             return str(value)
-        scaled = value if self.form.endswith("d") else value * self.scale
-        return format(scaled, self.form).replace("-", "−")
+        if self.form.endswith("d"):
+            return number(value, self.form)
+        return number(value * (self.scale if self.shown_unit else self.scale * scale), self.form)
+
+
+def number(value: float, form: str = "g") -> str:
+    """A number as people read it: with a minus sign, not a hyphen."""
+    return format(value, form).replace("-", "−")
 
 
 @dataclass(frozen=True)
 class Table:
-    """A caption, columns, and rows of as many values [SI] as there are columns."""
+    """A caption, columns, and rows of as many values [SI] as there are columns.
+
+    name: of its CSV file. grouped: rows that share the first value stand together under it on a terminal.
+    text: what is said of it, in Markdown.
+    """
 
     caption: str
     columns: tuple[Column, ...]
     rows: tuple[tuple[Any, ...], ...]
+    name: str = ""
+    grouped: bool = False
+    text: str = ""
 
     def to_csv(self) -> str:
         """All digits in SI units; an empty cell where there is no value."""
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(column.header(shown=False) for column in self.columns)
-        writer.writerows(self.rows)
+        writer.writerow(csv_cell(column.header(shown=False)) for column in self.columns)
+        for row in self.rows:
+            writer.writerow(csv_cell(value.si if isinstance(value, Unit) else value) for value in row)
         return text.getvalue()
 
     def to_markdown(self) -> str:
         """A pipe table with shown units, its caption above it."""
-        headers = [column.header(shown=True) for column in self.columns]
+        headers = [cell(column.header(shown=True)) for column in self.columns]
         rules = ["---:" if column.numeric else "---" for column in self.columns]
-        lines = [headers, rules, *self.shown_rows()]
-        return f"{self.caption}\n\n" + "".join(f"| {' | '.join(line)} |\n" for line in lines)
+        lines = [headers, rules, *([cell(shown) for shown in row] for row in self.shown_rows())]
+        return f"{markdown(self.caption)}\n\n" + "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
     def to_latex(self) -> str:
-        """A booktabs tabular with shown units, its caption as a comment above it."""
-        headers = [column.header(shown=True) for column in self.columns]
-        kinds = "".join("r" if column.numeric else "l" for column in self.columns)
-        lines = [" & ".join(_latex(cell) for cell in line) + " \\\\" for line in self.shown_rows()]
+        """A booktabs tabular with shown units and without details, its caption as a comment above it."""
+        brief = self.brief()
+        headers = [latex(column.header(shown=True)) for column in brief.columns]
+        kinds = "".join("r" if column.numeric else "l" for column in brief.columns)
+        lines = [" & ".join(latex(shown) for shown in row) + " \\\\" for row in brief.shown_rows()]
         return "\n".join(
             [
-                f"% {self.caption}",
+                f"% {terminal(self.caption)}",
                 f"\\begin{{tabular}}{{{kinds}}}",
                 "\\toprule",
-                " & ".join(_latex(header) for header in headers) + " \\\\",
+                " & ".join(headers) + " \\\\",
                 "\\midrule",
                 *lines,
                 "\\bottomrule",
@@ -88,24 +128,17 @@ class Table:
             ]
         )
 
+    def brief(self) -> Table:
+        """The table without its details."""
+        kept = [i for i, column in enumerate(self.columns) if not column.detail]
+        rows = tuple(tuple(row[i] for i in kept) for row in self.rows)
+        columns = tuple(self.columns[i] for i in kept)
+        return Table(self.caption, columns, rows, self.name, self.grouped, self.text)
+
     def shown_rows(self) -> list[list[str]]:
         """The rows as people read them."""
-        return [[c.show(value) for c, value in zip(self.columns, row, strict=True)] for row in self.rows]
-
-
-_LATEX = {
-    "\\": r"\textbackslash{}",
-    "−": "$-$",
-    "–": "--",
-    "×": r"$\times$",
-    "ν": r"$\nu$",
-    "≥": r"$\ge$",
-    "^": r"\textasciicircum{}",
-    "~": r"\textasciitilde{}",
-    **{character: f"\\{character}" for character in "&%$#_{}"},
-}
-
-
-def _latex(text: str) -> str:
-    """Text with what LaTeX reads as its own made plain."""
-    return "".join(_LATEX.get(character, character) for character in text)
+        shown = []
+        for row in self.rows:
+            scale = next((value.scale for value in row if isinstance(value, Unit)), 1.0)
+            shown.append([c.show(value, scale) for c, value in zip(self.columns, row, strict=True)])
+        return shown

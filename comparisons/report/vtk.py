@@ -1,4 +1,4 @@
-"""VTU files: one per solution on its own mesh, and one with all solutions on a common plan grid.
+"""VTU files of meshes with their fields, and the plan grid that solutions are put side by side on.
 
 Every file has point data `displacement` (n, 3) [m]; points are those of the undeformed sheet.
 """
@@ -10,7 +10,6 @@ from pathlib import Path
 import meshio
 import numpy as np
 
-from comparisons.comparison.comparison import Comparison
 from sheetbench.files import whole
 from sheetbench.scenes import FieldMesh, Sheet, Solution
 from sheetbench.scenes.grid import near_square
@@ -28,24 +27,6 @@ def write_mesh(path: Path, mesh: FieldMesh) -> None:
 def write_solution(path: Path, solution: Solution) -> None:
     """Write a solution on its own mesh."""
     write_mesh(path, solution.mesh)
-
-
-def write_comparison(path: Path, comparison: Comparison) -> None:
-    """Write all solutions on one plan grid, `displacement_MODEL` each, and what they differ by.
-
-    `displacement` is the reference's; `difference` is the chosen lattice's from it, `difference_MODEL` any
-    other model's.
-    """
-    plan = plan_mesh(comparison.scene.sheet)
-    fields = {s.model: s.displacement(plan.points[:, :2]) for s in comparison.solutions}
-    truth = fields[comparison.reference.model]
-    plan.point_data["displacement"] = truth
-    plan.point_data["difference"] = fields[comparison.solutions[0].model] - truth
-    for solution in comparison.solutions:
-        plan.point_data[f"displacement_{solution.model}"] = fields[solution.model]
-    for solution in comparison.solutions[2:]:
-        plan.point_data[f"difference_{solution.model}"] = fields[solution.model] - truth
-    write_mesh(path, plan)
 
 
 def plan_mesh(sheet: Sheet, cells: int = PLAN_CELLS) -> FieldMesh:

@@ -1,4 +1,4 @@
-"""What a result was made with: versions, machine, date, scene, settings and command."""
+"""What a result was made with: versions, machine, date and command."""
 
 from __future__ import annotations
 
@@ -13,19 +13,11 @@ from importlib import metadata, util
 from pathlib import Path
 from typing import Any
 
-from sheetbench.scenes import Scene
-
 PACKAGES = ("sheetbench", "lumped", "fem_reference", "comparisons")
 
 
-def manifest(scene: Scene, settings: dict[str, Any], command: list[str]) -> dict[str, Any]:
-    """The record to keep beside the result of a scene, ready for JSON."""
-    asked = scene.model_dump(mode="json", by_alias=True, exclude_none=True)
-    return {**record(command), "settings": settings, "scene": asked}
-
-
 def record(command: list[str]) -> dict[str, Any]:
-    """What does not depend on the scene: command, date, versions, machine."""
+    """The record to keep beside a result, ready for JSON: command, date, versions, machine."""
     return {
         "command": command,
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
@@ -36,9 +28,13 @@ def record(command: list[str]) -> dict[str, Any]:
     }
 
 
-def today() -> str:
-    """The date, UTC."""
-    return datetime.now(UTC).date().isoformat()
+def made_with() -> str:
+    """Version, Python, processor and date in a line, for the foot of a page."""
+    made, today = machine(), datetime.now(UTC).date().isoformat()
+    return (
+        f"sheetbench {version()}, Python {made['python']}, {made['processor']}, "
+        f"{made['cpu_count']} processors, {today}."
+    )
 
 
 def version() -> str:

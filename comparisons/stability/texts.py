@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
 from typing import Any
 
+from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 from comparisons.stability.study import Row, Study, doubtful, percent
 
@@ -14,8 +18,33 @@ _COMMON = (
     Column("iterations", form="d"),
     Column("seconds", "s", "s", 1.0, ".2f"),
     Column("reference"),
-    Column("message", prose=True),
+    Column("message", prose=True, detail=True),
 )
+
+
+def report(studies: Sequence[Study], rows: list[Row]) -> Report:
+    """What `sheetbench stability` shows of the rows of studies."""
+    of = {study.name: [row for row in rows if row["study"] == study.name] for study in studies}
+    broken = [row for row in rows if row["status"] in ("failed", "lost")]
+    return Report(
+        name="stability",
+        title="Where the solvers hold",
+        document={"rows": rows},
+        tables=tuple(table(study, of[study.name]) for study in studies),
+        complaints=tuple(f"{r['study']} {r['cell']}: {r['status']}: {r['message']}" for r in broken),
+        pictures=tuple(
+            Picture((f"{study.name}.png", f"{study.name}.pdf"), partial(_draw, study, of[study.name]))
+            for study in studies
+        ),
+        settings={"studies": list(of)},
+        met=not broken,
+    )
+
+
+def _draw(study: Study, rows: list[Row], paths: Sequence[Path]) -> None:
+    from comparisons.stability.figure import picture
+
+    picture(study, rows, list(paths))
 
 
 def table(study: Study, rows: list[Row]) -> Table:
@@ -26,7 +55,7 @@ def table(study: Study, rows: list[Row]) -> Table:
         reference = (row.get("reference") or {}).get("status")
         shown = (row["status"], row["error"], row["iterations"], row["seconds"], reference, row["message"])
         found.append(own + shown)
-    return Table(study.title, study.columns + _COMMON, tuple(found))
+    return Table(study.title, study.columns + _COMMON, tuple(found), study.name, text=text(study, rows))
 
 
 def text(study: Study, rows: list[Row]) -> str:

@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.models.grids import Asked, scene_grid
+from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
 from comparisons.runs import manifest
 from comparisons.runs.campaign import Progress, Run, carry_out
@@ -79,6 +80,25 @@ class DynamicTradeoff:
             "reference": {**self.reference, "uncertainty": self.uncertainty},
         }
 
+    def report(self) -> Report:
+        """What `sheetbench tradeoff --duration` shows."""
+        known = "unknown" if self.uncertainty is None else f"{100 * self.uncertainty:.2g} %"
+        return Report(
+            name="motion",
+            title=self.scene.name,
+            subtitle=self.scene.title,
+            document=self.as_dict(),
+            tables=(self.table(),),
+            notes=(f"lowest period {self.lowest_period:.4g} s; uncertainty of the reference {known}",),
+            complaints=tuple(
+                f"{row['integrator']}, step {row['step']:.3g} s: {row['status']}: {row['message']}"
+                for row in self.rows
+                if row["status"] != "converged"
+            ),
+            scene=self.scene,
+            settings={"duration": self.duration},
+        )
+
     def table(self) -> Table:
         """A row per integrator and step."""
         chosen = set(self.front)
@@ -99,19 +119,18 @@ class DynamicTradeoff:
         columns = (
             Column("integrator"),
             Column("step", "s", "ms", 1e3, ".4g"),
-            Column("steps", form="d"),
+            Column("steps", form="d", detail=True),
             Column("cost", "s/s", "s/s", 1.0, ".3g"),
             Column("error", "", "%", 100.0, ".3g"),
             Column("period", "", "%", 100.0, "z.3f"),
             Column("damping", "", "%", 100.0, "z.3f"),
             Column("front"),
-            Column("status"),
+            Column("status", detail=True),
         )
-        return Table(
-            f"Over {self.duration:g} s. cost: per simulated second; period: off by; damping: of critical",
-            columns,
-            found,
+        caption = (
+            f"Over {self.duration:g} s. cost: per simulated second; period: off by; damping: of critical"
         )
+        return Table(caption, columns, found, "motion")
 
 
 def measure(

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -28,6 +28,9 @@ from comparisons.tradeoff import timing
 from comparisons.tradeoff.pareto import FLOOR_FACTOR, front, grouped, order
 from fem_reference.uncertainty import coarser, estimate
 from sheetbench.scenes import Scene, comparable, require_static
+
+if TYPE_CHECKING:
+    from comparisons.report.report import Report
 
 REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the rows
 
@@ -81,6 +84,12 @@ class Tradeoff:
                 "field_uncertainty": self.field_uncertainty,
             },
         }
+
+    def report(self) -> Report:
+        """What is shown of it."""
+        from comparisons.tradeoff.tables import report
+
+        return report(self)
 
 
 def tradeoff(

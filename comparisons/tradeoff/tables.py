@@ -1,11 +1,45 @@
-"""The tables of a trade-off: its rows with their costs and errors, and the orders of its families."""
+"""What a trade-off shows: its rows with their costs and errors, the orders of its families, its picture."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
 from typing import Any
 
+from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 from comparisons.tradeoff.statics import Tradeoff
+
+
+def report(found: Tradeoff) -> Report:
+    """What `sheetbench tradeoff` shows."""
+    failed = [row for row in found.rows if row["status"] != "converged"]
+    complaints = [f"{row['label']}: {row['status']}: {row['message']}" for row in failed]
+    judged = found.uncertainty is not None
+    if not judged:
+        said = f"the reference, {found.reference['label']}: {found.reference['status']}"
+        complaints.append(f"no errors: {said}")
+    pictures = [Picture(("tradeoff.png", "tradeoff.pdf"), partial(_draw, found))]
+    return Report(
+        name="tradeoff",
+        title=found.scene.name,
+        subtitle=found.scene.title,
+        document=found.as_dict(),
+        tables=(rows(found), orders(found)),
+        notes=(explanation(found),),
+        complaints=tuple(complaints),
+        pictures=tuple(pictures if any(row["error"] for row in found.rows) else ()),
+        scene=found.scene,
+        settings={"reference": found.reference["settings"]},
+        met=judged,
+    )
+
+
+def _draw(found: Tradeoff, paths: Sequence[Path]) -> None:
+    from comparisons.tradeoff.figure import draw
+
+    draw(found, list(paths))
 
 
 def rows(tradeoff: Tradeoff) -> Table:
@@ -17,20 +51,19 @@ def rows(tradeoff: Tradeoff) -> Table:
         Column("model", prose=True),
         Column("size"),
         Column("unknowns", form="d"),
-        Column("factorisations", form="d"),
-        Column("set-up", "s", "ms", 1e3, ".1f"),
+        Column("factorisations", form="d", detail=True),
+        Column("set-up", "s", "ms", 1e3, ".1f", detail=True),
         Column("solve", "s", "ms", 1e3, ".2f"),
-        Column("from", "s", "ms", 1e3, ".2f"),
-        Column("to", "s", "ms", 1e3, ".2f"),
+        Column("from", "s", "ms", 1e3, ".2f", detail=True),
+        Column("to", "s", "ms", 1e3, ".2f", detail=True),
         Column("memory", "B", "MB", 1e-6, ".1f"),
         Column("error", "", "%", 100.0, ".3g"),
         Column("field error", "", "%", 100.0, ".3g"),
         Column("front"),
-        Column("status"),
+        Column("status", detail=True),
     )
-    return Table(
-        "Cost and error; solve: median of the repeats, from the quickest to the slowest", columns, found
-    )
+    caption = "Cost and error; solve: median of the repeats, from the quickest to the slowest"
+    return Table(caption, columns, found, "tradeoff")
 
 
 def _row(number: int, row: dict[str, Any], on_front: bool) -> tuple[Any, ...]:
@@ -67,7 +100,8 @@ def orders(tradeoff: Tradeoff) -> Table:
         Column("field error order", form="z.2f"),
         Column("time order", form="z.2f"),
     )
-    return Table("Observed orders: errors in the size of a cell, time in the unknowns", columns, found)
+    caption = "Observed orders: errors in the size of a cell, time in the unknowns"
+    return Table(caption, columns, found, "orders")
 
 
 def explanation(tradeoff: Tradeoff) -> str:

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -28,6 +28,9 @@ from comparisons.runs.store import Finished, Store
 from comparisons.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_scenes
 from comparisons.transfer.tasks import FINE
 from sheetbench.scenes import Scene, comparable
+
+if TYPE_CHECKING:
+    from comparisons.report.report import Report
 
 FITTED = ("fit-static", "fit-modal")
 METHODS = ("consistent", "moduli", *FITTED, "uniform", "cauchy", "axial", "van-gelder", "lloyd")
@@ -56,6 +59,12 @@ class Transfer:
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench transfer`: errors and misses are fractions."""
         return dict(vars(self))
+
+    def report(self) -> Report:
+        """What is shown of it."""
+        from comparisons.transfer.tables import report
+
+        return report(self)
 
 
 def transfer(

@@ -6,10 +6,26 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
 from comparisons.transfer.study import Transfer
 
 _PER_CENT = ("", "%", 100.0, "z.2f")
+
+
+def report(found: Transfer) -> Report:
+    """What `sheetbench transfer` shows."""
+    return Report(
+        name="transfer",
+        title="transfer",
+        subtitle="calibrations judged on scenes that they were not made on",
+        document=found.as_dict(),
+        tables=tuple(tables(found)),
+        notes=(explanation(found),),
+        complaints=tuple(found.failed),
+        settings={"methods": found.methods, "grids": found.grids, "elements": found.elements},
+        met=not found.failed,
+    )
 
 
 def tables(found: Transfer) -> list[Table]:
@@ -27,10 +43,10 @@ def tables(found: Transfer) -> list[Table]:
 
 def _static(found: Transfer, grid: int | None) -> Table:
     """Errors of a grid by its place among the grids, or of the extrapolated limit."""
-    caption = "Error of the limit extrapolated from the two finest grids"
+    caption, name = "Error of the limit extrapolated from the two finest grids", "static-extrapolated"
     if grid is not None:
         n = found.grids[grid]
-        caption = f"Error at {n} × {n} × 2 masses, of the largest displacement"
+        caption, name = f"Error at {n} × {n} × 2 masses, of the largest displacement", f"static-{n}"
     return Table(
         caption,
         (Column("scene"), *(Column(method, *_PER_CENT) for method in found.methods)),
@@ -41,6 +57,8 @@ def _static(found: Transfer, grid: int | None) -> Table:
                 for r in found.static
             ],
         ),
+        name,
+        grouped=True,
     )
 
 
@@ -63,7 +81,8 @@ def _limits(found: Transfer) -> Table:
     )
     keys = ("finest", "predicted_finest", "lattice_less_plate", "extrapolated", "predicted_limit")
     rows = tuple((r["scene"], r["method"], *(r[key] for key in keys)) for r in found.limits)
-    return Table("Where refinement leads, measured and predicted from the moduli report", columns, rows)
+    caption = "Where refinement leads, measured and predicted from the moduli report"
+    return Table(caption, columns, rows, "limits", grouped=True)
 
 
 def _modal(found: Transfer, grid: int) -> Table:
@@ -81,7 +100,8 @@ def _modal(found: Transfer, grid: int) -> Table:
     )
     rows = tuple((*key, *(of.get(method) for method in found.methods)) for key, of in sorted(values.items()))
     n = found.grids[grid]
-    return Table(f"Natural frequencies less the shell's at {n} × {n} × 2 masses", columns, rows)
+    caption = f"Natural frequencies less the shell's at {n} × {n} × 2 masses"
+    return Table(caption, columns, rows, f"modal-{n}", grouped=True)
 
 
 def _aspect(found: Transfer) -> Table:
@@ -89,7 +109,7 @@ def _aspect(found: Transfer) -> Table:
     rows = tuple(
         (r["scene"], f"{r['grid'][0]} × {r['grid'][1]} × 2", r["aspect"], r["error"]) for r in found.aspect
     )
-    return Table("Cells longer than wide, calibrated by `moduli`", columns, rows)
+    return Table("Cells longer than wide, calibrated by `moduli`", columns, rows, "aspect", grouped=True)
 
 
 def _left_out(found: Transfer) -> Table:
@@ -101,9 +121,8 @@ def _left_out(found: Transfer) -> Table:
     )
     rows = tuple((r["method"], r["left_out"], r["error"], *_misses(r["misses"], 3)) for r in found.left_out)
     n = found.grids[0]
-    return Table(
-        f"Fitted to the other scenes of four, judged on the one left out, {n} × {n} × 2", columns, rows
-    )
+    caption = f"Fitted to the other scenes of four, judged on the one left out, {n} × {n} × 2"
+    return Table(caption, columns, rows, "left-out", grouped=True)
 
 
 def _misses(values: np.ndarray | None, count: int) -> list[float | None]:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, replace
+from functools import partial
 from itertools import groupby
+from pathlib import Path
 from typing import Any
 
+from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 from fem_reference.verification import CASES, Row
 
@@ -21,6 +24,32 @@ COLUMNS = (
     Column("held to"),
     Column("ok"),
 )
+
+
+def report(rows: Sequence[Row], locking: bool = False) -> Report:
+    """What `sheetbench verify` shows of rows; locking: that they are the locking sweeps', with a picture."""
+    failed = [row for row in rows if not row.passed]
+    return Report(
+        name="verification",
+        title="verify",
+        subtitle="the references against what is expected of them",
+        document=as_dict(rows),
+        tables=(table(rows),),
+        printed=tuple(by_case(rows)),
+        notes=(f"{len(rows) - len(failed)} of {len(rows)} rows pass",),
+        complaints=tuple(
+            f"{row.case}: {row.quantity}: {row.computed:g} instead of {row.published:g}" for row in failed
+        ),
+        pictures=(Picture(("locking.png",), partial(_picture, rows)),) if locking else (),
+        met=not failed,
+    )
+
+
+def _picture(rows: Sequence[Row], paths: Sequence[Path]) -> None:
+    from comparisons.verification.locking import picture
+
+    for path in paths:
+        picture(path, rows)
 
 
 def table(rows: Sequence[Row]) -> Table:
@@ -39,14 +68,15 @@ def table(rows: Sequence[Row]) -> Table:
         )
         for row in rows
     )
-    return Table("References against what is expected of them", COLUMNS, shown)
+    return Table("References against what is expected of them", COLUMNS, shown, "verification")
 
 
 def by_case(rows: Sequence[Row]) -> Iterator[Table]:
     """A table for every case and mesh, with what it is."""
     for (case, mesh), some in groupby(rows, key=lambda row: (row.case, row.mesh)):
         title = f"{case}: {CASES[case].title}; {mesh}"
-        yield replace(table(list(some)), caption=title)
+        columns = tuple(replace(column, detail=column.name in ("case", "mesh")) for column in COLUMNS)
+        yield replace(table(list(some)), caption=title, columns=columns)
 
 
 def as_dict(rows: Sequence[Row]) -> dict[str, Any]:

@@ -1,0 +1,146 @@
+"""Where the answer of a verb goes: to the terminal or a JSON document, to a folder, and into the exit status.
+
+This module alone knows of `--json`, `--out`, `--overwrite`, the manifest, warnings and exit status 3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from comparisons.cli import console
+
+if TYPE_CHECKING:
+    from comparisons.report.report import Report, Write
+    from comparisons.runs.campaign import Progress
+    from comparisons.runs.executors import Pool
+    from comparisons.runs.folder import Folder
+    from comparisons.runs.store import Store
+    from sheetbench.scenes import Scene
+
+NOT_CONVERGED = 3
+
+
+class End:
+    """What a verb may do while it works, and its end when called with the report."""
+
+    def __init__(self, json: bool, folder: Folder | None) -> None:
+        self._json = json
+        self._folder = folder
+        self._also: list[str] = []
+        self._spinning = ExitStack()
+        self._say: Callable[[str], None] | None = None
+
+    def progress(self, text: str) -> None:
+        """Say on standard error what is being done."""
+        if self._say is None:
+            self._say = self._spinning.enter_context(console.progress())
+        self._say(text)
+
+    def keep(self, name: str, write: Write) -> None:
+        """Write a file of the answer as soon as it is there, if there is a folder."""
+        if self._folder is not None:
+            self._folder.write(name, write)
+
+    def place(self, name: str) -> Path | None:
+        """The place of a file, or of a folder if the name ends in "/", that a run fills by itself."""
+        return None if self._folder is None else self._folder.own(name)
+
+    @contextmanager
+    def campaign(
+        self, scheduler: str | None = None
+    ) -> Iterator[tuple[Store, Pool, Callable[[Progress], None]]]:
+        """A campaign's store in the folder, or where there is none a passing one; workers; progress."""
+        from comparisons.runs.campaign import campaign
+        from comparisons.runs.executors import pool_of
+        from comparisons.runs.store import FILE
+
+        with ExitStack() as stack:
+            if self._folder is None:
+                kept = Path(stack.enter_context(TemporaryDirectory()))
+            else:
+                kept, self._also = self._folder.path, [FILE]
+            store = stack.enter_context(campaign(kept))
+            pool = stack.enter_context(pool_of(scheduler))
+            yield store, pool, stack.enter_context(console.campaign_progress())
+
+    def stop(self, complaint: str) -> None:
+        """End without an answer, saying why."""
+        self.close()
+        console.warn(complaint)
+        raise typer.Exit(NOT_CONVERGED)
+
+    def __call__(self, report: Report, instead: str | None = None) -> None:
+        """Write the files, print the document or the tables or what is wanted `instead` of them, warn, and
+        leave with 3 where the question was not met."""
+        from comparisons.report.files import to_json
+
+        missing: list[str] = []
+        if self._folder is not None:
+            missing = [f"No picture: {said}" for said in self._folder.report(report, self.progress)]
+        self.close()
+        if instead is not None:
+            print(instead, end="")
+        elif self._json:
+            print(to_json(report.document), end="")
+        else:
+            self._print(report)
+        for said in [*missing, *report.complaints]:
+            console.warn(said)
+        if not report.met:
+            raise typer.Exit(NOT_CONVERGED)
+
+    def close(self) -> None:
+        """End the spinner."""
+        self._spinning.close()
+        self._say = None
+
+    def _print(self, report: Report) -> None:
+        console.heading(report.title, report.subtitle)
+        if report.lead:
+            console.note(report.lead)
+        for table in report.shown:
+            console.show(table)
+            if table.text:
+                console.note(table.text)
+        for said in report.notes:
+            console.note(said)
+        if self._folder is not None:
+            written = [*self._folder.written, "manifest.json", *self._also]
+            console.note(f"Files in {self._folder.path}: {', '.join(written)}")
+
+
+@contextmanager
+def finish(
+    verb: str,
+    json: bool,
+    out: str | None,
+    overwrite: bool = False,
+    *,
+    scene: Scene | None = None,
+    about: Mapping[str, Any] | None = None,
+    apart: Mapping[str, Any] | None = None,
+) -> Iterator[End]:
+    """The end of a verb, to be called with its report.
+
+    scene, or about: what the answer is about; apart: options that decide which files it leaves. Raises
+    BadInput for a folder that cannot be had, or that holds files of something else.
+    """
+    folder = None
+    if out is not None:
+        from comparisons.cli.options import command_line
+        from comparisons.runs.folder import Folder
+
+        if scene is not None:
+            about = {"scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True)}
+        folder = Folder(out, verb, command_line(), about=about, apart=apart, overwrite=overwrite)
+    end = End(json, folder)
+    try:
+        yield end
+    finally:
+        end.close()

@@ -1,0 +1,48 @@
+"""Natural frequencies as people read them: a table of all models, and what it does not say."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from comparisons.modes.spectra import Spectra
+from comparisons.report.report import Report
+from comparisons.report.table import Column, Table
+
+
+def report(found: Spectra) -> Report:
+    """What `sheetbench modes` shows."""
+    return Report(
+        name="modes",
+        title=found.scene.name,
+        subtitle=found.scene.title,
+        document=found.as_dict(),
+        tables=(table(found),),
+        notes=tuple(notes(found)),
+        scene=found.scene,
+        settings={spectrum.model: spectrum.settings for spectrum in found},
+    )
+
+
+def table(found: Spectra) -> Table:
+    """A row per mode: the frequency of every model, and how far the lattice is from the first reference."""
+    first = found[1].frequencies if len(found) > 1 else None
+    rows = []
+    for i in range(len(found[0].frequencies)):
+        row: list[Any] = [i + 1, *(float(spectrum.frequencies[i]) for spectrum in found)]
+        if first is not None:
+            row.append(float(found[0].frequencies[i] / first[i] - 1.0))
+        rows.append(tuple(row))
+    columns = [Column("mode", form="d"), *(Column(s.model, "Hz", "Hz", 1.0, ".4g") for s in found)]
+    if first is not None:
+        columns.append(Column("off by", "", "%", 100.0, "+.2f"))
+    return Table("Natural frequencies about the flat sheet", tuple(columns), tuple(rows), "modes")
+
+
+def notes(found: Spectra) -> list[str]:
+    """What the table does not say: labels, rigid motions left out, actuators left out."""
+    said = [" · ".join(spectrum.label for spectrum in found)]
+    if found[0].rigid:
+        said.append(f"{found[0].rigid} rigid motions, free of any frequency, are left out")
+    if found.scene.actuators:
+        said.append("actuators have no part in these modes: they are those of the sheet alone")
+    return said

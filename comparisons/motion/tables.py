@@ -1,0 +1,67 @@
+"""What a run shows: where the probes end and how far they go, their plot over time, the series of frames."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+from pathlib import Path
+
+from comparisons.motion import frames
+from comparisons.motion.history import Measured, as_dict, plot, series, summary
+from comparisons.report.files import write_text
+from comparisons.report.report import Picture, Report
+from sheetbench.scenes import History, Scene, Status
+
+
+def report(
+    history: History, scene: Scene, measured: Mapping[str, Measured] | None = None, animate: bool = False
+) -> Report:
+    """What `sheetbench simulate` shows of a run; measured: histories by probe; animate: draw it moving."""
+    truth = dict(measured or {})
+    pictures = [Picture(("history.png",), partial(_plot, history, scene, truth))]
+    if animate:
+        moving = partial(_animate, history, scene)
+        pictures.append(Picture(("animation.gif",), moving, "drawing the animation …"))
+    complete = history.status is Status.CONVERGED
+    resumed = history.resumed_from
+    earlier = f"went on from {resumed:.4g} s, which an earlier run had reached"
+    return Report(
+        name="history",
+        title=scene.name,
+        subtitle=scene.title,
+        lead=f"{history.label}, {history.integrator}, {history.steps} steps",
+        document=as_dict(history, truth),
+        tables=(summary(history, truth),),
+        notes=(*([earlier] if resumed else []), balance(history)),
+        complaints=() if complete else (f"{history.status}: {history.message}",),
+        pictures=tuple(pictures),
+        attachments={
+            "history.csv": lambda path: write_text(path, series(history).to_csv()),
+            "frames.pvd": lambda path: frames.write_series(path, frames.frames(scene, history)),
+        },
+        scene=scene,
+        settings={"integrator": history.integrator, **history.settings},
+        met=complete,
+    )
+
+
+def balance(history: History) -> str:
+    """How well the run kept its energy, in a sentence."""
+    spread = float(abs(history.balance - history.balance[0]).max())
+    scale = max(float(abs(energy).max()) for energy in history.energies.values())
+    return f"energy balance held to {spread / scale if scale else spread:.1e} of the largest energy"
+
+
+def _plot(history: History, scene: Scene, measured: dict[str, Measured], paths: Sequence[Path]) -> None:
+    for path in paths:
+        plot(path, history, scene.title or scene.name, measured)
+
+
+def _animate(history: History, scene: Scene, paths: Sequence[Path]) -> str | None:
+    from comparisons.report.offscreen import why_not
+
+    impossible = why_not()
+    if impossible is None:
+        for path in paths:
+            frames.animate(path, scene, frames.frames(scene, history))
+    return impossible

@@ -1,0 +1,177 @@
+"""A table as lines of text within a width: every figure and every status whole, however narrow that is.
+
+A table that is too wide first breaks its headings and its prose over lines, at spaces. Where that is not
+enough its columns are stacked in blocks, each led by the columns that name the rows. Only a word longer than
+the width itself is broken, and goes on in the next line: nothing is ever cut off.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import chain
+
+from rich.cells import cell_len
+
+from comparisons.report.escape import terminal
+from comparisons.report.table import Column, Table
+
+GAP = 2  # blanks between columns
+PROSE = 24  # a narrower column of prose is no pleasure to read
+
+
+@dataclass(frozen=True)
+class Block:
+    """Columns that stand side by side: heading lines, a rule as wide as they are, and lines of rows."""
+
+    head: list[str]
+    rule: str
+    rows: list[str]
+
+
+@dataclass(frozen=True)
+class _Strip:
+    """A column with its cells as text, and the widths that it may have."""
+
+    column: Column
+    cells: list[str]
+
+    @property
+    def wide(self) -> int:
+        """Width without a broken line."""
+        return max(map(cell_len, [*self.cells, self.column.name, self.unit]))
+
+    @property
+    def narrow(self) -> int:
+        """The least width at which every number and word is whole."""
+        words = chain(self.column.name.split(), *(c.split() for c in self.cells if self.column.prose))
+        whole = [] if self.column.prose else self.cells
+        return max(map(cell_len, [*whole, *words, self.unit]))
+
+    @property
+    def pleasant(self) -> int:
+        """The width below which columns are stacked rather than prose squeezed."""
+        return max(self.narrow, min(self.wide, PROSE)) if self.column.prose else self.narrow
+
+    @property
+    def unit(self) -> str:
+        """The shown unit in brackets."""
+        return f"[{self.column.shown_unit}]" if self.column.shown_unit else ""
+
+
+def blocks(table: Table, width: int | None) -> list[Block]:
+    """The table without its details, in blocks of at most `width` columns of text; without one, in one."""
+    brief = table.brief()
+    shown = [[terminal(text) for text in row] for row in brief.shown_rows()]
+    starts = [i == 0 or not table.grouped or shown[i][0] != shown[i - 1][0] for i in range(len(shown))]
+    for row, start in zip(shown, starts, strict=True):
+        if not start:
+            row[0] = ""
+    strips = [_Strip(column, [row[i] for row in shown]) for i, column in enumerate(brief.columns)]
+    ruled = [table.grouped and start and i > 0 for i, start in enumerate(starts)]
+    return [_block(part, _widths(part, width), ruled) for part in _stacked(strips, width)]
+
+
+def _stacked(strips: list[_Strip], width: int | None) -> list[list[_Strip]]:
+    """The columns in as few blocks as the width allows, the naming columns in front of each."""
+    if width is None or _total(s.pleasant for s in strips) <= width:
+        return [strips]
+    count = next((i for i, s in enumerate(strips) if s.column.numeric or s.column.prose), 1)
+    while count > 1 and _total(s.wide for s in strips[:count]) > width // 2:
+        count -= 1
+    keys, rest = strips[: max(count, 1)], strips[max(count, 1) :]
+    parts: list[list[_Strip]] = []
+    for strip in rest:
+        if parts and _total(s.pleasant for s in [*parts[-1], strip]) <= width:
+            parts[-1].append(strip)
+        else:
+            parts.append([*keys, strip])
+    return parts or [keys]
+
+
+def _total(widths: Iterable[int]) -> int:
+    each = list(widths)
+    return sum(each) + GAP * (len(each) - 1)
+
+
+def _widths(strips: list[_Strip], width: int | None) -> list[int]:
+    """The width of each column: as wide as it would be, or its least and what is left over, prose first.
+
+    Where not even that fits, text is broken before figures are.
+    """
+    wide = [strip.wide for strip in strips]
+    if width is None or _total(wide) <= width:
+        return wide
+    found = [strip.narrow for strip in strips]
+    while (spare := width - _total(found)) != 0:
+        if spare > 0:
+            short = [i for i, n in enumerate(found) if n < wide[i]]
+            if not short:
+                break
+            prose = [i for i in short if strips[i].column.prose]
+            found[min(prose or short, key=lambda i: found[i])] += 1
+        else:
+            text = [i for i, n in enumerate(found) if n > 2 and not strips[i].column.numeric]
+            widest = max(text or range(len(found)), key=lambda i: found[i])
+            if found[widest] <= 2:
+                break
+            found[widest] -= 1
+    return found
+
+
+def _block(strips: list[_Strip], widths: list[int], ruled: list[bool]) -> Block:
+    any_unit = any(strip.unit for strip in strips)
+    heads = []
+    for strip, width in zip(strips, widths, strict=True):
+        lines = wrapped(strip.column.name, width)
+        heads.append([*lines, strip.unit] if any_unit and strip.unit else lines)
+    rule = "─" * _total(widths)
+    rows: list[str] = []
+    for i, cells in enumerate(zip(*(strip.cells for strip in strips), strict=True)):
+        if ruled[i]:
+            rows.append(rule)
+        rows += _lines([wrapped(c, w) for c, w in zip(cells, widths, strict=True)], strips, widths)
+    height = max(map(len, heads))
+    return Block(_lines([[""] * (height - len(h)) + h for h in heads], strips, widths), rule, rows)
+
+
+def _lines(cells: list[list[str]], strips: list[_Strip], widths: list[int]) -> list[str]:
+    """Cells of several lines side by side."""
+    found = []
+    for i in range(max(map(len, cells))):
+        texts = [cell[i] if i < len(cell) else "" for cell in cells]
+        padded = [
+            " " * (width - cell_len(text)) + text
+            if strip.column.numeric
+            else text + " " * (width - cell_len(text))
+            for text, strip, width in zip(texts, strips, widths, strict=True)
+        ]
+        found.append((" " * GAP).join(padded).rstrip())
+    return found
+
+
+def wrapped(text: str, width: int) -> list[str]:
+    """The text in lines of at most `width`, broken at spaces; a longer word goes on in the next line."""
+    if cell_len(text) <= width:
+        return [text]
+    lines, line = [], ""
+    for word in text.split():
+        joined = f"{line} {word}" if line else word
+        if cell_len(joined) <= width:
+            line = joined
+            continue
+        if line:
+            lines.append(line)
+        *whole, line = _pieces(word, width)
+        lines += whole
+    return [*lines, line]
+
+
+def _pieces(word: str, width: int) -> list[str]:
+    """A word in pieces of at most `width`, or of one character where that is wider."""
+    pieces = [""]
+    for character in word:
+        if pieces[-1] and cell_len(pieces[-1] + character) > width:
+            pieces.append("")
+        pieces[-1] += character
+    return pieces

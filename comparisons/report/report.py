@@ -1,0 +1,96 @@
+"""What a question's answer has to show: one type that every way of showing takes.
+
+A terminal, a JSON document and a folder of files are made from it, in one place each; a question only says
+what its tables, notes and pictures are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from comparisons.report.escape import html, markdown
+from comparisons.report.files import to_json, write_text
+from comparisons.report.table import Table
+from sheetbench.scenes import Scene
+
+Write = Callable[[Path], None]
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture in one or more files; `draw` writes them, or answers in a sentence why there is none.
+
+    starting: what to say before, where drawing takes long enough to wonder.
+    """
+
+    names: tuple[str, ...]
+    draw: Callable[[Sequence[Path]], str | None]
+    starting: str = ""
+
+
+@dataclass(frozen=True)
+class Report:
+    """The answer to a question, ready to be shown.
+
+    name: of the document's file; page: of the tables' files in Markdown and LaTeX, `name` unless given.
+    title, subtitle, lead: what it is about, and a line more. tables: in the files, each with a name in CSV
+    too; printed: what a terminal shows instead of them. notes: remarks under the tables. complaints: what
+    went wrong, a sentence each. document: the JSON document. attachments: further files by name, with what
+    writes them. scene, settings: what was asked, for the manifest. met: whether the question has its answer.
+    """
+
+    name: str
+    title: str
+    document: Mapping[str, Any]
+    subtitle: str = ""
+    lead: str = ""
+    page: str = ""
+    tables: tuple[Table, ...] = ()
+    printed: tuple[Table, ...] | None = None
+    notes: tuple[str, ...] = ()
+    complaints: tuple[str, ...] = ()
+    pictures: tuple[Picture, ...] = ()
+    attachments: Mapping[str, Write] = field(default_factory=dict)
+    scene: Scene | None = None
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    met: bool = True
+
+    @property
+    def shown(self) -> tuple[Table, ...]:
+        """The tables for a terminal."""
+        return self.tables if self.printed is None else self.printed
+
+    def files(self, made_with: str = "") -> dict[str, Write]:
+        """Every file but the pictures, by name, with what writes it. made_with: a line under the page."""
+        page = self.page or self.name
+        texts = {
+            f"{self.name}.json": to_json(self.document),
+            **{f"{table.name}.csv": table.to_csv() for table in self.tables if table.name},
+        }
+        if self.tables:
+            texts |= {f"{page}.md": self.to_markdown(made_with), f"{page}.tex": self.to_latex()}
+        return {**self.attachments, **{name: partial(write_text, text=text) for name, text in texts.items()}}
+
+    def to_markdown(self, made_with: str = "") -> str:
+        """A page with all tables, notes and complaints; a table's text comes with the picture of its name."""
+        drawn = {Path(name).stem: name for picture in self.pictures for name in reversed(picture.names)}
+        parts = [f"# {markdown(self.title)}\n"]
+        parts += [f"{markdown(said)}\n" for said in (self.subtitle, self.lead) if said]
+        for table in self.tables:
+            if table.text:
+                parts.append(f"{html(table.text).rstrip()}\n")
+            if table.text and table.name in drawn:
+                parts.append(f"![{markdown(table.caption)}]({drawn[table.name]})\n")
+            parts.append(table.to_markdown())
+        parts += [f"{markdown(said)}\n" for said in self.notes]
+        parts += [f"- {markdown(said)}\n" for said in self.complaints]
+        return "\n".join([*parts, f"{made_with}\n"] if made_with else parts)
+
+    def to_latex(self) -> str:
+        """All tables without their details."""
+        tables = "\n".join(table.to_latex() for table in self.tables)
+        return f"% needs \\usepackage{{booktabs}} in the preamble\n\n{tables}"

@@ -1,0 +1,183 @@
+"""The folder that a verb's files go to, and its manifest: what is there, of which scene, made with what.
+
+A folder holds answers about one scene. Files of another scene, or of the same verb asked in another way that
+leaves other files, would stand side by side with new ones as if they belonged together: such a folder is
+refused, and with `overwrite` cleared first, of the files that its manifest lists and of nothing else.
+
+The manifest says what the latest run was made with, and under "runs", for every verb, what it was asked and
+which files are its own. It is written before the first file is whole, so that what an interrupted run leaves
+is known too.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from comparisons.report.files import folder, plain, to_json, write_text
+from comparisons.report.report import Report, Write
+from comparisons.runs.manifest import made_with, record
+from sheetbench.scenes.errors import BadInput
+
+MANIFEST = "manifest.json"
+ABOUT = ("scene", "sheet", "material")  # what a run is about
+NAMED = 3  # differences that a refusal names
+
+
+class Folder:
+    """A folder for the files of one run of a verb.
+
+    about: what the run is about, as {"scene": …}, the same for all runs in a folder. apart: options that
+    decide which files there are, the same for all runs of a verb. Raises BadInput for a folder that cannot
+    be made, or that holds something else, unless `overwrite`.
+    """
+
+    def __init__(
+        self,
+        path: Path | str,
+        verb: str,
+        command: Sequence[str],
+        *,
+        about: Mapping[str, Any] | None = None,
+        apart: Mapping[str, Any] | None = None,
+        overwrite: bool = False,
+    ) -> None:
+        self.path = folder(path)
+        self.written: list[str] = []
+        self._verb = verb
+        self._record = record(list(command))
+        self._about, self._apart = plain(dict(about or {})), plain(dict(apart or {}))
+        self._runs = _runs(self.path)
+        mixed = {name: said for name, run in self._runs.items() if (said := self._differences(name, run))}
+        if mixed and not overwrite:
+            name, said = next(iter(mixed.items()))
+            raise BadInput(
+                f"--out = '{path}': holds files of another '{name}' ({said}); choose another folder, "
+                "or --overwrite"
+            )
+        self._stale = [name for name in {**mixed, verb: ""} if name in self._runs] if overwrite else []
+
+    def write(self, name: str, write: Write) -> None:
+        """Write a file of the run; its name is in the manifest first."""
+        self.own(name)
+        write(self.path / name)
+
+    def own(self, name: str) -> Path:
+        """The place of a file, or of a folder of files if its name ends in "/", as one of this run's."""
+        self._clear()
+        if name not in self.written:
+            self.written.append(name)
+            self._note()
+        return self.path / name
+
+    def report(self, report: Report, progress: Callable[[str], None] = lambda text: None) -> list[str]:
+        """Write what of a report is not there yet; sentences that say why a picture is missing."""
+        for name, write in report.files(made_with()).items():
+            if name not in self.written:
+                self.write(name, write)
+        missing = []
+        for picture in report.pictures:
+            if picture.starting:
+                progress(picture.starting)
+            if said := picture.draw([self.path / name for name in picture.names]):
+                missing.append(said)
+            else:
+                self.written += picture.names
+        self._note(report.settings, finished=True)
+        return missing
+
+    def _clear(self) -> None:
+        """Remove the files of runs that this one takes the place of, once there is something to put there."""
+        for verb in self._stale:
+            for name in self._runs.pop(verb)["files"]:
+                _remove(self.path, name)
+        self._stale = []
+
+    def _note(self, settings: Mapping[str, Any] | None = None, finished: bool = False) -> None:
+        """Write the manifest."""
+        self._clear()
+        of_others = {
+            verb: {**run, "files": [name for name in run["files"] if name not in self.written]}
+            for verb, run in self._runs.items()
+        }
+        earlier = of_others.pop(self._verb, {"files": []})["files"]
+        mine = {
+            "command": self._record["command"],
+            "date": self._record["date"],
+            "finished": finished,
+            "asked": self._apart,
+            "files": [*self.written, *(name for name in earlier if (self.path / name).exists())],
+            **self._about,
+        }
+        said = {} if settings is None else {"settings": settings}
+        whole = {**self._record, **said, **self._about, "runs": {**of_others, self._verb: mine}}
+        write_text(self.path / MANIFEST, to_json(whole))
+
+    def _differences(self, verb: str, run: Mapping[str, Any]) -> str:
+        """What a run that left files here was about or asked, where that is not what this one is."""
+        there, here = (
+            of if "scene" in run and "scene" in self._about else {**of, **of.get("scene", {})}
+            for of in (run, self._about)
+        )
+        shared = [key for key in ABOUT if key in there and key in here]
+        said = _differing({key: there[key] for key in shared}, {key: here[key] for key in shared})
+        if verb == self._verb:
+            said += _differing(run.get("asked", {}), self._apart)
+        more = f" and {len(said) - NAMED} more" if len(said) > NAMED else ""
+        return "; ".join(said[:NAMED]) + more
+
+
+def _runs(path: Path) -> dict[str, Any]:
+    """What the manifest of a folder lists, by verb. Raises BadInput for a file that is none of ours."""
+    try:
+        found = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
+        runs = found.get("runs") or {found["command"][1]: {key: found[key] for key in ABOUT if key in found}}
+        return {verb: {"files": [], **run} for verb, run in runs.items()}
+    except FileNotFoundError:
+        return {}
+    except (OSError, ValueError, AttributeError, TypeError, LookupError):
+        raise BadInput(
+            f"--out = '{path}': {MANIFEST} there is none that sheetbench can read; choose another folder"
+        ) from None
+
+
+def _differing(there: Any, here: Any, at: str = "") -> list[str]:
+    """Where two JSON documents differ, a phrase each."""
+    if isinstance(there, dict) and isinstance(here, dict):
+        keys = dict.fromkeys([*there, *here])
+        return [
+            said
+            for key in keys
+            for said in _differing(there.get(key), here.get(key), f"{at}.{key}" if at else key)
+        ]
+    if isinstance(there, list) and isinstance(here, list) and len(there) == len(here):
+        pairs = enumerate(zip(there, here, strict=True), start=1)
+        return [said for i, (a, b) in pairs for said in _differing(a, b, f"{at}.{i}")]
+    return [] if there == here else [f"{at} is {_short(there)} there, {_short(here)} here"]
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, dict | list):
+        return f"of {len(value)}"
+    text = "nothing" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
+    return text if len(text) <= 40 else f"{text[:39]}…"
+
+
+def _remove(path: Path, name: str) -> None:
+    """Remove a file that the manifest lists, and the folders that are empty without it; never outside."""
+    place = path / name
+    if not place.parent.resolve().is_relative_to(path.resolve()):
+        return
+    if name.endswith("/") and place.is_dir() and not place.is_symlink():
+        for file in place.iterdir():
+            if not file.is_dir():
+                file.unlink()
+    elif not place.is_dir():
+        place.unlink(missing_ok=True)
+    for emptied in [place, *place.parents]:
+        if emptied == path or (emptied.is_dir() and any(emptied.iterdir())):
+            break
+        if emptied.is_dir():
+            emptied.rmdir()

@@ -1,0 +1,303 @@
+"""Reports: tables whole at any width, text of a scene made harmless, files of one scene in a folder."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from rich.cells import cell_len
+from test_cli import one_line, quick, run  # noqa: F401  (quick: answers without a solver)
+from test_scenes import written
+
+from comparisons.report import escape
+from comparisons.report.layout import blocks
+from comparisons.report.report import Report
+from comparisons.report.table import Column, Table, Unit, unit
+from comparisons.runs.folder import MANIFEST, Folder
+from sheetbench import scenes
+from sheetbench.scenes.errors import BadInput
+
+HOSTILE = '\x1b[31m<script>alert("x")</script>|=1+1\n`$\\'
+NUMBERS = Column("a", "m", "mm", 1e3, ".4g")
+WIDE = Table(
+    "Wide",
+    (
+        Column("probe"),
+        Column("model"),
+        *(Column(f"error of the {name}", "", "%", 100.0, ".2e") for name in ("first", "second", "third")),
+        Column("factorisations", form="d"),
+        Column("status", prose=True),
+    ),
+    (
+        ("P1", "lumped-uniform", 7.64e-7, -0.01, 12.213, 12345, "strain-outside-model at 40 % of the load"),
+        ("P1", "shell", 7.64e-7, -0.01, None, 7, "converged"),
+    ),
+)
+
+
+def text_of(table: Table, width: int | None) -> list[str]:
+    return [line for block in blocks(table, width) for line in [*block.head, block.rule, *block.rows]]
+
+
+@pytest.mark.parametrize("width", [30, 50, 80, 160, None])
+def test_every_figure_and_status_is_whole_at_any_width(width: int | None) -> None:
+    lines = text_of(WIDE, width)
+    words = " ".join(lines).split()
+    for row in WIDE.shown_rows():
+        for shown in row:
+            assert set(shown.split()) <= set(words)
+    assert width is None or max(map(cell_len, lines)) <= width
+
+
+def test_a_narrow_table_is_stacked_in_blocks_that_name_their_rows() -> None:
+    narrow = blocks(WIDE, 50)
+    assert len(narrow) > 1 and len(blocks(WIDE, 160)) == len(blocks(WIDE, None)) == 1
+    assert all("lumped-uniform" in block.rows[0] and "probe" in " ".join(block.head) for block in narrow)
+    headings = " ".join(" ".join(block.head) for block in narrow)
+    assert headings.count("factorisations") == 1 and headings.count("status") == 1
+
+
+@given(
+    st.lists(st.tuples(st.text(max_size=30), st.floats(), st.text(max_size=60)), max_size=4),
+    st.integers(4, 100),
+)
+def test_no_text_is_lost_or_too_wide(rows: list[tuple[str, float, str]], width: int) -> None:
+    """Whatever stands in the cells: all of it is printed, and nothing beyond the width."""
+    table = Table("", (Column("name"), Column("x", form=".3e"), Column("said", prose=True)), tuple(rows))
+    lines = text_of(table, width)
+    assert all(cell_len(line) <= max(width, 20) for line in lines)
+    printed = "".join(lines).replace(" ", "")
+    for name, _, said in rows:
+        for word in (*escape.terminal(name).split(), *escape.terminal(said).split()):
+            assert set(word) <= set(printed)
+
+
+def test_rows_of_a_group_stand_under_its_name() -> None:
+    table = Table("", (Column("probe"), Column("x", form="d")), (("P1", 1), ("P1", 2), ("P2", 3)), "", True)
+    (block,) = blocks(table, None)
+    assert [row.split() for row in block.rows] == [["P1", "1"], ["2"], [block.rule], ["P2", "3"]]
+
+
+def test_details_are_in_the_files_only() -> None:
+    table = Table("", (Column("a"), Column("b", detail=True)), (("x", "y"),))
+    assert "b" not in " ".join(text_of(table, None)) and "y" not in table.to_latex()
+    assert "b" in table.to_csv() and "b" in table.to_markdown()
+
+
+def test_a_row_with_a_unit_is_shown_in_it_and_kept_in_si() -> None:
+    columns = (
+        Column("name"),
+        Column("unit"),
+        Column("value", form=".4g"),
+        Column("off", "", "%", 100.0, ".1f"),
+    )
+    table = Table("", columns, (("young", unit("Pa"), 4.1e6, 0.5), ("poisson", unit(""), 0.3, 0.5)))
+    assert table.shown_rows() == [["young", "MPa", "4.1", "50.0"], ["poisson", "", "0.3", "50.0"]]
+    assert "young,Pa,4100000.0,0.5" in table.to_csv()
+    assert unit("kg/m³") == Unit("kg/m³", "kg/m³")
+
+
+def test_terminal_text_acts_on_no_terminal() -> None:
+    shown = escape.terminal(HOSTILE + "\x9b2J\u202eab\u2028")
+    assert shown.startswith(r"\x1b[31m<script>") and shown.isprintable()
+    assert escape.terminal("E = 5 MPa · ν ≥ ½ 膜 e\u0301") == "E = 5 MPa · ν ≥ ½ 膜 e\u0301"
+    assert escape.terminal("a\nb", keep="\n") == "a\nb"
+
+
+def hostile_table() -> Table:
+    return Table(HOSTILE, (Column(HOSTILE), NUMBERS), ((HOSTILE, 1.0), ("=HYPERLINK(1)", -2.0)))
+
+
+def test_markdown_has_neither_tags_nor_more_cells() -> None:
+    page = Report("x", HOSTILE, {}, tables=(hostile_table(),), notes=("[a](javascript:b)",)).to_markdown()
+    assert "<" not in page and "\x1b" not in page
+    rows = [line for line in page.splitlines() if line.startswith("|")]
+    assert len(rows) == 4
+    assert all(len(re.findall(r"(?<!\\)\|", row)) == 3 for row in rows)
+    assert not re.search(r"(?<!\\)\]\(", page)
+
+
+def test_csv_cells_are_no_formulas_and_numbers_stay_numbers() -> None:
+    rows = list(csv.reader(io.StringIO(hostile_table().to_csv())))
+    assert rows[2] == ["'=HYPERLINK(1)", "-2.0"]
+    assert (
+        escape.csv_cell("\tx") == "'\tx" and escape.csv_cell(-1.0) == -1.0 and escape.csv_cell("P1") == "P1"
+    )
+
+
+def test_latex_is_plain_on_one_line_a_row() -> None:
+    text = hostile_table().to_latex()
+    assert len(text.splitlines()) == 9 and "\x1b" not in text
+    row = text.splitlines()[5]
+    assert r"\$" in row and r"\textbackslash{}" in row and row.count(" & ") == 1
+    assert (
+        Report("x", "t", {}, tables=(hostile_table(),))
+        .to_latex()
+        .startswith("% needs \\usepackage{booktabs}")
+    )
+
+
+HOSTILE_SCENE = """
+name = "=cmd<script>"
+title = "\\u001b[2J <img src=x> | `$\\\\foo$"
+[sheet]
+length_x = 0.188
+length_y = 0.188
+thickness = 0.003
+[material]
+young = 54.5e6
+poisson = 0.48
+density = 1678.0
+[gravity]
+acceleration = [0.0, 0.0, -9.81]
+[[support]]
+edge = "x0"
+kind = "clamped"
+[probes]
+"=HYPERLINK(1)" = [0.1, 0.1]
+"a|b<i>" = [0.188, 0.1]
+"""
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_hostile_scene_is_harmless_wherever_it_is_shown(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("comparisons.comparison.tables.draw", lambda comparison, paths: "not drawn here")
+    assert run("compare", str(written(tmp_path, HOSTILE_SCENE)), "--out", str(tmp_path / "out")) == 0
+    printed = capsys.readouterr()
+    assert "\x1b" not in printed.out + printed.err and r"\x1b[2J" in printed.out
+    page = (tmp_path / "out" / "table.md").read_text(encoding="utf-8")
+    assert "<" not in page and "\x1b" not in page
+    first = [row[0] for row in csv.reader((tmp_path / "out" / "table.csv").open(encoding="utf-8"))]
+    assert "'=HYPERLINK(1)" in first and "=HYPERLINK(1)" not in first
+
+
+def about(**changes: object) -> dict[str, object]:
+    document = scenes.load("one-edge-clamped").model_dump(mode="json", by_alias=True, exclude_none=True)
+    return {"scene": {**document, **changes}}
+
+
+def report(*names: str) -> Report:
+    return Report(
+        "answer", "t", {"a": 1}, attachments={name: lambda path: path.write_text("x") for name in names}
+    )
+
+
+def files(folder: Path) -> set[str]:
+    return {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
+
+
+def test_the_same_scene_and_verb_again_is_fine_and_so_is_another_verb(tmp_path: Path) -> None:
+    Folder(tmp_path, "modes", ["m"], about=about()).report(report("a.txt"))
+    Folder(tmp_path, "modes", ["m"], about=about()).report(report("a.txt"))
+    Folder(tmp_path, "advise", ["a"], about=about()).report(report("b.txt", "a.txt"))
+    runs = json.loads((tmp_path / MANIFEST).read_text())["runs"]
+    assert runs["modes"]["files"] == []  # what another verb has written since is that verb's
+    assert runs["advise"]["files"] == ["b.txt", "a.txt", "answer.json"]
+
+
+def test_a_folder_of_another_scene_is_refused_with_what_differs(tmp_path: Path) -> None:
+    Folder(tmp_path, "modes", ["m"], about=about()).report(report("a.txt"))
+    before = files(tmp_path)
+    other = about(name="other", sheet={"length_x": 0.188, "length_y": 0.188, "thickness": 0.004})
+    for verb in ("modes", "compare"):
+        with pytest.raises(
+            BadInput, match=r"scene.name is one-edge-clamped there, other here; .*thickness is 0.003"
+        ):
+            Folder(tmp_path, verb, ["m"], about=other)
+    assert files(tmp_path) == before
+
+
+def test_springs_of_another_sheet_are_refused_beside_a_scene(tmp_path: Path) -> None:
+    Folder(tmp_path, "modes", ["m"], about=about()).report(report())
+    same = {"sheet": about()["scene"]["sheet"]}  # type: ignore[index]
+    Folder(tmp_path, "calibrate", ["c"], about=same)
+    with pytest.raises(BadInput, match=r"thickness is 0\.003 there, 0\.004 here"):
+        Folder(tmp_path, "calibrate", ["c"], about={"sheet": {**same["sheet"], "thickness": 0.004}})
+
+
+def test_other_options_of_a_verb_are_refused_where_they_leave_other_files(tmp_path: Path) -> None:
+    Folder(tmp_path, "compare", ["c"], apart={"--reference": "shell"}).report(report("shell.vtu"))
+    with pytest.raises(BadInput, match="--reference is shell there, plate here"):
+        Folder(tmp_path, "compare", ["c"], apart={"--reference": "plate"})
+    Folder(tmp_path, "modes", ["m"], apart={"--reference": "plate"})
+
+
+def test_overwrite_removes_what_the_manifest_lists_and_nothing_else(tmp_path: Path) -> None:
+    first = Folder(tmp_path, "simulate", ["s"], about=about())
+    run_folder = first.own("run/")
+    run_folder.mkdir()
+    (run_folder / "samples.bin").write_text("x")
+    first.report(report("old.txt"))
+    (tmp_path / "mine.txt").write_text("mine")
+    again = Folder(tmp_path, "modes", ["m"], about=about(name="other"), overwrite=True)
+    assert (tmp_path / "old.txt").exists()  # until there is something to put there
+    again.report(report("new.txt"))
+    assert files(tmp_path) == {"mine.txt", "new.txt", "answer.json", MANIFEST}
+    assert list(json.loads((tmp_path / MANIFEST).read_text())["runs"]) == ["modes"]
+
+
+def test_a_manifest_cannot_lead_out_of_its_folder(tmp_path: Path) -> None:
+    outside, inside = tmp_path / "outside.txt", tmp_path / "in"
+    outside.write_text("keep")
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere" / "kept.txt").write_text("keep")
+    Folder(inside, "modes", ["m"], about=about()).report(report())
+    (inside / "link").symlink_to(tmp_path / "elsewhere")
+    manifest = json.loads((inside / MANIFEST).read_text())
+    names = ["../outside.txt", str(outside), "link/kept.txt", "link/", "."]
+    manifest["runs"]["modes"]["files"] += names
+    (inside / MANIFEST).write_text(json.dumps(manifest))
+    Folder(inside, "modes", ["m"], about=about(), overwrite=True).report(report())
+    assert outside.exists() and (tmp_path / "elsewhere" / "kept.txt").exists()
+
+
+@pytest.mark.parametrize("text", ["", "[]", '{"a": 1}', '{"runs": 3}', "\x00"])
+def test_a_manifest_that_is_not_ours_is_refused(tmp_path: Path, text: str) -> None:
+    (tmp_path / MANIFEST).write_text(text)
+    with pytest.raises(BadInput, match=r"manifest\.json there is none"):
+        Folder(tmp_path, "modes", ["m"], about=about(), overwrite=True)
+
+
+def test_commands_refuse_a_folder_of_another_scene(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    few = ("--lumped", "3", "--elements", "2", "--count", "2", "--out", str(tmp_path))
+    assert run("modes", "one-edge-clamped", *few) == 0
+    capsys.readouterr()
+    assert run("modes", "two-edges-clamped", *few) == 2
+    said = one_line(capsys)
+    assert "one-edge-clamped there, two-edges-clamped here" in said and "--overwrite" in said
+    assert run("modes", "two-edges-clamped", *few, "--overwrite") == 0
+
+
+@pytest.mark.parametrize(
+    "verb",
+    [
+        ("scenes",),
+        ("compare", "one-edge-clamped"),
+        ("calibrate", "one-edge-clamped"),
+        ("modes", "one-edge-clamped"),
+        ("simulate", "one-edge-clamped"),
+        ("tradeoff", "one-edge-clamped"),
+        ("transfer",),
+        ("advise", "one-edge-clamped"),
+        ("stability",),
+        ("verify",),
+    ],
+)
+def test_an_empty_out_is_refused(verb: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(*verb, "--out", "") == 2
+    assert "--out = ''" in one_line(capsys)
+
+
+def test_brackets_in_help_are_no_markup(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("calibrate", "--help") == 0
+    assert "[springs]" in capsys.readouterr().out

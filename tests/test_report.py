@@ -179,6 +179,15 @@ def test_a_hostile_scene_is_harmless_wherever_it_is_shown(
     assert "'=HYPERLINK(1)" in first and "=HYPERLINK(1)" not in first
 
 
+def test_a_refusal_spells_out_what_would_act_on_the_terminal(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = HOSTILE_SCENE.replace("[sheet]", '"\\u001b[2Jkey" = 1\n[sheet]')
+    assert run("compare", str(written(tmp_path, text))) == 2
+    said = one_line(capsys)
+    assert "\x1b" not in said and r"\x1b[2Jkey" in said
+
+
 def about(**changes: object) -> dict[str, object]:
     document = scenes.load("one-edge-clamped").model_dump(mode="json", by_alias=True, exclude_none=True)
     return {"scene": {**document, **changes}}

@@ -102,7 +102,9 @@ def main(arguments: list[str] | None = None) -> None:
         from sheetbench.scenes.errors import BadInput  # with numpy and pydantic: help must not wait for them
 
         if isinstance(error, BadInput):
-            print(f"sheetbench: {' '.join(str(error).split())}", file=sys.stderr)
+            from comparisons.report.escape import terminal
+
+            print(f"sheetbench: {terminal(' '.join(str(error).split()))}", file=sys.stderr)
             raise SystemExit(BAD_INPUT) from None
         traceback.print_exc()
         print(

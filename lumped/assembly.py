@@ -28,7 +28,7 @@ class Assembly:
 
     springs: the families (`lumped.springs.family`), the central `links` first. couple: makes the actuators
     bound to the lattice; their rows follow those of the masses in every array. precision: of the internal
-    force.
+    force. twisting: edges along which nothing holds the director (`Scene.twisting_edges`).
     """
 
     def __init__(
@@ -38,8 +38,9 @@ class Assembly:
         weights: Weights = "tributary",
         couple: Callable[[Lattice], Coupling] | None = None,
         precision: Precision = "double",
+        twisting: frozenset[str] = frozenset(),
     ):
-        self.lattice: Lattice = build(sheet, calibration.grid, calibration.layer_distance, weights)
+        self.lattice: Lattice = build(sheet, calibration.grid, calibration.layer_distance, weights, twisting)
         self.distribution = calibration.masses
         pairs = neighbours(self.lattice.columns())
         self.coupling = couple(self.lattice) if couple is not None else None

@@ -61,7 +61,8 @@ class CellFamily:
 
 @dataclass(frozen=True)
 class Lattice:
-    """Topology and rest geometry. positions: (n, 3) [m]; share: (n,) tributary share of each mass."""
+    """Topology and rest geometry. positions: (n, 3) [m]; share: (n,) tributary share of each mass;
+    twisting: the edges along which nothing holds the director."""
 
     grid: Grid
     spacing: tuple[float, float, float]
@@ -69,6 +70,7 @@ class Lattice:
     links: tuple[LinkFamily, ...]
     cells: tuple[CellFamily, ...]
     share: np.ndarray
+    twisting: frozenset[str] = frozenset()
 
     @property
     def mass_count(self) -> int:
@@ -108,7 +110,13 @@ STEPS: tuple[tuple[str, str, tuple[int, int, int]], ...] = (
 )
 
 
-def build(sheet: Sheet, grid: Grid, layer_distance: float, weights: Weights = "tributary") -> Lattice:
+def build(
+    sheet: Sheet,
+    grid: Grid,
+    layer_distance: float,
+    weights: Weights = "tributary",
+    twisting: frozenset[str] = frozenset(),
+) -> Lattice:
     """The lattice of a sheet. `weights="full"` gives every link its family's full stiffness and every
     mass the same share, as the seed has them.
 
@@ -153,4 +161,5 @@ def build(sheet: Sheet, grid: Grid, layer_distance: float, weights: Weights = "t
         links=tuple(families),
         cells=(CellFamily("area", layer_cells), CellFamily("mid_area", corners)),
         share=share,
+        twisting=twisting,
     )

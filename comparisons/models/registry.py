@@ -119,11 +119,10 @@ def solve_lumped(scene: Scene, *, linear: bool = False, symmetry: bool = False, 
 
     started = perf_counter()
     springs = scene_springs(scene, **settings)
-    grid = list(springs.grid)
+    grid = springs.grid
     axes = [axis for axis in planes(scene) if grid[axis] % 2 and grid[axis] > 3] if symmetry else []
     for axis in axes:
-        grid[axis] = grid[axis] // 2 + 1
-    springs = replace(springs, grid=(grid[0], grid[1], grid[2]))
+        springs = springs.halved(axis)
     calibrating = perf_counter() - started
     solution = _by_parts(scene, axes, lambda part: lumped.solve(part, springs, linear=linear))
     return replace(solution, setup_seconds=solution.setup_seconds + calibrating)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from lumped import moduli
 from lumped.lattice import Distribution, Grid
 from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.springs import Either
 
 
 @dataclass(frozen=True)
@@ -34,10 +35,22 @@ class Calibration:
         """Distance of neighbouring layers [m]."""
         return self.springs.layer_distance
 
+    def halved(self, axis: int) -> Calibration:
+        """These springs on the half of the grid up to a plane of symmetry across the axis, 0 or 1.
+
+        A free edge opposite that plane stands for two opposite ones.
+        """
+        grid = [*self.grid]
+        grid[axis] = grid[axis] // 2 + 1
+        edge, strip = (_both(value) for value in (self.springs.edge_shear, self.springs.strip_shear))
+        edge[axis] = strip[axis]
+        springs = self.springs.model_copy(update={"edge_shear": either(*edge)})
+        return replace(self, grid=(grid[0], grid[1], grid[2]), springs=springs)
+
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench calibrate`; strain springs only where there are any."""
         springs = self.springs.model_dump(exclude_none=True)
-        for name in ("shear", "mid_shear", "mid_stretch"):
+        for name in ("shear", "mid_shear", "mid_stretch", "edge_shear", "strip_shear"):
             if not springs[name]:
                 del springs[name]
         distance = springs.pop("layer_distance")
@@ -61,6 +74,15 @@ def by_direction(x: float, y: float, alike: float = 1e-12) -> float | PerDirecti
     """Stiffness along x and y, one number where they are alike; what rounding put below zero is zero."""
     x, y = max(x, 0.0), max(y, 0.0)
     return x if abs(x - y) <= alike * max(x, y) else PerDirection(x=x, y=y)
+
+
+def either(x: float, y: float) -> float | Either:
+    """Values along x and y of either sign, one number where they are alike."""
+    return x if abs(x - y) <= 1e-12 * max(abs(x), abs(y)) else Either(x=x, y=y)
+
+
+def _both(value: float | Either) -> list[float]:
+    return [value.x, value.y] if isinstance(value, Either) else [value, value]
 
 
 def report(method: str, sheet: Sheet, material: Material, grid: Grid, springs: SpringSet) -> Calibration:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from lumped.calibration.calibration import Calibration, report
-from lumped.calibration.consistent import consistent
+from lumped.calibration.consistent import consistent, consistent_edges
 from lumped.calibration.least_squares import fit_moduli
 from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
 from lumped.calibration.uniform import uniform
@@ -34,6 +34,7 @@ class Method:
 
 CLOSED: dict[str, Method] = {
     "consistent": Method(consistent, "every modulus met, in closed form where links allow it"),
+    "consistent-edges": Method(consistent_edges, "the same, with the twist that free edges let go"),
     "moduli": Method(fit_moduli, "bounded least squares on the moduli"),
     "uniform": Method(uniform, "one k for all links, matched to D11 unless given", ("k", "layer_distance")),
     "cauchy": Method(cauchy, "the isotropic central-force lattice, ν = 1/3; square cells", ()),

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from sheetbench.scenes import PerDirection, SpringSet
+import numpy as np
+
+from sheetbench.scenes import EDGES, PerDirection, SpringSet
 from sheetbench.scenes.errors import BadInput
-from sheetbench.scenes.springs import DamperSet
+from sheetbench.scenes.springs import DamperSet, Either
 
 
 def along(table: SpringSet | DamperSet, family: str, direction: str) -> tuple[float, float, float]:
@@ -33,11 +35,26 @@ def of_strains(springs: SpringSet, cells: str) -> tuple[str, tuple[float, float,
     return "mid_strain", (x, y, springs.mid_shear)
 
 
+def of_edge_cells(springs: SpringSet, grid: tuple[int, int, int], twisting: frozenset[str]) -> np.ndarray:
+    """Stiffness [N/m] against shear that the edges along which nothing holds the director (`twisting`) add to
+    every cell of a layer, (cells,); to a cell at two of them the sum."""
+    cells = np.zeros((grid[1] - 1, grid[0] - 1))
+    for edge in twisting:
+        axis = EDGES[edge].normal_axis
+        opposite = next(e for e in EDGES if e != edge and EDGES[e].normal_axis == axis)
+        value = springs.strip_shear if opposite in twisting else springs.edge_shear
+        if isinstance(value, Either):
+            value = (value.x, value.y)[axis]
+        row = -1 if EDGES[edge].far_end else 0
+        cells[(slice(None), row) if axis == 0 else (row, slice(None))] += value
+    return cells.ravel()
+
+
 def names(springs: SpringSet) -> list[str]:
     """Names of the spring constants that are not zero, one a direction where directions differ."""
     found: list[str] = []
     for name, value in springs:
-        if isinstance(value, PerDirection):
+        if isinstance(value, PerDirection | Either):
             found.extend(f"{name}_{direction}" for direction in "xy" if getattr(value, direction))
         elif value and name != "layer_distance":
             found.append(name)
@@ -50,7 +67,7 @@ def changed(springs: SpringSet, name: str, value: float) -> SpringSet:
         return springs.model_copy(update={name: value})
     family, _, direction = name.rpartition("_")
     pair = getattr(springs, family, None)
-    if not isinstance(pair, PerDirection) or direction not in ("x", "y"):
+    if not isinstance(pair, PerDirection | Either) or direction not in ("x", "y"):
         raise BadInput(f"parameter {name!r}: unknown, or without a value of its own in these springs")
     return springs.model_copy(update={family: pair.model_copy(update={direction: value})})
 

@@ -197,11 +197,14 @@ def area_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iter
 
 
 def strain_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[StrainSprings]:
-    """On the cells of the layers and of the mid-surface."""
+    """On the cells of the layers and of the mid-surface, with what the edges take off the twist."""
+    twist = constants.of_edge_cells(springs, lattice.grid, lattice.twisting)
     for cells in lattice.cells:
         name, three = constants.of_strains(springs, cells.name)
-        if any(three):
-            stiffness = np.tile(three, (len(cells.nodes), 1))
+        stiffness = np.tile(three, (len(cells.nodes), 1))
+        layers = lattice.grid[2]
+        stiffness[:, 2] += np.tile(twist, layers) if cells.name == "area" else -layers * twist
+        if stiffness.any():
             yield StrainSprings(cells.nodes, stiffness, *_on_cells(lattice, pattern, cells), name)
 
 

@@ -118,7 +118,7 @@ def pose(
 ) -> Problem:
     """The lattice of a scene under its supports and loads. Raises BadInput if no mass is left to move."""
     couple = partial(Coupling, scene) if scene.actuators else None
-    assembly = Assembly(scene.sheet, springs, weights, couple, precision)
+    assembly = Assembly(scene.sheet, springs, weights, couple, precision, scene.twisting_edges())
     constraints = constrain(scene, assembly.lattice, assembly.coupling)
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)

@@ -16,9 +16,9 @@ from sheetbench.scenes.actuators import Actuator, Chain, disagreement
 from sheetbench.scenes.errors import SceneError
 from sheetbench.scenes.loads import Load, PointLoad
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
-from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
+from sheetbench.scenes.sheet import EDGES, EdgeName, Gravity, Material, Sheet
 from sheetbench.scenes.springs import DamperSet, SpringSet
-from sheetbench.scenes.supports import Support, contradiction, held_axes, holds_tilt
+from sheetbench.scenes.supports import Support, contradiction, held_axes, holds_tilt, lets_twist_go
 
 
 class Scene(Frozen):
@@ -98,6 +98,11 @@ class Scene(Frozen):
         if len(set(names)) < len(names):
             names = [f"{edge}.{i + 1}" for i, edge in enumerate(names)]
         return dict(zip(names, self.actuators, strict=True))
+
+    def twisting_edges(self) -> frozenset[EdgeName]:
+        """The edges along which nothing holds the director: free, hinged and held ones."""
+        bound = {actuator.edge for actuator in self.actuators}
+        return frozenset(e for e in EDGES if e not in bound and lets_twist_go(e, self.supports))
 
     def probe_points(self) -> np.ndarray:
         """Plan points of the probes, (n, 2) [m], in the order of `probes`."""

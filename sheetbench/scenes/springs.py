@@ -5,6 +5,9 @@ stiffnesses [N/m] (the seed's ka, kd, kz, kdT, kddT); area and mid_area are area
 [N/m], energy ½ k (a/a0 − 1)² a0 per cell of a layer and of the mid-surface. Strain springs [N/m], energy
 ½ k ε² a0, make up what those cannot on cells longer than wide: shear and mid_shear against the in-plane shear
 of a layer's and of the mid-surface's cells, mid_stretch against the stretching of the mid-surface along x, y.
+edge_shear and strip_shear change the twisting stiffness of the cells along an edge whose director nothing
+holds and leave their membrane stiffness alone: as much as shear on every layer's cell, and of the other sign
+for all layers together on the mid-surface's.
 """
 
 from __future__ import annotations
@@ -27,8 +30,17 @@ class PerDirection(Frozen):
     """For springs along z."""
 
 
+class Either(Frozen):
+    """One value a direction, of either sign."""
+
+    x: Number
+    """Along the edges x0 and x1."""
+    y: Number
+    """Along the edges y0 and y1."""
+
+
 def _form(value: Any) -> str:
-    return "per direction" if isinstance(value, dict | PerDirection) else "one number"
+    return "per direction" if isinstance(value, dict | PerDirection | Either) else "one number"
 
 
 PerFamily = Annotated[
@@ -36,6 +48,12 @@ PerFamily = Annotated[
     Discriminator(_form),
 ]
 Stiffness = Annotated[PerFamily, Unit("N/m")]
+EdgeStiffness = Annotated[
+    Annotated[
+        Annotated[Number, Tag("one number")] | Annotated[Either, Tag("per direction")], Discriminator(_form)
+    ],
+    Unit("N/m"),
+]
 Damping = Annotated[PerFamily, Unit("N·s/m")]
 
 
@@ -62,6 +80,10 @@ class SpringSet(Frozen):
     """Strain springs against the in-plane shear of the mid-surface's cells."""
     mid_stretch: Stiffness = 0.0
     """Strain springs against the stretching of the mid-surface along x and y."""
+    edge_shear: EdgeStiffness = 0.0
+    """Strain springs against the twist of cells along a free, hinged or held edge, its opposite not so."""
+    strip_shear: EdgeStiffness = 0.0
+    """The same where the opposite edge is free, hinged or held too."""
     layer_distance: Annotated[Positive, Unit("m")]
     """Distance of neighbouring layers; of two layers, about the sheet's thickness."""
 

@@ -128,6 +128,11 @@ def holds_tilt(support: AnySupport) -> bool:
     return isinstance(support, Clamped | Curved | Symmetric)
 
 
+def lets_twist_go(edge: EdgeName, supports: tuple[AnySupport, ...]) -> bool:
+    """Whether no support holds the director along an edge, so that a twisting moment fades towards it."""
+    return not any(support.edge == edge and holds_tilt(support) for support in supports)
+
+
 def rod_middle(rod: Curved, supports: tuple[AnySupport, ...], sheet: Sheet) -> float:
     """Where the middle of a bent rod lies along its edge [m]: on the plane of symmetry it meets, if any."""
     along = EDGES[rod.edge].along_axis

@@ -1,0 +1,128 @@
+"""What a free edge takes off the twisting stiffness, as a factor for the cells along it.
+
+Where nothing holds a plate's director (free, hinged and held edges) the twisting moment fades within a layer
+of width λ = √(D66/κGh) = h/√10: a strip twists as if it were that much narrower at either edge, which is the
+0.63 h/b of the torsion constant b h³/3 (1 − 0.63 h/b). A lattice has such a layer too, but one of the width
+of its cells and with the grid's S*, so it loses another width, and refining it by halves does not converge
+at second order. In the cells along such an edge D66 is therefore multiplied by a factor f that makes the
+width lost λ.
+
+A long strip of n cells of width b across, with shear links along it (stiffness S, a share s of it by the
+cells' diagonals), rate of twist 2θ = 1 and ψ_j the shear of row j, minimises
+
+    Σ_c ½ f_c D66 b ((ψ_{c+1} − ψ_c)/b − 1)² + Σ_c ½ S b [(1 − s)(ψ_c² + ψ_{c+1}²)/2 + s ((ψ_c + ψ_{c+1})/2)²]
+
+and loses the width Σ_c [b − f_c (b − (ψ_{c+1} − ψ_c))]. Both edges free: f_0 = f_{n−1} = f (of a single cell
+both reductions add) and 2 λ is lost; else ψ_n = 0 at the far edge and λ is lost. Derived for this project
+(`docs/theory.md`); the thin strip's torsion constant is Saint-Venant's.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.linalg import solveh_banded
+from scipy.optimize import brentq
+
+from lumped import moduli
+from lumped.calibration.calibration import either
+from lumped.lattice import Grid
+from lumped.springs import constants
+from sheetbench.scenes import Sheet, SpringSet
+
+MOST = 3.0  # f is sought up to this, and from where the cell's own twisting stiffness is positive
+
+
+def layer_width(thickness: float) -> float:
+    """λ [m] of a plate with the shear correction 5/6, whatever its ν."""
+    return thickness / math.sqrt(10.0)
+
+
+def with_edges(sheet: Sheet, grid: Grid, springs: SpringSet) -> tuple[SpringSet, list[str]]:
+    """The springs with `edge_shear` and `strip_shear`, and a note for edges where no factor will do.
+
+    A layer's cell takes −(1 − f) D66/Σ z_k², z_k [m] the heights of the layers.
+    """
+    spacing = sheet.length_x / (grid[0] - 1), sheet.length_y / (grid[1] - 1)
+    distance, layers = springs.layer_distance, grid[2]
+    whole = moduli.of_springs(springs, (*spacing, distance), layers)
+    twisting = float(whole.bending[2, 2])
+    heights = (np.arange(layers) - (layers - 1) / 2) * distance
+    shares = _shares(springs, (*spacing, distance))
+    found: dict[bool, list[float]] = {False: [], True: []}
+    notes = []
+    for axis in range(2):
+        along = 1 - axis
+        for both, values in found.items():
+            factor = edge_factor(
+                grid[axis] - 1,
+                spacing[axis],
+                twisting,
+                float(whole.shear[along]),
+                shares[along],
+                layer_width(sheet.thickness),
+                both,
+            )
+            if factor is None:
+                notes.append(f"no twisting stiffness of the cells along {'xy'[axis]}0 makes their edge right")
+            values.append(0.0 if factor is None else -(1.0 - factor) * twisting / float((heights**2).sum()))
+    edges = {"edge_shear": either(*found[False]), "strip_shear": either(*found[True])}
+    return springs.model_copy(update=edges), notes
+
+
+def _shares(springs: SpringSet, spacing: tuple[float, float, float]) -> list[float]:
+    """The share of S along x and along y that the furthest diagonals carry."""
+    by_x, by_y, by_diagonals = moduli.gap_shear_per_stiffness(spacing)
+    diagonals = by_diagonals * constants.along(springs, "cross_diagonal", "")[0]
+    cross = [by * constants.along(springs, "cross", name)[0] for by, name in ((by_x, "x"), (by_y, "y"))]
+    return [float(d / (d + c)) if d + c else 0.0 for d, c in zip(diagonals, cross, strict=True)]
+
+
+def edge_factor(
+    cells: int, width: float, twisting: float, shear: float, by_diagonals: float, lost: float, both: bool
+) -> float | None:
+    """f of the cells along one edge, or along both; None where no factor makes the strip lose that width.
+
+    cells: of `width` [m] across the strip; twisting: D66 [N·m]; shear: S along the edge [N/m], by_diagonals:
+    the share of it in the cells' diagonals; lost: λ [m].
+    """
+
+    def excess(factor: float) -> float:
+        factors = _factors(cells, factor, both)
+        return width_lost(factors, width, twisting, shear, by_diagonals, both) - (2.0 if both else 1.0) * lost
+
+    lowest = 0.5 + 1e-6 if both and cells == 1 else 1e-6  # the cell's own factor stays above zero
+    if excess(lowest) * excess(MOST) > 0.0:
+        return None
+    return float(brentq(excess, lowest, MOST, xtol=1e-15, rtol=1e-14))
+
+
+def _factors(cells: int, factor: float, both: bool) -> np.ndarray:
+    factors = np.ones(cells)
+    factors[0] -= 1.0 - factor
+    if both:
+        factors[-1] -= 1.0 - factor
+    return factors
+
+
+def width_lost(
+    factors: np.ndarray, width: float, twisting: float, shear: float, by_diagonals: float, both: bool
+) -> float:
+    """The width [m] by which the strip of `edge_factor` twists as if it were narrower; factors: (n,)."""
+    twist = factors * twisting / width
+    trapezoid, middle = 0.5 * (1.0 - by_diagonals) * shear * width, 0.25 * by_diagonals * shear * width
+    diagonal, beside = np.zeros(len(factors) + 1), middle - twist
+    for end in (slice(None, -1), slice(1, None)):
+        diagonal[end] += twist + trapezoid + middle
+    load = np.zeros(len(factors) + 1)
+    load[1:] += factors * twisting
+    load[:-1] -= factors * twisting
+    if not both:
+        diagonal, beside, load = diagonal[:-1], beside[:-1], load[:-1]
+    bands = np.zeros((2, len(diagonal)))
+    bands[0, 1:], bands[1] = beside, diagonal
+    sheared = solveh_banded(bands, load)
+    if not both:
+        sheared = np.append(sheared, 0.0)
+    return float(np.sum(width - factors * (width - np.diff(sheared))))

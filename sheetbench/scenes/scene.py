@@ -16,7 +16,7 @@ from sheetbench.scenes.actuators import Actuator, Chain, disagreement
 from sheetbench.scenes.errors import SceneError
 from sheetbench.scenes.loads import Load, PointLoad
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
-from sheetbench.scenes.sheet import EDGES, EdgeName, Gravity, Material, Sheet
+from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
 from sheetbench.scenes.springs import DamperSet, SpringSet
 from sheetbench.scenes.supports import Support, contradiction, held_axes, holds_tilt, lets_twist_go
 
@@ -99,7 +99,7 @@ class Scene(Frozen):
             names = [f"{edge}.{i + 1}" for i, edge in enumerate(names)]
         return dict(zip(names, self.actuators, strict=True))
 
-    def twisting_edges(self) -> frozenset[EdgeName]:
+    def twisting_edges(self) -> frozenset[str]:
         """The edges along which nothing holds the director: free, hinged and held ones."""
         bound = {actuator.edge for actuator in self.actuators}
         return frozenset(e for e in EDGES if e not in bound and lets_twist_go(e, self.supports))

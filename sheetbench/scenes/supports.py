@@ -128,7 +128,7 @@ def holds_tilt(support: AnySupport) -> bool:
     return isinstance(support, Clamped | Curved | Symmetric)
 
 
-def lets_twist_go(edge: EdgeName, supports: tuple[AnySupport, ...]) -> bool:
+def lets_twist_go(edge: str, supports: tuple[AnySupport, ...]) -> bool:
     """Whether no support holds the director along an edge, so that a twisting moment fades towards it."""
     return not any(support.edge == edge and holds_tilt(support) for support in supports)
 

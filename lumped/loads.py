@@ -124,6 +124,11 @@ class Loads:
         for part in self._parts.values():
             if part.history is not None:
                 force += part.factor(time) * part.dead
+        return force if self.conservative else force + self.followers(u, time)
+
+    def followers(self, u: np.ndarray, time: float | None = None) -> np.ndarray:
+        """The part (n, 3) [N] of the force that follows the sheet."""
+        force = np.zeros_like(self.dead)
         if self.conservative:
             return force
         x = self._assembly.lattice.positions + u[: self._assembly.lattice.mass_count]

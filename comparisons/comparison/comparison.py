@@ -161,6 +161,7 @@ class Comparison:
             "probes": self.probes(solution),
             "reactions": solution.reactions,
             "energies": solution.energies,
+            "balance": solution.balance.document() if solution.balance is not None else None,
             **({} if bar is None else {"uncertainty": bar.as_dict()}),
         }
 

@@ -92,6 +92,7 @@ def whole(part: Solution, scene: Scene, axis: int) -> Solution:
         reactions=reactions,
         energies={name: 2.0 * energy for name, energy in part.energies.items()},
         mesh=_mirrored(part.mesh, axis, middle),
+        balance=part.balance.mirrored(axis, middle) if part.balance is not None else None,
     )
 
 

@@ -40,8 +40,9 @@ class Actuator(Protocol):
     constraints; pairs: (rows, rows) bool, rows that appear together in tangent, damping or mass.
     masses: (m,) bound masses; binding: (m, rows); share: (segments, m) part of each mass's force that
     counts to each segment; mass: (rows, rows) [kg], for each of the three axes; carried: force [N] whose
-    rounding the residual cannot fall below; axis: rest places (p, 3) [m] of the points where its segments
-    end, which its first rows displace.
+    rounding the residual cannot fall below; rest: value at rest (k, 3) [m] of what its
+    first rows change, points and then directors, which turn as arms do; axis: the points (p, 3) among them,
+    where its segments end.
     """
 
     names: tuple[str, ...]
@@ -55,6 +56,7 @@ class Actuator(Protocol):
     share: np.ndarray
     mass: np.ndarray
     carried: float
+    rest: np.ndarray
     axis: np.ndarray
 
     def weight(self, acceleration: np.ndarray) -> np.ndarray:
@@ -100,6 +102,13 @@ class Actuator(Protocol):
     def reactions(self, on_masses: np.ndarray, on_rows: np.ndarray) -> dict[str, np.ndarray]:
         """Force (3,) [N] of what holds the actuator, by its name among a solution's reactions, from what is
         exerted on its masses (m, 3) and its rows (rows, 3); empty where nothing holds it."""
+        ...
+
+    def held_moment(
+        self, positions: np.ndarray, on_masses: np.ndarray, on_rows: np.ndarray, y: np.ndarray, drive: Drive
+    ) -> np.ndarray:
+        """Moment (3,) [N·m] about the origin of what holds the actuator, from what is exerted on its masses,
+        which are at `positions` (m, 3), and on its rows; a corner's among it."""
         ...
 
     def wrenches(self, positions: np.ndarray, on_masses: np.ndarray, y: np.ndarray) -> np.ndarray:

@@ -62,7 +62,7 @@ class Chain:
         start = np.append(np.array(sheet.edge_ends(first.edge)[0]), self.offset)
         axes = np.array([along, UP, edge.outward])
         self.frames = frames = Frames(first, start, sheet.lengths[edge.along_axis], axes, corners)
-        self.axis = frames.rest[: frames.points]
+        self.rest, self.axis = frames.rest, frames.rest[: frames.points]
         self.multipliers = frames.constraints
         self.rows = frames.coordinates + frames.multiplier_rows
         multipliers = np.arange(3 * frames.multiplier_rows).reshape(-1, 3) < self.multipliers
@@ -184,6 +184,21 @@ class Chain:
             return {}
         whole = on_rows + self.binding.T @ on_masses
         return {self._chains[0].held_as: whole[self.frames.base_points].sum(axis=0)}
+
+    def held_moment(
+        self, positions: np.ndarray, on_masses: np.ndarray, on_rows: np.ndarray, y: np.ndarray, drive: Drive
+    ) -> np.ndarray:
+        """Moment on the points and directors that are held, and on the frame that a base is."""
+        count = self.frames.coordinates
+        whole = np.where(self.free, 0.0, on_rows + self.binding.T @ on_masses)[:count]
+        return np.cross(self.frames.rest + y[:count], whole).sum(axis=0) + self._on_ground(y, drive)
+
+    def _on_ground(self, y: np.ndarray, drive: Drive) -> np.ndarray:
+        """Moment (3,) [N·m] of the base on the chain through its joints and constraints."""
+        v = self.frames.vectors(y)
+        stiffness, rest, _ = self._joint_springs(drive)
+        by_measure, _ = joints.derivatives(self._measures(self.frames.products(v)), stiffness, rest)
+        return self.frames.ground_couple(v, np.concatenate([self._forces_of(y), by_measure.ravel()]))
 
     def place_corner(self, end: int, layers: np.ndarray, moved: np.ndarray) -> np.ndarray:
         """Displacement (rows, 3) [m] that follows a corner's layers at the heights (l,), moved by (l, 3)."""

@@ -182,6 +182,25 @@ class Coupling:
             found |= actuator.reactions(exerted[actuator.masses], exerted[place])
         return found
 
+    def held_moment(self, u: np.ndarray, exerted: np.ndarray, drive: Drive) -> np.ndarray:
+        """Moment (3,) [N·m] about the origin of what holds the actuators, corners of chains among it, from
+        what holds masses and rows, (size, 3) [N]."""
+        total = np.zeros(3)
+        for actuator, place in self._each():
+            positions = self._positions[actuator.masses] + u[actuator.masses]
+            on = exerted[actuator.masses], exerted[place]
+            total += actuator.held_moment(positions, *on, u[place], drive)
+        return total
+
+    def moment(self, u: np.ndarray, force: np.ndarray) -> np.ndarray:
+        """Moment (3,) [N·m] about the origin of forces (size, 3) on the actuators' rows: points take it at
+        their places, directors as they turn."""
+        total = np.zeros(3)
+        for actuator, place in self._each():
+            rest = actuator.rest
+            total += np.cross(rest + u[place][: len(rest)], force[place][: len(rest)]).sum(axis=0)
+        return total
+
     def wrenches(self, u: np.ndarray, on_masses: np.ndarray) -> dict[str, np.ndarray]:
         """Force and moment of each segment on the sheet, (segments, 6) [N, N·m] by actuator, from the forces
         that the actuators exert on the masses, (size, 3) [N]."""

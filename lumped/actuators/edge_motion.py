@@ -20,7 +20,7 @@ class RigidMotion:
     on every mass of the edge."""
 
     rows, multipliers, carried = 0, 0, 0.0
-    axis = np.zeros((0, 3))
+    rest = axis = np.zeros((0, 3))
 
     def __init__(
         self,
@@ -89,6 +89,13 @@ class RigidMotion:
     def reactions(self, on_masses: np.ndarray, on_rows: np.ndarray) -> dict[str, np.ndarray]:
         """What holding the motion takes."""
         return {self._held_as: self.share[0] @ on_masses}
+
+    def held_moment(
+        self, positions: np.ndarray, on_masses: np.ndarray, on_rows: np.ndarray, y: np.ndarray, drive: Drive
+    ) -> np.ndarray:
+        """What turning the edge takes."""
+        moment: np.ndarray = self.share[0] @ np.cross(positions, on_masses)
+        return moment
 
     def wrenches(self, positions: np.ndarray, on_masses: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Force and moment about the edge's middle, where it is now."""

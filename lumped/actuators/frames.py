@@ -128,11 +128,22 @@ class Frames:
 
     def gradient(self, v: np.ndarray) -> np.ndarray:
         """Derivatives (k, coordinates, 3) of the quantities by the coordinate rows."""
-        by_vector = np.zeros((len(self.target), len(v), 3))
-        np.add.at(by_vector, (self._quantity, self._first), self._weight[:, None] * v[self._second])
-        np.add.at(by_vector, (self._quantity, self._second), self._weight[:, None] * v[self._first])
-        by_row: np.ndarray = np.matmul(self._map.T, by_vector)
+        by_row: np.ndarray = np.matmul(self._map.T, self._by_vector(v))
         return by_row
+
+    def ground_couple(self, v: np.ndarray, multipliers: np.ndarray) -> np.ndarray:
+        """Moment (3,) [N·m] that keeps the ground's frame from turning: Σ v × Σ multiplier × slope by v."""
+        ground = slice(3 * self.segments, 3 * self.segments + 3)
+        pull = np.tensordot(multipliers, self._by_vector(v)[:, ground], axes=1)
+        couple: np.ndarray = np.cross(v[ground], pull).sum(axis=0)
+        return couple
+
+    def _by_vector(self, v: np.ndarray) -> np.ndarray:
+        """Derivatives (k, vectors, 3) of the quantities by the vectors."""
+        out = np.zeros((len(self.target), len(v), 3))
+        np.add.at(out, (self._quantity, self._first), self._weight[:, None] * v[self._second])
+        np.add.at(out, (self._quantity, self._second), self._weight[:, None] * v[self._first])
+        return out
 
     def curvature_of(self, multipliers: np.ndarray) -> np.ndarray:
         """Σ multiplier × second derivative of its quantity, (coordinates, coordinates), for each axis."""

@@ -169,6 +169,12 @@ def all_rounding(
 
 def rounding_floor(problem: Problem, u: np.ndarray, load_factor: float) -> float:
     """Residual, relative to the forces as in `Problem.residual`, that rounding of the link forces leaves."""
+    scale = problem.force_scale(u, load_factor)
+    return rounding(problem, u) / scale if scale > 0.0 else np.inf
+
+
+def rounding(problem: Problem, u: np.ndarray) -> float:
+    """Norm of the forces [N] that rounding of the link forces leaves."""
     assembly = problem.assembly
     carried = np.zeros(len(u))
     # relative displacements are differences of u: their rounding, times the stiffness
@@ -176,5 +182,4 @@ def rounding_floor(problem: Problem, u: np.ndarray, load_factor: float) -> float
     np.add.at(carried, assembly.links.nodes.ravel(), np.repeat(rounded, 2))
     if assembly.coupling is not None:
         carried += assembly.coupling.carried()
-    scale = problem.force_scale(u, load_factor)
-    return float(assembly.rounding * np.linalg.norm(carried) / scale) if scale > 0.0 else np.inf
+    return float(assembly.rounding * np.linalg.norm(carried))

@@ -78,7 +78,7 @@ class Problem:
             self.base.add_tangent(u, 1.0, blocks)
         if self.assembly.coupling is not None:
             slots = self.assembly.coupling_slots
-            self.assembly.coupling.add_tangent(u, self._commands(load_factor), slots, blocks)
+            self.assembly.coupling.add_tangent(u, self.commands(load_factor), slots, blocks)
         return blocks
 
     def factor(self, blocks: np.ndarray) -> Factor:
@@ -100,14 +100,14 @@ class Problem:
         """Displacement of the masses that supports and actuators put in place."""
         placed = self.constraints.prescribed(load_factor if self.base is None else 1.0)
         if self.assembly.coupling is not None:
-            placed = placed + self.assembly.coupling.driven(self._commands(load_factor))
+            placed = placed + self.assembly.coupling.driven(self.commands(load_factor))
         return placed
 
     def internal(self, u: np.ndarray, load_factor: float) -> tuple[float, np.ndarray]:
         """Elastic energy [J] and internal force, actuators included."""
         energy, force = self.assembly.force(u)
         if self.assembly.coupling is not None:
-            energy += self.assembly.coupling.add_force(u, self._commands(load_factor), force)
+            energy += self.assembly.coupling.add_force(u, self.commands(load_factor), force)
         return energy, force
 
     def growing(self, u: np.ndarray) -> np.ndarray:
@@ -117,7 +117,8 @@ class Problem:
             return force
         return force - self.assembly.coupling.command_force(u, Drive(1.0))
 
-    def _commands(self, load_factor: float) -> Drive:
+    def commands(self, load_factor: float) -> Drive:
+        """The actuators' commands at a load factor."""
         return Drive(load_factor if self.base is None else 1.0)
 
     def external(self, u: np.ndarray, load_factor: float) -> np.ndarray:

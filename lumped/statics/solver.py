@@ -19,6 +19,7 @@ from lumped.linear.solver import SingularMatrixError
 from lumped.linear.threads import one_blas_thread
 from lumped.loads import Loads, locate
 from lumped.statics import validity
+from lumped.statics.balance import balance
 from lumped.statics.energy_descent import descend, disturbed
 from lumped.statics.equilibrium import FACTORISATIONS, State, StepFailed, at_rest, follow, predictor
 from lumped.statics.fields import field_mesh
@@ -91,10 +92,10 @@ def solve(
     with one_blas_thread():
         outcome = flat_step(scene, problem) if linear else settle(scene, problem, branch)
     done = time.perf_counter()
-    solution = _solution(scene, springs, problem, outcome, (ready - began, done - ready), branch, weights)
-    if not linear or outcome.status is Status.SINGULAR:
-        return solution
-    return _of_small_displacements(solution, problem, outcome.state)
+    usual = {"branch": "path", "weights": "tributary", "precision": "double", "linear": False}
+    options = {"branch": branch, "weights": weights, "precision": precision, "linear": linear}
+    asked = {name: value for name, value in options.items() if value != usual[name]}
+    return _solution(scene, springs, problem, outcome, (ready - began, done - ready), asked)
 
 
 @cache
@@ -142,20 +143,6 @@ def flat_step(scene: Scene, problem: Problem) -> Outcome:
 def _singular(problem: Problem, error: SingularMatrixError) -> Outcome:
     rest = State(np.zeros_like(problem.loads.dead), 0.0, *_nothing(problem))
     return Outcome(Status.SINGULAR, rest, notes=(f"the flat sheet's tangent is singular: {error}",))
-
-
-def _of_small_displacements(solution: Solution, problem: Problem, state: State) -> Solution:
-    """The solution of `flat_step` with reactions K u − f and energy ½ u·K u."""
-    internal = problem.system.apply(state.blocks, state.u)
-    reactions, on_masses = problem.constraints.reactions(internal - problem.growing(np.zeros_like(state.u)))
-    return replace(
-        solution,
-        label=f"{solution.label}, linear",
-        settings={**solution.settings, "linear": True},
-        reactions=reactions,
-        energies={"elastic": 0.5 * float(np.sum(internal * state.u))},
-        mesh=field_mesh(problem, state.u, on_masses, state.stresses),
-    )
 
 
 def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
@@ -210,7 +197,10 @@ def _judge(scene: Scene, problem: Problem, state: State) -> tuple[Status, list[s
         status = rounded.status
     notes.extend(filter(None, [doubts, rounded.message if rounded is not None else ""]))
     if not problem.assembly.conservative:
-        notes.append("per-direction springs: not central, no energy; solved with an unsymmetric tangent")
+        notes.append(
+            "per-direction springs: not central, they have no energy and keep no moments; solved with an "
+            "unsymmetric tangent"
+        )
     elif not problem.conservative:
         notes.append("follower loads: solved with an unsymmetric tangent")
     return status, notes
@@ -237,16 +227,17 @@ def _solution(
     problem: Problem,
     outcome: Outcome,
     seconds: tuple[float, float],
-    branch: Branch,
-    weights: Weights,
+    asked: dict[str, Any],
 ) -> Solution:
+    """The answer of an outcome; asked: the options that are not their defaults."""
     state, lattice = outcome.state, problem.assembly.lattice
-    unbalanced, _ = problem.residual(state.u, state.load_factor)
-    reactions, on_masses = problem.constraints.reactions(-unbalanced)
+    linear = asked.get("linear", False)
+    exerted, energies = _of_small_displacements(problem, state) if linear else _at(problem, state)
+    reactions, on_masses = problem.constraints.reactions(exerted)
     coupling = problem.assembly.coupling
-    wrenches = coupling.wrenches(state.u, -unbalanced) if coupling is not None else {}
+    wrenches = coupling.wrenches(state.u, exerted) if coupling is not None else {}
     if coupling is not None:
-        reactions |= coupling.reactions(-unbalanced)
+        reactions |= coupling.reactions(exerted)
     columns = lattice.columns().reshape(-1, lattice.grid[2])
     mid_surface = state.u[columns].mean(axis=1)
 
@@ -258,17 +249,10 @@ def _solution(
     nx, ny, layers = lattice.grid
     settings: dict[str, Any] = {"grid": [nx, ny, layers], "calibration": springs.method}
     settings["layer_distance"] = springs.layer_distance
-    if branch != "path":
-        settings["branch"] = branch
-    if weights != "tributary":
-        settings["weights"] = weights
-    if problem.assembly.precision != "double":
-        settings["precision"] = problem.assembly.precision
-    energies = problem.assembly.energies(state.u)
     return Solution(
         model="lumped",
-        label=f"lumped {nx}×{ny}×{layers} {springs.method}",
-        settings=settings,
+        label=f"lumped {nx}×{ny}×{layers} {springs.method}" + (", linear" if linear else ""),
+        settings=settings | asked,
         status=outcome.status,
         unknowns=problem.system.unknowns,
         iterations=problem.factorisations,
@@ -277,10 +261,25 @@ def _solution(
         sample=sample,
         reactions=reactions,
         energies=energies,
-        mesh=field_mesh(problem, state.u, on_masses),
+        mesh=field_mesh(problem, state.u, on_masses, state.stresses),
         history=tuple(problem.history),
         load_factor=state.load_factor,
         actuators=wrenches,
+        balance=balance(scene, problem, state, reactions, exerted, linear),
         snaps=outcome.snaps,
         notes=outcome.notes,
     )
+
+
+def _at(problem: Problem, state: State) -> tuple[np.ndarray, dict[str, float]]:
+    """What is exerted on masses and rows at an equilibrium, internal less external force (size, 3) [N], and
+    the energies [J]."""
+    unbalanced, _ = problem.residual(state.u, state.load_factor)
+    return -unbalanced, problem.assembly.energies(state.u)
+
+
+def _of_small_displacements(problem: Problem, state: State) -> tuple[np.ndarray, dict[str, float]]:
+    """The same of `flat_step`: K u − f and ½ u·K u."""
+    internal = problem.system.apply(state.blocks, state.u)
+    external = state.load_factor * problem.growing(np.zeros_like(state.u))
+    return internal - external, {"elastic": 0.5 * float(np.sum(internal * state.u))}

@@ -1,6 +1,7 @@
 """What is asked: sheet, material, supports, loads, probes, the catalogue, published figures; no solver."""
 
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable, EdgeMotion
+from sheetbench.scenes.balance import Balance, dead_force
 from sheetbench.scenes.errors import BadInput, Implausible, SceneError
 from sheetbench.scenes.files import catalogue, load
 from sheetbench.scenes.history import History
@@ -29,6 +30,7 @@ __all__ = [
     "EDGES",
     "Actuator",
     "BadInput",
+    "Balance",
     "Chain",
     "Clamped",
     "CurvatureTable",
@@ -61,6 +63,7 @@ __all__ = [
     "Symmetric",
     "catalogue",
     "comparable",
+    "dead_force",
     "free_rigid_motions",
     "held_axes",
     "holds_director",

@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from sheetbench.scenes.balance import Balance
+
 
 class Status(StrEnum):
     """How a solve ended. `advice` says what a user can do about it."""
@@ -86,7 +88,9 @@ class Solution:
     support or a prescribed motion exerts on the sheet, by its edge, and a held base on its chain, by "EDGE
     base"; energies: name → [J]; iterations: tangent factorisations, all
     of them; load_factor: 1 where the full load was reached, else the last converged load; actuators: name →
-    force and moment of each segment on the sheet, (segments, 6) [N, N·m]. snaps: load factors at which the
+    force and moment of each segment on the sheet, (segments, 6) [N, N·m]. balance: what the forces leave
+    over, None where a model does not tell; an equilibrium that is out of balance is none, its status
+    `diverged`. snaps: load factors at which the
     sheet left its load path for an equilibrium far away; fallback: what was solved in place of what was
     asked, and why; notes: what else there is to say, a clause each.
     """
@@ -106,9 +110,15 @@ class Solution:
     history: tuple[Iteration, ...] = ()
     load_factor: float = 1.0
     actuators: dict[str, np.ndarray] = field(default_factory=dict)
+    balance: Balance | None = None
     snaps: tuple[float, ...] = ()
     fallback: str = ""
     notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.status in _EQUILIBRIA and self.balance is not None and not self.balance.holds:
+            object.__setattr__(self, "status", Status.DIVERGED)
+            object.__setattr__(self, "notes", (self.balance.said(), *self.notes))
 
     @property
     def message(self) -> str:

@@ -1,0 +1,43 @@
+"""What a lattice's forces leave over: supports, motions, held bases and loads summed (`scenes.Balance`).
+
+Springs and joints are central or turn with what they join, so that their forces on masses and rows cancel,
+and so do their moments: what is left over is the residual of the free unknowns, and what rounding leaves of
+links as stiff as these. Springs of unequal stiffness along x, y and z are neither, and keep no moments.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lumped.statics.equilibrium import FINE, State, rounding
+from lumped.statics.problem import Problem
+from sheetbench.scenes import Balance, Scene, dead_force
+
+
+def balance(
+    scene: Scene,
+    problem: Problem,
+    state: State,
+    reactions: dict[str, np.ndarray],
+    exerted: np.ndarray,
+    linear: bool = False,
+) -> Balance:
+    """The balance of an equilibrium: its reactions (3,) [N], and what is exerted on masses and rows, internal
+    less external force (size, 3) [N]; linear: on the flat sheet."""
+    lattice, coupling = problem.assembly.lattice, problem.assembly.coupling
+    n, share = lattice.mass_count, state.load_factor
+    at = np.zeros_like(state.u) if linear else state.u
+    places = lattice.positions + at[:n]
+    external = problem.external(at, share)
+    followers = problem.loads.followers(at)[:n].sum(axis=0)
+    force = np.sum(list(reactions.values()), axis=0) + share * (dead_force(scene) + followers)
+    held = np.where(problem.constraints.held[:n], exerted[:n], 0.0)
+    moment = np.cross(places, held + external[:n]).sum(axis=0)
+    if coupling is not None:
+        moment += coupling.held_moment(at, exerted, problem.commands(share))
+        moment += coupling.moment(at, external)
+    size = problem.force_scale(at, share)
+    # a sum of n numbers is at most √n times their norm, in which residuals are measured
+    allowed = np.sqrt(len(at)) * max(FINE * size, rounding(problem, state.u))
+    arm = float(np.linalg.norm(places, axis=1).max())
+    return Balance(force, moment, size, float(allowed), arm, objective=problem.assembly.conservative)

@@ -1,0 +1,107 @@
+"""Whether what holds a sheet and what loads it are in balance, as an answer has them.
+
+    Σ reactions + Σ loads = 0,    Σ moments = 0 about the origin of the flat sheet's frame
+
+Reactions are those that the answer lists: what it leaves out is missing here. The force of the dead loads is
+the scene's own, from density, sides and what is asked, and not what a model has made of it; followers'
+forces, which depend on the shape, and moments are the model's, on the sheet as it lies then (a linear model's
+on the flat one). What is left over is compared with what the model's own tolerance and rounding may leave.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from sheetbench.scenes.actuators import Chain
+from sheetbench.scenes.loads import EdgeLoad, PointLoad
+from sheetbench.scenes.scene import Scene
+from sheetbench.scenes.sheet import EDGES
+
+
+@dataclass(frozen=True)
+class Balance:
+    """What an answer's forces leave over: force (3,) [N], moment (3,) [N·m].
+
+    size: of the forces that balance, as the model measures its residual [N]; allowed: force [N] that its
+    tolerance and rounding may leave; arm: [m], by which a force of that size may leave a moment.
+    objective: whether the model's law keeps moments at all.
+    """
+
+    force: np.ndarray
+    moment: np.ndarray
+    size: float
+    allowed: float
+    arm: float
+    objective: bool = True
+
+    @property
+    def left(self) -> float:
+        """The larger of the force and of the moment over the arm [N]."""
+        moment = float(np.linalg.norm(self.moment)) / self.arm if self.objective else 0.0
+        return max(float(np.linalg.norm(self.force)), moment)
+
+    @property
+    def relative(self) -> float:
+        """`left` over the size of the forces; 0 where there are none."""
+        return self.left / self.size if self.size > 0.0 else 0.0
+
+    @property
+    def holds(self) -> bool:
+        """Whether no more is left than allowed."""
+        return self.left <= self.allowed
+
+    def said(self) -> str:
+        """What is left over, in a clause."""
+        force, moment = (float(np.linalg.norm(part)) for part in (self.force, self.moment))
+        share = f"{self.relative:.1g} of all"
+        return f"forces out of balance by {force:.2g} N, moments by {moment:.2g} N·m ({share})"
+
+    def mirrored(self, axis: int, middle: float) -> Balance:
+        """Of this part of a sheet and its mirror image across the plane at `middle` [m] of an axis."""
+        flip = np.ones(3)
+        flip[axis] = -1.0
+        image, beyond = flip * self.force, np.zeros(3)
+        beyond[axis] = 2.0 * middle
+        moment = self.moment - flip * self.moment + np.cross(beyond, image)
+        return replace(
+            self,
+            force=self.force + image,
+            moment=moment,
+            size=2.0 * self.size,
+            allowed=2.0 * self.allowed,
+            arm=self.arm + 2.0 * middle,
+        )
+
+    def document(self) -> dict[str, Any]:
+        """For JSON: N, N·m, and what is left as a fraction of the forces."""
+        return {
+            "force": self.force.tolist(),
+            "moment": self.moment.tolist(),
+            "relative": self.relative,
+            "holds": self.holds,
+        }
+
+
+def dead_force(
+    scene: Scene, area: float | None = None, lengths: dict[str, float] | None = None
+) -> np.ndarray:
+    """The force (3,) [N] of all dead loads, with the last factors of their histories.
+
+    area [m²] and lengths [m] by edge: the meshed sheet's, where it is not the scene's.
+    """
+    sheet = scene.sheet
+    sides = {name: sheet.lengths[edge.along_axis] for name, edge in EDGES.items()} | (lengths or {})
+    total = np.zeros(3)
+    if scene.gravity is not None:
+        mass = scene.material.density * sheet.thickness * (area or sheet.length_x * sheet.length_y)
+        mass += sum(c.line_density * sides[c.edge] for c in scene.actuators if isinstance(c, Chain))
+        total += mass * np.array(scene.gravity.last_acceleration)
+    for load in scene.loads:
+        if isinstance(load, PointLoad):
+            total += load.last_factor * np.array(load.force)
+        elif isinstance(load, EdgeLoad):
+            total += load.last_factor * sides[load.edge] * np.array(load.force_per_length)
+    return total

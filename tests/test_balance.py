@@ -1,0 +1,149 @@
+"""Balance: every answer's reactions carry its loads, forces and moments, in every model; and what if not."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from dynamic_cases import scene, springs
+from numpy.testing import assert_allclose
+
+import lumped
+from comparisons.models import registry as models
+from sheetbench.scenes import Balance, Status, dead_force, load
+
+SIDE = 0.188
+CLAMP = {"edge": "x0", "kind": "clamped"}
+LOADS = [
+    {"kind": "point", "at": [0.15, 0.1], "force": [0.1, -0.2, 0.3]},
+    {"kind": "edge", "edge": "x1", "force_per_length": [1.0, 0.5, -1.0], "moment_per_length": 0.05},
+    {"kind": "pressure", "value": 40.0, "history": {"time": [0.0, 1.0], "factor": [1.0, -0.5]}},
+]
+TURNED = {
+    "kind": "motion",
+    "edge": "x1",
+    "time": [0.0],
+    "displacement": [[-0.002, 0.0, 0.01]],
+    "rotation": [[0.0, 0.2, 0.1]],
+}
+CORNERS = [TURNED, {"kind": "motion", "edge": "y0", "time": [0.0], "displacement": [[0.0, 0.0, 0.0]]}]
+
+
+def held(base, **more):
+    """A sheet that nothing holds but the base of a chain on edge x0."""
+    chain = {"edge": "x0", "base": base, "bending_stiffness": 5.0, "curvature": 2.0, **more}
+    return scene(supports=[], actuators=[chain])
+
+
+SCENES = {
+    "clamped, all loads": scene(supports=[CLAMP], loads=LOADS),
+    "tilted and held": scene(
+        supports=[{**CLAMP, "tilt": 0.3}, {"edge": "y1", "kind": "held", "components": ["z"]}],
+        loads=LOADS[:1],
+    ),
+    "hinged all around": scene(
+        supports=[{"edge": e, "kind": "hinged"} for e in ("x0", "x1", "y0", "y1")], loads=LOADS
+    ),
+    "curved": load("curved-edge"),
+    "cut by symmetry": scene(
+        supports=[{**CLAMP, "kind": "curved", "curvature": 2.0}, {"edge": "y1", "kind": "symmetric"}],
+        loads=LOADS[2:],
+    ),
+    "a moved edge": scene(supports=[CLAMP], actuators=[TURNED], loads=LOADS[:1]),
+    "a chain at a held corner": scene(
+        supports=[{"edge": "y0", "kind": "clamped"}],
+        actuators=[{"edge": "x1", "face": "top", "curvature": 4.0}],
+    ),
+    "unequal chains": scene(
+        supports=[CLAMP],
+        actuators=[{"face": "top", "line_density": 0.02}, {"face": "bottom", "line_density": 0.07}],
+    ),
+    "held at its start": held("start", face="top"),
+    "held at a joint in the middle": held("middle", plane="spatial"),
+    "held at a segment in the middle": held("middle", segments=7, face="bottom"),
+    "weightless": scene(supports=[CLAMP, {"edge": "x1", "kind": "clamped"}], gravity=False),
+}
+MODELS = {
+    "lattice": ("lumped", {"grid": (5, 5, 2)}),
+    "linear lattice": ("lumped", {"grid": (5, 5, 2), "linear": True}),
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("model", MODELS)
+def test_forces_and_moments_are_in_balance(name, model):
+    asked = SCENES[name]
+    if model == "linear lattice" and asked.actuators:
+        pytest.skip("refused")
+    solution = models.solve(asked, MODELS[model][0], **MODELS[model][1])
+    assert solution.status in (Status.CONVERGED, Status.UNSTABLE), solution.message
+    balance = solution.balance
+    assert balance.holds and balance.relative < 1e-8
+    if not any(load.kind == "pressure" for load in asked.loads):
+        assert_allclose(sum(solution.reactions.values()) + dead_force(asked), 0.0, atol=1e-8 * balance.size)
+    assert list(balance.document()) == ["force", "moment", "relative", "holds"]
+
+
+@pytest.mark.parametrize("model", [m for m in MODELS if m != "solid"])
+def test_a_part_is_in_balance_and_so_is_the_whole(model):
+    asked = scene(
+        supports=[{"edge": e, "kind": "hinged"} for e in ("x0", "x1", "y0", "y1")],
+        loads=[LOADS[2], {"kind": "point", "at": [SIDE / 2, SIDE / 2], "force": [0.0, 0.0, 0.3]}],
+    )
+    name, settings = MODELS[model]
+    solution = models.solve(asked, name, symmetry=True, **settings)
+    assert solution.settings["symmetry"] == ["x", "y"]
+    assert solution.balance.holds and solution.balance.relative < 1e-8
+
+
+def test_the_image_of_a_force_is_where_a_mirror_puts_it():
+    """A force left over at a point of the part, and the same at the point's image."""
+    at, force = np.array([0.03, 0.05, 0.01]), np.array([1.0, 2.0, -3.0])
+    part = Balance(force, np.cross(at, force), size=1.0, allowed=1e-9, arm=0.2)
+    for axis in (0, 1):
+        flip = np.where(np.arange(3) == axis, -1.0, 1.0)
+        image = flip * at + 2.0 * 0.1 * (np.arange(3) == axis)
+        whole = part.mirrored(axis, 0.1)
+        assert_allclose(whole.force, force + flip * force)
+        assert_allclose(whole.moment, np.cross(at, force) + np.cross(image, flip * force))
+        assert whole.size == 2.0 and not whole.holds
+
+
+def test_no_answer_out_of_balance_is_an_equilibrium():
+    solution = lumped.solve(SCENES["curved"], springs(SCENES["curved"]))
+    off = replace(solution.balance, force=np.array([0.0, 0.0, 1e-3]))
+    found = replace(solution, balance=off)
+    assert found.status is Status.DIVERGED and not found.comparable
+    assert found.message.startswith("forces out of balance by 0.001 N")
+    assert replace(found, model="other").message == found.message  # said once
+
+
+def test_a_reaction_left_out_and_a_wrong_weight_are_found(monkeypatch):
+    asked = SCENES["a moved edge"]
+    monkeypatch.setattr("lumped.actuators.coupling.Coupling.reactions", lambda self, exerted: {})
+    assert lumped.solve(asked, springs(asked)).status is Status.DIVERGED
+    monkeypatch.undo()
+    asked = SCENES["unequal chains"]
+    weight = lumped.actuators.chain.Chain.weight
+    monkeypatch.setattr("lumped.actuators.chain.Chain.weight", lambda self, g: 0.999 * weight(self, g))
+    found = lumped.solve(asked, springs(asked))
+    assert found.status is Status.DIVERGED and "out of balance" in found.message
+
+
+@pytest.mark.parametrize("options", [{"weights": "full"}, {"precision": "single"}, {"branch": "stable"}])
+def test_a_lattice_is_in_balance_with_every_option(options):
+    asked = SCENES["clamped, all loads"]
+    assert lumped.solve(asked, springs(asked), **options).balance.holds
+
+
+def test_springs_that_are_not_central_keep_no_moments_and_are_not_asked_to():
+    uniform = lumped.calibrate(
+        load("one-edge-clamped").sheet, load("one-edge-clamped").material, (5, 5), "uniform"
+    )
+    k = uniform.springs.axial
+    uneven = uniform.springs.model_copy(update={"axial": {"x": k, "y": k, "z": 0.5 * k}})
+    asked = load("one-edge-clamped").model_copy(update={"springs": type(uneven).model_validate(dict(uneven))})
+    solution = lumped.solve(asked, lumped.given(asked, (5, 5, 2)))
+    balance, weight = solution.balance, np.linalg.norm(dead_force(asked))
+    assert solution.status is Status.CONVERGED and balance.holds and not balance.objective
+    assert np.linalg.norm(balance.moment) > 0.01 * weight * SIDE  # 3 % of what the clamp carries
+    assert "keep no moments" in solution.message

@@ -21,6 +21,7 @@ cross = 1.0
 cross_diagonal = 1.0
 layer_distance = 2.0
 [probes]"""
+LOAD = '[[load]]\nkind = "point"\nat = [0.1, 0.1]\nforce = [0.0, 0.0, 1.0e5]\n'
 SLIPS = {
     "E in MPa": ("54.5e6", "54.5", ["young = 54.5 Pa", "54.5 MPa is written 54.5e6"]),
     "E of a metal": ("54.5e6", "2.0e11", ["young = 2e+11 Pa is 200 GPa"]),
@@ -30,6 +31,8 @@ SLIPS = {
     "gravity in mm/s²": ("-9.81", "-9810.0", ["9810 m/s²", "9810 mm/s² is written 9.81"]),
     "another planet": ("-9.81", "-1.0", ["gravity.acceleration = [0.0, 0.0, -1.0]", "9.81", "m/s²"]),
     "layers far apart": ("[probes]", SPRINGS, ["springs.layer_distance = 2 m", "667 times the thickness"]),
+    "too heavy": ("54.5e6", "2.0e4", ["ρ g a/E = 0.155", "0.05"]),
+    "loads in mN": ("[probes]", f"{LOAD}[probes]", ["the loads are 3.25 times", "N/m"]),
     "no load": ("[0.0, 0.0, -9.81]", "[0.0, 0.0, 0.0]", ["nothing moves the sheet"]),
 }
 IN_MILLIMETRES = GOOD.replace("0.188", "188.0").replace("0.003", "3.0").replace("0.094", "94.0")

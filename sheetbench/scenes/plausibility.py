@@ -3,15 +3,18 @@
 Each is said in a sentence that names the key, the value, the unit and how the likely quantity is written.
 Hardly meant are E below 1 kPa or above 10 GPa, a density outside 100 to 20 000 kg/m³, sides above 10 m, a
 thickness over a quarter of the shorter side, a gravity other than the Earth's, and layers of springs much
-nearer to or farther from each other than the sheet is thick; and a sheet that nothing moves.
+nearer to or farther from each other than the sheet is thick; then a weight or loads that would tear the
+sheet, and a sheet that nothing moves.
 """
 
 from __future__ import annotations
 
 from math import hypot
 
+from sheetbench.scenes.loads import EdgeLoad, PointLoad, Pressure
 from sheetbench.scenes.scene import Scene
-from sheetbench.scenes.sheet import Gravity, Material, Sheet
+from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
+from sheetbench.scenes.strains import STRETCH_LIMIT, WEIGHT_LIMIT, weight_strain
 
 SOFTEST, STIFFEST = 1e3, 1e10  # Pa: agar, and the stiffest polymers
 LIGHTEST, HEAVIEST = 100.0, 20_000.0  # kg/m³: foam, gold
@@ -28,6 +31,8 @@ def slips(scene: Scene) -> tuple[str, ...]:
         said += _gravity(scene.gravity)
     if scene.springs is not None:
         said += layer_slips(scene.sheet, scene.springs.layer_distance, "springs.layer_distance")
+    if not said:  # else that may be why
+        said = _strains(scene)
     if _unmoved(scene):
         said.append("no gravity, load, actuator or bent support: nothing moves the sheet, all stays at zero")
     return tuple(said)
@@ -79,6 +84,35 @@ def layer_slips(sheet: Sheet, distance: float, key: str = "layer_distance") -> l
         return []
     times = f"{_three_digits(ratio)} times the thickness, {sheet.thickness:g} m"
     return [f"{key} = {distance:g} m is {times}; lengths are in metres"]
+
+
+def _strains(scene: Scene) -> list[str]:
+    """A weight or loads that would tear the sheet."""
+    said = []
+    sheet, young = scene.sheet, scene.material.young
+    if (weight := weight_strain(scene)) > WEIGHT_LIMIT:
+        said.append(
+            f"the weight alone stretches the sheet: ρ g a/E = {_three_digits(weight)}, and above "
+            f"{WEIGHT_LIMIT:g} no linear model means anything"
+        )
+    pull = sum(_size(load, sheet) for load in scene.loads) / (young * sheet.thickness * min(sheet.lengths))
+    if pull > STRETCH_LIMIT:
+        said.append(
+            f"the loads are {_three_digits(pull)} times E · thickness · shorter side and would tear the "
+            "sheet; forces are in N, forces per length in N/m, pressures in Pa"
+        )
+    return said
+
+
+def _size(load: PointLoad | EdgeLoad | Pressure, sheet: Sheet) -> float:
+    """The force of a load [N], in the end."""
+    if isinstance(load, PointLoad):
+        force = hypot(*load.force)
+    elif isinstance(load, EdgeLoad):
+        force = hypot(*load.force_per_length) * sheet.lengths[EDGES[load.edge].along_axis]
+    else:
+        force = abs(load.value) * sheet.length_x * sheet.length_y
+    return force * abs(load.last_factor)
 
 
 def _three_digits(value: float) -> str:

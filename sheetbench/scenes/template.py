@@ -1,0 +1,101 @@
+"""The file that `sheetbench new` writes: a small scene, every key with its unit and what it is.
+
+What the scene has no use for yet stands below, commented out: without the leading "# " of its lines a block
+is in force, and its own comments still are comments. The comments are the sentences of the types.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from textwrap import wrap
+from typing import Any
+
+from sheetbench.scenes.scene import Scene
+from sheetbench.scenes.schema import branches, json_schema, kind
+from sheetbench.scenes.sheet import EDGES, EdgeName, Gravity, Material, Sheet
+from sheetbench.scenes.supports import Clamped
+from sheetbench.scenes.toml import keys, line
+
+WIDTH = 100  # of a comment
+SCHEMA = "sheetbench.schema.json"  # beside the file, for editors
+EARTH = Gravity(acceleration=(0.0, 0.0, -9.81))
+OPPOSITE = {"x0": "x1", "x1": "x0", "y0": "y1", "y1": "y0"}
+
+
+def template(name: str, sheet: Sheet, material: Material, clamped: tuple[EdgeName, ...] = ("x0",)) -> str:
+    """A sheet under its own weight, clamped at the named edges, as commented TOML."""
+    scene = Scene(
+        name=name,
+        sheet=sheet,
+        material=material,
+        gravity=EARTH,
+        support=tuple(Clamped(edge=edge) for edge in clamped),
+    )
+    given = keys(scene)
+    parts = [
+        f"#:schema {SCHEMA}\n"
+        "# A scene for sheetbench. All quantities are in SI units: m, N, Pa, kg, s, rad.\n"
+        "# What it means, in words:  sheetbench check FILE\n"
+        "# Both models, side by side:  sheetbench compare FILE\n",
+        _block("", {"name": name, "title": ""}),
+        _block("[sheet]", given["sheet"]),
+        _block("[material]", given["material"]),
+        _block("[gravity]", given["gravity"]),
+        *(_block("[[support]]", one, about=n == 0) for n, one in enumerate(given.get("support", ()))),
+        '# What else there may be: take away the "# " of a block\'s lines.\n'
+        "# All keys: sheetbench schema --markdown\n",
+    ]
+    told = {"[[support]]"}
+    for heading, table in _offered(sheet, _free_edge(clamped)):
+        parts.append(_commented(_block(heading, table, about=heading not in told)))
+        told.add(heading)
+    return "\n".join(parts)
+
+
+def _free_edge(clamped: tuple[str, ...]) -> str:
+    """An edge without a support, opposite to one that has one if there is such an edge."""
+    free = [edge for edge in EDGES if edge not in clamped]
+    return next((edge for edge in free if OPPOSITE[edge] in clamped), free[0] if free else "x1")
+
+
+def _offered(sheet: Sheet, edge: str) -> list[tuple[str, dict[str, Any]]]:
+    middle, corner = [length / 2.0 for length in sheet.lengths], list(sheet.lengths)
+    rising = {"time": [0.0, 0.5], "factor": [0.0, 1.0]}
+    chain = {"segments": 8, "bending_stiffness": 0.01, "line_density": 0.05, "radius": 1.5e-3}
+    return [
+        ("[[support]]", {"edge": edge, "kind": "clamped", "tilt": 0.02}),
+        ("[[support]]", {"edge": edge, "kind": "hinged"}),
+        ("[[support]]", {"edge": edge, "kind": "held", "components": ["z"]}),
+        ("[[support]]", {"edge": edge, "kind": "curved", "curvature": 4.0}),
+        ("[[load]]", {"kind": "point", "at": corner, "force": [0.0, 0.0, 0.01]}),
+        ("[[load]]", {"kind": "edge", "edge": edge, "force_per_length": [0.0, 0.0, 0.1]}),
+        ("[[load]]", {"kind": "pressure", "value": 1.0, "history": rising}),
+        ("[[actuator]]", {"kind": "chain", "edge": edge, **chain, "curvature": 4.0}),
+        ("[probes]", {"centre": middle, "corner": corner}),
+    ]
+
+
+def _block(heading: str, table: Mapping[str, Any], about: bool = True) -> str:
+    """A table of the file: what it is, its heading, and every key below what it is."""
+    schema = json_schema(Scene)
+    top = heading.strip("[]")
+    node = schema["properties"][top] if top else schema
+    of_kind = next(
+        one for one in branches(schema, node.get("items", node)) if kind(one) in (None, table.get("kind"))
+    )
+    lines = [*(_comment(node["description"]) if about else ()), heading] if top else []
+    for key, value in table.items():
+        if said := of_kind.get("properties", {}).get(key):
+            lines += _comment(
+                f"[{said['unit']}] {said['description']}" if "unit" in said else said["description"]
+            )
+        lines.append(line(key, value))
+    return "\n".join([*lines, ""])
+
+
+def _comment(text: str) -> list[str]:
+    return wrap(text, WIDTH, initial_indent="# ", subsequent_indent="# ")
+
+
+def _commented(block: str) -> str:
+    return "".join(f"# {text}\n" if text else "\n" for text in block.splitlines())

@@ -1,0 +1,161 @@
+"""A scene in words, as its author would read it back: what is where, how large, and which way it acts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import degrees, hypot
+
+from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable
+from sheetbench.scenes.loads import EdgeLoad, PointLoad, Pressure
+from sheetbench.scenes.quantities import PlanPoint
+from sheetbench.scenes.scene import Scene, free_rigid_motions
+from sheetbench.scenes.sheet import EDGES, Sheet
+from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Held, Hinged
+from sheetbench.scenes.tables import FactorTable
+
+Load = PointLoad | EdgeLoad | Pressure
+
+
+def in_words(scene: Scene) -> list[tuple[str, str]]:
+    """What each part of the scene means: pairs of a part's name and a sentence."""
+    sheet, material = scene.sheet, scene.material
+    shorter = min(sheet.lengths)
+    mass = material.density * sheet.length_x * sheet.length_y * sheet.thickness
+    said = [
+        (
+            "sheet",
+            f"{_mm(sheet.length_x)} × {_mm(sheet.length_y)} mm, {_mm(sheet.thickness)} mm thick "
+            f"(1/{shorter / sheet.thickness:.3g} of the shorter side), {1e3 * mass:.3g} g",
+        ),
+        (
+            "material",
+            f"E = {material.young / 1e6:g} MPa, ν = {material.poisson:g}, ρ = {material.density:g} kg/m³"
+            + (f", dampers of {1e3 * material.damping_time:g} ms · k" if material.damping_time else "")
+            + (f", drag of {material.damping_rate:g} 1/s · mass" if material.damping_rate else ""),
+        ),
+        ("weight", _weight(scene, mass)),
+    ]
+    said += [(f"edge {support.edge}", _support(support, sheet)) for support in scene.supports]
+    said += [(f"load {n}", _load(load, sheet)) for n, load in enumerate(scene.loads, start=1)]
+    said += [(f"actuator {n}", _actuator(one, sheet)) for n, one in enumerate(scene.actuators, start=1)]
+    if scene.springs is not None:
+        said.append(("springs", "the lattice takes the scene's own constants instead of calibrated ones"))
+    points = ", ".join(f"{name} {_point(point)}" for name, point in scene.probes.items())
+    said.append(("probes", f"{points} mm"))
+    free = free_rigid_motions(scene)
+    said.append(
+        ("at rest", f"no answer: nothing stops {', '.join(free)}" if free else "held: it has an answer")
+    )
+    return said
+
+
+def _weight(scene: Scene, mass: float) -> str:
+    if scene.gravity is None:
+        return "none: weightless"
+    force = [mass * component for component in scene.gravity.acceleration]
+    return f"{_vector(force, 'N')}{_over_time(scene.gravity.history)}"
+
+
+def _support(support: AnySupport, sheet: Sheet) -> str:
+    moved = f", moved over {support.motion.time[-1]:g} s in `simulate`" if support.motion is not None else ""
+    if isinstance(support, Clamped):
+        if support.tilt == 0.0:
+            return f"clamped: the mid-surface and its normal held{moved}"
+        way = "downwards" if support.tilt > 0.0 else "upwards"
+        return (
+            f"clamped, turned by {abs(support.tilt):g} rad ({degrees(abs(support.tilt)):.3g}°): "
+            f"the sheet starts off {way}{moved}"
+        )
+    if isinstance(support, Hinged):
+        return f"hinged: the mid-surface held, free to turn{moved}"
+    if isinstance(support, Held):
+        free = [axis for axis in "xyz" if axis not in support.components]
+        slides = f", free to move along {' and '.join(free)}" if free else ""
+        return f"held along {' and '.join(support.components)}{slides}, free to turn{moved}"
+    if isinstance(support, Curved):
+        return f"clamped to a rigid rod, {_bent(support.curvature, sheet, support.edge)}{moved}"
+    return "a plane of symmetry: the sheet goes on beyond it as its mirror image"
+
+
+def _bent(curvature: float, sheet: Sheet, edge: str) -> str:
+    if curvature == 0.0:
+        return "straight"
+    turned = degrees(abs(curvature) * sheet.lengths[EDGES[edge].along_axis])
+    way = "up" if curvature > 0.0 else "down"
+    return f"bent to a radius of {_mm(1.0 / abs(curvature))} mm, {turned:.3g}° in all, its ends {way}"
+
+
+def _load(load: Load, sheet: Sheet) -> str:
+    history = _over_time(load.history)
+    if isinstance(load, PointLoad):
+        return f"{_vector(load.force, 'N')} at {_point(load.at)} mm{_on_edges(load.at, sheet)}{history}"
+    if isinstance(load, Pressure):
+        way = "along the normal, at first +z" if load.value > 0.0 else "against the normal, at first −z"
+        whole = abs(load.value) * sheet.length_x * sheet.length_y
+        return f"pressure of {abs(load.value):g} Pa {way}; {whole:.3g} N on the flat sheet{history}"
+    parts = []
+    if any(load.force_per_length):
+        length = sheet.lengths[EDGES[load.edge].along_axis]
+        in_all = length * hypot(*load.force_per_length)
+        parts.append(f"{_vector(load.force_per_length, 'N/m')} ({in_all:.3g} N in all)")
+    if load.moment_per_length:
+        way = "up" if load.moment_per_length > 0.0 else "down"
+        parts.append(f"a moment of {abs(load.moment_per_length):g} N·m/m that turns what is outside it {way}")
+    return f"on edge {load.edge}: {' and '.join(parts) or 'nothing'}{history}"
+
+
+def _actuator(actuator: Actuator, sheet: Sheet) -> str:
+    if not isinstance(actuator, Chain):
+        return f"edge {actuator.edge} moved rigidly as prescribed, over {actuator.time[-1]:g} s"
+    length = sheet.lengths[EDGES[actuator.edge].along_axis]
+    curvature = actuator.curvature
+    if isinstance(curvature, CurvatureTable):
+        first, last = curvature.value[0], curvature.value[-1]
+        bent = f"its curvature from {first:g} to {last:g} 1/m in {curvature.time[-1]:g} s"
+    elif isinstance(curvature, tuple):
+        bent = f"its joints' curvatures from {min(curvature):g} to {max(curvature):g} 1/m"
+    else:
+        bent = _bent(curvature, sheet, actuator.edge)
+    where = {"mid": "in the mid-surface", "top": "on the top face", "bottom": "on the bottom face"}[
+        actuator.face
+    ]
+    held = "" if actuator.base == "free" else f", held at its {actuator.base}"
+    return (
+        f"on edge {actuator.edge} a chain of {actuator.segments} segments of "
+        f"{_mm(length / actuator.segments)} mm {where}, {1e3 * actuator.line_density * length:.3g} g, "
+        f"EI = {actuator.bending_stiffness:g} N·m², {bent}{held}"
+    )
+
+
+def _vector(vector: Sequence[float], unit: str) -> str:
+    """A force in words: along an axis where it lies on one."""
+    along = [(axis, value) for axis, value in zip("xyz", vector, strict=True) if value != 0.0]
+    if not along:
+        return f"0 {unit}"
+    if len(along) == 1:
+        axis, value = along[0]
+        return f"{abs(value):.3g} {unit} along {'+' if value > 0.0 else '−'}{axis}"
+    return f"({', '.join(f'{value:.3g}' for value in vector)}) {unit}".replace("-", "−")
+
+
+def _on_edges(point: PlanPoint, sheet: Sheet) -> str:
+    at = [
+        name
+        for name, edge in EDGES.items()
+        if point[edge.normal_axis] == (sheet.lengths[edge.normal_axis] if edge.far_end else 0.0)
+    ]
+    return f", the corner of {' and '.join(at)}" if len(at) == 2 else f", on edge {at[0]}" if at else ""
+
+
+def _over_time(history: FactorTable | None) -> str:
+    if history is None:
+        return ""
+    return f", times {history.factor[0]:g} to {history.factor[-1]:g} over {history.time[-1]:g} s"
+
+
+def _point(point: PlanPoint) -> str:
+    return f"({_mm(point[0])}, {_mm(point[1])})"
+
+
+def _mm(length: float) -> str:
+    return f"{1e3 * length:.4g}"

@@ -11,15 +11,15 @@ from __future__ import annotations
 
 import sys
 import traceback
-import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
 from importlib import import_module
-from typing import TextIO
 
 import typer
 
+from comparisons.cli import warned
+
 VERBS = (
+    "new",
+    "check",
     "scenes",
     "compare",
     "calibrate",
@@ -31,6 +31,7 @@ VERBS = (
     "stability",
     "verify",
     "modes",
+    "schema",
 )
 FAULT = 1
 BAD_INPUT = 2
@@ -66,38 +67,11 @@ def _help_where_nothing_is_asked(
         print(context.get_help(), end="")
 
 
-@contextmanager
-def _warnings_in_a_line() -> Iterator[list[str]]:
-    """Warnings about a scene go to standard error, each once, and into the list."""
-    said: list[str] = []
-    usual = warnings.showwarning
-
-    def show(
-        message: Warning | str,
-        category: type[Warning],
-        filename: str,
-        lineno: int,
-        file: TextIO | None = None,
-        line: str | None = None,
-    ) -> None:
-        if category.__module__.split(".")[0] != "sheetbench":
-            usual(message, category, filename, lineno, file, line)
-        elif str(message) not in said:
-            from comparisons.cli import console
-
-            said.append(str(message))
-            console.warn(str(message))
-
-    with warnings.catch_warnings():
-        warnings.showwarning = show
-        yield said
-
-
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit status."""
     try:
-        with _warnings_in_a_line() as said:
-            app(args=arguments, prog_name="sheetbench", obj=said)
+        with warned.in_a_line():
+            app(args=arguments, prog_name="sheetbench")
     except Exception as error:
         from sheetbench.scenes.errors import BadInput  # with numpy and pydantic: help must not wait for them
 

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any
 from warnings import warn
 
 import typer
 
 from comparisons.cli.options import Grid, Json, Out, Overwrite
+from comparisons.cli.quantities import checked, sides
 
 if TYPE_CHECKING:
-    from pydantic import BaseModel
-
     from sheetbench.scenes import Material, Scene, Sheet
 
-Quantities = TypeVar("Quantities", bound="BaseModel")
 DENSITY = 1000.0  # kg/m³
 
 
@@ -63,7 +61,7 @@ def command(
         raise BadInput("--toml and --json: choose one")
     sheet, material = _sheet_and_material(
         scene,
-        {"thickness": thickness, **_sides(side)},
+        {"thickness": thickness, **sides(side)},
         {"young": young, "poisson": poisson, "density": density},
     )
     about = {"sheet": sheet.model_dump(mode="json"), "material": material.model_dump(mode="json")}
@@ -80,21 +78,6 @@ def command(
         end(tables.report(found, sheet, material), instead=tables.to_toml(found.as_dict()) if toml else None)
 
 
-def _sides(text: str | None) -> dict[str, float]:
-    """Sides along x and y [m] of `0.188` or `0.188x0.3`; none of no text."""
-    from sheetbench.scenes.errors import BadInput
-
-    if text is None:
-        return {}
-    try:
-        sides = [float(part) for part in text.lower().replace("×", "x").split("x")]
-    except ValueError:
-        sides = []
-    if len(sides) not in (1, 2):
-        raise BadInput(f"--side = '{text}': not a side; write 0.188 or 0.188x0.3, in metres")
-    return {"length_x": sides[0], "length_y": sides[-1]}
-
-
 def _training(name: str, sheet: Sheet, material: Material) -> list[Scene]:
     """The named scene with this sheet and material, for a fitted method to train on."""
     from comparisons.comparison.comparison import load_static
@@ -102,7 +85,7 @@ def _training(name: str, sheet: Sheet, material: Material) -> list[Scene]:
 
     scene = load_static(name)
     changed = {"sheet": sheet.model_dump(), "material": material.model_dump(), "probes": {}}
-    return [_checked(scenes.Scene, {**scene.model_dump(by_alias=True, exclude_none=True), **changed})]
+    return [checked(scenes.Scene, {**scene.model_dump(by_alias=True, exclude_none=True), **changed})]
 
 
 def _sheet_and_material(
@@ -137,25 +120,8 @@ def _sheet_and_material(
     ]
     if missing:
         raise BadInput(f"missing {', '.join(missing)}; give them, or a SCENE to take them from")
-    changed = _checked(scenes.Sheet, sheet_data), _checked(scenes.Material, material_data)
+    changed = checked(scenes.Sheet, sheet_data), checked(scenes.Material, material_data)
     for said in [*sheet_slips(changed[0]), *material_slips(changed[1])]:
         if said not in known:
             warn(Implausible(said), stacklevel=2)
     return changed
-
-
-def _checked(kind: type[Quantities], data: dict[str, Any]) -> Quantities:
-    """The validated object, or BadInput naming the first option that is out of bounds."""
-    from pydantic import ValidationError
-
-    from sheetbench.scenes.errors import BadInput
-    from sheetbench.scenes.refusals import in_one_line
-
-    try:
-        return kind.model_validate(data)
-    except ValidationError as error:
-        said = in_one_line(error, kind)
-        if error.errors()[0]["loc"]:
-            key = str(error.errors()[0]["loc"][0])
-            said = f"--{'side' if key.startswith('length') else key}{said.removeprefix(key)}"
-        raise BadInput(said) from None

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import typer
 
-from comparisons.cli import console
+from comparisons.cli import console, warned
 
 if TYPE_CHECKING:
     from comparisons.report.report import Report, Write
@@ -80,6 +81,7 @@ class End:
         leave with 3 where the question was not met."""
         from comparisons.report.files import to_json
 
+        report = replace(report, document={**report.document, "warnings": list(warned.said)})
         missing: list[str] = []
         if self._folder is not None:
             missing = [f"No picture: {said}" for said in self._folder.report(report, self.progress)]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+from copy import deepcopy
 from functools import cache
 from itertools import pairwise
 from typing import Any
@@ -40,6 +41,16 @@ def json_schema(model: type[BaseModel]) -> dict[str, Any]:
             for one in key.get("items", {}).get("discriminator", {}).get("mapping", {}).values():
                 _ask_for_kind(schema["$defs"][one.rpartition("/")[2]])
     return schema
+
+
+def for_editors(model: type[BaseModel]) -> dict[str, Any]:
+    """The schema as a document of its own, with the units in the sentences, which editors show."""
+    schema = deepcopy(json_schema(model))
+    for table in (schema, *schema["$defs"].values()):
+        for key in table["properties"].values():
+            if "unit" in key:
+                key["description"] = f"[{key['unit']}] {key['description']}"
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
 
 
 def _ask_for_kind(table: dict[str, Any]) -> None:

@@ -6,13 +6,13 @@ is in force, and its own comments still are comments. The comments are the sente
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from textwrap import wrap
 from typing import Any
 
 from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.schema import branches, json_schema, kind
-from sheetbench.scenes.sheet import EDGES, EdgeName, Gravity, Material, Sheet
+from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
 from sheetbench.scenes.supports import Clamped
 from sheetbench.scenes.toml import keys, line
 
@@ -22,14 +22,14 @@ EARTH = Gravity(acceleration=(0.0, 0.0, -9.81))
 OPPOSITE = {"x0": "x1", "x1": "x0", "y0": "y1", "y1": "y0"}
 
 
-def template(name: str, sheet: Sheet, material: Material, clamped: tuple[EdgeName, ...] = ("x0",)) -> str:
+def template(name: str, sheet: Sheet, material: Material, clamped: Sequence[str] = ("x0",)) -> str:
     """A sheet under its own weight, clamped at the named edges, as commented TOML."""
     scene = Scene(
         name=name,
         sheet=sheet,
         material=material,
         gravity=EARTH,
-        support=tuple(Clamped(edge=edge) for edge in clamped),
+        support=tuple(Clamped.model_validate({"edge": edge}) for edge in clamped),
     )
     given = keys(scene)
     parts = [
@@ -52,7 +52,7 @@ def template(name: str, sheet: Sheet, material: Material, clamped: tuple[EdgeNam
     return "\n".join(parts)
 
 
-def _free_edge(clamped: tuple[str, ...]) -> str:
+def _free_edge(clamped: Sequence[str]) -> str:
     """An edge without a support, opposite to one that has one if there is such an edge."""
     free = [edge for edge in EDGES if edge not in clamped]
     return next((edge for edge in free if OPPOSITE[edge] in clamped), free[0] if free else "x1")

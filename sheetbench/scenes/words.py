@@ -29,7 +29,7 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
         ),
         (
             "material",
-            f"E = {material.young / 1e6:g} MPa, ν = {material.poisson:g}, ρ = {material.density:g} kg/m³"
+            f"E = {_pascals(material.young)}, ν = {material.poisson:g}, ρ = {material.density:g} kg/m³"
             + (f", dampers of {1e3 * material.damping_time:g} ms · k" if material.damping_time else "")
             + (f", drag of {material.damping_rate:g} 1/s · mass" if material.damping_rate else ""),
         ),
@@ -155,6 +155,13 @@ def _over_time(history: FactorTable | None) -> str:
 
 def _point(point: PlanPoint) -> str:
     return f"({_mm(point[0])}, {_mm(point[1])})"
+
+
+def _pascals(value: float) -> str:
+    for size, unit in ((1e6, "MPa"), (1e3, "kPa")):
+        if value >= size:
+            return f"{value / size:g} {unit}"
+    return f"{value:g} Pa"
 
 
 def _mm(length: float) -> str:

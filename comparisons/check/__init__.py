@@ -1,0 +1,1 @@
+"""What will be solved, in words, before anything is."""

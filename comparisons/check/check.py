@@ -1,0 +1,49 @@
+"""What a scene asks, in words: its parts, whether it can rest, and what the models make of it unless told.
+
+Nothing is solved. What is hardly meant is warned of where the scene is read (`sheetbench.scenes.files`).
+"""
+
+from __future__ import annotations
+
+from comparisons.models.grids import scene_grid
+from comparisons.report.report import Report
+from comparisons.report.table import Column, Table
+from sheetbench.scenes import Scene, free_rigid_motions
+from sheetbench.scenes.grid import near_square
+from sheetbench.scenes.words import in_words
+
+ELEMENTS = 16  # of the shell, along the shorter side
+
+
+def check(scene: Scene) -> Report:
+    """The report of `sheetbench check`."""
+    parts = [*in_words(scene), ("lattice", _lattice(scene)), ("shell", _shell(scene))]
+    free = free_rigid_motions(scene)
+    return Report(
+        name="check",
+        title=scene.name,
+        subtitle=scene.title,
+        tables=(Table("What will be solved", (Column("part"), Column("what", prose=True)), tuple(parts)),),
+        notes=() if free else ("Solve it with:  sheetbench compare SCENE",),
+        complaints=("nothing holds the sheet: only `modes` and `simulate` can answer",) if free else (),
+        document={
+            "scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+            "parts": [{"part": part, "what": what} for part, what in parts],
+            "free_rigid_motions": free,
+        },
+        scene=scene,
+    )
+
+
+def _lattice(scene: Scene) -> str:
+    nx, ny, layers = scene_grid(scene, None)
+    x, y = (1e3 * length / (n - 1) for length, n in zip(scene.sheet.lengths, (nx, ny), strict=True))
+    springs = "the scene's own springs" if scene.springs is not None else "consistent springs"
+    return (
+        f"{nx} × {ny} × {layers} masses in cells of {x:.3g} × {y:.3g} mm, {springs} (--lumped, --calibration)"
+    )
+
+
+def _shell(scene: Scene) -> str:
+    nx, ny = near_square(scene.sheet, ELEMENTS)
+    return f"{nx} × {ny} elements (--elements; --reference plate or solid)"

@@ -1,0 +1,42 @@
+"""A sheet and its material from options, refused by the options' names."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+Quantities = TypeVar("Quantities", bound="BaseModel")
+
+
+def sides(text: str | None) -> dict[str, float]:
+    """Sides along x and y [m] of `0.188` or `0.188x0.3`; none of no text."""
+    from sheetbench.scenes.errors import BadInput
+
+    if text is None:
+        return {}
+    try:
+        lengths = [float(part) for part in text.lower().replace("×", "x").split("x")]
+    except ValueError:
+        lengths = []
+    if len(lengths) not in (1, 2):
+        raise BadInput(f"--side = '{text}': not a side; write 0.188 or 0.188x0.3, in metres")
+    return {"length_x": lengths[0], "length_y": lengths[-1]}
+
+
+def checked(kind: type[Quantities], data: dict[str, Any]) -> Quantities:
+    """The validated object, or BadInput naming the first option that is out of bounds."""
+    from pydantic import ValidationError
+
+    from sheetbench.scenes.errors import BadInput
+    from sheetbench.scenes.refusals import in_one_line
+
+    try:
+        return kind.model_validate(data)
+    except ValidationError as error:
+        said = in_one_line(error, kind)
+        if error.errors()[0]["loc"]:
+            key = str(error.errors()[0]["loc"][0])
+            said = f"--{'side' if key.startswith('length') else key}{said.removeprefix(key)}"
+        raise BadInput(said) from None

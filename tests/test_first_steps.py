@@ -1,0 +1,160 @@
+"""First steps with one's own scene: new, check, schema and the reference page, all made of the types."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+from test_cli import one_line, run
+
+from sheetbench import scenes
+from sheetbench.scenes import Chain, Clamped, EdgeLoad, Held, Hinged, Material, PointLoad, Scene, Sheet, load
+from sheetbench.scenes.reference import markdown
+from sheetbench.scenes.schema import for_editors, json_schema
+from sheetbench.scenes.template import template
+from sheetbench.scenes.toml import to_toml
+from sheetbench.scenes.words import in_words
+
+PAGE = Path(__file__).parent.parent / "docs" / "scene.md"
+SHEET, MATERIAL = Sheet(0.3, 0.2, 0.002), Material(1.2e6, 0.45, 1100.0)
+
+
+def test_the_reference_page_is_that_of_the_types() -> None:
+    assert PAGE.read_text(encoding="utf-8") == markdown(), "make docs-scene"
+
+
+def test_the_reference_page_has_every_key_with_its_unit() -> None:
+    page, schema = markdown(), json_schema(Scene)
+    assert (PAGE.parent / "images" / "scene.svg").is_file()
+    for table in schema["$defs"].values():
+        for key, node in table["properties"].items():
+            if key != "kind" and "x" not in table.get("required", ()):  # {x, y, z} stands in its users' rows
+                assert f"| `{key}` | {node.get('unit', '')} |" in page
+                assert node["description"] in page
+
+
+def blocks_out_of_force(text: str) -> list[str]:
+    """The commented blocks of a template, without their leading "# "."""
+    below = text.partition("# All keys")[2].split("\n\n")[1:]
+    return ["\n".join(line.removeprefix("# ") for line in block.splitlines()) for block in below]
+
+
+def test_every_block_of_a_new_scene_can_be_put_in_force() -> None:
+    text = template("mine", SHEET, MATERIAL)
+    blocks = blocks_out_of_force(text)
+    assert len(blocks) == 9
+    plain = Scene(**tomllib.loads(text))
+    assert plain.supports == (Clamped(edge="x0"),) and plain.sheet == SHEET and plain.material == MATERIAL
+    added: list[Any] = []
+    for block in blocks:
+        scene = Scene(**tomllib.loads(f"{text}\n{block}"))
+        assert scene != plain
+        added += [*scene.supports[1:], *scene.loads, *scene.actuators]
+    kinds = [type(one) for one in added]
+    assert kinds.count(EdgeLoad) == kinds.count(PointLoad) == kinds.count(Chain) == kinds.count(Hinged) == 1
+    assert kinds.count(Held) == 1
+
+
+def test_new_writes_a_scene_that_check_explains(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = str(tmp_path / "strip.toml")
+    options = ("--side", "0.3x0.2", "--young", "1e5", "--thickness", "0.002", "--clamped", "x0,x1")
+    assert run("new", path, *options) == 0
+    assert (tmp_path / "sheetbench.schema.json").is_file()
+    first = Path(path).read_text(encoding="utf-8").splitlines()[0]
+    assert first == "#:schema sheetbench.schema.json"
+    scene = load(path)
+    assert scene.name == "strip" and scene.sheet.lengths == (0.3, 0.2) and scene.material.young == 1e5
+    assert [support.edge for support in scene.supports] == ["x0", "x1"]
+    capsys.readouterr()
+    assert run("check", path) == 0
+    printed = capsys.readouterr()
+    for part in ("300 × 200 mm", "E = 100 kPa", "1.29 N along −z", "edge x1", "13 × 9 × 2 masses", "24 × 16"):
+        assert part in printed.out
+    assert printed.err == ""
+
+
+@pytest.mark.parametrize(
+    ("options", "named"),
+    [
+        (("--poisson", "0.5"), ["--poisson = 0.5", "less than 0.5"]),
+        (("--side", "3 cm"), ["--side = '3 cm'"]),
+        (("--clamped", "x0,z1"), ["--clamped = 'z1'", "y1"]),
+        (("--thickness", "2"), ["thickness = 2 m", "metres"]),
+    ],
+)
+def test_new_refuses_what_makes_no_sense(
+    tmp_path: Path, options: tuple[str, ...], named: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("new", str(tmp_path / "a.toml"), *options) == 2
+    said = one_line(capsys)
+    assert all(part in said for part in named)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_new_keeps_what_is_there(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text("dear\n")
+    assert run("new", str(path)) == 2
+    assert "--overwrite" in one_line(capsys)
+    assert path.read_text() == "dear\n"
+    assert run("new", str(path), "--overwrite") == 0
+    assert load(path).name == "mine"
+
+
+def test_check_warns_and_says_what_floats(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "loose.toml"
+    loose = template("loose", SHEET, Material(1.2, 0.45, 1100.0), ())
+    path.write_text(loose, encoding="utf-8")
+    assert run("check", str(path), "--json") == 0
+    printed = capsys.readouterr()
+    document = json.loads(printed.out)
+    assert len(document["free_rigid_motions"]) == 6
+    assert len(document["warnings"]) == 1 and "1.2 MPa is written 1.2e6" in document["warnings"][0]
+    assert "1.2 MPa is written 1.2e6" in printed.err and "nothing holds the sheet" in printed.err
+    assert {part["part"] for part in document["parts"]} >= {"sheet", "material", "weight", "lattice", "shell"}
+
+
+def test_the_schema_is_one_document_with_every_unit(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("schema") == 0
+    schema = json.loads(capsys.readouterr().out)
+    assert schema == json.loads(json.dumps(for_editors(Scene)))
+    assert schema["$defs"]["Material"]["properties"]["young"]["description"].startswith(
+        "[Pa] Young's modulus"
+    )
+    assert schema["$defs"]["EdgeLoad"]["required"] == ["kind", "edge"]
+    assert run("schema", "--markdown") == 0
+    assert capsys.readouterr().out == markdown()
+
+
+@pytest.mark.parametrize("name", scenes.catalogue())
+def test_a_scene_written_is_read_back_as_it_was(tmp_path: Path, name: str) -> None:
+    scene = load(name)
+    path = tmp_path / "again.toml"
+    path.write_text(to_toml(scene), encoding="utf-8")
+    assert load(path) == scene
+
+
+def test_words_say_which_way_things_act() -> None:
+    support = [
+        {"edge": "x0", "kind": "clamped", "tilt": -0.02},
+        {"edge": "x1", "kind": "held", "components": ["y", "z"]},
+    ]
+    loads = [
+        {"kind": "edge", "edge": "x1", "moment_per_length": -2.0, "force_per_length": [0.0, 3.0, 0.0]},
+        {"kind": "pressure", "value": -5.0},
+        {"kind": "point", "at": [0.3, 0.2], "force": [0.0, 1.0, -2.0]},
+    ]
+    scene = Scene(name="a", sheet=SHEET, material=MATERIAL, support=support, load=loads)
+    said = dict(in_words(scene))
+    assert said["weight"] == "none: weightless"
+    assert said["edge x0"].endswith("(1.15°): the sheet starts off upwards")
+    assert said["edge x1"] == "held along y and z, free to move along x, free to turn"
+    assert said["load 1"] == (
+        "on edge x1: 3 N/m along +y (0.6 N in all) and a moment of 2 N·m/m that turns what is outside it down"
+    )
+    assert said["load 2"].startswith("pressure of 5 Pa against the normal, at first −z; 0.3 N")
+    assert said["load 3"] == "(0, 1, −2) N at (300, 200) mm, the corner of x1 and y1"
+    assert said["at rest"] == "held: it has an answer"

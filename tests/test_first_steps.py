@@ -62,9 +62,9 @@ def test_new_writes_a_scene_that_check_explains(tmp_path: Path, capsys: pytest.C
     path = str(tmp_path / "strip.toml")
     options = ("--side", "0.3x0.2", "--young", "1e5", "--thickness", "0.002", "--clamped", "x0,x1")
     assert run("new", path, *options) == 0
-    assert (tmp_path / "sheetbench.schema.json").is_file()
+    assert (tmp_path / "scene.schema.json").is_file()
     first = Path(path).read_text(encoding="utf-8").splitlines()[0]
-    assert first == "#:schema sheetbench.schema.json"
+    assert first == "#:schema scene.schema.json"
     scene = load(path)
     assert scene.name == "strip" and scene.sheet.lengths == (0.3, 0.2) and scene.material.young == 1e5
     assert [support.edge for support in scene.supports] == ["x0", "x1"]

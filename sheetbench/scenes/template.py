@@ -17,7 +17,7 @@ from sheetbench.scenes.supports import Clamped
 from sheetbench.scenes.toml import keys, line
 
 WIDTH = 100  # of a comment
-SCHEMA = "sheetbench.schema.json"  # beside the file, for editors
+SCHEMA = "scene.schema.json"  # beside the file, for editors
 EARTH = Gravity(acceleration=(0.0, 0.0, -9.81))
 OPPOSITE = {"x0": "x1", "x1": "x0", "y0": "y1", "y1": "y0"}
 

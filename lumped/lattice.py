@@ -25,7 +25,6 @@ from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import Grid
 
 Weights = Literal["tributary", "full"]
-Distribution = Literal["tributary", "gregory"]  # of the mass, see `lumped.masses`
 
 
 @dataclass(frozen=True)

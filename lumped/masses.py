@@ -16,9 +16,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from lumped.lattice import Distribution, Lattice
+from lumped.lattice import Lattice
 from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.springs import Distribution
 
 
 def masses(scene: Scene, lattice: Lattice, distribution: Distribution = "tributary") -> np.ndarray:

@@ -15,13 +15,13 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from lumped.calibration import Calibration
-from lumped.lattice import Distribution
 from lumped.linear.threads import one_blas_thread
 from lumped.masses import masses
 from lumped.springs import constants
 from lumped.statics.solver import pose
 from sheetbench.scenes import Scene, free_rigid_motions
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.springs import Distribution
 
 DENSE = 600  # unknowns below which all eigenvalues are computed
 

@@ -116,9 +116,9 @@ def test_springs_as_toml_are_the_same_springs(scene: Scene) -> None:
 
     found = lumped.calibrate(scene.sheet, scene.material, grid=(9, 13)).as_dict()
     table = tomllib.loads(calibration.to_toml(found))["springs"]
-    distance = table.pop("layer_distance")
-    assert (table, distance) == (found["springs"], found["layer_distance"])
-    assert scenes.SpringSet(**table, layer_distance=distance)
+    assert scenes.SpringTable(**table).grid == (9, 13, 2)
+    lattice = {name: table.pop(name) for name in ("grid", "masses", "layer_distance")}
+    assert table == found["springs"] and lattice == {name: found[name] for name in lattice}
 
 
 def test_picture_is_drawn_or_the_missing_packages_are_named(comparison: Comparison, tmp_path: Path) -> None:

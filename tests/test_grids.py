@@ -12,7 +12,7 @@ from test_cli import one_line, run
 import lumped
 from comparisons.models.grids import parse_grid, scene_grid
 from comparisons.models.registry import solve
-from sheetbench.scenes import BadInput, Clamped, Gravity, Material, Scene, Sheet
+from sheetbench.scenes import BadInput, Clamped, Gravity, Material, Scene, Sheet, SpringTable, load
 from sheetbench.scenes.grid import grid_of, near_square
 
 SQUARE = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
@@ -25,6 +25,7 @@ SCENE = Scene(
     gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
     support=(Clamped(edge="x0"),),
 )
+END = np.array([[0.2, 0.05]])
 
 
 def test_a_number_counts_along_the_shorter_side() -> None:
@@ -100,3 +101,48 @@ def test_what_is_not_a_grid_leaves_with_2(
     assert run(verb, *asked, "--grid", "9y", *VERBS.get(verb, [()])[0]) == 2
     said = one_line(capsys)
     assert "9y" in said and "--grid" in said
+
+
+def pasted(grid: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Path:
+    """The scene with the springs that `calibrate --toml` prints for a grid."""
+    path = tmp_path / "long.toml"
+    path.write_text(TEXT)
+    assert run("calibrate", str(path), "--grid", grid, "--toml") == 0
+    path.write_text(TEXT + capsys.readouterr().out)
+    return path
+
+
+def test_pasted_springs_bring_their_grid(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene = load(pasted("9x9", tmp_path, capsys))
+    assert scene.springs is not None and scene.springs.grid == (9, 9, 2)
+    asked = lumped.calibrate(LONG, RUBBER, (9, 9))
+    found = lumped.given(scene)
+    assert (found.grid, found.springs, found.masses) == (asked.grid, asked.springs, asked.masses)
+    for own in (lumped.solve(scene), solve(scene, "lumped"), solve(scene, "lumped", grid=(9, 9))):
+        assert own.settings["grid"] == [9, 9, 2]
+        np.testing.assert_array_equal(own.displacement(END), lumped.solve(scene, asked).displacement(END))
+    half = scene.model_copy(update={"springs": asked.springs})  # springs alone go with any grid
+    assert lumped.given(half).grid == (17, 9, 2)
+
+
+@pytest.mark.parametrize("verb", ["compare", "modes", "simulate"])
+def test_springs_of_another_grid_are_refused(
+    verb: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = pasted("9x9", tmp_path, capsys)
+    assert run(verb, str(path), "--lumped", "9") == 2
+    said = one_line(capsys)
+    assert "springs.grid = 9x9x2" in said and "17x9x2" in said and "calibrate --grid 17x9x2" in said
+
+
+def test_masses_and_grading_of_pasted_springs() -> None:
+    springs = lumped.calibrate(LONG, RUBBER, 3).springs.model_dump()
+    table = {**springs, "grid": (5, 3, 2), "masses": "gregory"}
+    scene = SCENE.model_copy(update={"springs": SpringTable(**table)})
+    assert lumped.given(scene).masses == "gregory"
+    graded = SCENE.model_copy(update={"springs": SpringTable(**table, grading=0.5)})
+    with pytest.raises(BadInput, match=r"grading = 0\.5"):
+        lumped.given(graded)
+    for wrong in ({"grid": (1, 3, 2)}, {"masses": "lumps"}, {"grading": 2.0}):
+        with pytest.raises(BadInput, match=next(iter(wrong))):
+            SpringTable(**{**table, **wrong})

@@ -117,8 +117,8 @@ def moduli(calibration: dict[str, Any]) -> Table:
 
 
 def to_toml(calibration: dict[str, Any]) -> str:
-    """The [springs] table for pasting into a scene; all digits."""
-    lines = ["[springs]"]
+    """The [springs] table for pasting into a scene, with the lattice that it is for; all digits."""
+    lines = ["[springs]", f"grid = {list(calibration['grid'])}", f'masses = "{calibration["masses"]}"']
     for name, value in calibration["springs"].items():
         lines.append(f"{name} = {_toml(value)}")
     lines.append(f"layer_distance = {_toml(calibration['layer_distance'])}")

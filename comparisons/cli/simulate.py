@@ -43,13 +43,14 @@ def command(
 ) -> None:
     """Simulate the lattice from rest. With --out the run streams to a folder; the same command resumes it."""
     from comparisons.cli.finish import finish
-    from comparisons.models.registry import simulate
+    from comparisons.models.registry import check, simulate
     from comparisons.motion.history import read_measured
     from comparisons.motion.tables import report
     from sheetbench import scenes
 
     asked = scenes.load(scene)
     truth = read_measured(measured, list(asked.probes)) if measured is not None else {}
+    check(asked, "lumped", {"grid": lumped, "calibration": calibration})
     run = {
         "--integrator": integrator,
         "--lumped": lumped,

@@ -20,8 +20,8 @@ import numpy as np
 
 from comparisons.comparison.error_bar import CHEAP, ErrorBar, error_bar
 from comparisons.models.candidate import Candidate
-from comparisons.models.grids import Asked, scene_grid
-from comparisons.models.registry import check_lattice, check_reference, has_own_springs, solve
+from comparisons.models.grids import Asked
+from comparisons.models.registry import check, check_reference, has_own_springs, solve
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static
 
 if TYPE_CHECKING:
@@ -198,10 +198,10 @@ def compare(
     if not isinstance(scene, Scene):
         scene = load_static(scene)
     require_static(scene)
-    check_lattice(calibration, k, layer_distance)
-    check_reference(reference, elements)
-    asked: dict[str, Any] = {"grid": scene_grid(scene, grid), "layer_distance": layer_distance, "k": k}
+    asked: dict[str, Any] = {"grid": grid, "layer_distance": layer_distance, "k": k}
     asked["calibration"] = "uniform" if calibration is None and k is not None else calibration
+    check(scene, "lumped", asked)
+    check_reference(reference, elements)
 
     def run(model: str, name: str, **settings: Any) -> Solution:
         starting(name)

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sheetbench.scenes import Scene, Sheet
+from sheetbench.scenes import Scene, Sheet, SpringTable
 from sheetbench.scenes.errors import BadInput
-from sheetbench.scenes.grid import Grid, grid_of
+from sheetbench.scenes.grid import MASSES, Grid, grid_of
 
 Asked = int | Sequence[int] | str | None
 
@@ -30,7 +30,9 @@ def parse_grid(sheet: Sheet, text: str) -> Grid:
 
 
 def scene_grid(scene: Scene, asked: Asked = None) -> Grid:
-    """The grid asked for, as text or as numbers, or else nine masses along the shorter side."""
+    """The grid asked for, as text or as numbers; else that of the scene's own [springs], if they name one, or
+    nine masses along the shorter side."""
     if isinstance(asked, str):
         return parse_grid(scene.sheet, asked)
-    return grid_of(scene.sheet) if asked is None else grid_of(scene.sheet, asked)
+    own = scene.springs.grid if isinstance(scene.springs, SpringTable) else None
+    return grid_of(scene.sheet, asked if asked is not None else own or MASSES)

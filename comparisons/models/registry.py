@@ -226,8 +226,12 @@ def check(scene: Scene, model: str, settings: Mapping[str, Any]) -> None:
         unknown = [name for name in settings if name not in known]
         if unknown:
             raise BadInput(f"lumped: no setting '{unknown[0]}'; it has {', '.join(known)}")
-        scene_grid(scene, settings.get("grid"))
         check_lattice(settings.get("calibration"), settings.get("k"), settings.get("layer_distance"))
+        grid = scene_grid(scene, settings.get("grid"))
+        if has_own_springs(scene, **settings):
+            import lumped
+
+            lumped.given(scene, grid)
     elif model in MODELS:
         own = {name: value for name, value in settings.items() if name not in ("elements", "symmetry")}
         check_reference(model, settings.get("elements", 16), own)

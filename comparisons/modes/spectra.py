@@ -15,11 +15,10 @@ from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from comparisons.models.grids import Asked, scene_grid
-from comparisons.models.registry import check_lattice, check_reference, scene_springs
+from comparisons.models.grids import Asked
+from comparisons.models.registry import check, check_reference, scene_springs
 from sheetbench.scenes import Scene, load
 from sheetbench.scenes.errors import BadInput
-from sheetbench.scenes.grid import Grid
 
 if TYPE_CHECKING:
     from comparisons.report.report import Report
@@ -101,19 +100,18 @@ def spectra(
     scene = scene if isinstance(scene, Scene) else load(scene)
     if count < 1:
         raise BadInput(f"--count = {count}: at least 1")
-    check_lattice(calibration, None, None)
+    check(scene, "lumped", {"grid": grid, "calibration": calibration})
     for reference in references:
         check_reference(reference, elements)
-    masses = scene_grid(scene, grid)
     starting("lumped")
-    found = [_lattice(scene, count, masses, calibration)]
+    found = [_lattice(scene, count, grid, calibration)]
     for reference in references:
         starting(reference)
         found.append(_reference(scene, reference, count, elements))
     return Spectra(scene, tuple(found))
 
 
-def _lattice(scene: Scene, count: int, grid: Grid, calibration: str | None) -> Spectrum:
+def _lattice(scene: Scene, count: int, grid: Asked, calibration: str | None) -> Spectrum:
     import lumped
 
     springs = scene_springs(scene, grid=grid, calibration=calibration)

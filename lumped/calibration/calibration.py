@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from lumped import moduli
-from lumped.lattice import Distribution, Grid
+from lumped.lattice import Grid
 from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
 from sheetbench.scenes.errors import BadInput
-from sheetbench.scenes.springs import Either
+from sheetbench.scenes.springs import Distribution, Either
 
 
 @dataclass(frozen=True)

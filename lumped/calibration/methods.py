@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from lumped.calibration.calibration import Calibration, report
@@ -11,7 +11,7 @@ from lumped.calibration.consistent import consistent, consistent_edges
 from lumped.calibration.least_squares import fit_moduli
 from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
 from lumped.calibration.uniform import uniform
-from sheetbench.scenes import Scene
+from sheetbench.scenes import Scene, SpringTable
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import MASSES, grid_of
 
@@ -44,14 +44,26 @@ CLOSED: dict[str, Method] = {
 }
 
 
-def given(scene: Scene, grid: int | Sequence[int] = MASSES) -> Calibration:
-    """The springs of the scene's own [springs] table on a grid (`sheetbench.scenes.grid`), with their report.
+def given(scene: Scene, grid: int | Sequence[int] | None = None) -> Calibration:
+    """The springs of the scene's own [springs] table, with their moduli report.
 
-    Raises BadInput when the scene has none.
+    grid: as `sheetbench.scenes.grid` reads it; by default the table's own, or nine masses along the shorter
+    side where it names none. Raises BadInput when the scene has no springs, or those of another lattice.
     """
     if scene.springs is None:
         raise BadInput(f"scene '{scene.name}' has no [springs] table")
-    return report("scene", scene.sheet, scene.material, grid_of(scene.sheet, grid), scene.springs)
+    table = SpringTable.model_validate(scene.springs)
+    asked = grid_of(scene.sheet, grid if grid is not None else table.grid or MASSES)
+    if table.grid not in (None, asked):
+        own, other = ("x".join(map(str, numbers)) for numbers in (table.grid, asked))
+        raise BadInput(
+            f"scene '{scene.name}': springs.grid = {own}: these springs are not those of {other} masses; "
+            f"solve on {own}, or find others: sheetbench calibrate --grid {other} --toml"
+        )
+    if table.grading:
+        raise BadInput(f"scene '{scene.name}': springs.grading = {table.grading:g}: all cells are alike here")
+    found = report("scene", scene.sheet, scene.material, asked, table.constants)
+    return replace(found, masses=table.masses)
 
 
 def default(scene: Scene) -> Calibration:

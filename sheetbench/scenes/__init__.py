@@ -9,7 +9,7 @@ from sheetbench.scenes.loads import EdgeLoad, Load, PointLoad, Pressure
 from sheetbench.scenes.scene import Scene, free_rigid_motions, require_static
 from sheetbench.scenes.sheet import EDGES, Edge, Gravity, Material, Sheet
 from sheetbench.scenes.solution import FieldMesh, Iteration, Solution, Status, comparable
-from sheetbench.scenes.springs import DamperSet, PerDirection, SpringSet
+from sheetbench.scenes.springs import DamperSet, PerDirection, SpringSet, SpringTable
 from sheetbench.scenes.strains import outside_model, weight_strain
 from sheetbench.scenes.supports import (
     Clamped,
@@ -58,6 +58,7 @@ __all__ = [
     "Sheet",
     "Solution",
     "SpringSet",
+    "SpringTable",
     "Status",
     "Support",
     "Symmetric",

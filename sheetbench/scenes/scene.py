@@ -17,7 +17,7 @@ from sheetbench.scenes.errors import SceneError
 from sheetbench.scenes.loads import Load, PointLoad
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
 from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
-from sheetbench.scenes.springs import DamperSet, SpringSet
+from sheetbench.scenes.springs import DamperSet, SpringTable
 from sheetbench.scenes.supports import Support, contradiction, held_axes, holds_tilt, lets_twist_go
 
 
@@ -43,7 +43,7 @@ class Scene(Frozen):
     """Forces, moments and pressures, which add up."""
     actuators: tuple[Actuator, ...] = Field(default=(), alias="actuator")
     """What moves edges that have no support."""
-    springs: SpringSet | None = None
+    springs: SpringTable | None = None
     """The lattice's own spring constants, as `sheetbench calibrate --toml` writes them; no other model reads
     them."""
     dampers: DamperSet | None = None

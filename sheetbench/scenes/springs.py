@@ -12,9 +12,9 @@ for all layers together on the mid-surface's.
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Tag
+from pydantic import Discriminator, Field, Strict, Tag, model_validator
 
 from sheetbench.scenes.quantities import Frozen, NonNegative, Number, Positive, Unit
 
@@ -56,6 +56,9 @@ EdgeStiffness = Annotated[
 ]
 Damping = Annotated[PerFamily, Unit("N·s/m")]
 
+Masses = Annotated[int, Strict(), Field(ge=2)]
+Distribution = Literal["tributary", "gregory"]
+
 
 class SpringSet(Frozen):
     """Stiffness of each family [N/m] and the distance of neighbouring layers [m]."""
@@ -86,6 +89,28 @@ class SpringSet(Frozen):
     """The same where the opposite edge is free, hinged or held too."""
     layer_distance: Annotated[Positive, Unit("m")]
     """Distance of neighbouring layers; of two layers, about the sheet's thickness."""
+
+
+class SpringTable(SpringSet):
+    """The [springs] table of a scene: springs, and the lattice that they were found for."""
+
+    grid: tuple[Masses, Masses, Masses] | None = None
+    """Masses along x and y, and layers, of the lattice that these springs belong to: what is solved unless a
+    grid is asked for; another grid is refused."""
+    grading: Annotated[Number, Field(ge=0, le=1)] = 0.0
+    """How much smaller that lattice's cells are at the edges: 0, all alike, to 1."""
+    masses: Distribution = "tributary"
+    """How its mass is shared out: tributary, or as the fit to frequencies found it best (gregory)."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_springs_alone(cls, data: Any) -> Any:
+        return data.model_dump() if type(data) is SpringSet else data
+
+    @property
+    def constants(self) -> SpringSet:
+        """The springs alone."""
+        return SpringSet(**{name: getattr(self, name) for name in SpringSet.model_fields})
 
 
 class DamperSet(Frozen):

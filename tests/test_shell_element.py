@@ -88,7 +88,7 @@ def test_the_tangent_is_the_derivative_of_the_force_on_unit_directors(loads):
     """Along the sphere: the difference is taken on normalised directors, projected on the tangent planes."""
     structure, _ = discretise(distorted(), scene(loads=loads, gravity=Gravity(acceleration=(0, 0, -9.81))))
     state = random_state(structure, 0.5)
-    frames = structure._frames(state.change)
+    frames = structure.frames(state)
     matrix, _ = structure.system(state, structure.forces(state, 1.0), 1.0, mixed=False)
     rng = np.random.default_rng(4)
     for _ in range(3):

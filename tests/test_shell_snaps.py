@@ -15,7 +15,7 @@ from fem_reference.shell.structure import ShellStructure, State
 from fem_reference.solving import pseudo_transient
 from fem_reference.solving.equilibrium import SNAPS, Path, StepFailed, trace
 from fem_reference.solving.linear import DirectSolver
-from fem_reference.solving.pseudo_transient import dragged, potential, relax, settler
+from fem_reference.solving.pseudo_transient import relax, settler
 from fem_reference.surface.loads import point_force
 from fem_reference.surface.mesh import rectangle
 from sheetbench import scenes
@@ -70,13 +70,14 @@ class Shortening:
         return out, np.zeros_like(out)
 
 
+@dataclass(frozen=True)
 class Strip(ShellStructure):
     """A strip between hinges, shortened, that sets out from a given state."""
 
-    start: State
+    start: State | None = None
 
     def rest(self) -> State:
-        return self.start
+        return self.start or super().rest()
 
 
 def height(shorter: float) -> float:
@@ -101,15 +102,14 @@ def strip(at: float = 0.5, shorter: float = SHORTER, bent: float = 0.0) -> Strip
     object.__setattr__(supports, "driven", (driver,))
     point = np.array([at * SIDE, WIDTH / 2])
     dead = point_force(mesh, plain.element_nodes, len(nodes), point, np.array([0.0, 0.0, -1.5 * LIMIT]))
-    out = Strip(plain.element, plain.element_nodes, supports, dead, [])
+    out = Strip.build(plain.element, plain.element_nodes, supports, dead)
     change = np.zeros((2, len(nodes), 3))
     change[0, :, 0] = -shorter * (nodes[:, 0] / SIDE - 0.5)
     phase, high = np.pi * nodes[:, 0] / SIDE, bent * height(shorter)
     change[0, :, 2] = high * np.sin(phase)
     slope = np.arctan(high * np.pi / SIDE * np.cos(phase))
     change[1, :, 0], change[1, :, 2] = -np.sin(slope), np.cos(slope) - 1.0
-    out.start = State(change)
-    return out
+    return replace(out, start=State(change))
 
 
 @pytest.fixture(scope="module")
@@ -125,8 +125,7 @@ def mirrored(change: np.ndarray) -> np.ndarray:
 
 
 def pushed(arch: State, at: float = 0.5, settles: bool = True) -> tuple[Strip, Path]:
-    structure, solver = strip(at), DirectSolver()
-    structure.start = arch
+    structure, solver = replace(strip(at), start=arch), DirectSolver()
     return structure, trace(structure, solver, settle=settler(structure, solver) if settles else None)
 
 
@@ -217,13 +216,13 @@ def test_the_potential_is_that_of_the_residual_and_a_drag_begins_with_none(scene
     way[0][free] = generator.normal(0.0, 1.0, int(free.sum()))
     rest, step = structure.rest(), 1e-6
     ahead, behind = (
-        potential(structure, replace(rest, change=change + sign * step * way), factor)[0]
+        structure.potential(replace(rest, change=change + sign * step * way), factor)[0]
         for sign in (1.0, -1.0)
     )
     state = replace(rest, change=change)
     residual = structure.forces(state, factor).residual
     assert (ahead - behind) / (2.0 * step) == pytest.approx(float(np.sum(residual * way)), rel=1e-6)
-    slow = dragged(structure, state, factor, 3.0).forces(state, factor).residual
+    slow = structure.dragged(state, factor, 3.0).forces(state, factor).residual
     assert slow == pytest.approx(residual, rel=1e-9, abs=1e-9 * np.abs(residual).max())
 
 
@@ -237,7 +236,7 @@ def test_no_step_of_the_creep_raises_the_potential(taped, monkeypatch):
     def accepts(self, state):
         taken = measured(self, state)
         if taken:
-            energies.append(potential(structure, state, self.load_factor)[0])
+            energies.append(structure.potential(state, self.load_factor)[0])
         return taken
 
     monkeypatch.setattr(pseudo_transient._Creep, "_accepts", accepts)

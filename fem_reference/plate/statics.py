@@ -22,15 +22,17 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from skfem import Basis, ElementQuad2, MeshQuad
 
-from fem_reference.plate import rods as plate_rods
 from fem_reference.plate.element import TILT_X, PlateElements, W
-from fem_reference.shell.rods import hold_bases
+from fem_reference.plate.rods import PlateRods
 from fem_reference.solving.linear import DirectSolver, SingularMatrix
 from fem_reference.solving.sparsity import Pattern
 from fem_reference.solving.threads import one_blas_thread
-from fem_reference.surface import edge_motion, loads
+from fem_reference.surface import edge_motion, loads, rod
 from fem_reference.surface import supports as surface_supports
+from fem_reference.surface.actuator_forces import Held, exerted, on_edges
 from fem_reference.surface.biquadratic import GAUSS, NODES, shape
+from fem_reference.surface.bound_rods import on_surface
+from fem_reference.surface.edge_motion import moved
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, quarters, require_upright
@@ -120,16 +122,19 @@ def _solved(
 ) -> Solution:
     begin = perf_counter()
     plate = Plate.on(mesh)
-    rods = plate_rods.of_scene(scene, plate.basis.mesh, plate.elements.nodes, plate.nodes)
-    supports, held, fields = constrain(scene, plate, hard_edges, rods.rods)
-    force = rods.force(nodal_forces(scene, plate).ravel())
+    sides = rod.sides(scene, mesh, plate.elements.nodes, plate.nodes)
+    along = rod.of_scene(scene, plate.nodes, sides)
+    rods = PlateRods.on(on_surface(along, len(plate.nodes)), len(plate.nodes))
+    supports, held, fields = constrain(scene, plate, hard_edges, along)
     free = np.flatnonzero(~np.concatenate([held.ravel(), rods.held]))
+    u = np.concatenate([fields.ravel(), np.zeros(len(rods.held))])
+    force = rods.force(u.size)
+    force[: fields.size] += nodal_forces(scene, plate).ravel()
     ready = perf_counter()
 
-    u = np.concatenate([fields.ravel(), np.zeros(len(rods.held))])
     status, notes = Status.CONVERGED, tuple[str, ...]()
     with one_blas_thread():
-        stiffness = rods.stiffness(stiffness_matrix(scene, plate, section))
+        stiffness = stiffness_matrix(scene, plate, section, rods)
         try:
             u[free] = DirectSolver().factor(stiffness[free][:, free]).solve((force - stiffness @ u)[free])
         except SingularMatrix as error:
@@ -142,7 +147,11 @@ def _solved(
 
     size = np.linalg.norm(force) + np.linalg.norm(np.delete(unbalanced, free))
     fields, nodal = u[: fields.size].reshape(-1, 5), unbalanced[: fields.size].reshape(-1, 5)
-    exerted, line = plate_rods.exerted(scene, rods, supports, u, nodal, plate.nodes)
+    couple = np.column_stack([-nodal[:, 4], nodal[:, 3], np.zeros(len(nodal))])  # e_z × what holds the tilts
+    flat, up = np.column_stack([plate.nodes, np.zeros(len(nodal))]), np.tile([0.0, 0.0, 1.0], (len(nodal), 1))
+    holding = Held(np.concatenate([nodal[:, :3], couple], axis=1), flat)
+    edges = on_edges(rods.bound, rods.strained(u).pull, holding, up)
+    wrenches, line = exerted(scene, edges, moved(supports), holding)
     by_part = energies(scene, plate, u[: fields.size], section)
     return Solution(
         model="plate",
@@ -155,11 +164,11 @@ def _solved(
         solve_seconds=done - ready,
         sample=lambda points: plate.sample(fields[:, :3], points),
         reactions=supports.reactions(nodal[:, :3]),
-        energies={**by_part, "rod": rods.energy(u)} if rods.rods else by_part,
+        energies={**by_part, "rod": rods.energy(u)} if along else by_part,
         mesh=field_mesh(plate, fields, {"actuator_line_force": line} if scene.actuators else {}),
         history=(Iteration(1.0, float(np.linalg.norm(unbalanced[free]) / (size or 1.0)), 1.0),),
         load_factor=0.0 if status is Status.SINGULAR else 1.0,
-        actuators=exerted,
+        actuators=wrenches,
         notes=notes,
     )
 
@@ -169,11 +178,17 @@ def section_stiffness(scene: Scene, section: Section | None = None) -> dict[str,
     return dict(zip(PARTS, section or section_of(scene.material, scene.sheet.thickness), strict=True))
 
 
-def stiffness_matrix(scene: Scene, plate: Plate, section: Section | None = None) -> csr_matrix:
-    """Stiffness of the free plate, (5 n, 5 n) [N/m, N, N·m]."""
+def stiffness_matrix(
+    scene: Scene, plate: Plate, section: Section | None = None, rods: PlateRods | None = None
+) -> csr_matrix:
+    """Stiffness of the free plate, (5 n, 5 n) [N/m, N, N·m], or of the plate and its rods."""
     sections = section_stiffness(scene, section)
     blocks = [_integrate(b, sections[part], plate.elements.areas) for part, b in plate.strains().items()]
-    return _assemble(plate, np.sum(blocks, axis=0))
+    total = np.sum(blocks, axis=0)
+    if rods is None or not rods.bound.rods:
+        return _assemble(plate, total)
+    size = 5 * plate.basis.N + len(rods.held)
+    return Pattern(plate.elements.unknowns, rods.unknowns, size=size).matrix(total, rods.stiffness())
 
 
 def mass_matrix(scene: Scene, plate: Plate) -> csr_matrix:
@@ -213,7 +228,7 @@ def constrain(
     """
     on_edge = {str(on.edge): edge_nodes(plate, on.edge) for on in (*scene.supports, *scene.actuators)}
     supports = surface_supports.of_scene(scene, plate.nodes, on_edge)
-    supports = edge_motion.hold(hold_bases(supports, rods), scene, plate.nodes, on_edge)
+    supports = edge_motion.hold(rod.hold_bases(supports, rods), scene, plate.nodes, on_edge)
     held = np.column_stack([supports.position, supports.director[:, None] | supports.tilt])
     for name in hard_edges:
         held[edge_nodes(plate, name), TILT_X + EDGES[name].along_axis] = True
@@ -229,9 +244,9 @@ def constrain(
             values[on_edge[support.edge], TILT_X + edge.normal_axis] = (
                 -support.tilt * edge.outward[edge.normal_axis]
             )
-    for moved in edge_motion.of_scene(scene, plate.nodes, on_edge):
-        displacement, turn = moved.small_change()
-        values[moved.nodes] = np.column_stack([displacement, np.tile(turn[:2], (len(moved.nodes), 1))])
+    for motion in edge_motion.of_scene(scene, plate.nodes, on_edge):
+        displacement, turn = motion.small_change()
+        values[motion.nodes] = np.column_stack([displacement, np.tile(turn[:2], (len(motion.nodes), 1))])
     return supports, held, values
 
 
@@ -276,4 +291,4 @@ def _integrate(operator: np.ndarray, section: np.ndarray, areas: np.ndarray) -> 
 def _assemble(plate: Plate, blocks: np.ndarray) -> csr_matrix:
     size = 5 * plate.basis.N
     blocks = blocks.reshape(-1, 5 * NODES, 5 * NODES)
-    return Pattern(plate.elements.unknowns, size).matrix(blocks, np.zeros(size))
+    return Pattern(plate.elements.unknowns, size=size).matrix(blocks)

@@ -124,6 +124,30 @@ class Element:
         return (self.stiffness @ strain[:, :, None])[:, :, 0]
 
 
+@dataclass(frozen=True)
+class DraggedElement(Element):
+    """Elements of stiffness (1 + σ) D, their strains less `past`, σ e_n/(1 + σ) (m, 54): a step of creep from
+    strains e_n (see `pseudo_transient`)."""
+
+    past: np.ndarray
+
+    def strain(self, change: np.ndarray) -> np.ndarray:
+        """e − past (m, 54)."""
+        return super().strain(change) - self.past
+
+
+def forces_of(gradient: np.ndarray, stress: np.ndarray) -> np.ndarray:
+    """Bᵀ s: (m, 18, 3)."""
+    m = len(stress)
+    return (stress[:, None, :] @ gradient.reshape(m, STRAINS, 54)).reshape(m, 18, 3)
+
+
+def strain_of(gradient: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """B δq: (m, 54)."""
+    m = len(step)
+    return (gradient.reshape(m, STRAINS, 54) @ step.reshape(m, 54, 1))[:, :, 0]
+
+
 def geometric(stress: np.ndarray) -> np.ndarray:
     """Σ s_k H_k (m, 18, 18), the same for each of the three components."""
     return (stress @ FORMS.reshape(STRAINS, -1)).reshape(-1, 18, 18)

@@ -15,15 +15,16 @@ import numpy as np
 from skfem import Basis, ElementQuad2, MeshQuad
 
 from fem_reference.shell.element import Element
-from fem_reference.shell.rods import RoddedShell
-from fem_reference.shell.structure import ShellStructure
+from fem_reference.shell.structure import UP, ShellStructure, State
 from fem_reference.shell.validity import STRETCHED, inspector, judge
 from fem_reference.solving.equilibrium import Path, trace
 from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.pseudo_transient import settler
-from fem_reference.surface import actuator_forces, edge_motion, loads, rod
+from fem_reference.surface import edge_motion, loads, rod
 from fem_reference.surface import supports as surface_supports
-from fem_reference.surface.loads import Line
+from fem_reference.surface.actuator_forces import Held, exerted, on_edges
+from fem_reference.surface.bound_rods import on_surface
+from fem_reference.surface.edge_motion import moved
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, quarters
@@ -70,7 +71,7 @@ class _Run(NamedTuple):
     mesh: MeshQuad
     structure: ShellStructure
     nodes: np.ndarray
-    path: Path
+    path: Path[State]
     setup_seconds: float
     solve_seconds: float
 
@@ -98,10 +99,12 @@ def _solution(
     status, notes = judge(scene, structure, path)
     displacement, turn = path.state.change
     forces = structure.forces(path.state, path.load_factor)
-    exerted, fields = {}, {}
-    if isinstance(structure, RoddedShell):
-        exerted = actuator_forces.wrenches(scene, structure, path.state, forces)
-        fields = {"actuator_line_force": actuator_forces.line_forces(structure, path.state, forces)}
+    director = turn + UP
+    couple = np.cross(director, forces.residual[1])
+    held = Held(np.concatenate([forces.residual[0], couple], axis=1), structure.rest_positions + displacement)
+    edges = on_edges(structure.rods, forces.rods.pull, held, director)
+    wrenches, line_force = exerted(scene, edges, moved(structure.supports), held)
+    fields = {"actuator_line_force": line_force} if scene.actuators else {}
     runs = [run] if spent is None else [spent, run]
     return Solution(
         model="shell",
@@ -115,12 +118,10 @@ def _solution(
         sample=lambda points: interpolate(run.mesh, structure.element_nodes, displacement, points),
         reactions=structure.supports.reactions(forces.residual[0]),
         energies=structure.energies(path.state),
-        mesh=field_mesh(
-            run.nodes, structure.element_nodes, displacement, turn + np.array([0.0, 0.0, 1.0]), **fields
-        ),
+        mesh=field_mesh(run.nodes, structure.element_nodes, displacement, director, **fields),
         history=tuple(entry for one in runs for entry in one.path.history),
         load_factor=path.load_factor,
-        actuators=exerted,
+        actuators=wrenches,
         snaps=tuple(path.snaps),
         fallback=fallback,
         notes=tuple(notes),
@@ -136,18 +137,15 @@ def discretise(
     element = Element.build(
         nodes[element_nodes], section or section_of(scene.material, scene.sheet.thickness)
     )
-    on_edge = {str(edge): basis.get_dofs(edge).flatten() for edge in (s.edge for s in scene.supports)}
+    holding = (*scene.supports, *scene.actuators)
+    on_edge = {str(on.edge): basis.get_dofs(on.edge).flatten() for on in holding}
     supports = surface_supports.of_scene(scene, nodes, on_edge)
     dead, followers = loads.of_scene(scene, mesh, element_nodes, nodes)
-    if not scene.actuators:
-        return ShellStructure(element, element_nodes, supports, dead, followers), nodes
-    sides = {}
-    for edge in {str(actuator.edge) for actuator in scene.actuators}:
-        line = Line.along(mesh, mesh.boundaries[edge], nodes[element_nodes])
-        sides[edge] = element_nodes[line.elements[:, None], line.sides]
-    supports = edge_motion.hold(supports, scene, nodes, {edge: np.unique(at) for edge, at in sides.items()})
+    sides = rod.sides(scene, mesh, element_nodes, nodes)
     rods = rod.of_scene(scene, nodes, sides)
-    return RoddedShell(element, element_nodes, supports, dead, followers, rods), nodes
+    supports = rod.hold_bases(edge_motion.hold(supports, scene, nodes, on_edge), rods)
+    bound = on_surface(rods, len(nodes))
+    return ShellStructure.build(element, element_nodes, supports, dead, followers, bound), nodes
 
 
 def field_mesh(

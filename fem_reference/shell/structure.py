@@ -9,156 +9,299 @@ director: δd = T β with T ⊥ d. The constraint |d|² = 1 and the prescribed v
 and its multiplier, −(R_d · d)/(d · d), stiffens T (the curvature of the sphere). All of strain, load and
 constraint being polynomials in q, the step is Newton's; `mixed` takes the stress that the last step
 extrapolated, D (e + B δq), for the geometric stiffness and the multiplier (see `equilibrium`).
+
+Rods along edges (see `rod`) are further elements, and their third director m, one at every node of their
+edges, is one more director like d. In all there are 2n + q vectors: u, d and the q directors m.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import Self
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, STRAINS, Element, geometric
+from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
+from fem_reference.shell.element import (
+    BENDING,
+    MEMBRANE,
+    SHEAR,
+    DraggedElement,
+    Element,
+    forces_of,
+    geometric,
+    strain_of,
+)
+from fem_reference.shell.reduction import add_geometric, projected, reduced
 from fem_reference.solving.sparsity import Pattern
+from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surface
 from fem_reference.surface.loads import Follower
+from fem_reference.surface.rod_elements import Strained
 from fem_reference.surface.supports import Supports
+
+UP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
 class State:
-    """change: q (2, n, 3); stress: extrapolated s (m, 54), the element's own where None."""
+    """change: q (2, n, 3); aside: of the rods' m (q, 3); stress (m, 54) and rod_stress (k, s): extrapolated,
+    the elements' own where None."""
 
     change: np.ndarray
+    aside: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
     stress: np.ndarray | None = None
+    rod_stress: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
 class Forces:
-    """At a state: B (m, 54, 18, 3), s (m, 54), residual R (2, n, 3), size of the forces that balance [N]."""
+    """At a state: B (m, 54, 18, 3), s (m, 54), the same of the rods, residuals R (2, n, 3) on the sheet and
+    aside (q, 3) on the rods' m, size of the forces that balance [N]."""
 
     gradient: np.ndarray
     stress: np.ndarray
+    rods: Strained
     residual: np.ndarray
+    aside: np.ndarray
     size: float
 
 
+@dataclass(frozen=True)
 class ShellStructure:
-    """A shell with its supports and loads, ready for `equilibrium.trace`."""
+    """A shell with its supports, loads and rods, ready for `equilibrium.trace`.
 
-    def __init__(
-        self,
+    element_nodes: (m, 9); dead: nodal forces (n, 3) [N]; number: of the unknowns (n, 5) of every node, turns
+    (n + q, 2) of every director, −1 where held.
+    """
+
+    element: Element
+    element_nodes: np.ndarray
+    supports: Supports
+    dead: np.ndarray
+    followers: Sequence[Follower]
+    rods: BoundRods
+    number: np.ndarray
+    turns: np.ndarray
+    pattern: Pattern
+
+    @classmethod
+    def build(
+        cls,
         element: Element,
         element_nodes: np.ndarray,
         supports: Supports,
         dead: np.ndarray,
-        followers: list[Follower],
-    ):
-        """element_nodes: (m, 9); dead: nodal forces (n, 3) [N]."""
-        self.element, self.element_nodes, self.supports = element, element_nodes, supports
-        self.dead, self.followers = dead, followers
-        self.count = len(dead)
+        followers: Sequence[Follower] = (),
+        rods: BoundRods | None = None,
+    ) -> Self:
+        """The structure with its unknowns numbered, those of the rods last."""
+        rods = on_surface([], len(dead)) if rods is None else rods
         free = np.concatenate([~supports.position, np.repeat(~supports.director[:, None], 2, axis=1)], axis=1)
         free[supports.tilt.any(axis=1), 3] = False  # the first tangent of such a director is the axis held
-        self.number = np.where(free, np.cumsum(free.ravel()).reshape(free.shape) - 1, -1)  # (n, 5)
-        self.unknowns = int(free.sum())
-        of_element = self.number[element_nodes]  # (m, 9, 5)
-        parts = [of_element[:, :, :3].reshape(-1, 27), of_element[:, :, 3:].reshape(-1, 18)]
-        self.pattern = Pattern(np.concatenate(parts, axis=1), self.unknowns)
+        free_aside = np.repeat(~rods.held[:, None], 2, axis=1)
+        every = np.concatenate([free.ravel(), free_aside.ravel()])
+        numbered = np.where(every, np.cumsum(every) - 1, -1)
+        number = numbered[: free.size].reshape(free.shape)
+        turns = np.concatenate([number[:, 3:], numbered[free.size :].reshape(-1, 2)])
+        m, k = len(element_nodes), len(rods.sites)
+        of_element = number[element_nodes]
+        of_sheet = [of_element[:, :, :3].reshape(m, 27), of_element[:, :, 3:].reshape(m, 18)]
+        on_rod = [
+            number[rods.sites[:, :3], :3].reshape(k, 9),
+            turns[rods.sites[:, 3:] - len(dead)].reshape(k, 12),
+        ]
+        pattern = Pattern(*(np.concatenate(n, axis=1) for n in (of_sheet, on_rod)), size=int(every.sum()))
+        return cls(element, element_nodes, supports, dead, followers, rods, number, turns, pattern)
+
+    @property
+    def count(self) -> int:
+        """Nodes of the sheet, n."""
+        return len(self.dead)
+
+    @property
+    def unknowns(self) -> int:
+        """How many there are."""
+        return self.pattern.size
 
     @property
     def symmetric(self) -> bool:
         """Whether the tangent is: follower loads make it unsymmetric."""
         return not self.followers
 
+    @property
+    def rest_positions(self) -> np.ndarray:
+        """The nodes of the flat sheet (n, 3) [m]."""
+        out = np.zeros((self.count, 3))
+        out[self.element_nodes] = self.element.reference[:, :9]
+        return out
+
     def rest(self) -> State:
         """Flat and free of stress."""
-        return State(np.zeros((2, self.count, 3)))
+        return State(np.zeros((2, self.count, 3)), np.zeros_like(self.rods.own))
+
+    def unextrapolated(self, state: State) -> State:
+        """The state with its own stresses."""
+        return replace(state, stress=None, rod_stress=None)
 
     def energies(self, state: State) -> dict[str, float]:
-        """Strain energy [J] by part."""
-        strain = self.element.strain(self._gather(state.change))
+        """Strain energy [J] by part; where there are rods, theirs from their intrinsic shape."""
+        strain = self.element.strain(self.gather(state.change))
         density = strain * self.element.stress(strain)
         parts = {"membrane": MEMBRANE, "bending": BENDING, "shear": SHEAR}
-        return {name: 0.5 * float(density[:, part].sum()) for name, part in parts.items()}
+        found = {name: 0.5 * float(density[:, part].sum()) for name, part in parts.items()}
+        return {**found, "rod": self.rods.elements.energy(self._on_rods(state))} if self.rods.rods else found
+
+    def potential(self, state: State, load_factor: float) -> tuple[float, float]:
+        """Strain energy less the work of dead loads, and the sum of their magnitudes [J]."""
+        strain, on_rods = self.element.strain(self.gather(state.change)), self._on_rods(state)
+        stored = 0.5 * float(np.sum(strain * self.element.stress(strain)))
+        stored += self.rods.elements.energy(on_rods, load_factor)
+        work = float(np.sum(self.dead * state.change[0]) + np.sum(self.rods.elements.weight * on_rods))
+        return stored - load_factor * work, stored + abs(load_factor * work)
+
+    def dragged(self, state: State, load_factor: float, drag: float) -> ShellStructure:
+        """The structure whose equilibrium at this load factor is the end of a step of creep from a state.
+
+        Of stresses (1 + σ) D e − σ D e_n, the rods' (1 + σ) S e − σ S e_n − λ S e₀ those of another intrinsic
+        curvature.
+        """
+        element, rods = self.element, self.rods.elements
+        past = element.strain(self.gather(state.change)) * (drag / (1.0 + drag))
+        slow = DraggedElement(element.reference, (1.0 + drag) * element.stiffness, element.areas, past)
+        shape = load_factor * rods.intrinsic + drag * rods.strain(self._on_rods(state))
+        intrinsic = shape / (load_factor * (1.0 + drag)) if self.rods.rods else rods.intrinsic
+        slow_rods = replace(rods, stiffness=(1.0 + drag) * rods.stiffness, intrinsic=intrinsic)
+        return replace(self, element=slow, rods=replace(self.rods, elements=slow_rods))
 
     def forces(self, state: State, load_factor: float) -> Forces:
         """Internal less external forces, and what they are measured against."""
-        change = self._gather(state.change)
+        change = self.gather(state.change)
         gradient = self.element.gradient(change)
         stress = self.element.stress(self.element.strain(change))
-        internal = self._scatter(_forces_of(gradient, stress))
+        internal = self._scatter(forces_of(gradient, stress))
         external = load_factor * self._external(change)
         size = np.abs(external[0]).sum() + np.abs(internal[0][self.supports.position]).sum()
         size += np.abs(external[1]).sum() / self._lever
-        return Forces(gradient, stress, internal - external, float(size))
+
+        elements = self.rods.elements
+        rods = elements.strained(self._on_rods(state), load_factor)
+        driving = load_factor * elements.driving(rods.gradient)
+        size += load_factor * np.abs(elements.weight[:, :3]).sum()
+        size += np.abs(driving[:, :3]).sum() + np.abs(driving[:, 3:]).sum() / self._lever
+        pull, aside = self._split(self.rods.scatter(rods.pull, self._vectors))
+        return Forces(gradient, stress, rods, internal - external + pull, aside, float(size))
 
     def imbalance(self, state: State, forces: Forces) -> float:
         """Sum of the free unknowns' residuals [N], directors' moments over the sheet's size."""
-        residual = forces.residual
-        moment = np.einsum("nc,nck->nk", residual[1], self._frames(state.change)) / self._lever
-        return float(np.abs(np.concatenate([residual[0], moment], axis=1)[self.number >= 0]).sum())
+        couple = np.concatenate([forces.residual[1], forces.aside])
+        moment = np.einsum("nc,nck->nk", couple, self.frames(state)) / self._lever
+        on_nodes = np.abs(forces.residual[0][self.number[:, :3] >= 0]).sum()
+        return float(on_nodes + np.abs(moment[self.turns >= 0]).sum())
 
     def gap(self, state: State, load_factor: float) -> float:
         """Largest distance from the prescribed values and from |d| = 1, relative to the sheet's size."""
-        position, director = self._to_constraints(state.change, load_factor)
-        return float(max(np.abs(position).max() / self._lever, np.abs(director).max()))
+        step = np.abs(self._to_constraints(state, load_factor))
+        return float(max(step[: self.count].max() / self._lever, step[self.count :].max()))
 
     def system(
         self, state: State, forces: Forces, load_factor: float, mixed: bool = True
     ) -> tuple[csr_matrix, np.ndarray]:
         """Tangent (unknowns, unknowns) and right-hand side of the step to equilibrium and constraints."""
-        stress = forces.stress if state.stress is None or not mixed else state.stress
-        frames = self._frames(state.change)
-        vectors = self.element.reference + self._gather(state.change)
-        reduced = self._reduce(forces.gradient, frames)  # (m, 54, 45)
-        stiffness = reduced.swapaxes(1, 2) @ (self.element.stiffness @ reduced)
-        form = geometric(stress)
-        self._add_geometric(stiffness, form, frames)
-        step = self._to_constraints(state.change, load_factor)
-        of_step = self._gather(step)
-        pull = (
-            _forces_of(forces.gradient, self.element.stress(_strain_of(forces.gradient, of_step)))
-            + form @ of_step
-        )
-        pressing = forces.residual
-        if stress is not forces.stress:
-            pressing = pressing + self._scatter(_forces_of(forces.gradient, stress - forces.stress))
+        frames = self.frames(state)
+        step = self._to_constraints(state, load_factor)
+        pressing = np.concatenate([*forces.residual, forces.aside])
+        stress, rod_stress = forces.stress, forces.rods.stress
+        if mixed and state.stress is not None and state.rod_stress is not None:
+            stress, rod_stress = state.stress, state.rod_stress
+            pressing = pressing + self._pull(forces, stress - forces.stress, rod_stress - forces.rods.stress)
+
+        of_nodes = frames[self.element_nodes]
+        gradient, form = reduced(forces.gradient, of_nodes), geometric(stress)
+        stiffness = gradient.swapaxes(1, 2) @ (self.element.stiffness @ gradient)
+        add_geometric(stiffness, form, of_nodes)
+        of_step = self.gather(self._split(step)[0])
+        strain = strain_of(forces.gradient, of_step)
+        pull = forces_of(forces.gradient, self.element.stress(strain)) + form @ of_step
+        vectors = self.element.reference + self.gather(state.change)
         for load in self.followers:
             tangent = -load_factor * load.tangent(vectors[load.elements])
             pull[load.elements] += np.einsum("eicjd,ejd->eic", tangent, of_step[load.elements])
-            stiffness[load.elements] += self._project(tangent, frames[self.element_nodes[load.elements]])
-        matrix = self.pattern.matrix(stiffness, self._multiplier(state.change, pressing[1]))
-        pull = forces.residual + self._scatter(pull)
-        rows = np.concatenate([pull[0], np.einsum("nc,nck->nk", pull[1], frames)], axis=1)
-        return matrix, -rows[self.number >= 0]
+            stiffness[load.elements] += projected(tangent, of_nodes[load.elements])
+
+        full = self.rods.elements.tangent(forces.rods.gradient, rod_stress)
+        onto = self._onto_rods(frames)
+        on_rods = self.rods.elements.product(full, self.rods.gather(step))
+        on_sheet, on_aside = self._split(self.rods.scatter(on_rods, self._vectors))
+
+        matrix = self.pattern.matrix(
+            stiffness, onto.swapaxes(1, 2) @ full @ onto, diagonal=self._multiplier(state, pressing)
+        )
+        total = forces.residual + self._scatter(pull) + on_sheet
+        couple = np.concatenate([total[1], forces.aside + on_aside])
+        return matrix, -self._of_unknowns(total[0], np.einsum("nc,nck->nk", couple, frames))
 
     def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
-        """The state after a step (unknowns,), with the stress it extrapolates."""
-        change = self._to_constraints(state.change, load_factor)
-        full = np.zeros(self.number.shape)
-        full[self.number >= 0] = step
-        change[0] += full[:, :3]
-        change[1] += np.einsum("nck,nk->nc", self._frames(state.change), full[:, 3:])
-        strain = _strain_of(forces.gradient, self._gather(change))
-        return State(state.change + change, forces.stress + self.element.stress(strain))
+        """The state after a step (unknowns,), with the stresses it extrapolates."""
+        vectors = self._to_constraints(state, load_factor)
+        vectors[: self.count] += np.where(self.number >= 0, step[self.number], 0.0)[:, :3]
+        turn = np.where(self.turns >= 0, step[self.turns], 0.0)
+        vectors[self.count :] += np.einsum("nck,nk->nc", self.frames(state), turn)
+        change, aside = self._split(vectors)
+        strain = strain_of(forces.gradient, self.gather(change))
+        return State(
+            state.change + change,
+            state.aside + aside,
+            forces.stress + self.element.stress(strain),
+            self.rods.elements.extrapolated(forces.rods, self.rods.gather(vectors)),
+        )
 
     def length(self, start: State, end: State) -> float:
         """Largest nodal displacement between two states, relative to the sheet's size."""
         return float(np.abs(end.change[0] - start.change[0]).max() / self._lever)
 
+    def gather(self, nodal: np.ndarray) -> np.ndarray:
+        """(2, n, 3) of nodes to (m, 18, 3) of elements."""
+        return np.concatenate([nodal[0][self.element_nodes], nodal[1][self.element_nodes]], axis=1)
+
+    def frames(self, state: State) -> np.ndarray:
+        """T (n + q, 3, 2) ⊥ d, and ⊥ m of the rods."""
+        free = self.supports.tilt & ~self.supports.director[:, None]
+        return tangent_frames(self._directors(state), *np.nonzero(free))
+
     @property
     def _lever(self) -> float:
         return float(np.ptp(self.element.reference[:, :9, :2], axis=(0, 1)).max())
 
-    def _gather(self, nodal: np.ndarray) -> np.ndarray:
-        """(2, n, 3) of nodes to (m, 18, 3) of elements."""
-        return np.concatenate([nodal[0][self.element_nodes], nodal[1][self.element_nodes]], axis=1)
+    @property
+    def _vectors(self) -> int:
+        return 2 * self.count + len(self.rods.own)
+
+    def _split(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Vectors (2n + q, 3) as those of the sheet (2, n, 3) and of the rods (q, 3)."""
+        return vectors[: 2 * self.count].reshape(2, -1, 3), vectors[2 * self.count :]
+
+    def _on_rods(self, state: State) -> np.ndarray:
+        """The change of the rods' vectors (k, 9, 3)."""
+        return self.rods.gather(np.concatenate([*state.change, state.aside]))
+
+    def _directors(self, state: State) -> np.ndarray:
+        """d of the nodes, then m of the rods, (n + q, 3)."""
+        return np.concatenate([state.change[1] + UP, state.aside + self.rods.own])
 
     def _scatter(self, elementwise: np.ndarray) -> np.ndarray:
         """Sums (m, 18, 3) of elements into (2, n, 3) of nodes."""
         where = (self.element_nodes.ravel()[:, None] * 3 + np.arange(3)).ravel()
-        parts = (elementwise[:, :9], elementwise[:, 9:])
-        return np.array([np.bincount(where, p.ravel(), 3 * self.count).reshape(-1, 3) for p in parts])
+        parts = (elementwise[:, :9].ravel(), elementwise[:, 9:].ravel())
+        sums = [np.bincount(where, part, 3 * self.count) for part in parts]
+        return np.array(sums).reshape(2, self.count, 3)
+
+    def _pull(self, forces: Forces, stress: np.ndarray, rod_stress: np.ndarray) -> np.ndarray:
+        """Bᵀ s of stresses of elements and rods, (2n + q, 3)."""
+        out = self.rods.scatter(self.rods.elements.force(forces.rods.gradient, rod_stress), self._vectors)
+        self._split(out)[0][:] += self._scatter(forces_of(forces.gradient, stress))
+        return out
 
     def _external(self, change: np.ndarray) -> np.ndarray:
         external = np.array([self.dead, np.zeros_like(self.dead)])
@@ -168,78 +311,28 @@ class ShellStructure:
             external += self._scatter(force)
         return external
 
-    def _director(self, change: np.ndarray) -> np.ndarray:
-        return change[1] + np.array([0.0, 0.0, 1.0])
+    def _to_constraints(self, state: State, load_factor: float) -> np.ndarray:
+        """The step (2n + q, 3) to the prescribed values and, along free directors, to |d| = 1."""
+        target = self.supports.change(load_factor) - state.change
+        position = np.where(self.supports.position, target[0], 0.0)
+        held = np.concatenate([self.supports.director, self.rods.held])
+        turn = np.concatenate([target[1], -state.aside])
+        return np.concatenate([position, np.where(held[:, None], turn, to_unit(self._directors(state)))])
 
-    def _frames(self, change: np.ndarray) -> np.ndarray:
-        """Orthonormal T (n, 3, 2) with T ⊥ d."""
-        director = self._director(change)
-        director = director / np.linalg.norm(director, axis=1, keepdims=True)
-        axis = np.eye(3)[np.argmin(np.abs(director), axis=1)]
-        first = np.cross(axis, director)
-        first /= np.linalg.norm(first, axis=1, keepdims=True)
-        node, held = np.nonzero(self.supports.tilt & ~self.supports.director[:, None])
-        first[node] = np.eye(3)[held]
-        return np.stack([first, np.cross(director, first)], axis=-1)
+    def _multiplier(self, state: State, pressing: np.ndarray) -> np.ndarray:
+        """What |d|² = 1 adds to the diagonal (unknowns,), of residuals (2n + q, 3)."""
+        along = multiplier(self._directors(state), pressing[self.count :])
+        return self._of_unknowns(np.zeros((self.count, 3)), np.repeat(along[:, None], 2, axis=1))
 
-    def _to_constraints(self, change: np.ndarray, load_factor: float) -> np.ndarray:
-        """The step (2, n, 3) to the prescribed values and, along free directors, to |d| = 1."""
-        target = self.supports.change(load_factor) - change
-        director = self._director(change)
-        square = np.einsum("nc,nc->n", director, director)
-        along = (0.5 * (1.0 - square) / square)[:, None] * director
-        turn = np.where(self.supports.director[:, None], target[1], along)
-        return np.array([np.where(self.supports.position, target[0], 0.0), turn])
+    def _of_unknowns(self, positions: np.ndarray, turns: np.ndarray) -> np.ndarray:
+        """Values (n, 3) of displacements and (n + q, 2) of rotations, of the free ones (unknowns,)."""
+        out = np.zeros(self.unknowns)
+        for number, values in ((self.number[:, :3], positions), (self.turns, turns)):
+            out[number[number >= 0]] = values[number >= 0]
+        return out
 
-    def _multiplier(self, change: np.ndarray, couple: np.ndarray) -> np.ndarray:
-        """−(R_d · d)/(d · d) on the two rotations of every free director, 0 elsewhere: (unknowns,)."""
-        director = self._director(change)
-        pressing = -np.einsum("nc,nc->n", couple, director) / np.einsum("nc,nc->n", director, director)
-        rows = np.zeros(self.number.shape)
-        rows[:, 3:] = pressing[:, None]
-        return rows[self.number >= 0]
-
-    def _reduce(self, gradient: np.ndarray, frames: np.ndarray) -> np.ndarray:
-        """B on the unknowns of an element: (m, 54, 45), nine positions then nine pairs of rotations."""
-        m = len(gradient)
-        turning = gradient[:, :, 9:].swapaxes(1, 2) @ frames[self.element_nodes]  # (m, 9, 54, 2)
-        return np.concatenate(
-            [gradient[:, :, :9].reshape(m, STRAINS, 27), turning.swapaxes(1, 2).reshape(m, STRAINS, 18)],
-            axis=2,
-        )
-
-    def _add_geometric(self, stiffness: np.ndarray, form: np.ndarray, frames: np.ndarray) -> None:
-        """Adds Σ s_k H_k ⊗ I on the unknowns to (m, 45, 45); H has no director–director part."""
-        m = len(stiffness)
-        positions = stiffness[:, :27, :27].reshape(m, 9, 3, 9, 3)
-        for axis in range(3):
-            positions[:, :, axis, :, axis] += form[:, :9, :9]
-        stiffness[:, :27, :27] = positions.reshape(m, 27, 27)
-        mixed = np.einsum("eij,ejck->eicjk", form[:, :9, 9:], frames[self.element_nodes]).reshape(m, 27, 18)
-        stiffness[:, :27, 27:] += mixed
-        stiffness[:, 27:, :27] += mixed.swapaxes(1, 2)
-
-    def _project(self, tangent: np.ndarray, frames: np.ndarray) -> np.ndarray:
-        """Full (k, 18, 3, 18, 3) to the unknowns (k, 45, 45); frames: (k, 9, 3, 2)."""
-        k = len(tangent)
-        right = np.concatenate(
-            [
-                tangent[:, :, :, :9].reshape(k, 18, 3, 27),
-                np.einsum("eicjd,ejdb->eicjb", tangent[:, :, :, 9:], frames).reshape(k, 18, 3, 18),
-            ],
-            axis=3,
-        )
-        lower = np.einsum("eicb,eica->eiab", right[:, 9:], frames).reshape(k, 18, 45)
-        return np.concatenate([right[:, :9].reshape(k, 27, 45), lower], axis=1)
-
-
-def _forces_of(gradient: np.ndarray, stress: np.ndarray) -> np.ndarray:
-    """Bᵀ s: (m, 18, 3)."""
-    m = len(stress)
-    return (stress[:, None, :] @ gradient.reshape(m, STRAINS, 54)).reshape(m, 18, 3)
-
-
-def _strain_of(gradient: np.ndarray, step: np.ndarray) -> np.ndarray:
-    """B δq: (m, 54)."""
-    m = len(step)
-    return (gradient.reshape(m, STRAINS, 54) @ step.reshape(m, 54, 1))[:, :, 0]
+    def _onto_rods(self, frames: np.ndarray) -> np.ndarray:
+        """∂Q/∂(unknowns) of the rods' sides, (k, 27, 21)."""
+        directors = self.rods.sites[:, 3:] - self.count
+        fixed = np.tile(np.eye(3), (len(directors), 1, 1))
+        return block_diagonal([fixed] * 3 + [frames[directors[:, i]] for i in range(6)])

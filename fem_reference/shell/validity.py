@@ -36,10 +36,10 @@ FLAT = 1e-6  # of the element's area in the flat sheet, below which it counts as
 
 def inspector(
     scene: Scene, structure: ShellStructure, solver: DirectSolver, graded: bool
-) -> Callable[[Path], Fault | None]:
+) -> Callable[[Path[State]], Fault | None]:
     """What `equilibrium.trace` is to look at; graded: elements are stretched, and may be without harm."""
 
-    def inspect(path: Path) -> Fault | None:
+    def inspect(path: Path[State]) -> Fault | None:
         fault = inverted(structure, path.state)
         if fault is None and graded and stretch(structure, path.state, scene.sheet.thickness) > STRETCH_LIMIT:
             return None if stability(structure, solver, path)[0] is Status.CONVERGED else STRETCHED
@@ -52,7 +52,7 @@ def inverted(structure: ShellStructure, state: State) -> Fault | None:
     """The element that has turned inside out most, if one has."""
     value, slope = shape(*GAUSS)
     reference = structure.element.reference
-    now = reference + structure._gather(state.change)
+    now = reference + structure.gather(state.change)
     along, across = np.einsum("agi,eic->aegc", slope, now[:, :9])
     area = np.einsum("egc,gi,eic->eg", np.cross(along, across), value, now[:, 9:])
     flat = np.linalg.det(jacobians(reference[:, :9, :2], slope))
@@ -68,7 +68,7 @@ def inverted(structure: ShellStructure, state: State) -> Fault | None:
 def stretch(structure: ShellStructure, state: State, thickness: float) -> float:
     """The largest (h κ/2) (b/l)² of all elements, κ the curvature along their shorter side."""
     sides = _sides(structure)
-    strain = structure.element.strain(structure._gather(state.change))[:, BENDING]
+    strain = structure.element.strain(structure.gather(state.change))[:, BENDING]
     bent = np.stack([np.abs(strain[:, part]).max(axis=1) for part in (slice(0, 6), slice(6, 12))], axis=1)
     surface = 0.5 * thickness * bent / (0.5 * sides) ** 2
     return float(np.max(surface * (sides[:, ::-1] / sides) ** 2))
@@ -76,7 +76,7 @@ def stretch(structure: ShellStructure, state: State, thickness: float) -> float:
 
 def membrane_strain(structure: ShellStructure, state: State) -> float:
     """The mid-surface's largest stretching along an element's sides, √(1 + 2 E) − 1 of Green's strain E."""
-    strain = structure.element.strain(structure._gather(state.change))[:, MEMBRANE]
+    strain = structure.element.strain(structure.gather(state.change))[:, MEMBRANE]
     along = np.stack([strain[:, part].mean(axis=1) for part in (slice(0, 6), slice(6, 12))], axis=1)
     green = along / (0.5 * _sides(structure)) ** 2
     return float(np.max(np.abs(np.sqrt(np.maximum(1.0 + 2.0 * green, 0.0)) - 1.0)))
@@ -88,7 +88,7 @@ def _sides(structure: ShellStructure) -> np.ndarray:
     return np.stack([np.linalg.norm(nodes[:, a] - nodes[:, b], axis=1) for a, b in ((5, 7), (6, 4))], axis=1)
 
 
-def judge(scene: Scene, structure: ShellStructure, path: Path) -> tuple[Status, list[str]]:
+def judge(scene: Scene, structure: ShellStructure, path: Path[State]) -> tuple[Status, list[str]]:
     """The status and notes of a path that has ended: strains beyond the model, if it has come to them."""
     outside = outside_model(scene, membrane_strain(structure, path.state))
     if not outside or path.status is Status.NON_FINITE:

@@ -98,6 +98,12 @@ class Columns:
         """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m] of nodal ones (n, levels, 3)."""
         return interpolate(self.plan.mesh, self.plan_elements, displacement[:, self.layers], points)
 
+    def about_middle(self, displacement: np.ndarray, nodal: np.ndarray) -> np.ndarray:
+        """Force and moment about the middle node (n, 6) of forces (n, levels, 3) on the displaced columns."""
+        now = self.positions + displacement
+        arm = now - now[:, [self.layers]]
+        return np.concatenate([nodal.sum(axis=1), np.cross(arm, nodal).sum(axis=1)], axis=1)
+
     def field_mesh(self, displacement: np.ndarray) -> FieldMesh:
         """Nodes and trilinear eighths of the bricks, with displacement (n, levels, 3) [m]."""
         plan = quarters(self.plan.element_dofs)

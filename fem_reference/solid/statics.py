@@ -25,11 +25,12 @@ from fem_reference.solid import supports as solid_supports
 from fem_reference.solid.element import Bricks
 from fem_reference.solid.materials import LAWS, lame
 from fem_reference.solid.mesh import Columns
-from fem_reference.solid.rods import RoddedSolid
-from fem_reference.solid.structure import SolidStructure
+from fem_reference.solid.rods import DIRECTORS, on_columns
+from fem_reference.solid.structure import Forces, SolidStructure, State
 from fem_reference.solving.equilibrium import trace
 from fem_reference.solving.linear import DirectSolver
 from fem_reference.surface import loads, rod
+from fem_reference.surface.actuator_forces import Held, OnEdge, exerted
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, require_upright
 from fem_reference.surface.stretch import largest_stretch
 from sheetbench.scenes import Scene, Solution, Status, outside_model
@@ -90,9 +91,11 @@ def _solved(
         if outside := outside_model(scene, stretch):
             status, notes = Status.STRAIN_OUTSIDE_MODEL, [outside, *notes]
     forces = structure.forces(path.state, path.load_factor)
-    exerted = {}
-    if isinstance(structure, RoddedSolid):
-        exerted = structure.wrenches(scene, path.state, forces)
+    middle = (columns.positions + displacement)[:, columns.layers]
+    held = Held(columns.about_middle(displacement, forces.residual), middle)
+    wrenches, _ = exerted(
+        scene, _on_edges(structure, path.state, forces, middle), structure.supports.moved, held
+    )
     return Solution(
         model="solid",
         label=label,
@@ -108,9 +111,23 @@ def _solved(
         mesh=columns.field_mesh(displacement),
         history=tuple(path.history),
         load_factor=path.load_factor,
-        actuators=exerted,
+        actuators=wrenches,
         notes=tuple(notes),
     )
+
+
+def _on_edges(structure: SolidStructure, state: State, forces: Forces, middle: np.ndarray) -> list[OnEdge]:
+    """What the rods exert on the columns of their edges, whose middles are at (n, 3) [m]."""
+    found, first = [], 0
+    rods = structure.rods
+    for one, pull in zip(rods.rods, rods.by_rod(forces.rods.pull), strict=True):
+        nodal, count = np.zeros_like(state.displacement), len(one.line)
+        np.subtract.at(nodal, one.nodes, pull[:, :-DIRECTORS].reshape(*one.nodes.shape, -1, 3))
+        about = structure.columns.about_middle(state.displacement, nodal)
+        director = (state.aside + rods.own)[first : first + count]
+        found.append(OnEdge(one, about[one.line], middle[one.line], director))
+        first += 3 * count
+    return found
 
 
 def plan_mesh(scene: Scene, elements: tuple[int, int], grading: str) -> MeshQuad:
@@ -141,13 +158,8 @@ def discretise(
     stacks = columns.positions.reshape(-1, 3)[columns.stacks]
     positions = np.concatenate([stacks[:, place] for place in columns.places])
     bricks = Bricks.build(positions, LAWS[law], lame(scene.material))
-    rods = []
-    if scene.actuators:
-        rods = rod.of_scene(
-            scene, columns.plan_nodes, rod.sides(scene, mesh, columns.plan_elements, columns.plan_nodes)
-        )
+    sides = rod.sides(scene, mesh, columns.plan_elements, columns.plan_nodes)
+    rods = rod.of_scene(scene, columns.plan_nodes, sides)
     supports = solid_supports.of_scene(scene, columns, clamp, rods)
     dead, followers = loads.of_scene(scene, mesh, columns.plan_elements, columns.plan_nodes)
-    if scene.actuators:
-        return RoddedSolid(columns, bricks, supports, dead, followers, rods)
-    return SolidStructure(columns, bricks, supports, dead, followers)
+    return SolidStructure(columns, bricks, supports, dead, followers, on_columns(rods, columns))

@@ -9,34 +9,43 @@ Held components q, u = Z q (see `supports`), go to their targets in the first st
 Loads act on the sheet as a surface, its mean position x̄ and director D (see `mesh`), with the shell's
 work: a dead force or the pressure on x̄ is a body force uniform through the thickness, an edge moment
 on D a traction linear in ζ. To first order in the strain the power of pressure and moment is the shell's.
+Rods along edges (see `rods`) are further elements with directors of their own.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
 from fem_reference.solid.element import NODES, Bricks, geometric
 from fem_reference.solid.mesh import Columns
+from fem_reference.solid.rods import DIRECTORS
 from fem_reference.solid.supports import ColumnSupports, components, into_forces, vectors
 from fem_reference.solving.sparsity import Pattern
+from fem_reference.surface.bound_rods import BoundRods, block_diagonal
 from fem_reference.surface.loads import Follower
+from fem_reference.surface.rod_elements import Strained
 
 
 @dataclass(frozen=True)
 class State:
-    """displacement (n, levels, 3) [m]; extrapolated stress (m · layers, k), the bricks' own where None."""
+    """displacement (n, levels, 3) [m]; aside: change of the rods' own vectors (q, 3); extrapolated: stress
+    (m · layers, k), pressure and rod_stress (k, s), the elements' own where None."""
 
     displacement: np.ndarray
+    aside: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
     stress: np.ndarray | None = None
     pressure: np.ndarray | None = None
+    rod_stress: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
 class Forces:
-    """At a state: B (…, k, 27, 3), e and s (…, k) of the bricks, residual R (n, levels, 3) [N].
+    """At a state: B (…, k, 27, 3), e and s (…, k) of the bricks, the rods', residual R (n, levels, 3) [N]
+    and that on the rods' own vectors, aside (q, 3).
 
     size: what R is measured against [N]; bases: Z of the columns.
     """
@@ -44,13 +53,15 @@ class Forces:
     gradient: np.ndarray
     strain: np.ndarray
     stress: np.ndarray
+    rods: Strained
     residual: np.ndarray
+    aside: np.ndarray
     size: float
     bases: np.ndarray
 
 
 class SolidStructure:
-    """A solid sheet with its supports and loads, ready for `equilibrium.trace`."""
+    """A solid sheet with its supports, loads and rods, ready for `equilibrium.trace`."""
 
     def __init__(
         self,
@@ -58,19 +69,25 @@ class SolidStructure:
         bricks: Bricks,
         supports: ColumnSupports,
         dead: np.ndarray,
-        followers: list[Follower],
+        followers: Sequence[Follower],
+        rods: BoundRods,
     ):
         """bricks: layer by layer, over the plan's elements; dead: forces on the mean surface (n, 3) [N]."""
         self.columns, self.bricks, self.supports = columns, bricks, supports
-        self.followers = followers
+        self.followers, self.rods = followers, rods
         self.dead = columns.averages[0][:, None] * dead[:, None, :]
         self.free = ~supports.held
-        self.number = np.where(self.free, np.cumsum(self.free.ravel()).reshape(self.free.shape) - 1, -1)
-        self.unknowns = int(self.free.sum())
-        of_stack = self.number.reshape(-1, 3)[columns.stacks]
-        self.pattern = Pattern(of_stack.reshape(len(of_stack), -1), self.unknowns)
+        every = np.concatenate([self.free.ravel(), np.repeat(~rods.held, 3)])
+        self.number = np.where(every, np.cumsum(every) - 1, -1).reshape(-1, 3)  # of all vectors
+        kinds = (self.number[sites] for sites in (columns.stacks, rods.sites))
+        self.pattern = Pattern(*(n.reshape(len(n), 3 * n.shape[1]) for n in kinds), size=int(every.sum()))
         self._lever = float(np.ptp(columns.plan_nodes, axis=0).max())
         self._turned = supports.turned[columns.plan_elements].any(axis=1)
+
+    @property
+    def unknowns(self) -> int:
+        """How many there are."""
+        return self.pattern.size
 
     @property
     def symmetric(self) -> bool:
@@ -79,12 +96,13 @@ class SolidStructure:
 
     def rest(self) -> State:
         """Flat and free of stress."""
-        return State(np.zeros_like(self.columns.positions))
+        return State(np.zeros_like(self.columns.positions), np.zeros_like(self.rods.own))
 
     def energies(self, state: State) -> dict[str, float]:
-        """Strain energy [J] by part of the law."""
+        """Strain energy [J] by part of the law; where there are rods, theirs from their intrinsic shape."""
         distortion, volumetric = self.bricks.energies(self.bricks.strain(self._of_bricks(state.displacement)))
-        return {"distortion": distortion, "volumetric": volumetric}
+        found = {"distortion": distortion, "volumetric": volumetric}
+        return {**found, "rod": self.rods.elements.energy(self._on_rods(state))} if self.rods.rods else found
 
     def forces(self, state: State, load_factor: float) -> Forces:
         """Internal less external forces, and what they are measured against."""
@@ -95,11 +113,21 @@ class SolidStructure:
         external = load_factor * self._external(state.displacement)
         bases = self.supports.bases(load_factor)
         size = np.linalg.norm(external) + np.linalg.norm(internal[self.supports.held])
-        return Forces(gradient, strain, stress, internal - external, float(size), bases)
+
+        elements = self.rods.elements
+        rods = elements.strained(self._on_rods(state), load_factor)
+        driving = elements.driving(rods.gradient)[:, -DIRECTORS : -DIRECTORS + 3]  # on d
+        size += load_factor * (np.linalg.norm(elements.weight) + np.linalg.norm(driving) / self._lever)
+        pull, aside = self._split(self.rods.scatter(rods.pull, len(self.number)))
+        residual = internal - external + pull
+        return Forces(gradient, strain, stress, rods, residual, aside, float(size), bases)
 
     def imbalance(self, state: State, forces: Forces) -> float:
-        """Norm of the residual of the free unknowns [N]."""
-        return float(np.linalg.norm(into_forces(forces.bases, forces.residual)[self.free]))
+        """Norm of the residual of the free unknowns [N], of the rods' directors over the sheet's size."""
+        on_sheet = into_forces(forces.bases, forces.residual)[self.free]
+        return float(
+            np.hypot(np.linalg.norm(on_sheet), np.linalg.norm(forces.aside[~self.rods.held]) / self._lever)
+        )
 
     def gap(self, state: State, load_factor: float) -> float:
         """Largest distance from the prescribed values, relative to the sheet's size."""
@@ -124,26 +152,36 @@ class SolidStructure:
         turned = self._turned
         if np.any(turned):
             stiffness[turned] = self._turn(stiffness[turned], forces.bases)
-        matrix = self.pattern.matrix(stiffness, np.zeros(self.pattern.size))
-        return matrix, -into_forces(forces.bases, pull)[self.free]
+
+        rod_stress = forces.rods.stress if last.rod_stress is None else last.rod_stress
+        full = self.rods.elements.tangent(forces.rods.gradient, rod_stress)
+        onto = self._onto_rods(forces.bases)
+        moved = self.rods.gather(np.concatenate([step.reshape(-1, 3), np.zeros_like(self.rods.own)]))
+        on_rods = self.rods.elements.product(full, moved)
+        on_columns, on_aside = self._split(self.rods.scatter(on_rods, len(self.number)))
+        matrix = self.pattern.matrix(stiffness, onto.swapaxes(1, 2) @ full @ onto)
+        on_sheet = into_forces(forces.bases, pull + on_columns)[self.free]
+        return matrix, -np.concatenate([on_sheet, (forces.aside + on_aside)[~self.rods.held].ravel()])
 
     def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
         """The state after a step (unknowns,), with the stress it extrapolates."""
-        full = np.zeros(self.free.shape)
-        full[self.free] = step
-        change = self._to_supports(state.displacement, load_factor, forces.bases) + vectors(
-            forces.bases, full
-        )
+        free, aside = self._split(np.where(self.number >= 0, step[self.number], 0.0))
+        change = self._to_supports(state.displacement, load_factor, forces.bases)
+        change = change + vectors(forces.bases, free)
         strain = np.einsum("ekic,eic->ek", forces.gradient, self._of_bricks(change))
         of_step = np.einsum("ekl,el->ek", self.bricks.stiffness(forces.strain, state.pressure), strain)
         pressure = self.bricks.pressure(forces.strain, strain)
-        return State(state.displacement + change, forces.stress + of_step, pressure)
+        on_rods = self.rods.gather(np.concatenate([change.reshape(-1, 3), aside]))
+        rod_stress = self.rods.elements.extrapolated(forces.rods, on_rods)
+        return State(
+            state.displacement + change, state.aside + aside, forces.stress + of_step, pressure, rod_stress
+        )
 
     def mass(self, density: float) -> csr_matrix:
         """Consistent mass ∫ ρ N N dV of the free unknowns [kg]; density [kg/m³]."""
         products = density * self.bricks.products()
         blocks = self._stack(np.einsum("eij,cd->eicjd", products, np.eye(3)))
-        return self.pattern.matrix(blocks, np.zeros(self.pattern.size))
+        return self.pattern.matrix(blocks)
 
     def length(self, start: State, end: State) -> float:
         """Largest nodal displacement between two states, relative to the sheet's size."""
@@ -152,6 +190,21 @@ class SolidStructure:
     def inside_out(self, state: State) -> bool:
         """Whether a brick has turned inside out at a Gauss point."""
         return bool(np.any(self.bricks.volume_ratio(self._of_bricks(state.displacement)) <= 0.0))
+
+    def _split(self, all_vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """All vectors (N, 3) as those of the columns (n, levels, 3) and the rods' own (q, 3)."""
+        cut = self.columns.positions.size // 3
+        return all_vectors[:cut].reshape(self.columns.positions.shape), all_vectors[cut:]
+
+    def _on_rods(self, state: State) -> np.ndarray:
+        """The change of the rods' vectors (k, 3 levels + 9, 3)."""
+        return self.rods.gather(np.concatenate([state.displacement.reshape(-1, 3), state.aside]))
+
+    def _onto_rods(self, bases: np.ndarray) -> np.ndarray:
+        """Z of the columns of the rods' sides, the identity on directors, (k, 9 levels + 27, …)."""
+        nodes = self.rods.sites[:, : -DIRECTORS : self.columns.levels] // self.columns.levels
+        directors = np.tile(np.eye(3 * DIRECTORS), (len(nodes), 1, 1))
+        return block_diagonal([*(bases[nodes[:, i]] for i in range(3)), directors])
 
     def _brick_stiffness(self, forces: Forces, last: State) -> np.ndarray:
         """Bᵀ D B + Σ s_k H_k ⊗ I, (…, 27, 3, 27, 3)."""

@@ -26,13 +26,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple, Protocol
+from typing import Generic, NamedTuple
 
 import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import LinearOperator, eigs
 
 from fem_reference.solving.linear import DirectSolver, Factor, SingularMatrix
+from fem_reference.solving.structure import Forces, State, Structure
 from fem_reference.solving.threads import one_blas_thread
 from sheetbench.scenes import Iteration, Status
 
@@ -51,22 +52,6 @@ SNAP_STEP = 0.01  # in load factor, past the limit point
 SNAPPING = 4 * FACTORISATIONS  # in all, where the structure snaps
 
 
-class Structure(Protocol):
-    """What `trace` needs; states and forces are the structure's own."""
-
-    @property
-    def symmetric(self) -> bool: ...
-    def rest(self) -> Any: ...
-    def forces(self, state: Any, load_factor: float) -> Any: ...
-    def imbalance(self, state: Any, forces: Any) -> float: ...
-    def gap(self, state: Any, load_factor: float) -> float: ...
-    def system(
-        self, state: Any, forces: Any, load_factor: float, mixed: bool = True
-    ) -> tuple[csr_matrix, np.ndarray]: ...
-    def advance(self, state: Any, forces: Any, load_factor: float, step: np.ndarray) -> Any: ...
-    def length(self, start: Any, end: Any) -> float: ...
-
-
 class Fault(NamedTuple):
     """What makes an equilibrium worthless: the status it deserves and a sentence."""
 
@@ -75,14 +60,14 @@ class Fault(NamedTuple):
 
 
 @dataclass
-class Path:
+class Path(Generic[State]):
     """Where the tracing stands: the last equilibrium, its load factor, and what it took.
 
     snaps: load factors that it snapped at; fault: what has ended it early; notes: what to
     say of it.
     """
 
-    state: Any
+    state: State
     load_factor: float = 0.0
     status: Status = Status.STEP_LIMIT
     factorisations: int = 0
@@ -102,11 +87,11 @@ class StepFailed(ArithmeticError):
 
 
 def trace(
-    structure: Structure,
+    structure: Structure[State, Forces],
     solver: DirectSolver,
-    inspect: Callable[[Path], Fault | None] = lambda path: None,
-    settle: Callable[[Path, float], Any] | None = None,
-) -> Path:
+    inspect: Callable[[Path[State]], Fault | None] = lambda path: None,
+    settle: Callable[[Path[State], float], State] | None = None,
+) -> Path[State]:
     """The equilibrium at load factor 1, or the last one on the way with the reason it is the last.
 
     inspect: shown the path at every equilibrium on the way; a fault, if it finds one, ends it there.
@@ -137,7 +122,10 @@ def trace(
 
 
 def _follow(
-    structure: Structure, solver: DirectSolver, path: Path, inspect: Callable[[Path], Fault | None]
+    structure: Structure[State, Forces],
+    solver: DirectSolver,
+    path: Path[State],
+    inspect: Callable[[Path[State]], Fault | None],
 ) -> StepFailed | Fault | None:
     """Lead a path on to load factor 1: what has ended it before, if anything."""
     size, reach = 1.0, FIRST_REACH
@@ -162,14 +150,14 @@ def _follow(
     return None
 
 
-def _at_limit_point(path: Path, failure: StepFailed) -> bool:
+def _at_limit_point(path: Path[State], failure: StepFailed) -> bool:
     """Whether a path that has ended may snap; one that has not left rest, or has used its factorisations up,
     has come to no limit point."""
     stuck = failure.status is Status.STEP_LIMIT and path.load_factor > 0.0
     return stuck and path.factorisations < path.limit and len(path.snaps) < SNAPS
 
 
-def _doubt(structure: Structure, solver: DirectSolver, path: Path) -> list[str]:
+def _doubt(structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> list[str]:
     """A sentence where a path that is about to snap has not been stable until then."""
     status, said = stability(structure, solver, path)
     if status is Status.CONVERGED:
@@ -178,11 +166,11 @@ def _doubt(structure: Structure, solver: DirectSolver, path: Path) -> list[str]:
 
 
 def _snap(
-    structure: Structure,
+    structure: Structure[State, Forces],
     solver: DirectSolver,
-    path: Path,
-    inspect: Callable[[Path], Fault | None],
-    settle: Callable[[Path, float], Any],
+    path: Path[State],
+    inspect: Callable[[Path[State]], Fault | None],
+    settle: Callable[[Path[State], float], State],
 ) -> StepFailed | Fault | None:
     """Lead a path past its limit point and on: what has ended it then. Raises StepFailed, the path as it was,
     if nothing stable was found."""
@@ -193,17 +181,18 @@ def _snap(
     return inspect(path) or _follow(structure, solver, path, inspect)
 
 
-class Start(NamedTuple):
+@dataclass(frozen=True)
+class Start(Generic[State]):
     """What Newton's method starts from: a state, the load factor it is for, and length and work of the step
     that has led to it."""
 
-    state: Any
+    state: State
     target: float
     length: float
     work: float
 
 
-class _Predictor:
+class _Predictor(Generic[State, Forces]):
     """The first linear step from a path's last equilibrium towards a load, no longer than `reach`.
 
     factor: of the tangent there, where it is at hand; it serves as long as the tangent does not depend on the
@@ -212,9 +201,9 @@ class _Predictor:
 
     def __init__(
         self,
-        structure: Structure,
+        structure: Structure[State, Forces],
         solver: DirectSolver,
-        path: Path,
+        path: Path[State],
         target: float,
         reach: float,
         factor: Factor | None,
@@ -227,7 +216,7 @@ class _Predictor:
         if not self.length < FARTHEST:
             raise StepFailed(Status.DIVERGED, "the first step has no end", FIRST_REACH)
 
-    def _aim(self, structure: Structure, solver: DirectSolver, path: Path) -> None:
+    def _aim(self, structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> None:
         forces = structure.forces(path.state, self.target)
         try:
             matrix, rows = structure.system(path.state, forces, self.target)
@@ -242,7 +231,12 @@ class _Predictor:
         self.work = abs(float(step @ rows))
 
 
-def newton(structure: Structure, solver: DirectSolver, path: Path, first: Start | _Predictor) -> Any:
+def newton(
+    structure: Structure[State, Forces],
+    solver: DirectSolver,
+    path: Path[State],
+    first: Start[State] | _Predictor[State, Forces],
+) -> State:
     """The equilibrium at the load factor of a start. Raises StepFailed."""
     state, target, before = first.state, first.target, np.inf
     works, lengths = [first.work], [first.length]
@@ -277,7 +271,11 @@ def newton(structure: Structure, solver: DirectSolver, path: Path, first: Start 
 
 
 def _give_up(
-    structure: Structure, solver: DirectSolver, path: Path, failure: StepFailed, tried: str
+    structure: Structure[State, Forces],
+    solver: DirectSolver,
+    path: Path[State],
+    failure: StepFailed,
+    tried: str,
 ) -> Fault:
     """Where the path ended, what was tried beyond and, from the last equilibrium's tangent, whether it had
     branched by then."""
@@ -289,7 +287,9 @@ def _give_up(
     return Fault(failure.status, message)
 
 
-def stability(structure: Structure, solver: DirectSolver, path: Path) -> tuple[Status, str]:
+def stability(
+    structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]
+) -> tuple[Status, str]:
     """Whether the tangent at the path's last equilibrium is positive definite or, under follower loads, has
     no real eigenvalue below 0; a sentence where it is not."""
     forces = structure.forces(path.state, path.load_factor)

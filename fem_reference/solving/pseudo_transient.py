@@ -1,4 +1,4 @@
-"""Relaxation of a shell: the stable equilibrium to which it creeps from where a load path ends.
+"""Relaxation of a structure: the stable equilibrium to which it creeps from where a load path ends.
 
 Beyond a limit point the nearest equilibrium is far away. A sheet of Kelvin–Voigt material without inertia, of
 stresses D (e + τ ė), creeps there: under dead loads, λ held, its potential Π = ½ ∫ e·D e − λ f·u falls at the
@@ -19,19 +19,14 @@ van den Doel (2007) on gradient flow with large steps.
 from __future__ import annotations
 
 from collections.abc import Callable
-from copy import copy
-from dataclasses import dataclass, replace
-from typing import Any
+from typing import Generic
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from fem_reference.shell.element import Element
-from fem_reference.shell.rods import RoddedShell, RodState, of_rods
-from fem_reference.shell.structure import ShellStructure, State
 from fem_reference.solving.equilibrium import TOLERANCE, Path, Start, StepFailed, newton
 from fem_reference.solving.linear import DirectSolver, Factor, SingularMatrix
-from fem_reference.surface.rod import Rod
+from fem_reference.solving.structure import Creeping, Forces, State
 from sheetbench.scenes import Iteration, Status
 
 FACTORISATIONS = 300  # of one relaxation
@@ -52,12 +47,16 @@ PUSH, SMALLEST_PUSH = 1e-2, 1e-6  # sizes of the sheet that a saddle is left by
 INVERSE_STEPS = 12
 
 
-def settler(structure: ShellStructure, solver: DirectSolver) -> Callable[[Path, float], State]:
+def settler(
+    structure: Creeping[State, Forces], solver: DirectSolver
+) -> Callable[[Path[State], float], State]:
     """What `equilibrium.trace` calls beyond a limit point."""
     return lambda path, load_factor: relax(structure, solver, path, load_factor)
 
 
-def relax(structure: ShellStructure, solver: DirectSolver, path: Path, load_factor: float) -> State:
+def relax(
+    structure: Creeping[State, Forces], solver: DirectSolver, path: Path[State], load_factor: float
+) -> State:
     """The stable equilibrium at a load factor > 0 to which the sheet creeps from a path's last one.
 
     The path's state stays; its factorisations and history grow. Raises StepFailed where there is none.
@@ -72,59 +71,21 @@ def relax(structure: ShellStructure, solver: DirectSolver, path: Path, load_fact
         path.limit = limit
 
 
-def potential(structure: ShellStructure, state: State, load_factor: float) -> tuple[float, float]:
-    """Strain energy less the loads' work, and the sum of their magnitudes [J]."""
-    stored = sum(ShellStructure.energies(structure, state).values())
-    work = load_factor * float(np.sum(structure.dead * state.change[0]))
-    if isinstance(structure, RoddedShell):
-        for rod, aside in zip(structure.rods, of_rods(state).aside, strict=True):
-            change = structure._on_rod(rod, state.change, aside)
-            strain = rod.strain(change) - load_factor * rod.intrinsic
-            stored += 0.5 * float(np.sum(rod.stiffness * strain**2))
-            work += load_factor * float(np.sum(rod.weight * change))
-    return stored - work, stored + abs(work)
-
-
-@dataclass(frozen=True)
-class DraggedElement(Element):
-    """Elements of stiffness (1 + σ) D, their strains less `past`, σ e_n/(1 + σ) (m, 54)."""
-
-    past: np.ndarray
-
-    def strain(self, change: np.ndarray) -> np.ndarray:
-        """e − past (m, 54)."""
-        return super().strain(change) - self.past
-
-
-def dragged(structure: ShellStructure, state: State, load_factor: float, drag: float) -> ShellStructure:
-    """The structure whose equilibrium at this load factor is the end of a step of creep from a state."""
-    out: Any = copy(structure)
-    element = structure.element
-    past = element.strain(structure._gather(state.change)) * (drag / (1.0 + drag))
-    out.element = DraggedElement(element.reference, (1.0 + drag) * element.stiffness, element.areas, past)
-    if isinstance(structure, RoddedShell):
-        out.rods = [
-            _dragged_rod(rod, rod.strain(structure._on_rod(rod, state.change, aside)), load_factor, drag)
-            for rod, aside in zip(structure.rods, of_rods(state).aside, strict=True)
-        ]
-    return out
-
-
-def _dragged_rod(rod: Rod, past: np.ndarray, load_factor: float, drag: float) -> Rod:
-    """(1 + σ) k e − σ k e_n − λ k e_0 = (1 + σ) k (e − λ e_0'): a rod of another intrinsic curvature."""
-    intrinsic = (load_factor * rod.intrinsic + drag * past) / (load_factor * (1.0 + drag))
-    return replace(rod, stiffness=(1.0 + drag) * rod.stiffness, intrinsic=intrinsic)
-
-
-class _Creep:
+class _Creep(Generic[State, Forces]):
     """Where the creep stands: state, potential, drag σ and the length of the last step."""
 
-    def __init__(self, structure: ShellStructure, solver: DirectSolver, path: Path, load_factor: float):
+    def __init__(
+        self,
+        structure: Creeping[State, Forces],
+        solver: DirectSolver,
+        path: Path[State],
+        load_factor: float,
+    ):
         self.structure, self.solver, self.path = structure, solver, path
         self.load_factor = load_factor
-        self.state = _unextrapolated(path.state)
+        self.state = structure.unextrapolated(path.state)
         self.size = structure.forces(self.state, load_factor).size
-        self.first = potential(structure, self.state, load_factor)[0]
+        self.first = structure.potential(self.state, load_factor)[0]
         self.energy = np.inf  # nothing to compare with: supports may move in the first step
         self.drag, self.careful, self.length = FIRST_DRAG, 0, 0.0
         self.nearly = NEARLY
@@ -156,14 +117,14 @@ class _Creep:
             if self.drag > STIFFEST:
                 raise StepFailed(Status.STEP_LIMIT, "it creeps no further", 0.0)
         self.length = self.structure.length(self.state, state)
-        self.state = _unextrapolated(state)
+        self.state = self.structure.unextrapolated(state)
         self.careful -= 1
         if self.path.factorisations - before <= EASY:
             self.drag /= CAREFUL if self.careful > 0 else FASTER
 
     def _accepts(self, state: State) -> bool:
         """Whether the potential has not risen; if so, it is the one to compare with from now on."""
-        energy, balanced = potential(self.structure, state, self.load_factor)
+        energy, balanced = self.structure.potential(state, self.load_factor)
         if not energy <= self.energy + ROUNDING * balanced:  # also catches nan
             return False
         self.energy = min(self.energy, energy)
@@ -171,7 +132,7 @@ class _Creep:
 
     def _crept(self) -> State | None:
         """The end of a step of creep, or None where it does not come to rest."""
-        structure = dragged(self.structure, self.state, self.load_factor, self.drag)
+        structure = self.structure.dragged(self.state, self.load_factor, self.drag)
         state, lengths, first = self.state, list[float](), np.inf
         for k in range(CORRECTIONS + 1):
             forces = structure.forces(state, self.load_factor)
@@ -205,7 +166,7 @@ class _Creep:
             state = newton(self.structure, self.solver, self.path, start)
         except StepFailed:
             return None
-        return _unextrapolated(state) if self._accepts(state) else None
+        return self.structure.unextrapolated(state) if self._accepts(state) else None
 
     def _leave(self, saddle: State) -> None:
         """Go on beside a saddle, where the potential is lower, in the lowest mode of K v = μ K_m v, K_m the
@@ -213,10 +174,10 @@ class _Creep:
         structure, drag = self.structure, FIRST_DRAG
         forces = structure.forces(saddle, self.load_factor)
         tangent, _ = structure.system(saddle, forces, self.load_factor, mixed=False)
-        factor = self._factor(dragged(structure, saddle, self.load_factor, drag), saddle)
+        factor = self._factor(structure.dragged(saddle, self.load_factor, drag), saddle)
         while factor.inertia is not None and factor.inertia.negative:
             drag *= FASTER
-            factor = self._factor(dragged(structure, saddle, self.load_factor, drag), saddle)
+            factor = self._factor(structure.dragged(saddle, self.load_factor, drag), saddle)
         mode = np.random.default_rng(0).uniform(-1.0, 1.0, structure.unknowns)
         for _ in range(INVERSE_STEPS):
             mode = factor.solve((factor.matrix @ mode - tangent @ mode) / drag)
@@ -225,7 +186,7 @@ class _Creep:
         push = PUSH
         while push > SMALLEST_PUSH:
             beside = [self._pushed(saddle, sign * push * mode) for sign in (1.0, -1.0)]
-            energies = [potential(structure, state, self.load_factor)[0] for state in beside]
+            energies = [structure.potential(state, self.load_factor)[0] for state in beside]
             lower = int(np.argmin(energies))
             if energies[lower] < self.energy:
                 self.state, self.energy = beside[lower], energies[lower]
@@ -238,7 +199,9 @@ class _Creep:
         """A state moved by a step (unknowns,), its directors brought back to unit length."""
         while True:
             forces = self.structure.forces(state, self.load_factor)
-            state = _unextrapolated(self.structure.advance(state, forces, self.load_factor, step))
+            state = self.structure.unextrapolated(
+                self.structure.advance(state, forces, self.load_factor, step)
+            )
             if self.structure.gap(state, self.load_factor) <= TOLERANCE:
                 return state
             step = np.zeros_like(step)
@@ -247,7 +210,7 @@ class _Creep:
         forces = self.structure.forces(state, self.load_factor)
         return self.structure.imbalance(state, forces) / self.size
 
-    def _factor(self, structure: ShellStructure, state: State) -> Factor:
+    def _factor(self, structure: Creeping[State, Forces], state: State) -> Factor:
         """Of the true tangent."""
         forces = structure.forces(state, self.load_factor)
         return self._counted(structure.system(state, forces, self.load_factor, mixed=False)[0])
@@ -258,10 +221,3 @@ class _Creep:
             raise StepFailed(Status.STEP_LIMIT, f"not at rest after {FACTORISATIONS} factorisations", 0.0)
         self.path.factorisations += 1
         return self.solver.factor(matrix)
-
-
-def _unextrapolated(state: State) -> State:
-    """The state with its own stresses."""
-    if isinstance(state, RodState):
-        return replace(state, stress=None, rod_stress=None)
-    return replace(state, stress=None)

@@ -9,12 +9,13 @@ of a common corner.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import NamedTuple
+
 import numpy as np
 
-from fem_reference.shell.rods import RoddedShell, RodForces, RodState, of_rods, with_rods
-from fem_reference.shell.structure import Forces, State
-from fem_reference.surface import edge_motion
 from fem_reference.surface.biquadratic import THREE, THREE_WEIGHTS, side_shape
+from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.edge_motion import MovedEdge
 from fem_reference.surface.rod import Rod
 from sheetbench.scenes import EdgeMotion, Scene
@@ -22,55 +23,66 @@ from sheetbench.scenes import EdgeMotion, Scene
 _MASS = np.array([[4.0, 2.0, -1.0], [2.0, 16.0, 2.0], [-1.0, 2.0, 4.0]]) / 15.0  # ∫ N N dξ
 
 
-def wrenches(scene: Scene, structure: RoddedShell, state: State, forces: Forces) -> dict[str, np.ndarray]:
-    """Name of an actuator → force and moment (segments, 6) [N, N·m] of its segments on the sheet."""
-    found = {}
-    for i, rod in enumerate(structure.rods):
-        nodal = nodal_force(rod, i, of_rods(state), with_rods(forces))
-        director = state.change[1][rod.line] + np.array([0.0, 0.0, 1.0])
-        share = by_segment(rod, nodal, _positions(rod, state.change[0]), director) / len(rod.names)
+class OnEdge(NamedTuple):
+    """A rod and what it exerts: force and couple (p, 6) [N, N·m] on the nodes of its edge, which are at
+    position φ (p, 3) [m] with directors d (p, 3)."""
+
+    rod: Rod
+    nodal: np.ndarray
+    position: np.ndarray
+    director: np.ndarray
+
+
+class Held(NamedTuple):
+    """What holds the sheet at its n nodes: force and couple (n, 6) [N, N·m], position (n, 3) [m]."""
+
+    nodal: np.ndarray
+    position: np.ndarray
+
+
+def on_edges(rods: BoundRods, pull: np.ndarray, held: Held, director: np.ndarray) -> list[OnEdge]:
+    """What the rods on a surface exert; pull: on their sides (k, 9, 3); director: (n, 3)."""
+    found = []
+    for rod, own in zip(rods.rods, rods.by_rod(pull), strict=True):
+        on_nodes = np.zeros((2, len(rod.line), 3))
+        np.add.at(on_nodes[0], rod.places, -own[:, :3])
+        np.add.at(on_nodes[1], rod.places, -own[:, 3:6])
+        nodal = np.concatenate([on_nodes[0], np.cross(director[rod.line], on_nodes[1])], axis=1)
+        found.append(OnEdge(rod, nodal, held.position[rod.line], director[rod.line]))
+    return found
+
+
+def exerted(
+    scene: Scene, edges: Iterable[OnEdge], moved: Iterable[MovedEdge], held: Held
+) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    """Name of an actuator → force and moment (segments, 6) [N, N·m] of its segments on the sheet; the rods'
+    line force (n, 3) [N/m], zero off their edges."""
+    found, line = {}, np.zeros_like(held.position)
+    for rod, nodal, position, director in edges:
+        if rod.base is not None:  # what holds the base reaches the sheet through the rod
+            nodal[rod.base] += held.nodal[rod.line[rod.base]]
+        share = by_segment(rod, nodal, position, director) / len(rod.names)
         found.update({name: share for name in rod.names})
+        line[rod.line] += line_force(rod, nodal)[0]
     motions = [n for n, a in scene.named_actuators().items() if isinstance(a, EdgeMotion)]
-    for name, moved in zip(motions, edge_motion.moved(structure.supports), strict=True):
-        found[name] = _of_motion(structure, moved, state, forces)
-    return {name: found[name] for name in scene.named_actuators()}
+    for name, motion in zip(motions, moved, strict=True):
+        found[name] = _of_motion(motion, held)
+    return {name: found[name] for name in scene.named_actuators()}, line
 
 
-def line_forces(structure: RoddedShell, state: State, forces: Forces) -> np.ndarray:
-    """Line force (n, 3) [N/m] of the rods on the sheet at the shell's nodes, zero off their edges."""
-    out = np.zeros((structure.count, 3))
-    for i, rod in enumerate(structure.rods):
-        out[rod.line] += line_force(rod, nodal_force(rod, i, of_rods(state), with_rods(forces)))[0]
-    return out
-
-
-def _of_motion(structure: RoddedShell, moved: MovedEdge, state: State, forces: Forces) -> np.ndarray:
-    nodes = moved.nodes
-    force, pull = forces.residual[:, nodes] * moved.part[:, None]
-    displacement, turn = state.change[:, nodes]
-    position = structure.rest_positions[nodes] + displacement
-    director = turn + np.array([0.0, 0.0, 1.0])
-    middle = 0.5 * (position.min(axis=0) + position.max(axis=0))
-    moment = np.cross(position - middle, force) + np.cross(director, pull)
-    return np.concatenate([force.sum(axis=0), moment.sum(axis=0)])[None]
-
-
-def nodal_force(rod: Rod, i: int, state: RodState, forces: RodForces) -> np.ndarray:
-    """Force and couple (p, 6) [N, N·m] of rod i on the nodes of its edge."""
-    pull = np.zeros((2, len(rod.line), 3))
-    np.add.at(pull[0], rod.places, -forces.rod_pull[i][:, :3])
-    np.add.at(pull[1], rod.places, -forces.rod_pull[i][:, 3:6])
-    if rod.base is not None:  # what holds the base reaches the sheet through the rod
-        pull[:, rod.base] += forces.residual[:, rod.line[rod.base]]
-    director = state.change[1][rod.line] + np.array([0.0, 0.0, 1.0])
-    return np.concatenate([pull[0], np.cross(director, pull[1])], axis=1)
+def _of_motion(moved: MovedEdge, held: Held) -> np.ndarray:
+    """Force and moment about the edge's middle, (1, 6)."""
+    nodal, position = moved.part[:, None] * held.nodal[moved.nodes], held.position[moved.nodes]
+    arm = position - 0.5 * (position.min(axis=0) + position.max(axis=0))
+    moment = np.cross(arm, nodal[:, :3]) + nodal[:, 3:]
+    return np.concatenate([nodal[:, :3].sum(axis=0), moment.sum(axis=0)])[None]
 
 
 def line_force(rod: Rod, nodal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Line force [N/m] and couple [N·m/m] (p, 3) of forces and couples (p, 6) on the nodes of the edge."""
     count = len(rod.line)
     mass = np.zeros((count, count))
-    half = 0.5 * np.linalg.norm(rod.reference[:, 2] - rod.reference[:, 0], axis=1)
+    half = 0.5 * np.linalg.norm(rod.elements.reference[:, 2] - rod.elements.reference[:, 0], axis=1)
     np.add.at(mass, (rod.places[:, :, None], rod.places[:, None, :]), half[:, None, None] * _MASS)
     line = np.linalg.solve(mass, nodal)
     return line[:, :3], line[:, 3:]
@@ -82,7 +94,7 @@ def by_segment(rod: Rod, nodal: np.ndarray, position: np.ndarray, director: np.n
     position, director: φ [m] and d (p, 3) at the nodes of the edge.
     """
     force, couple = line_force(rod, nodal)
-    ends = rod.reference[:, [0, 2]]
+    ends = rod.elements.reference[:, [0, 2]]
     low, high = ends.min(axis=(0, 1)), ends.max(axis=(0, 1))
     along = int(np.argmax(high[:2] - low[:2]))
     bounds = np.linspace(low[along], high[along], rod.segments + 1)
@@ -99,16 +111,9 @@ def by_segment(rod: Rod, nodal: np.ndarray, position: np.ndarray, director: np.n
     return out
 
 
-def _positions(rod: Rod, displacement: np.ndarray) -> np.ndarray:
-    """φ (p, 3) at the nodes of the edge."""
-    flat = np.zeros((len(rod.line), 3))
-    flat[rod.places] = rod.reference[:, :3]
-    return flat + displacement[rod.line]
-
-
 def _shapes(rod: Rod, along: int, places: np.ndarray) -> np.ndarray:
     """Values (n, p) of the shape functions at places (n,) [m] along the edge."""
-    nodes = rod.reference[:, :3, along]
+    nodes = rod.elements.reference[:, :3, along]
     ends = np.sort(nodes[:, [0, 2]], axis=1)
     side = np.argmax(
         (places[:, None] >= ends[:, 0] - 1e-12) & (places[:, None] <= ends[:, 1] + 1e-12), axis=1

@@ -26,13 +26,15 @@ Source: Antman, Nonlinear Problems of Elasticity (2005), ch. 8 (the special Coss
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.surface.biquadratic import TWO, lagrange, side_shape
 from fem_reference.surface.loads import Line
+from fem_reference.surface.rod_elements import RodElements
+from fem_reference.surface.supports import Supports
 from sheetbench.scenes import EDGES, Chain, CurvatureTable, Scene
 from sheetbench.scenes.errors import BadInput
 
@@ -48,12 +50,11 @@ _SAMPLES = 400  # of a side, for the mean of a piecewise curvature
 
 @dataclass(frozen=True)
 class Rod:
-    """The sides (k) of an edge with a rod; p nodes on the edge.
+    """The rod along an edge of p nodes: what it is called, where it runs, and its k sides as elements.
 
-    nodes: (k, 3) of the shell; places: (k, 3) in `line` (p,), the shell's nodes along the edge; reference: Q₀
-    (k, 9, 3); forms: H (15, 9, 9) by ξ; stiffness: (k, 15); intrinsic: strains (k, 15) at rest;
-    weight: dead force on Q (k, 9, 3) [N, N·m]; base: place of the node that is held, or None; held_as: its
-    name among the reactions; length [m].
+    nodes: (k, 3) of the sheet; places: (k, 3) in `line` (p,), the sheet's nodes along the edge; elements: of
+    Q = (φ, d, m); base: place of the node that is held, or None; held_as: its name among the reactions;
+    offset: of the axis along the director [m].
     """
 
     names: tuple[str, ...]
@@ -61,27 +62,11 @@ class Rod:
     nodes: np.ndarray
     places: np.ndarray
     line: np.ndarray
-    reference: np.ndarray
-    forms: np.ndarray
-    stiffness: np.ndarray
-    intrinsic: np.ndarray
-    weight: np.ndarray
+    elements: RodElements
     base: int | None
     held_as: str
     segments: int
     offset: float
-
-    def gradient(self, change: np.ndarray) -> np.ndarray:
-        """B = H Q (k, 15, 9, 3) at Q₀ + change (k, 9, 3)."""
-        return np.einsum("sij,ejc->esic", self.forms, self.reference + change)
-
-    def strain(self, change: np.ndarray) -> np.ndarray:
-        """Strains (k, 15) of the change (k, 9, 3): ½ Qᵀ H Q − ½ Q₀ᵀ H Q₀."""
-        return np.einsum("esic,eic->es", self.gradient(0.5 * change), change)
-
-    def stress(self, strain: np.ndarray, load_factor: float) -> np.ndarray:
-        """Their conjugates (k, 15), the intrinsic curvature growing with the load."""
-        return self.stiffness * (strain - load_factor * self.intrinsic)
 
 
 def sides(
@@ -121,7 +106,7 @@ def _rod(
     line = np.unique(sides)
     line = line[np.argsort(nodes[line, edge.along_axis])]
     places = np.argsort(line)[np.searchsorted(np.sort(line), sides)]
-    reference = np.zeros((len(sides), 9, 3))
+    reference = np.zeros((len(sides), 9, 3))  # Q₀
     reference[:, :3, :2] = nodes[sides]
     reference[:, 3:6, 2] = 1.0
     reference[:, 6:] = edge.outward
@@ -140,11 +125,13 @@ def _rod(
         nodes=sides,
         places=places,
         line=line,
-        reference=reference,
-        forms=_forms(offset),
-        stiffness=_stiffness(scene, chains[0].plane, float(rigidity.sum()), length, half),
-        intrinsic=intrinsic,
-        weight=_weight(scene, chains, offsets, half),
+        elements=RodElements(
+            reference=reference,
+            forms=np.tile(_forms(offset), (len(sides), 1, 1, 1)),
+            stiffness=_stiffness(scene, chains[0].plane, float(rigidity.sum()), length, half),
+            intrinsic=intrinsic,
+            weight=_weight(scene, chains, offsets, half),
+        ),
         held_as=chains[0].held_as,
         base=_base(chains[0], nodes[line, edge.along_axis] - start, length),
         segments=chains[0].segments,
@@ -243,3 +230,14 @@ def _base(chain: Chain, along: np.ndarray, length: float) -> int | None:
     if abs(along[nearest] - at) > 1e-9 * length:
         raise BadInput(f"actuator: no node of the mesh at the {chain.base} of edge {chain.edge}")
     return nearest
+
+
+def hold_bases(supports: Supports, rods: Sequence[Rod]) -> Supports:
+    """The supports with what the rods' bases hold: position and director of a node, under its name."""
+    position, director, edges = supports.position.copy(), supports.director.copy(), dict(supports.edges)
+    for rod in rods:
+        if rod.base is not None:
+            node = rod.line[rod.base]
+            position[node] = director[node] = True
+            edges[rod.held_as] = (np.array([node]), np.arange(3))
+    return replace(supports, position=position, director=director, edges=edges)

@@ -1,0 +1,49 @@
+"""Scenes of elastic rods on sheets, for the tests of the references' actuators."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+import fem_reference
+from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet, Solution
+
+SHEET = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
+RUBBER = Material(young=54.5e6, poisson=0.48, density=1678.0)
+GRAVITY = Gravity(acceleration=(0.0, 0.0, -9.81))
+STRIP = Sheet(length_x=0.02, length_y=1.0, thickness=0.0005)
+FLOPPY = Material(young=1e2, poisson=0.0, density=1e-3)  # a sheet that the rod does not feel
+
+
+def chain(**asked: Any) -> Chain:
+    values = {"edge": "x1", "segments": 24, "bending_stiffness": 0.2, "line_density": 0.05, "radius": 1.5e-3}
+    return Chain(**{**values, **asked})
+
+
+def alone(gravity: Gravity | None = None, sheet: Sheet = STRIP, **asked: Any) -> Scene:
+    """A rod of length 1, EI = 1 and 1 kg/m along a floppy strip."""
+    values = {"edge": "x0", "segments": 16, "bending_stiffness": 1.0, "line_density": 1.0, "radius": 1e-3}
+    only = Chain(**{**values, "base": "middle", **asked})
+    return Scene(name="rod", sheet=sheet, material=FLOPPY, gravity=gravity, actuators=(only,))
+
+
+def driven(*actuators: Any, gravity: Gravity | None = GRAVITY) -> Scene:
+    supports = (Clamped(edge="x0"),)
+    return Scene(
+        name="s", sheet=SHEET, material=RUBBER, gravity=gravity, supports=supports, actuators=actuators
+    )
+
+
+def shell(scene: Scene, elements: int | tuple[int, int] = 8) -> Solution:
+    return fem_reference.solve(scene, model="shell", elements=elements)
+
+
+CHAINS = {
+    "normal": {"curvature": 4.0},
+    "top": {"curvature": 4.0, "face": "top"},
+    "bottom": {"curvature": -3.0, "face": "bottom"},
+    "spatial": {"curvature": 4.0, "plane": "spatial"},
+    "inplane": {"curvature": 0.05, "plane": "inplane", "bending_stiffness": 20.0},
+    "list": {"curvature": tuple(np.linspace(-5.0, 8.0, 23))},
+}

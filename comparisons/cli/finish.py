@@ -54,9 +54,12 @@ class End:
 
     @contextmanager
     def campaign(
-        self, scheduler: str | None = None
+        self, scheduler: str | None = None, wait: bool = False
     ) -> Iterator[tuple[Store, Pool, Callable[[Progress], None]]]:
-        """A campaign's store in the folder, or where there is none a passing one; workers; progress."""
+        """A campaign's store in the folder, or where there is none a passing one; workers; progress.
+
+        scheduler: of a cluster; wait: for workers where it has none, instead of stopping.
+        """
         from comparisons.runs.campaign import campaign
         from comparisons.runs.executors import pool_of
         from comparisons.runs.store import FILE
@@ -67,7 +70,7 @@ class End:
             else:
                 kept, self._also = self._folder.path, [FILE]
             store = stack.enter_context(campaign(kept))
-            pool = stack.enter_context(pool_of(scheduler))
+            pool = stack.enter_context(pool_of(scheduler, wait, console.warn))
             yield store, pool, stack.enter_context(console.campaign_progress())
 
     def stop(self, complaint: str) -> None:

@@ -35,6 +35,23 @@ Overwrite = Annotated[
         show_default=False,
     ),
 ]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(
+        "--scheduler", metavar="ADDRESS", help="A dask scheduler, as tcp://host:8786.", show_default=False
+    ),
+]
+Wait = Annotated[
+    bool,
+    typer.Option(
+        "--wait",
+        help="With --scheduler: wait where there is no worker, instead of stopping.",
+        show_default=False,
+    ),
+]
+Retry = Annotated[
+    bool, typer.Option("--retry", help="Run again what failed in an earlier run.", show_default=False)
+]
 
 
 def command_line() -> list[str]:

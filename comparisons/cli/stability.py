@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, Overwrite
+from comparisons.cli.options import Json, Out, Overwrite, Retry, Scheduler, Wait
 
 
 def command(
@@ -24,12 +24,9 @@ def command(
     workers: Annotated[
         int | None, typer.Option(min=1, metavar="N", help="Cells measured side by side; one a core.")
     ] = None,
-    scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="A dask scheduler, as tcp://host:8786.")
-    ] = None,
-    retry: Annotated[
-        bool, typer.Option("--retry", help="Run again what failed in an earlier run.", show_default=False)
-    ] = False,
+    scheduler: Scheduler = None,
+    wait: Wait = False,
+    retry: Retry = False,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -50,7 +47,7 @@ def command(
         require_choice("study", name, STUDIES)
     chosen = [STUDIES[name] for name in dict.fromkeys(names)]
     with finish("stability", json, out, overwrite) as end:
-        with end.campaign(scheduler) as (store, pool, progress):
+        with end.campaign(scheduler, wait) as (store, pool, progress):
             rows = survey(
                 chosen,
                 store,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from comparisons.cli import options
-from comparisons.cli.options import Json, Out, Overwrite
+from comparisons.cli.options import Json, Out, Overwrite, Retry, Scheduler, Wait
 
 if TYPE_CHECKING:
     from comparisons.tradeoff.motion import DynamicTradeoff
@@ -60,9 +60,8 @@ def command(
     workers: Annotated[
         int | None, typer.Option(min=1, metavar="N", help="Processes for what is not timed; one a core.")
     ] = None,
-    scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="A dask scheduler, as tcp://host:8786.")
-    ] = None,
+    scheduler: Scheduler = None,
+    wait: Wait = False,
     duration: Annotated[
         float | None,
         typer.Option(
@@ -73,9 +72,7 @@ def command(
     integrator: Annotated[
         str, typer.Option(metavar="NAMES", help="With --duration: the integrators.")
     ] = "generalised-alpha,midpoint,projective,verlet",
-    retry: Annotated[
-        bool, typer.Option("--retry", help="Run again what failed in an earlier run.", show_default=False)
-    ] = False,
+    retry: Retry = False,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -112,7 +109,7 @@ def command(
         judge = Candidate("shell", {"elements": elements}) if elements is not None else None
         measure = partial(tradeoff, asked, candidates, reference=judge, repeats=repeats)
     with finish("tradeoff", json, out, overwrite, scene=asked) as end:
-        with end.campaign(scheduler) as (store, pool, progress):
+        with end.campaign(scheduler, wait) as (store, pool, progress):
             found = measure(
                 store=store, workers=workers or os.cpu_count() or 1, pool=pool, retry=retry, progress=progress
             )

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, Overwrite
+from comparisons.cli.options import Json, Out, Overwrite, Retry
 
 
 def command(
@@ -44,9 +44,7 @@ def command(
     workers: Annotated[
         int | None, typer.Option(min=1, metavar="N", help="Processes; one a core unless given.")
     ] = None,
-    retry: Annotated[
-        bool, typer.Option("--retry", help="Run again what failed in an earlier run.", show_default=False)
-    ] = False,
+    retry: Retry = False,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,

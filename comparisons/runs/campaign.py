@@ -16,7 +16,7 @@ import json
 import traceback
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
@@ -26,12 +26,14 @@ from time import perf_counter
 from typing import Any
 
 from comparisons.report.files import plain
-from comparisons.runs.executors import Pool, processes, single_threaded
+from comparisons.runs.executors import Pool, Watched, processes, single_threaded
 from comparisons.runs.manifest import source, version
 from comparisons.runs.store import FILE, Finished, Store
 from comparisons.runs.tasks import function
 from sheetbench.files import only_writer
 from sheetbench.scenes.errors import BadInput
+
+LOOK = 1.0  # s between looks at who carries out the runs
 
 
 @dataclass(frozen=True)
@@ -127,27 +129,32 @@ class _Session:
             suspects = self._stream(waiting, pool, width)
 
     def _stream(self, waiting: deque[Run], pool: Pool, width: int) -> list[Run]:
-        """Runs until none waits; the runs under way if the pool broke."""
+        """Runs until none waits or the pool is gone; the runs under way if the pool broke."""
         under_way: dict[Future[Finished], Run] = {}
-        executor = pool(width)
-        try:
+        with _ended(pool(width)) as executor:
             while waiting or under_way:
                 while waiting and len(under_way) < width:
                     run = waiting.popleft()
                     under_way[_submit(executor, run)] = run
-                done, _ = wait(under_way, return_when=FIRST_COMPLETED)
-                broken = []
+                done, _ = wait(under_way, timeout=LOOK, return_when=FIRST_COMPLETED)
+                if not done and isinstance(executor, Watched):
+                    executor.watch()
+                broken, cancelled = [], []
                 for future in done:
                     run = under_way.pop(future)
-                    error = future.exception()
-                    if isinstance(error, BrokenProcessPool):
+                    error = None if future.cancelled() else future.exception()
+                    if future.cancelled() or isinstance(error, CancelledError):
+                        cancelled.append(run)
+                    elif isinstance(error, BrokenProcessPool):
                         broken.append(run)
                     else:
                         self._keep(run, _lost(run, error) if error else future.result(), width)
                 if broken:
                     return [*broken, *under_way.values()]
-        finally:
-            executor.shutdown(wait=True)
+                if cancelled:  # the connection was lost, which is nobody's fault: they go again on the next
+                    waiting.extendleft([*under_way.values(), *cancelled])
+                    _leave(executor)
+                    break
         return []
 
     def _keep(self, run: Run, outcome: Finished, width: int) -> None:
@@ -156,6 +163,24 @@ class _Session:
         left = self.missing - len(self.seconds)
         mean = sum(self.seconds) / len(self.seconds)
         self.progress(Progress(self.total - left, self.total, run.label, outcome.status, mean * left / width))
+
+
+@contextmanager
+def _ended(executor: Executor) -> Iterator[Executor]:
+    """The executor, which is waited for at the end, but not after a fault or Ctrl-C."""
+    try:
+        yield executor
+    except BaseException:
+        _leave(executor)
+        raise
+    executor.shutdown()
+
+
+def _leave(executor: Executor) -> None:
+    if isinstance(executor, Watched):
+        executor.abandon()
+    else:
+        executor.shutdown(wait=False, cancel_futures=True)
 
 
 def _submit(executor: Executor, run: Run) -> Future[Finished]:

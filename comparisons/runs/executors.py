@@ -2,18 +2,23 @@
 
 A worker process starts fresh (spawn), keeps to one thread (BLAS, OpenMP, numba and rslab alike), so that as
 many workers as cores do not fight for them, and ends when the process that started it does, killed or not.
+
+A scheduler's address is trusted with code: what connects to it may run anything here, and there.
 """
 
 from __future__ import annotations
 
+import logging
 import multiprocessing
 import os
 import socket
 import threading
+import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, ProcessPoolExecutor
-from contextlib import contextmanager
-from multiprocessing.connection import wait
+from concurrent.futures import Executor, Future, ProcessPoolExecutor
+from contextlib import contextmanager, suppress
+from multiprocessing.connection import Connection, Pipe, wait
+from typing import Any, Protocol, runtime_checkable
 from urllib.parse import urlsplit
 
 from sheetbench.scenes.errors import BadInput
@@ -28,12 +33,43 @@ ONE_THREAD = dict.fromkeys(
     ),
     "1",
 )
+PATIENCE = 15.0  # s without anybody to carry out a run
+ANSWER = 5.0  # s that a scheduler may take to answer
+FAREWELL = 1.0  # s, where nobody waits for the answer
 Pool = Callable[[int], Executor]
+
+
+@runtime_checkable
+class Watched(Protocol):
+    """What an Executor may offer besides."""
+
+    def watch(self) -> None:
+        """Raise BadInput where nobody is left to carry anything out."""
+
+    def abandon(self) -> None:
+        """End at once, whatever is under way."""
+
+
+class Processes(ProcessPoolExecutor):
+    """Single-threaded processes of this machine."""
+
+    def __init__(self, workers: int) -> None:
+        theirs, self._ours = Pipe(duplex=False)
+        start = multiprocessing.get_context("spawn")
+        super().__init__(workers, mp_context=start, initializer=_join, initargs=(theirs,))
+
+    def watch(self) -> None:
+        """A process that dies breaks the pool, which says so by itself."""
+
+    def abandon(self) -> None:
+        """End the processes, whatever they are at."""
+        self._ours.close()
+        self.shutdown(cancel_futures=True)
 
 
 def processes(workers: int) -> Executor:
     """A pool of that many single-threaded processes."""
-    return ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=_join)
+    return Processes(workers)
 
 
 @contextmanager
@@ -52,49 +88,124 @@ def single_threaded() -> Iterator[None]:
 
 
 @contextmanager
-def pool_of(scheduler: str | None) -> Iterator[Pool]:
-    """Processes of this machine, or the cluster of a scheduler's address."""
+def pool_of(
+    scheduler: str | None, patient: bool = False, say: Callable[[str], None] = lambda text: None
+) -> Iterator[Pool]:
+    """Processes of this machine, or the cluster of a scheduler's address (see `Cluster`)."""
     if scheduler is None:
         yield processes
         return
-    with cluster(scheduler) as pool:
-        yield pool
+    found = Cluster(scheduler, patient, say)
+    try:
+        yield found.workers
+    finally:
+        found.close()
 
 
-@contextmanager
-def cluster(address: str) -> Iterator[Pool]:
-    """The dask cluster at an address like tcp://host:8786, for as long as the context lasts.
+class Cluster:
+    """The dask cluster at an address like tcp://host:8786.
 
-    A run whose worker dies is given to another by dask itself. Raises BadInput without dask.distributed or
-    where nothing answers.
+    A run whose worker dies is given to another by dask itself. Where there has been no worker, or no
+    scheduler, for `PATIENCE` seconds, a campaign ends in BadInput, or if `patient` says so once and waits.
+    Raises BadInput without dask.distributed or where nothing answers.
     """
-    try:
-        from distributed import Client
-    except ImportError:
-        raise BadInput("--scheduler: needs dask.distributed; pip install 'sheetbench[cluster]'") from None
-    try:
-        place = urlsplit(address)
-        if place.scheme == "tcp":  # dask would try for long, and noisily
-            socket.create_connection((place.hostname or "", place.port or 8786), timeout=10).close()
-        client = Client(address, timeout=10)
-    except (OSError, ValueError) as error:
-        raise BadInput(f"--scheduler = '{address}': no scheduler there: {error}") from None
 
-    def connected(workers: int) -> Executor:
-        executor: Executor = client.get_executor(pure=False)
-        return executor
+    def __init__(
+        self, address: str, patient: bool = False, say: Callable[[str], None] = lambda text: None
+    ) -> None:
+        try:
+            import distributed
+        except ImportError:
+            raise BadInput("--scheduler: needs dask.distributed; pip install 'sheetbench[cluster]'") from None
+        for name in ("distributed", "distributed.client"):  # what matters of it is said here
+            logging.getLogger(name).setLevel(logging.CRITICAL)
+        self.address, self._patient, self._say = address, patient, say
+        self._connect: Callable[[], distributed.Client] = lambda: distributed.Client(address, timeout=10)
+        try:
+            place = urlsplit(address)
+            if place.scheme == "tcp":  # dask would try for long, and noisily
+                socket.create_connection((place.hostname or "", place.port or 8786), timeout=10).close()
+            self._client = self._connect()
+        except (OSError, ValueError) as error:
+            raise BadInput(f"--scheduler = '{address}': no scheduler there: {error}") from None
+        self._missing_since: float | None = None
+        self._said = False
 
-    with client:
-        yield connected
+    def workers(self, count: int) -> Executor:
+        """The cluster's workers, however many they are, once it can be reached."""
+        while self._client.status != "running":
+            self.watch()
+            if self._client.status == "closed":
+                with suppress(OSError):
+                    self._client = self._connect()
+            time.sleep(0.2)
+        return _Workers(self)
+
+    def watch(self) -> None:
+        """See who is there. Raises BadInput, or says that it waits, where nobody has been for long."""
+        missing = self._what_is_missing()
+        if missing is None:
+            self._missing_since, self._said = None, False
+            return
+        now = time.monotonic()
+        if self._missing_since is None:
+            self._missing_since = now
+        if now - self._missing_since < PATIENCE or self._said:
+            return
+        said = f"--scheduler = '{self.address}': no {missing} for {PATIENCE:g} s"
+        if not self._patient:
+            raise BadInput(
+                f"{said}; what was done is kept: the same command goes on, and with --wait waits for one"
+            )
+        self._say(f"{said}; waiting")
+        self._said = True
+
+    def close(self) -> None:
+        """Leave the cluster, which keeps running."""
+        with suppress(OSError):  # a time-out too: a scheduler that does not answer is not waited for
+            self._client.close(timeout=FAREWELL)
+
+    def _what_is_missing(self) -> str | None:
+        scheduler: Any = self._client.scheduler
+        if self._client.status != "running" or scheduler is None:
+            return "scheduler"
+        try:
+            there = self._client.sync(scheduler.identity, callback_timeout=ANSWER)
+        except OSError:
+            return "answer of the scheduler"
+        return None if there["workers"] else "worker"
 
 
-def _join() -> None:
-    """End this worker as soon as its parent has ended."""
+class _Workers(Executor):
+    """The workers of a cluster as long as the connection lasts."""
+
+    def __init__(self, cluster: Cluster) -> None:
+        self._cluster = cluster
+        self._dask: Executor = cluster._client.get_executor(pure=False)
+
+    def submit(self, task: Callable[..., Any], /, *arguments: Any, **named: Any) -> Future[Any]:
+        return self._dask.submit(task, *arguments, **named)
+
+    def watch(self) -> None:
+        self._cluster.watch()
+
+    def abandon(self) -> None:
+        """Cancel what is under way, without waiting for a scheduler that may not be there."""
+        cancelling = threading.Thread(target=self._dask.shutdown, kwargs={"wait": False}, daemon=True)
+        cancelling.start()
+        cancelling.join(FAREWELL)
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        self._dask.shutdown(wait=wait)
+
+
+def _join(stopped: Connection) -> None:
+    """End this worker as soon as its parent has ended or closed the other end of `stopped`."""
     parent = multiprocessing.parent_process()
     if parent is not None:
-        threading.Thread(target=_follow, args=(parent.sentinel,), daemon=True).start()
+        threading.Thread(target=_follow, args=([parent.sentinel, stopped],), daemon=True).start()
 
 
-def _follow(sentinel: int) -> None:
-    wait([sentinel])
+def _follow(ends: list[Any]) -> None:
+    wait(ends)
     os._exit(1)

@@ -403,19 +403,8 @@ def test_dask_cluster_loses_a_worker_mid_run_and_finishes(store: Store, tmp_path
     with LocalCluster(
         n_workers=2, threads_per_worker=1, dashboard_address=None, preload=[task_file]
     ) as local:
-        runs = [task("mark", x=x, folder=str(tmp_path), seconds=0.4) for x in range(8)]
-        victims, interrupted = list[int](), list[int]()
-
-        def kill_one(progress: Progress) -> None:
-            """The worker of the run that is under way when the first one has finished."""
-            under_way = [p for p in tmp_path.glob("*.started") if not p.with_suffix(".ended").exists()]
-            if not victims and under_way:
-                victims.append(int(under_way[0].read_text(encoding="utf-8")))
-                interrupted.append(int(under_way[0].stem))
-                os.kill(victims[0], signal.SIGKILL)
-
+        runs = [task("die_once", x=x, folder=str(tmp_path), victim=3) for x in range(8)]
         with pool_of(local.scheduler_address) as pool:
-            found = carry_out(runs, store, workers=2, pool=pool, progress=kill_one)
-    assert victims
+            found = carry_out(runs, store, workers=2, pool=pool)
     assert [outcome.row["x"] for outcome in found] == list(range(8))
-    assert found[interrupted[0]].row["process"] != victims[0]
+    assert found[3].row["process"] != int((tmp_path / "died").read_text(encoding="utf-8"))

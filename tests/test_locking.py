@@ -71,5 +71,5 @@ def test_picture(tmp_path: Path) -> None:
         return relatively(f"locking-{model}", "w", "8 × 8", 1.0, "finer", 1.001, 0.02, at=at)
 
     rows = [made(model, ratio, 0.3) for model in ("plate", "solid") for ratio in (1e-5, 0.1)]
-    picture(tmp_path / "locking.png", rows)
+    picture([tmp_path / "locking.png"], rows)
     assert (tmp_path / "locking.png").stat().st_size > 5000

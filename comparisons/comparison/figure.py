@@ -1,10 +1,12 @@
 """The picture of a comparison: the lattice, the reference, and their difference on the deformed sheet.
 
-The sheets are drawn at true scale unless they move too little to see; lengths are in millimetres.
+The sheets are drawn at true scale unless they move too little to see; lengths are in millimetres. Actuators
+and loads are drawn on both (`comparisons.report.acting`).
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,18 +16,19 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
 
 from comparisons.comparison.comparison import Comparison
-from comparisons.report.stage import DARK, GREY, Stage
+from comparisons.report import acting
+from comparisons.report.labels import place_labels
+from comparisons.report.stage import Stage
+from comparisons.report.style import GREY, STYLE, plain, save
 from comparisons.report.vtk import plan_mesh
-from sheetbench.files import whole
 from sheetbench.scenes import Scene, Solution
 
-WIDTH, DPI = 7.2, 170  # inches: the text width of a two-column paper
+WIDTH = 7.2  # inches: the text width of a two-column paper
+LINE = 105  # characters of a title in full size
 VISIBLE, DRAWN = 0.02, 0.08  # of the longer side: what moves less than the first is drawn as the second
 HEIGHTS, DIFFERENCES = "viridis", "magma_r"
-FONT: Any = {"font.family": "DejaVu Sans", "font.size": 7.5, "text.color": DARK, "axes.labelcolor": DARK}
 MODEL_NAMES = {
     "lumped": "Lumped lattice",
     "plate": "Mindlin plate",
@@ -34,10 +37,10 @@ MODEL_NAMES = {
 }
 
 
-def picture(path: Path, comparison: Comparison) -> None:
-    """Write the picture as PNG. Needs off-screen drawing: ask `report.offscreen.why_not` first."""
-    with matplotlib.rc_context(FONT), whole(path) as partial:
-        compose(comparison).savefig(partial, dpi=DPI, facecolor="white", pil_kwargs={"optimize": True})
+def picture(paths: Sequence[Path], comparison: Comparison) -> None:
+    """Write the picture. Needs off-screen drawing: ask `report.offscreen.why_not` first."""
+    with matplotlib.rc_context(STYLE):
+        save(compose(comparison), paths)
 
 
 def compose(comparison: Comparison) -> Figure:
@@ -62,9 +65,10 @@ def compose(comparison: Comparison) -> Figure:
     middle.surface(reference, heights, height_limits, HEIGHTS, _elements(reference))
     right.surface(reference, difference, difference_limits, DIFFERENCES, 0)
     flat = np.column_stack([plan, np.zeros(len(plan))])
-    seen = np.vstack([flat, left.deformed(reference, plan), left.deformed(lattice, plan)])
-    probes = scene.probe_points()
     shown = ((left, lattice), (middle, reference), (right, reference))
+    ends = [acting.draw(stage, solution) for stage, solution in shown[:2]]
+    seen = np.vstack([flat, left.deformed(reference, plan), left.deformed(lattice, plan), *ends])
+    probes = scene.probe_points()
     shots = [stage.take(seen, stage.deformed(solution, probes)) for stage, solution in shown]
 
     figure, axes, bars = _layout(shots[0][0].shape[0] / shots[0][0].shape[1])
@@ -79,11 +83,13 @@ def compose(comparison: Comparison) -> Figure:
         axes, shots, titles, (lattice.label, reference.label, said), strict=True
     ):
         _panel(axis, image, title, subtitle)
-        _name_probes(axis, pixels, list(scene.probes))
-    _colour_bar(figure, bars[0], HEIGHTS, height_limits, "$u_z$  [mm]")
-    _colour_bar(figure, bars[1], DIFFERENCES, difference_limits, "|$u$ − $u_{ref}$|  [mm]")
+        place_labels(axis, pixels, list(scene.probes))
+    colour_bar(figure, bars[0], HEIGHTS, height_limits, "$u_z$  [mm]")
+    colour_bar(figure, bars[1], DIFFERENCES, difference_limits, "|$u$ − $u_{ref}$|  [mm]")
     drawn = "drawn at true scale" if scale == 1.0 else f"displacements drawn {scale:g} times as large"
-    figure.text(0.5, 0.975, f"{scene.title or scene.name}  ({drawn})", ha="center", va="top", fontsize=8)
+    title = plain(f"{scene.title or scene.name}  ({drawn})", longest=2 * LINE)
+    size = 8.0 * min(1.0, LINE / len(title))
+    figure.text(0.5, 0.975, title, ha="center", va="top", fontsize=max(size, 5.0))
     return figure
 
 
@@ -135,16 +141,8 @@ def _panel(axis: Axes, image: np.ndarray, title: str, subtitle: str) -> None:
     axis.annotate(subtitle, (0.5, 1.0), (0.0, 2.5), fontsize=6.5, color=GREY, **below)
 
 
-def _name_probes(axis: Axes, pixels: np.ndarray, names: list[str]) -> None:
-    for (x, y), name in zip(pixels, names, strict=True):
-        axis.plot(x, y, "o", markersize=3, markerfacecolor="white", markeredgecolor=DARK, markeredgewidth=0.7)
-        near_edge = x > 0.93 * axis.get_xlim()[1]
-        offset, side = ((-4, -8), "right") if near_edge else ((3.5, 3.5), "left")
-        label = axis.annotate(name, (x, y), offset, textcoords="offset points", ha=side, fontsize=6.5)
-        label.set_path_effects([withStroke(linewidth=1.8, foreground="white")])
-
-
-def _colour_bar(figure: Figure, axis: Axes, colours: str, limits: tuple[float, float], label: str) -> None:
+def colour_bar(figure: Figure, axis: Axes, colours: str, limits: tuple[float, float], label: str) -> None:
+    """A horizontal colour bar in `axis`."""
     bar = figure.colorbar(ScalarMappable(Normalize(*limits), colours), cax=axis, orientation="horizontal")
     bar.outline.set_visible(False)
     bar.set_label(label, labelpad=1.5)

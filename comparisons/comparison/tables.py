@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 _MODEL = Column("model")
 
+FIGURES = ("comparison.png", "comparison.pdf")
+
 
 def report(comparison: Comparison, advice: Advice | None = None) -> Report:
     """What `sheetbench compare` shows; advice: by which the first model was chosen."""
@@ -46,7 +48,7 @@ def report(comparison: Comparison, advice: Advice | None = None) -> Report:
             *chosen,
         ),
         complaints=tuple(complaints(comparison)),
-        pictures=(Picture(("comparison.png",), partial(draw, comparison), "drawing the picture …"),),
+        pictures=(Picture(FIGURES, partial(draw, comparison), "drawing the picture …"),),
         attachments={
             **{f"{s.model}.vtu": partial(write_solution, solution=s) for s in comparison.solutions},
             "comparison.vtu": partial(write_plan, comparison=comparison),
@@ -213,6 +215,5 @@ def draw(comparison: Comparison, paths: Sequence[Path]) -> str | None:
     if impossible is None:
         from comparisons.comparison.figure import picture
 
-        for path in paths:
-            picture(path, comparison)
+        picture(paths, comparison)
     return impossible

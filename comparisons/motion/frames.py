@@ -1,23 +1,19 @@
-"""Whole displacements of a run over time: a PVD/VTU series, and an animation of the sheet as GIF.
+"""Whole displacements of a run over time, and the PVD/VTU series of them.
 
-The axes of chains are lines in both; a file's point data `actuator` is 0 on the lattice and 1, 2, … on the
-axes, in the order of their edges in the scene.
+The axes of chains are lines; a file's point data `actuator` is 0 on the lattice and 1, 2, … on the axes, in
+the order of their edges in the scene.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from comparisons.report.files import folder, write_text
 from comparisons.report.vtk import write_mesh
-from sheetbench.files import whole
 from sheetbench.scenes import FieldMesh, History, Scene
-
-PIXELS, COLOURS, PER_SECOND, MOST = 480, 96, 12, 50
 
 
 @dataclass(frozen=True)
@@ -83,47 +79,3 @@ def write_series(path: Path, shown: list[tuple[float, Frame]]) -> None:
         write_mesh(inside / name, frame.with_axes() if frame.axes else frame.mesh)
         lines.append(f'    <DataSet timestep="{time!r}" part="0" file="{inside.name}/{name}"/>')
     write_text(path, "\n".join([*lines, "  </Collection>", "</VTKFile>", ""]))
-
-
-def animate(path: Path, scene: Scene, shown: list[tuple[float, Frame]]) -> None:
-    """Write the frames as a GIF at true scale. Needs off-screen drawing (`comparisons.report.offscreen`)."""
-    from PIL import Image, ImageDraw
-
-    from comparisons.comparison.figure import HEIGHTS
-    from comparisons.report.stage import Stage
-    from comparisons.report.vtk import plan_mesh
-
-    shown = shown[:: -(-len(shown) // MOST)]
-    plan = plan_mesh(scene.sheet, 16).points[:, :2]
-    flat = np.column_stack([plan, np.zeros(len(plan))])
-    sheets = [flat + frame.displacement(plan) for _, frame in shown]
-    seen = np.vstack([flat, *sheets, *(rest + u for _, frame in shown for rest, u in frame.axes)])
-    heights = [1e3 * frame.mesh.point_data["displacement"][:, 2] for _, frame in shown]
-    limits = (min(float(h.min()) for h in heights), max(float(h.max()) for h in heights) + 1e-9)
-    images = []
-    for (time, frame), height in zip(shown, heights, strict=True):
-        held: Any = frame
-        stage = Stage(scene, held, 1.0)
-        stage.lattice(frame.mesh, height, limits, HEIGHTS)
-        for rest, u in frame.axes:
-            stage.chain(rest + u)
-        pixels, _ = stage.take(seen, np.empty((0, 3)))
-        image = Image.fromarray(pixels)
-        image = image.resize((PIXELS, round(PIXELS * image.height / image.width)), Image.Resampling.LANCZOS)
-        ImageDraw.Draw(image).text((10, 8), f"t = {time:.2f} s", fill="#20252b")
-        images.append(image)
-    # one palette for all and no dither: what stands still stays the same, and the file small
-    every = Image.new("RGB", (PIXELS, sum(image.height for image in images[::8])))
-    for number, image in enumerate(images[::8]):
-        every.paste(image, (0, number * image.height))
-    palette = every.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE)
-    images = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
-    with whole(path) as partial:
-        images[0].save(
-            partial,
-            save_all=True,
-            append_images=images[1:],
-            duration=1000 // PER_SECOND,
-            loop=0,
-            optimize=True,
-        )

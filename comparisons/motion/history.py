@@ -1,4 +1,4 @@
-"""Histories of dynamic runs: documents, tables, measured histories beside them, the plot over time.
+"""Histories of dynamic runs: documents, tables, measured histories beside them.
 
 A measured history is a CSV with the header `time,probe,ux,uy,uz`: seconds, a probe's name, metres; a
 component may be left empty. Its error at a probe is the largest |component of (simulated − measured)| over
@@ -12,17 +12,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import matplotlib
 import numpy as np
-from matplotlib.figure import Figure
 
 from comparisons.report.table import Column, Table
-from sheetbench.files import whole
 from sheetbench.scenes import History
 from sheetbench.scenes.errors import BadInput
 
 COMPONENTS = ("ux", "uy", "uz")
-COLOURS = ("#1b6ca8", "#3a9d6e", "#b5453c")
 HEADER = ["time", "probe", *COMPONENTS]
 
 
@@ -130,44 +126,3 @@ def summary(history: History, measured: dict[str, Measured]) -> Table:
     columns = (Column("probe"), *millimetres, Column("off by", "", "%", 100.0, "z.2f"))
     caption = f"Displacement at {history.time[-1]:g} s, and largest component on the way"
     return Table(caption, columns, tuple(rows), "probes")
-
-
-def plot(path: Path, history: History, title: str, measured: dict[str, Measured]) -> None:
-    """Write the probes over time as PNG, one panel a probe, measured values as points."""
-    with matplotlib.rc_context({"font.family": "DejaVu Sans", "font.size": 7.5}), whole(path) as partial:
-        compose(history, title, measured).savefig(partial, dpi=200, facecolor="white")
-
-
-def compose(history: History, title: str, measured: dict[str, Measured]) -> Figure:
-    """The figure with a panel per probe, and the energies below."""
-    count = len(history.probes)
-    figure = Figure(figsize=(6.4, 1.5 * count + 1.9), layout="constrained")
-    panels = figure.subplots(count + 1, 1, sharex=True, squeeze=False)[:, 0]
-    for axis, (name, u) in zip(panels, history.probes.items(), strict=False):
-        for i, (component, colour) in enumerate(zip(COMPONENTS, COLOURS, strict=True)):
-            axis.plot(
-                history.time,
-                1e3 * u[:, i],
-                color=colour,
-                linewidth=1.0,
-                label=f"${component[0]}_{component[1]}$",
-            )
-            if name in measured:
-                points = measured[name]
-                axis.plot(points.time, 1e3 * points.displacement[:, i], "o", color=colour, markersize=2.5)
-        off = error(history, name, measured[name]) if name in measured else None
-        said = "" if off is None else f"   (points measured; off by {100 * off:.1f} %)"
-        axis.set_title(f"{name}{said}", loc="left", fontsize=7.5, fontweight="bold")
-        axis.set_ylabel("[mm]")
-    panels[0].legend(loc="lower right", ncols=3, frameon=False)
-    for name in ("kinetic", "elastic", "potential", "dissipated"):
-        panels[-1].plot(history.time, 1e3 * history.energies[name], linewidth=0.9, label=name)
-    panels[-1].plot(history.time, 1e3 * history.balance, "k--", linewidth=0.9, label="balance")
-    panels[-1].set_ylabel("energy [mJ]")
-    panels[-1].set_xlabel("time [s]")
-    panels[-1].legend(loc="upper right", ncols=5, frameon=False, fontsize=6.5)
-    for axis in panels:
-        axis.spines[["top", "right"]].set_visible(False)
-        axis.margins(x=0)
-    figure.suptitle(f"{title}\n{history.label}, {history.integrator}", fontsize=8)
-    return figure

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
 from comparisons.motion import frames
-from comparisons.motion.history import Measured, as_dict, plot, series, summary
+from comparisons.motion.history import Measured, as_dict, series, summary
 from comparisons.report.files import write_text
 from comparisons.report.report import Picture, Report
 from sheetbench.scenes import History, Scene, Status
@@ -18,10 +19,11 @@ def report(
 ) -> Report:
     """What `sheetbench simulate` shows of a run; measured: histories by probe; animate: draw it moving."""
     truth = dict(measured or {})
-    pictures = [Picture(("history.png",), partial(_plot, history, scene, truth))]
+    pictures = [Picture(("history.png", "history.pdf"), partial(_plot, history, scene, truth))]
     if animate:
+        films = ("animation.gif", "animation.mp4") if shutil.which("ffmpeg") else ("animation.gif",)
         moving = partial(_animate, history, scene)
-        pictures.append(Picture(("animation.gif",), moving, "drawing the animation …"))
+        pictures.append(Picture(films, moving, "drawing the animation …"))
     complete = history.status is Status.CONVERGED
     resumed = history.resumed_from
     earlier = f"went on from {resumed:.4g} s, which an earlier run had reached"
@@ -53,8 +55,9 @@ def balance(history: History) -> str:
 
 
 def _plot(history: History, scene: Scene, measured: dict[str, Measured], paths: Sequence[Path]) -> None:
-    for path in paths:
-        plot(path, history, scene.title or scene.name, measured)
+    from comparisons.motion.figure import plot
+
+    plot(paths, history, scene.title or scene.name, measured)
 
 
 def _animate(history: History, scene: Scene, paths: Sequence[Path]) -> str | None:
@@ -62,6 +65,7 @@ def _animate(history: History, scene: Scene, paths: Sequence[Path]) -> str | Non
 
     impossible = why_not()
     if impossible is None:
-        for path in paths:
-            frames.animate(path, scene, frames.frames(scene, history))
+        from comparisons.motion.animation import animate
+
+        animate(paths, scene, frames.frames(scene, history))
     return impossible

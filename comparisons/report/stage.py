@@ -12,13 +12,14 @@ from typing import Any
 import numpy as np
 import pyvista
 
+from comparisons.report.style import DARK, GREY
 from comparisons.report.vtk import PLAN_CELLS, plan_mesh
 from sheetbench.scenes import EDGES, FieldMesh, Scene, Sheet, Solution, holds_director
 from sheetbench.scenes.grid import near_square
 
 PIXELS, MARGIN = 1800, 0.04  # width of the image; margin as a share of it
 ELEVATION, TURN = 27.0, 24.0  # degrees above the plane, and aside from the free side's direction
-DARK, GREY, PALE, OUTLINE, ROD = "#20252b", "#7d848c", "#c9ced4", "#a9afb6", "#c8553d"
+PALE, OUTLINE, ROD = "#c9ced4", "#a9afb6", "#c8553d"
 
 
 class Stage:

@@ -1,9 +1,18 @@
-"""The dress of plots for papers, and their two neutral colours."""
+"""The dress of plots for papers: fonts, neutral colours, text from scenes, and files in every format."""
 
 from __future__ import annotations
 
+import textwrap
+from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
+from matplotlib.figure import Figure
+
+from sheetbench.files import whole
+
+DPI = 300  # of pictures as PNG, and of what is rendered inside those as PDF or SVG
+MOST = 12  # probes with a panel or a line of their own
 DARK, GREY = "#222222", "#8a8a8a"
 STYLE: Any = {
     "font.family": "DejaVu Sans",
@@ -15,4 +24,26 @@ STYLE: Any = {
     "xtick.color": DARK,
     "ytick.color": DARK,
     "pdf.fonttype": 42,
+    "svg.fonttype": "path",
 }
+
+
+def save(figure: Figure, paths: Iterable[Path]) -> None:
+    """Write a figure to every path, in the format of its suffix (.png, .pdf, .svg), whole or not at all."""
+    for path in paths:
+        lossless = {"pil_kwargs": {"optimize": True}} if path.suffix == ".png" else {}
+        with whole(path) as partial:
+            figure.savefig(partial, dpi=DPI, facecolor="white", **lossless)
+
+
+def plain(text: str, width: int | None = None, longest: int | None = None) -> str:
+    """Text of a scene for a figure: no mathematics in it, control characters out.
+
+    width: break lines there; longest: cut there, with an ellipsis.
+    """
+    shown = " ".join("".join(c if c.isprintable() else " " for c in text).split())
+    if longest is not None and len(shown) > longest:
+        shown = shown[: longest - 1].rstrip() + "…"
+    if width is not None:
+        shown = textwrap.fill(shown, width)
+    return shown.replace("$", r"\$")

@@ -12,11 +12,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
-from comparisons.report.style import GREY, STYLE
+from comparisons.report.style import GREY, STYLE, save
 from comparisons.stability.study import LARGE, Row, Study, percent
-from sheetbench.files import whole
 
-DPI = 200
 MAP_STYLE = {**STYLE, "axes.titlesize": 8, "axes.titleweight": "bold", "axes.titlelocation": "left"}
 # Light enough to write on; told apart in grey and by those who do not see red and green alike.
 OUTCOMES = {
@@ -44,9 +42,7 @@ def picture(study: Study, rows: list[Row], paths: list[Path]) -> None:
         figure = Figure(figsize=study.size, layout="constrained")
         study.draw(figure, rows)
         figure.suptitle(study.title, x=0.01, ha="left", fontsize=9, fontweight="bold")
-        for path in paths:
-            with whole(path) as partial:
-                figure.savefig(partial, dpi=DPI, facecolor="white")
+        save(figure, paths)
 
 
 def outcome(row: Row) -> str:

@@ -11,12 +11,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from comparisons.report.style import GREY, STYLE
+from comparisons.report.style import GREY, STYLE, plain, save
 from comparisons.tradeoff.pareto import grouped
 from comparisons.tradeoff.statics import Tradeoff
-from sheetbench.files import whole
 
-WIDTH, HEIGHT, DPI = 7.2, 3.9, 200  # inches: the text width of a two-column paper
+WIDTH, HEIGHT = 7.2, 3.9  # inches: the text width of a two-column paper
 MARKERS = {"lumped": "o", "plate": "v", "shell": "s", "solid": "D"}
 # Okabe and Ito's colours, which everyone tells apart; lattices take the first ones in turn.
 REFERENCE_COLOURS = {"plate": "#8a8a8a", "shell": "#222222", "solid": "#a0522d"}
@@ -26,10 +25,7 @@ COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#9
 def draw(tradeoff: Tradeoff, paths: list[Path]) -> None:
     """Write the picture to every path, in the format of its suffix (.png, .pdf, .svg)."""
     with matplotlib.rc_context(STYLE):
-        figure = compose(tradeoff)
-        for path in paths:
-            with whole(path) as partial:
-                figure.savefig(partial, dpi=DPI, facecolor="white")
+        save(compose(tradeoff), paths)
 
 
 def compose(tradeoff: Tradeoff) -> Figure:
@@ -50,7 +46,9 @@ def compose(tradeoff: Tradeoff) -> Figure:
         style: dict[str, Any] = {"color": colour, "marker": MARKERS.get(model, "P"), "lw": 0.9, "ms": 3.6}
         if model in REFERENCE_COLOURS:
             style["ls"] = (0, (4, 1.5))
-        label = name if orders[name] is None else f"{name}  ($h^{{{orders[name]:z.1f}}}$)"
+        label = plain(name)
+        if orders[name] is not None:
+            label = f"{label}  ($h^{{{orders[name]:z.1f}}}$)"
         _against_time(left, rows, [i in on_front for i in known], style, label)
         sized = [row for row in rows if row["cell_size"]]
         right.plot([1e3 * r["cell_size"] for r in sized], [100 * r["error"] for r in sized], **style)
@@ -76,7 +74,8 @@ def compose(tradeoff: Tradeoff) -> Figure:
     )
     legend_rows = -(-len(labels) // 4)
     figure.subplots_adjust(left=0.085, right=0.985, bottom=0.125 + 0.05 * legend_rows, top=0.86, wspace=0.06)
-    figure.text(0.085, 0.975, tradeoff.scene.title or tradeoff.scene.name, va="top", fontsize=8.5)
+    title = plain(tradeoff.scene.title or tradeoff.scene.name, longest=110)
+    figure.text(0.085, 0.975, title, va="top", fontsize=8.5)
     return figure
 
 

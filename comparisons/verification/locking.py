@@ -9,9 +9,8 @@ from pathlib import Path
 import matplotlib
 from matplotlib.figure import Figure
 
-from comparisons.comparison.figure import DPI, FONT
+from comparisons.report.style import STYLE, save
 from fem_reference.verification import Row
-from sheetbench.files import whole
 
 SIZE = (4.6, 2.9)  # inches
 MARKERS = {"plate": "s", "shell": "o", "solid": "^"}
@@ -19,10 +18,10 @@ COLOURS = {"plate": "#7d848c", "shell": "#20252b"}
 SOLID_COLOURS = ("#fbb061", "#ee6a5a", "#b8327a", "#5c187f")  # from compressible to incompressible
 
 
-def picture(path: Path, rows: Sequence[Row]) -> None:
-    """Write the picture of rows of the locking cases as PNG."""
-    with matplotlib.rc_context(FONT), whole(path) as partial:
-        compose(rows).savefig(partial, dpi=DPI, facecolor="white", pil_kwargs={"optimize": True})
+def picture(paths: Sequence[Path], rows: Sequence[Row]) -> None:
+    """Write the picture of rows of the locking cases."""
+    with matplotlib.rc_context(STYLE):
+        save(compose(rows), paths)
 
 
 def compose(rows: Sequence[Row]) -> Figure:

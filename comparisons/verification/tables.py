@@ -48,8 +48,7 @@ def report(rows: Sequence[Row], locking: bool = False) -> Report:
 def _picture(rows: Sequence[Row], paths: Sequence[Path]) -> None:
     from comparisons.verification.locking import picture
 
-    for path in paths:
-        picture(path, rows)
+    picture(paths, rows)
 
 
 def table(rows: Sequence[Row]) -> Table:

@@ -1,0 +1,105 @@
+"""The sheet in motion, at true scale: frames with their time and a colour bar, as GIF or MP4.
+
+The size of an animation is that of a talk or a README: 640 pixels wide. MP4 is written by the system's
+ffmpeg, where there is one.
+"""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image
+
+from comparisons.comparison.figure import HEIGHTS, colour_bar
+from comparisons.motion.frames import Frame
+from comparisons.report.stage import Stage
+from comparisons.report.style import STYLE, plain
+from comparisons.report.vtk import plan_mesh
+from sheetbench.files import whole
+from sheetbench.scenes import Scene
+
+WIDTH, PER_INCH = 4.0, 160  # inches, pixels an inch
+COLOURS, PER_SECOND, MOST = 128, 12, 50  # of a GIF's palette; frames a second, and at most
+
+
+def animate(paths: Sequence[Path], scene: Scene, shown: list[tuple[float, Frame]]) -> None:
+    """Write the frames to every path, as GIF or MP4 by its suffix. Needs off-screen drawing
+    (`comparisons.report.offscreen`), an MP4 also ffmpeg."""
+    shown = shown[:: -(-len(shown) // MOST)]
+    images = _images(scene, shown)
+    for path in paths:
+        with whole(path) as partial:
+            (_write_mp4 if path.suffix == ".mp4" else _write_gif)(partial, images)
+
+
+def _images(scene: Scene, shown: list[tuple[float, Frame]]) -> list[Image.Image]:
+    plan = plan_mesh(scene.sheet, 16).points[:, :2]
+    flat = np.column_stack([plan, np.zeros(len(plan))])
+    sheets = [flat + frame.displacement(plan) for _, frame in shown]
+    seen = np.vstack([flat, *sheets, *(rest + u for _, frame in shown for rest, u in frame.axes)])
+    heights = [1e3 * frame.mesh.point_data["displacement"][:, 2] for _, frame in shown]
+    limits = (min(float(h.min()) for h in heights), max(float(h.max()) for h in heights) + 1e-9)
+    speed = (shown[-1][0] - shown[0][0]) * PER_SECOND / max(len(shown) - 1, 1)
+    images = []
+    for (time, frame), height in zip(shown, heights, strict=True):
+        held: Any = frame
+        stage = Stage(scene, held, 1.0)
+        stage.lattice(frame.mesh, height, limits, HEIGHTS)
+        for rest, u in frame.axes:
+            stage.chain(rest + u)
+        pixels, _ = stage.take(seen, np.empty((0, 3)))
+        images.append(_page(scene, pixels, f"t = {time:.3f} s   (shown at {speed:.2g} × real time)", limits))
+    return images
+
+
+def _page(scene: Scene, pixels: np.ndarray, said: str, limits: tuple[float, float]) -> Image.Image:
+    """A frame under its title and time, over its colour bar."""
+    top, bottom = 0.34, 0.42
+    height = WIDTH * pixels.shape[0] / pixels.shape[1] + top + bottom
+    with matplotlib.rc_context(STYLE):
+        figure = Figure(figsize=(WIDTH, height), dpi=PER_INCH, facecolor="white")
+        panel = figure.add_axes((0.0, bottom / height, 1.0, 1.0 - (top + bottom) / height))
+        panel.imshow(pixels, interpolation="lanczos")
+        panel.set_axis_off()
+        figure.text(0.02, 1.0 - 0.04 / height, plain(scene.title or scene.name, longest=70), va="top")
+        figure.text(0.02, 1.0 - 0.19 / height, said, va="top", fontsize=6.5)
+        bar = figure.add_axes((0.25, 0.28 / height, 0.5, 0.07 / height))
+        colour_bar(figure, bar, HEIGHTS, limits, "$u_z$  [mm]")
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+    return Image.fromarray(np.asarray(canvas.buffer_rgba())[:, :, :3].copy())
+
+
+def _write_gif(path: Path, images: list[Image.Image]) -> None:
+    # one palette for all and no dither: what stands still stays the same, and the file small
+    some = images[::8]
+    every = Image.new("RGB", (some[0].width, sum(image.height for image in some)))
+    for number, image in enumerate(some):
+        every.paste(image, (0, number * image.height))
+    palette = every.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE)
+    reduced = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
+    reduced[0].save(
+        path,
+        save_all=True,
+        append_images=reduced[1:],
+        duration=1000 // PER_SECOND,
+        loop=0,
+        optimize=True,
+        format="GIF",
+    )
+
+
+def _write_mp4(path: Path, images: list[Image.Image]) -> None:
+    width, height = (size - size % 2 for size in images[0].size)  # the codec wants even sizes
+    command = ["ffmpeg", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24"]
+    command += ["-s", f"{width}x{height}", "-r", str(PER_SECOND), "-i", "-"]
+    command += ["-pix_fmt", "yuv420p", "-movflags", "faststart", "-f", "mp4", str(path)]
+    raw = b"".join(image.crop((0, 0, width, height)).tobytes() for image in images)
+    subprocess.run(command, input=raw, check=True, capture_output=True)

@@ -15,7 +15,9 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from lumped.calibration import Calibration
+from lumped.lattice import Lattice
 from lumped.linear.threads import one_blas_thread
+from lumped.loads import locate
 from lumped.masses import masses
 from lumped.springs import constants
 from lumped.statics.solver import pose
@@ -28,13 +30,22 @@ DENSE = 600  # unknowns below which all eigenvalues are computed
 
 @dataclass(frozen=True)
 class Modes:
-    """frequencies: (count,) [Hz], ascending; shapes: (count, n, 3), largest component 1; rigid: rigid motions
-    left out; unknowns of the eigenproblem."""
+    """frequencies: (count,) [Hz], ascending; shapes: (count, n, 3), largest component 1, of the masses of
+    `lattice`; rigid: rigid motions left out; unknowns of the eigenproblem."""
 
     frequencies: np.ndarray
     shapes: np.ndarray
     rigid: int
     unknowns: int
+    lattice: Lattice
+
+    def displacement(self, points: np.ndarray) -> np.ndarray:
+        """Mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
+        columns, share = locate(self.lattice, points)
+        masses = self.lattice.columns().reshape(-1, self.lattice.grid[2])
+        middle = self.shapes[:, masses].mean(axis=2)
+        found: np.ndarray = np.einsum("pc,kpcq->kpq", share, middle[:, columns])
+        return found
 
 
 def modes(
@@ -70,7 +81,7 @@ def modes(
     shapes = np.stack([problem.expand(vectors[:, k]) for k in order])
     shapes /= np.abs(shapes).max(axis=(1, 2), keepdims=True)
     frequencies = np.sqrt(np.maximum(values[order], 0.0)) / (2.0 * np.pi)
-    return Modes(frequencies, shapes, rigid, problem.system.unknowns)
+    return Modes(frequencies, shapes, rigid, problem.system.unknowns, problem.assembly.lattice)
 
 
 def frequency_slopes(

@@ -26,7 +26,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Spectrum:
-    """A model's lowest natural frequencies (count,) [Hz]; rigid: rigid motions left out."""
+    """A model's lowest natural frequencies (count,) [Hz]; rigid: rigid motions left out; shapes: plan points
+    (n, 2) [m] → displacement of the mid-surface in every mode, (count, n, 3), of any scale."""
 
     model: str
     label: str
@@ -35,6 +36,7 @@ class Spectrum:
     rigid: int
     unknowns: int
     seconds: float
+    shapes: Callable[[np.ndarray], np.ndarray]
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -126,6 +128,7 @@ def _lattice(scene: Scene, count: int, grid: Asked, calibration: str | None) -> 
         rigid=modes.rigid,
         unknowns=modes.unknowns,
         seconds=seconds,
+        shapes=modes.displacement,
     )
 
 
@@ -141,4 +144,5 @@ def _reference(scene: Scene, model: str, count: int, elements: int) -> Spectrum:
         rigid=modes.rigid_modes,
         unknowns=modes.unknowns,
         seconds=modes.solve_seconds,
+        shapes=lambda plan: np.stack([modes.displacement(mode, plan) for mode in range(count)]),
     )

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
 from typing import Any
 
 from comparisons.modes.spectra import Spectra
-from comparisons.report.report import Report
+from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 
 
@@ -18,6 +21,8 @@ def report(found: Spectra) -> Report:
         document=found.as_dict(),
         tables=(table(found),),
         notes=tuple(notes(found)),
+        pictures=(Picture(("modes.png", "modes.pdf"), partial(_picture, found)),),
+        attachments={"modes.vtu": partial(write_shapes, found)},
         scene=found.scene,
         settings={spectrum.model: spectrum.settings for spectrum in found},
     )
@@ -36,6 +41,27 @@ def table(found: Spectra) -> Table:
     if first is not None:
         columns.append(Column("off by", "", "%", 100.0, "+.2f"))
     return Table("Natural frequencies about the flat sheet", tuple(columns), tuple(rows), "modes")
+
+
+def write_shapes(found: Spectra, path: Path) -> None:
+    """Write every mode of every model on one plan grid, `MODEL_mode_N` each, its largest displacement a tenth
+    of the longer side; `displacement` is the first model's first mode."""
+    from comparisons.report.vtk import plan_mesh, write_mesh
+
+    plan = plan_mesh(found.scene.sheet)
+    largest = 0.1 * max(found.scene.sheet.lengths)
+    for spectrum in found:
+        for number, shape in enumerate(spectrum.shapes(plan.points[:, :2]), 1):
+            shape = largest / (abs(shape).max() or 1.0) * shape
+            plan.point_data.setdefault("displacement", shape)
+            plan.point_data[f"{spectrum.model}_mode_{number}"] = shape
+    write_mesh(path, plan)
+
+
+def _picture(found: Spectra, paths: Sequence[Path]) -> None:
+    from comparisons.modes.figure import picture
+
+    picture(paths, found)
 
 
 def notes(found: Spectra) -> list[str]:

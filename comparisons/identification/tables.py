@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+
 import numpy as np
 
 from comparisons.identification.identification import Identification
 from comparisons.identification.measurements import Displacements
-from comparisons.report.report import Report
+from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table, unit
 
 SHOWN = 20  # residuals on the terminal; all of them are in the files
@@ -27,10 +31,17 @@ def report(found: Identification, file: str) -> Report:
         printed=(unknowns(found), worst(found)),
         notes=(explanation(found),),
         complaints=(*found.warnings, *unended),
+        pictures=(Picture(("identification.png", "identification.pdf"), partial(_picture, found)),),
         scene=found.scene,
         settings={**found.settings, "measured": file},
         met=found.converged,
     )
+
+
+def _picture(found: Identification, paths: Sequence[Path]) -> None:
+    from comparisons.identification.figure import picture
+
+    picture(paths, found)
 
 
 def unknowns(found: Identification) -> Table:

@@ -8,6 +8,7 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
+from scipy.ndimage import maximum_filter
 
 from comparisons.modes.spectra import Spectra
 from comparisons.report.style import DARK, GREY, STYLE, plain, save
@@ -15,6 +16,7 @@ from comparisons.report.vtk import plan_mesh
 
 MOST, CELLS, WIDTH = 6, 24, 7.2  # modes; cells along the shorter side; inches
 SHADES = "RdBu_r"
+STILL = 0.02  # of the largest displacement: where less moves, as along a clamp, there is no nodal line
 
 
 def picture(paths: Sequence[Path], found: Spectra) -> None:
@@ -32,7 +34,7 @@ def compose(found: Spectra) -> Figure:
     count = min(len(found[0].frequencies), MOST)
     panel = WIDTH / MOST
     aspect = scene.sheet.length_y / scene.sheet.length_x
-    height = len(found) * (panel * min(max(aspect, 0.3), 2.0) + 0.3) + 0.75
+    height = len(found) * (panel * min(max(aspect, 0.3), 2.0) + 0.2) + 0.3
     figure = Figure(figsize=(WIDTH, height), layout="constrained")
     panels = figure.subplots(len(found), MOST, squeeze=False)
     shapes = [spectrum.shapes(plan)[:count] for spectrum in found]
@@ -47,7 +49,9 @@ def compose(found: Spectra) -> Figure:
             value = (value / (np.abs(value).max() or 1.0)).reshape(len(y), len(x))
             axis.pcolormesh(x, y, value, cmap=SHADES, vmin=-1, vmax=1, shading="gouraud", rasterized=True)
             if not across and value.min() < 0.0 < value.max():
-                axis.contour(x, y, value, levels=[0.0], colors=DARK, linewidths=0.6)
+                still = maximum_filter(np.abs(value), 3) < STILL
+                nodal = np.ma.masked_where(still, value)
+                axis.contour(x, y, nodal, levels=[0.0], colors=DARK, linewidths=0.6)
             axis.plot(x[[0, -1, -1, 0, 0]], y[[0, 0, -1, -1, 0]], color=GREY, linewidth=0.6)
             axis.set_aspect("equal")
             said = f"{number + 1}: {spectrum.frequencies[number]:.4g} Hz{' (in plane)' if across else ''}"

@@ -1,0 +1,74 @@
+"""The picture of an identification: the fit, and what is left of it where (or when) it was measured."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from comparisons.identification.identification import Identification
+from comparisons.identification.measurements import Displacements
+from comparisons.report.style import DARK, GREY, STYLE, plain, save
+
+WIDTH, HEIGHT = 7.2, 3.0  # inches
+COLOURS = {"ux": "#1b6ca8", "uy": "#3a9d6e", "uz": "#b5453c"}
+SHADES = "magma_r"
+
+
+def picture(paths: Sequence[Path], found: Identification) -> None:
+    """Write the picture."""
+    with matplotlib.rc_context(STYLE):
+        save(compose(found), paths)
+
+
+def compose(found: Identification) -> Figure:
+    """Model over measurement at the left (of a point cloud, how the distances are spread), residuals at the
+    right: over the plan, or of a motion over time. Lengths in millimetres."""
+    figure = Figure(figsize=(WIDTH, HEIGHT), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    measured = found.measured
+    if isinstance(measured, Displacements):
+        _fit(left, 1e3 * measured.displacement, 1e3 * found.residuals)
+    else:
+        left.hist(1e3 * found.residuals, bins="auto", color=COLOURS["uz"])
+        left.set(xlabel="distance from the model's surface [mm]", ylabel="points")
+    if isinstance(measured, Displacements) and measured.time is not None:
+        for name, column in zip(COLOURS, 1e3 * found.residuals.T, strict=True):
+            right.plot(measured.time, column, ".", color=COLOURS[name], markersize=3, label=name)
+        right.axhline(0.0, color=GREY, linewidth=0.6)
+        right.set(xlabel="time [s]", ylabel="model less measurement [mm]")
+        right.legend(frameon=False, ncols=3)
+    else:
+        _map(figure, right, found)
+    said = ", ".join(f"{name} = {u.value:.5g} {u.unit}".strip() for name, u in found.unknowns.items())
+    for axis, title in ((left, f"Fit: {said}"), (right, "What is left")):
+        axis.set_title(title, loc="left", fontsize=7.5, fontweight="bold")
+        axis.spines[["top", "right"]].set_visible(False)
+    figure.suptitle(plain(found.scene.title or found.scene.name, longest=105), fontsize=8)
+    return figure
+
+
+def _fit(axis: Axes, measured: np.ndarray, residuals: np.ndarray) -> None:
+    ends = [np.nanmin(measured), np.nanmax(measured)]
+    axis.plot(ends, ends, color=GREY, linewidth=0.8, label="equal")
+    for name, values, off in zip(COLOURS, measured.T, residuals.T, strict=True):
+        axis.plot(values, values + off, "o", color=COLOURS[name], markersize=3, alpha=0.7, label=name)
+    axis.set(xlabel="measured [mm]", ylabel="model [mm]")
+    axis.legend(frameon=False)
+
+
+def _map(figure: Figure, axis: Axes, found: Identification) -> None:
+    """The length of every residual on the plan."""
+    sheet, at = found.scene.sheet, 1e3 * found.measured.points[:, :2]
+    residuals = np.nan_to_num(1e3 * found.residuals).reshape(len(at), -1)
+    size = np.linalg.norm(residuals, axis=1)
+    x, y = 1e3 * sheet.length_x, 1e3 * sheet.length_y
+    axis.plot([0, x, x, 0, 0], [0, 0, y, y, 0], color=DARK, linewidth=0.6)
+    dots = axis.scatter(at[:, 0], at[:, 1], c=size, cmap=SHADES, vmin=0.0, s=22, edgecolors=GREY, lw=0.4)
+    figure.colorbar(dots, ax=axis, label="|model − measurement| [mm]", shrink=0.9)
+    axis.set_aspect("equal")
+    axis.set(xlabel="x [mm]", ylabel="y [mm]")

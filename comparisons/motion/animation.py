@@ -50,7 +50,7 @@ def _images(scene: Scene, shown: list[tuple[float, Frame]]) -> list[Image.Image]
     images = []
     for (time, frame), height in zip(shown, heights, strict=True):
         held: Any = frame
-        stage = Stage(scene, held, 1.0)
+        stage = Stage(scene, held, 1.0, pixels=round(1.5 * WIDTH * PER_INCH))
         stage.lattice(frame.mesh, height, limits, HEIGHTS)
         for rest, u in frame.axes:
             stage.chain(rest + u)

@@ -25,11 +25,12 @@ PALE, OUTLINE, ROD = "#c9ced4", "#a9afb6", "#c8553d"
 class Stage:
     """A white stage with the undeformed outline and the supports of a scene, seen from the free side."""
 
-    def __init__(self, scene: Scene, held: Solution, scale: float) -> None:
+    def __init__(self, scene: Scene, held: Solution, scale: float, pixels: int = PIXELS) -> None:
         self.scene = scene
+        self.pixels = pixels
         self.scale = scale
         self.size = max(scene.sheet.lengths)
-        self.plotter = pyvista.Plotter(off_screen=True, window_size=[PIXELS, PIXELS])
+        self.plotter = pyvista.Plotter(off_screen=True, window_size=[pixels, pixels])
         self.plotter.background_color = pyvista.Color("white")
         self._outline()
         self._supports(held)
@@ -91,11 +92,11 @@ class Stage:
             np.ptp(along) + 2 * MARGIN * np.ptp(across),
         )
         plotter = self.plotter
-        plotter.window_size = [PIXELS, int(PIXELS * np.clip(height / width, 0.3, 1.5))]
+        plotter.window_size = [self.pixels, int(self.pixels * np.clip(height / width, 0.3, 1.5))]
         plotter.camera_position = [tuple(centre + 4 * self.size * toward), tuple(centre), tuple(up)]
         plotter.camera.parallel_projection = True
         plotter.camera.parallel_scale = 0.5 * max(
-            height, width * 0.3, width * plotter.window_size[1] / PIXELS
+            height, width * 0.3, width * plotter.window_size[1] / self.pixels
         )
         plotter.camera.clipping_range = (0.1 * self.size, 10 * self.size)
         plotter.enable_anti_aliasing("ssaa")

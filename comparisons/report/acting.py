@@ -32,15 +32,13 @@ def draw(stage: Stage, solution: Solution) -> np.ndarray:
         else:
             plan = _edge_plan(scene.sheet, actuator.edge, np.array([0.0, 1.0]))
             stage.chain(stage.deformed(solution, plan))
-    points = [load for load in scene.loads if isinstance(load, PointLoad)]
-    largest = max((float(np.linalg.norm(load.force)) for load in points), default=0.0)
-    for load in points:
-        if largest:
-            force = np.array(load.force) / largest
-            at = stage.deformed(solution, np.array([load.at]))
-            seen += _arrows(stage, at, _drawn(force)[None] * POINT)
+    forces = [np.linalg.norm(load.force) for load in scene.loads if isinstance(load, PointLoad)]
+    largest = float(max(forces, default=0.0))
     for load in scene.loads:
-        if isinstance(load, EdgeLoad):
+        if isinstance(load, PointLoad) and largest:
+            at = stage.deformed(solution, np.array([load.at]))
+            seen += _arrows(stage, at, POINT * _drawn(np.array(load.force) / largest)[None])
+        elif isinstance(load, EdgeLoad):
             plan = _edge_plan(scene.sheet, load.edge, np.linspace(0.0, 1.0, ALONG))
             at = stage.deformed(solution, plan)
             if any(load.force_per_length):

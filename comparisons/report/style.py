@@ -31,7 +31,7 @@ STYLE: Any = {
 def save(figure: Figure, paths: Iterable[Path]) -> None:
     """Write a figure to every path, in the format of its suffix (.png, .pdf, .svg), whole or not at all."""
     for path in paths:
-        lossless = {"pil_kwargs": {"optimize": True}} if path.suffix == ".png" else {}
+        lossless: Any = {"pil_kwargs": {"optimize": True}} if path.suffix == ".png" else {}
         with whole(path) as partial:
             figure.savefig(partial, dpi=DPI, facecolor="white", **lossless)
 

@@ -290,7 +290,7 @@ def test_command_writes_json_and_files(file, tmp_path, capsys):
     assert json.loads((out / "identification.json").read_text()) == document
     assert {p.name for p in out.iterdir()} == {
         "identification.json", "identification.md", "identification.tex", "manifest.json", "residuals.csv",
-        "unknowns.csv",
+        "unknowns.csv", "identification.png", "identification.pdf",
     }  # fmt: skip
 
 

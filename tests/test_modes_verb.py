@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import meshio
 import numpy as np
 import pytest
 
@@ -28,9 +29,15 @@ def test_both_models_agree_and_files_are_left(tmp_path: Path, capsys: pytest.Cap
     assert len(lattice["frequencies_hz"]) == len(shell["frequencies_hz"]) == 6
     np.testing.assert_allclose(lattice["frequencies_hz"][:2], shell["frequencies_hz"][:2], rtol=0.03)
     assert {file.name for file in tmp_path.iterdir()} == {
-        "modes.json", "modes.csv", "modes.md", "modes.tex", "manifest.json"
+        "modes.json", "modes.csv", "modes.md", "modes.tex", "manifest.json",
+        "modes.vtu", "modes.png", "modes.pdf",
     }  # fmt: skip
     assert json.loads((tmp_path / "modes.json").read_text()) == document
+    shapes = meshio.read(tmp_path / "modes.vtu").point_data
+    assert len(shapes) == 1 + 2 * 6
+    first, second = shapes["lumped_mode_1"][:, 2], shapes["shell_mode_1"][:, 2]
+    # of shapes scaled alike; the signs are each model's own
+    assert np.abs(np.abs(first) - np.abs(second)).max() < 0.02 * np.abs(second).max()
 
 
 def test_table_has_ten_modes_and_several_references(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,39 +1,73 @@
 """The spring lattice: topology, springs and cells, calibration, statics, vibration, dynamics."""
 
-from lumped.calibration import Calibration, given
-from lumped.dynamics import INTEGRATORS, simulate
+from lumped import moduli
+from lumped.assembly import Assembly
+from lumped.calibration import Calibration, given, homogenised
+from lumped.dynamics import (
+    INTEGRATORS,
+    Integrator,
+    State,
+    StepFailed,
+    StepLimit,
+    System,
+    simulate,
+    step_limit,
+    turn_limit,
+    watchdog,
+)
 from lumped.fitting import (
     CALIBRATIONS,
     FittedCalibration,
+    Identifiability,
     ModalTarget,
     StaticTarget,
     calibrate,
     identifiability,
 )
+from lumped.lattice import Lattice
+from lumped.mid_surface import MidSurface
 from lumped.sensitivity import Sensitivity, gradient, sensitivity
 from lumped.statics.buckling import buckling_loads
 from lumped.statics.continuation import Path, trace
-from lumped.statics.solver import solve
+from lumped.statics.equilibrium import at_rest, follow
+from lumped.statics.solver import pose, solve
 from lumped.vibration import Modes, modes
 
 __all__ = [
     "CALIBRATIONS",
     "INTEGRATORS",
+    "Assembly",
     "Calibration",
     "FittedCalibration",
+    "Identifiability",
+    "Integrator",
+    "Lattice",
+    "MidSurface",
     "ModalTarget",
     "Modes",
     "Path",
     "Sensitivity",
+    "State",
     "StaticTarget",
+    "StepFailed",
+    "StepLimit",
+    "System",
+    "at_rest",
     "buckling_loads",
     "calibrate",
+    "follow",
     "given",
     "gradient",
+    "homogenised",
     "identifiability",
     "modes",
+    "moduli",
+    "pose",
     "sensitivity",
     "simulate",
     "solve",
+    "step_limit",
     "trace",
+    "turn_limit",
+    "watchdog",
 ]

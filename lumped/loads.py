@@ -21,28 +21,9 @@ import numpy as np
 
 from lumped.actuators import Drive
 from lumped.assembly import Assembly
-from lumped.lattice import Lattice
 from lumped.masses import masses
+from lumped.mid_surface import MidSurface
 from sheetbench.scenes import EDGES, EdgeLoad, FactorTable, PointLoad, Pressure, Scene
-from sheetbench.scenes.errors import BadInput
-
-
-def locate(lattice: Lattice, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Columns (n, 4) as (j nx + i) and bilinear weights (n, 4) of plan points (n, 2) [m].
-
-    Raises BadInput for points off the sheet.
-    """
-    nx, ny, _ = lattice.grid
-    spacing = np.array(lattice.spacing[:2])
-    grid = points / spacing
-    outside = (grid < -1e-9) | (grid > np.array([nx - 1, ny - 1]) + 1e-9)
-    if outside.any():
-        raise BadInput(f"point {points[outside.any(axis=1)][0].tolist()} m is off the sheet")
-    cell = np.clip(np.floor(grid).astype(int), 0, [nx - 2, ny - 2])
-    (x, y), (i, j) = (grid - cell).T, cell.T
-    columns = np.stack([j * nx + i, j * nx + i + 1, (j + 1) * nx + i + 1, (j + 1) * nx + i], axis=1)
-    weights = np.stack([(1 - x) * (1 - y), x * (1 - y), x * y, (1 - x) * y], axis=1)
-    return columns, weights
 
 
 @dataclass
@@ -72,7 +53,6 @@ class Loads:
     def __init__(self, scene: Scene, assembly: Assembly):
         self._assembly = assembly
         lattice = assembly.lattice
-        columns = lattice.columns().reshape(-1, lattice.grid[2])
         self._parts: dict[FactorTable | None, _Part] = {}
         self.dead = self._part(None).dead
         if scene.gravity is not None:
@@ -84,9 +64,9 @@ class Loads:
         for load in scene.loads:
             part = self._part(load.history)
             if isinstance(load, PointLoad):
-                at, weights = locate(lattice, np.array([load.at]))
-                share = weights[0][:, None] * np.array(load.force) / lattice.grid[2]
-                part.dead[columns[at[0]]] += share[:, None, :]
+                part.dead += MidSurface(lattice, np.array(load.at)).shared(
+                    np.array([load.force]), len(part.dead)
+                )
             elif isinstance(load, EdgeLoad):
                 edge = lattice.edge_columns(load.edge)
                 length = np.full(len(edge), lattice.spacing[EDGES[load.edge].along_axis])

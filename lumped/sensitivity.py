@@ -18,13 +18,13 @@ curvature_EDGE, of the curved support or the actuator on that edge; tilt_EDGE, o
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from lumped.calibration import CLOSED, Calibration
 from lumped.linear.threads import one_blas_thread
-from lumped.loads import locate
+from lumped.mid_surface import MidSurface
 from lumped.springs import constants
 from lumped.statics.equilibrium import State
 from lumped.statics.problem import Problem
@@ -49,68 +49,46 @@ class Sensitivity:
 
 
 def sensitivity(
-    scene: Scene, springs: Calibration, parameters: Sequence[str], points: np.ndarray | None = None
+    scene: Scene, calibration: Calibration, parameters: Sequence[str], points: np.ndarray | None = None
 ) -> Sensitivity:
     """d(displacement at plan points (n, 2) [m])/d(parameter); the scene's probes unless points are given.
 
     Raises BadInput for an unknown parameter and where the scene has no stable equilibrium on these springs.
     """
     with one_blas_thread():
-        problem, state = _equilibrium(scene, springs)
-        sampling = _Sampling(problem, scene.probe_points() if points is None else np.asarray(points, float))
+        problem, state = _equilibrium(scene, calibration)
+        at = MidSurface(problem.assembly.lattice, scene.probe_points() if points is None else points)
         derivatives, values = {}, {}
         for name in parameters:
-            values[name], rate, moved = _rates(scene, springs, problem, state, name)
+            values[name], rate, moved = _rates(scene, calibration, problem, state, name)
             step = problem.expand(state.factor.solve(rate)) + moved
-            derivatives[name] = sampling.of(step)
-        return Sensitivity(sampling.of(state.u), derivatives, values)
+            derivatives[name] = at.of(step)
+        return Sensitivity(at.of(state.u), derivatives, values)
 
 
 def gradient(
-    scene: Scene, springs: Calibration, parameters: Sequence[str], points: np.ndarray, weights: np.ndarray
+    scene: Scene, calibration: Calibration, parameters: Sequence[str], points: np.ndarray, weights: np.ndarray
 ) -> dict[str, float]:
     """d/d(parameter) of Σ weights · displacement at points (n, 2) [m], weights (n, 3): one adjoint solve.
 
     Raises BadInput as `sensitivity`, and where the tangent is unsymmetric.
     """
     with one_blas_thread():
-        problem, state = _equilibrium(scene, springs)
+        problem, state = _equilibrium(scene, calibration)
         if not problem.conservative:
             raise BadInput("the adjoint is solved with a symmetric tangent: use sensitivity here")
-        pull = _Sampling(problem, np.asarray(points, float)).transposed(weights)
+        pull = MidSurface(problem.assembly.lattice, points).shared(weights, len(problem.loads.dead))
         adjoint = state.factor.solve(problem.reduce(pull))
         slopes = {}
         for name in parameters:
-            _, rate, moved = _rates(scene, springs, problem, state, name)
+            _, rate, moved = _rates(scene, calibration, problem, state, name)
             slopes[name] = float(adjoint @ rate + np.sum(pull * moved))
         return slopes
 
 
-class _Sampling:
-    """Mid-surface values at plan points, as a linear map of the masses' displacement, and its transpose."""
-
-    def __init__(self, problem: Problem, points: np.ndarray):
-        lattice = problem.assembly.lattice
-        self._columns, self._share = locate(lattice, points.reshape(-1, 2))
-        self._masses = lattice.columns().reshape(-1, lattice.grid[2])
-        self._size = len(problem.loads.dead)
-
-    def of(self, u: np.ndarray) -> np.ndarray:
-        mean = u[self._masses].mean(axis=1)
-        values: np.ndarray = np.einsum("pc,pcq->pq", self._share, mean[self._columns])
-        return values
-
-    def transposed(self, weights: np.ndarray) -> np.ndarray:
-        pull = np.zeros((self._size, 3))
-        layers = self._masses.shape[1]
-        share = self._share[:, :, None, None] * np.asarray(weights, float)[:, None, None, :] / layers
-        np.add.at(pull, self._masses[self._columns], np.broadcast_to(share, (*share.shape[:2], layers, 3)))
-        return pull
-
-
-def _equilibrium(scene: Scene, springs: Calibration) -> tuple[Problem, State]:
+def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, State]:
     require_static(scene)
-    problem = pose(scene, springs)
+    problem = pose(scene, calibration)
     outcome = settle(scene, problem, "path")
     if outcome.status is not Status.CONVERGED:
         raise BadInput(f"scene '{scene.name}': no sensitivity of an answer that is {outcome.status}")
@@ -118,25 +96,25 @@ def _equilibrium(scene: Scene, springs: Calibration) -> tuple[Problem, State]:
 
 
 def _rates(
-    scene: Scene, springs: Calibration, problem: Problem, state: State, name: str
+    scene: Scene, calibration: Calibration, problem: Problem, state: State, name: str
 ) -> tuple[float, np.ndarray, np.ndarray]:
     """Value of a parameter, ∂R/∂θ on the free unknowns (supports' movement included), and dg/dθ (n, 3)."""
-    value = _value(scene, springs, name)
+    value = _value(scene, calibration, name)
     step = next((h for kind, h in STEP_OF.items() if name.startswith(kind)), STEP * abs(value))
     if step == 0.0:
         raise BadInput(f"parameter {name!r} is zero here: it has no scale to differentiate on")
     sides = []
     placed = problem.prescribed(1.0)
     for sign in (1.0, -1.0):
-        changed_scene, changed_springs = _changed(scene, springs, name, value + sign * step)
-        changed = pose(changed_scene, changed_springs)
+        changed_scene, recalibrated = _changed(scene, calibration, name, value + sign * step)
+        changed = pose(changed_scene, recalibrated)
         moved = changed.prescribed(1.0) - placed
         sides.append((changed.residual(state.u + moved, 1.0)[0], moved))
     rate = problem.reduce(sides[0][0] - sides[1][0]) / (2.0 * step)
     return value, rate, (sides[0][1] - sides[1][1]) / (2.0 * step)
 
 
-def _value(scene: Scene, springs: Calibration, name: str) -> float:
+def _value(scene: Scene, calibration: Calibration, name: str) -> float:
     if name in ("young", "poisson", "density"):
         return float(getattr(scene.material, name))
     if name == "thickness":
@@ -145,8 +123,8 @@ def _value(scene: Scene, springs: Calibration, name: str) -> float:
         return _bent(scene, name)
     if name.startswith("tilt_"):
         return _tilted(scene, name).tilt
-    constants.changed(springs.springs, name, 1.0)  # refuses unknown names
-    return constants.value_of(springs.springs, name)
+    constants.changed(calibration.springs, name, 1.0)  # refuses unknown names
+    return constants.value_of(calibration.springs, name)
 
 
 def _bent(scene: Scene, name: str) -> float:
@@ -169,15 +147,17 @@ def _tilted(scene: Scene, name: str) -> Clamped:
     raise BadInput(f"parameter {name!r}: edge {edge} has no clamp")
 
 
-def _changed(scene: Scene, springs: Calibration, name: str, value: float) -> tuple[Scene, Calibration]:
+def _changed(scene: Scene, calibration: Calibration, name: str, value: float) -> tuple[Scene, Calibration]:
     if name == "density":
-        return scene.model_copy(update={"material": scene.material.model_copy(update={name: value})}), springs
+        return scene.model_copy(
+            update={"material": scene.material.model_copy(update={name: value})}
+        ), calibration
     if name in ("young", "poisson"):
         material = scene.material.model_copy(update={name: value})
-        return _recalibrated(scene.model_copy(update={"material": material}), springs)
+        return _recalibrated(scene.model_copy(update={"material": material}), calibration)
     if name == "thickness":
         sheet = scene.sheet.model_copy(update={"thickness": value})
-        return _recalibrated(scene.model_copy(update={"sheet": sheet}), springs)
+        return _recalibrated(scene.model_copy(update={"sheet": sheet}), calibration)
     if name.startswith("curvature_"):
         edge = name.removeprefix("curvature_")
         update = {"curvature": value}
@@ -191,20 +171,20 @@ def _changed(scene: Scene, springs: Calibration, name: str, value: float) -> tup
                 for a in scene.actuators
             ),
         }
-        return scene.model_copy(update=bent), springs
+        return scene.model_copy(update=bent), calibration
     if name.startswith("tilt_"):
         clamp = _tilted(scene, name)
         supports = tuple(s.model_copy(update={"tilt": value}) if s is clamp else s for s in scene.supports)
         if said := contradiction(supports) or conflict(scene.actuators, supports, scene.sheet):
             raise BadInput(f"parameter {name!r}: {said}")
-        return scene.model_copy(update={"supports": supports}), springs
-    return scene, replace(springs, springs=constants.changed(springs.springs, name, value))
+        return scene.model_copy(update={"supports": supports}), calibration
+    return scene, calibration.with_constant(name, value)
 
 
-def _recalibrated(scene: Scene, springs: Calibration) -> tuple[Scene, Calibration]:
+def _recalibrated(scene: Scene, calibration: Calibration) -> tuple[Scene, Calibration]:
     """The scene with springs for its changed sheet, by the same method."""
-    if springs.method not in CLOSED:
+    if calibration.method not in CLOSED:
         raise BadInput(
-            f"springs of calibration '{springs.method}' do not follow from the sheet and its material"
+            f"springs of calibration '{calibration.method}' do not follow from the sheet and its material"
         )
-    return scene, CLOSED[springs.method].make(scene.sheet, scene.material, springs.grid)
+    return scene, CLOSED[calibration.method].make(scene.sheet, scene.material, calibration.grid)

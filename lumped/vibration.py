@@ -7,7 +7,7 @@ motions free has zero frequencies: they are found with a small shift, counted, a
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
@@ -17,8 +17,8 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice
 from lumped.linear.threads import one_blas_thread
-from lumped.loads import locate
 from lumped.masses import masses
+from lumped.mid_surface import MidSurface
 from lumped.springs import constants
 from lumped.statics.solver import pose
 from sheetbench.scenes import Scene, free_rigid_motions
@@ -41,15 +41,12 @@ class Modes:
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
         """Mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
-        columns, share = locate(self.lattice, points)
-        masses = self.lattice.columns().reshape(-1, self.lattice.grid[2])
-        middle = self.shapes[:, masses].mean(axis=2)
-        found: np.ndarray = np.einsum("pc,kpcq->kpq", share, middle[:, columns])
-        return found
+        at = MidSurface(self.lattice, points)
+        return np.stack([at.of(shape) for shape in self.shapes])
 
 
 def modes(
-    scene: Scene, springs: Calibration, count: int = 10, distribution: Distribution | None = None
+    scene: Scene, calibration: Calibration, count: int = 10, distribution: Distribution | None = None
 ) -> Modes:
     """The `count` lowest natural modes of the scene's sheet on a lattice, without actuators; loads do
     not matter.
@@ -59,12 +56,12 @@ def modes(
     Raises BadInput when the lattice has fewer modes than asked.
     """
     scene = scene.model_copy(update={"actuators": ()})
-    problem = pose(scene, springs)
+    problem = pose(scene, calibration)
     transform = problem.constraints.transform
     rigid = len(free_rigid_motions(scene))
     if count + rigid > problem.system.unknowns - 1:
         raise BadInput(f"count = {count}: the lattice has only {problem.system.unknowns - rigid} modes")
-    weight = np.repeat(masses(scene, problem.assembly.lattice, distribution or springs.masses), 3)
+    weight = np.repeat(masses(scene, problem.assembly.lattice, distribution or calibration.masses), 3)
     mass = sp.csc_array(transform.T @ sp.diags_array(weight) @ transform)
     rest = np.zeros_like(problem.loads.dead)
     blocks = problem.assembly.tangent(rest)
@@ -85,25 +82,25 @@ def modes(
 
 
 def frequency_slopes(
-    scene: Scene, springs: Calibration, parameters: Sequence[str], count: int
+    scene: Scene, calibration: Calibration, parameters: Sequence[str], count: int
 ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """The `count` lowest frequencies (count,) [Hz] and their derivatives by spring constants [Hz per N/m].
 
     dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M φ), with ∂K/∂k the change of the tangent at rest, which is linear in k; for
     frequencies that stand alone (of equal ones it gives the slope of a mean).
     """
-    found = modes(scene, springs, count)
-    problem = pose(scene, springs)
+    found = modes(scene, calibration, count)
+    problem = pose(scene, calibration)
     rest = np.zeros_like(problem.loads.dead)
-    weight = masses(scene, problem.assembly.lattice, springs.masses)
+    weight = masses(scene, problem.assembly.lattice, calibration.masses)
     modal = np.einsum("n,knq,knq->k", weight, found.shapes, found.shapes)
     slopes = {}
     for name in parameters:
-        step = 1e-3 * abs(constants.value_of(springs.springs, name))
+        step = 1e-3 * abs(constants.value_of(calibration.springs, name))
         sides = []
         for sign in (1.0, -1.0):
-            value = constants.value_of(springs.springs, name) + sign * step
-            changed = pose(scene, replace(springs, springs=constants.changed(springs.springs, name, value)))
+            value = constants.value_of(calibration.springs, name) + sign * step
+            changed = pose(scene, calibration.with_constant(name, value))
             stiffness = [float(np.sum(shape * _product(changed, rest, shape))) for shape in found.shapes]
             sides.append(np.array(stiffness))
         squares = (sides[0] - sides[1]) / (2.0 * step) / modal

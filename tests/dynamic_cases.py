@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 import lumped
-from lumped.dynamics.simulation import _start
-from lumped.dynamics.system import System
-from lumped.statics.solver import pose
+from lumped import System, pose
+from lumped.dynamics.initial import initial_state
 from sheetbench import scenes
 
 ROD = {"edge": "x1", "segments": 8, "bending_stiffness": 0.05, "line_density": 0.05, "radius": 1.5e-3}
@@ -36,7 +35,7 @@ def system(asked, n=5):
     """The equations of motion and the state at rest."""
     calibration = springs(asked, n)
     equations = System(asked, pose(asked, calibration))
-    return equations, _start(equations, calibration, "tributary")
+    return equations, initial_state(equations, calibration, "tributary")
 
 
 def run(method, state, step, count):

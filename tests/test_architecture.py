@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+import lumped
+
 ROOT = Path(__file__).parent.parent
 ALLOWED = {
     "sheetbench/scenes": {"sheetbench.scenes"},
@@ -74,6 +76,31 @@ def test_no_file_imports_itself_by_way_of_others(package):
     while leaves := {name for name, below in graph.items() if not below & graph.keys()}:
         graph = {name: below for name, below in graph.items() if name not in leaves}
     assert not graph, f"import circles among {', '.join(sorted(graph))}"
+
+
+def names_from(path: Path) -> list[tuple[str, str]]:
+    """(module, name) of every name that a file imports from a module of ours, and its own module's name."""
+    tree = ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+    return [
+        (str(node.module), alias.name)
+        for node in tree
+        if isinstance(node, ast.ImportFrom) and str(node.module).split(".")[0] in PACKAGES
+        for alias in node.names
+    ]
+
+
+def test_the_lattice_is_used_through_its_public_names():
+    for path in sorted((ROOT / "comparisons").rglob("*.py")):
+        for module, name in names_from(path):
+            inside = module.startswith("lumped.") or (module == "lumped" and name not in lumped.__all__)
+            assert not inside, f"{path.relative_to(ROOT)} imports {name} from {module}"
+
+
+@pytest.mark.parametrize("package", ["lumped"])
+def test_what_is_private_stays_in_its_file(package):
+    for path in sorted((ROOT / package).rglob("*.py")):
+        for module, name in names_from(path):
+            assert not name.startswith("_"), f"{path.relative_to(ROOT)} imports {name} from {module}"
 
 
 def test_the_reader_sees_every_way_to_import(tmp_path):

@@ -38,8 +38,7 @@ from comparisons.identification.prediction import (
 from comparisons.identification.unknowns import DAMPING, Unknown, unknown
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.registry import check_lattice, check_reference
-from lumped import CALIBRATIONS, identifiability
-from lumped.fitting.identifiability import THRESHOLD
+from lumped import CALIBRATIONS, Identifiability, identifiability
 from sheetbench.scenes import Scene, require_static
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import near_square
@@ -258,8 +257,8 @@ def _refinement(
         residuals, slopes = misfit.of(predict(unknowns, x, misfit.asked))
     except NotReached:
         return [None] * len(unknowns)
-    step: list[float | None] = np.linalg.lstsq(slopes, -residuals, rcond=THRESHOLD)[0].tolist()
-    return step
+    step, *_ = np.linalg.lstsq(slopes, -residuals, rcond=Identifiability.threshold)
+    return list(step.tolist())
 
 
 def _moving(measured: Measured) -> bool:

@@ -43,9 +43,7 @@ def cells(full: bool) -> list[Cell]:
 def measure(integrator: str, damping_of: str, damping_ratio: float) -> Row:
     """The largest error of the first mode's coordinate over a period, relative to its start."""
     import lumped
-    from lumped import dynamics
-    from lumped.dynamics.integrator import StepFailed
-    from lumped.dynamics.step_limit import SAFETY, step_limit
+    from lumped import StepFailed
 
     still = weightless()
     springs = lumped.calibrate(still.sheet, still.material, grid=(5, 5))
@@ -55,8 +53,9 @@ def measure(integrator: str, damping_of: str, damping_ratio: float) -> Row:
     equations = system(scene, springs)
     mode = FirstMode(equations, springs)
     step = mode.period / STEPS_PER_PERIOD
-    if integrator == "verlet":
-        step = min(step, SAFETY * step_limit(equations, np.zeros_like(equations.problem.loads.dead)).step)
+    if lumped.INTEGRATORS[integrator].explicit:
+        rest = np.zeros_like(equations.problem.loads.dead)
+        step = min(step, lumped.step_limit(equations, rest).advised)
     count = int(np.ceil(PERIODS * mode.period / step))
     if count > MOST_STEPS:
         said = f"{count} steps of {step:.1e} s for {PERIODS} period: more than this study takes"
@@ -64,7 +63,7 @@ def measure(integrator: str, damping_of: str, damping_ratio: float) -> Row:
     step = PERIODS * mode.period / count
     first = start(equations, AMPLITUDE * scene.sheet.thickness * mode.shape)
     try:
-        states = follow(dynamics.INTEGRATORS[integrator](equations, step), first, step, count)
+        states = follow(lumped.INTEGRATORS[integrator](equations, step), first, step, count)
     except StepFailed as failure:
         return {"status": "diverged", "message": str(failure), "step": step}
     q = np.array([mode.coordinate(state.u) for state in states])
@@ -83,14 +82,13 @@ def measure(integrator: str, damping_of: str, damping_ratio: float) -> Row:
 
 def _mechanism(equations, mode, integrator: str, damping_ratio: float, step: float, error: float) -> Row:
     """Resolution, if steps a quarter as long take a third of the error away."""
-    from lumped.dynamics import INTEGRATORS as KNOWN
-    from lumped.dynamics.integrator import StepFailed
+    import lumped
 
     h, count = 0.25 * step, round(4.0 * PERIODS * mode.period / step)
     first = start(equations, AMPLITUDE * equations.scene.sheet.thickness * mode.shape)
     try:
-        states = follow(KNOWN[integrator](equations, h), first, h, count)
-    except StepFailed as failure:
+        states = follow(lumped.INTEGRATORS[integrator](equations, h), first, h, count)
+    except lumped.StepFailed as failure:
         return {"mechanism": "unknown", "evidence": f"a quarter of the step fails: {failure}"}
     q = np.array([mode.coordinate(state.u) for state in states])
     left = float(np.abs(q / q[0] - exact(damping_ratio, mode.omega * h * np.arange(count + 1))).max())

@@ -159,21 +159,16 @@ def _refined(springs: Any, grid: tuple[int, int]) -> Any:
 def _there_and_back(scene: Scene, grid: tuple[int, int], springs: Any, ours: Solution) -> float | None:
     """How far from `ours`, in its largest probe displacement, the lattice ends after a larger load."""
     import lumped
-    from lumped.loads import locate
-    from lumped.statics.equilibrium import at_rest, follow
-    from lumped.statics.solver import pose
+    from lumped import at_rest, follow
 
-    problem = pose(scene, springs or lumped.calibrate(scene.sheet, scene.material, grid=grid))
+    problem = lumped.pose(scene, springs or lumped.calibrate(scene.sheet, scene.material, grid=grid))
     beyond, why = follow(problem, at_rest(problem), BACK_FROM)
     if why:
         return None
     back, why = follow(problem, beyond, 1.0)
     if why:
         return None
-    at, share = locate(problem.assembly.lattice, scene.probe_points())
-    columns = problem.assembly.lattice.columns()
-    middle = back.u[columns.reshape(-1, columns.shape[2])].mean(axis=1)
-    there = np.einsum("pc,pcq->pq", share, middle[at])
+    there = lumped.MidSurface(problem.assembly.lattice, scene.probe_points()).of(back.u)
     return probe_error(there, ours.displacement(scene.probe_points()))
 
 

@@ -29,9 +29,7 @@ def cells(full: bool) -> list[Cell]:
 def measure(masses: int, ratio: float) -> Row:
     """Verlet's limit, computed and measured; the energy that the midpoint rule loses in 50 steps."""
     import lumped
-    from lumped.dynamics import INTEGRATORS
-    from lumped.dynamics.integrator import StepFailed
-    from lumped.dynamics.step_limit import step_limit
+    from lumped import INTEGRATORS, StepFailed, step_limit
 
     scene = weightless()
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(masses, masses))

@@ -1,6 +1,6 @@
 """Study `time-step`: which steps the integrators stand, and what steps cost in energy, period and amplitude.
 
-Explicit: velocity Verlet's limit by bisection, over the one that `lumped.dynamics.step_limit` computes. The
+Explicit: velocity Verlet's limit by bisection, over the one that `lumped.step_limit` computes. The
 limit of central differences with the velocity half a step old, (2/ω_max)(√(1+ξ²) − ξ), is drawn beside it:
 the scheme corrects the velocity once and stands up to 1.6 times as much. Implicit: steps from 1e-6 s to 1 s
 on a first mode of 1e-3 of the thickness; trapezoidal theory asks for a period error of (ωh)²/12.
@@ -8,7 +8,6 @@ on a first mode of 1e-3 of the thickness; trapezoidal theory asks for a period e
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -57,21 +56,24 @@ def cells(full: bool) -> list[Cell]:
 
 def measure(integrator: str, **cell: Any) -> Row:
     """The row of a cell."""
-    return _explicit(**cell) if integrator == "verlet" else _implicit(integrator, **cell)
+    import lumped
+
+    explicit = lumped.INTEGRATORS[integrator].explicit
+    return _explicit(**cell) if explicit else _implicit(integrator, **cell)
 
 
 def _explicit(
     masses: int, vertical: str, damping_ratio: float, slenderness: float, precision: str = "double"
 ) -> Row:
     import lumped
-    from lumped.dynamics.step_limit import SAFETY, step_limit
+    from lumped import step_limit
 
     scene = weightless(slenderness)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(masses, masses))
     if vertical != "4 C":
         spacing = scene.sheet.length_x / (masses - 1)
         kz = scene.material.young * spacing**2 / scene.sheet.thickness
-        springs = replace(springs, springs=springs.springs.model_copy(update={"vertical": kz}))
+        springs = springs.with_constant("vertical", kz)
     rest = system(scene, springs)
     flat = np.zeros_like(rest.problem.loads.dead)
     undamped = step_limit(rest, flat)
@@ -81,7 +83,7 @@ def _explicit(
     limit = step_limit(equations, flat)
     found = measured_limit(equations, limit.step)
     heavy = scene.model_copy(update={"gravity": _gravity()})
-    step = SAFETY * limit.step
+    step = limit.advised
     run = lumped.simulate(
         heavy, springs, SAFE_STEPS * step, integrator="verlet", every=0.1 * SAFE_STEPS * step
     )
@@ -106,8 +108,7 @@ def _gravity() -> Any:
 
 def _implicit(integrator: str, step: float) -> Row:
     import lumped
-    from lumped.dynamics import INTEGRATORS
-    from lumped.dynamics.integrator import StepFailed
+    from lumped import INTEGRATORS, StepFailed
 
     scene = weightless()
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(9, 9))
@@ -148,7 +149,7 @@ def _implicit(integrator: str, step: float) -> Row:
 
 def draw(figure: Figure, rows: list[Row]) -> None:
     """Left: measured limits over the computed ones against damping. Right: period error and decay."""
-    from lumped.dynamics.step_limit import turn_limit
+    from lumped import turn_limit
 
     left, right = figure.subplots(1, 2)
     explicit = [row for row in rows if row["cell"]["integrator"] == "verlet" and "measured" in row]

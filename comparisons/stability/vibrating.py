@@ -11,12 +11,9 @@ from typing import Any
 
 import numpy as np
 
+import lumped
 from comparisons.stability.equilibria import sheet
-from lumped.calibration import Calibration
-from lumped.dynamics.integrator import Integrator, StepFailed
-from lumped.dynamics.system import State, System
-from lumped.dynamics.watchdog import GROWN
-from lumped.statics.faults import fastest
+from lumped import Calibration, Integrator, State, StepFailed, System, watchdog
 from sheetbench.scenes import Scene
 
 STEPS, GROWTH, SHARPNESS = 600, 10.0, 1e-3
@@ -37,12 +34,9 @@ def system(
     mass: Callable[[np.ndarray], np.ndarray] | None = None,
 ) -> System:
     """The equations of motion. mass: changes the lumped masses (n,) [kg]."""
-    from lumped.masses import masses
-    from lumped.statics.solver import pose
-
-    problem = pose(scene, springs, precision=precision)
-    shares = masses(scene, problem.assembly.lattice)
-    return System(scene, problem, mass(shares) if mass is not None else None)
+    problem = lumped.pose(scene, springs, precision=precision)
+    equations = System(scene, problem)
+    return equations if mass is None else System(scene, problem, mass(equations.lattice_mass))
 
 
 def start(equations: System, u: np.ndarray) -> State:
@@ -59,9 +53,7 @@ def noise(equations: System) -> np.ndarray:
 
 def holds(equations: System, step: float) -> bool:
     """Whether the energy stays bounded at this step of velocity Verlet [s]."""
-    from lumped.dynamics.verlet import Verlet
-
-    method = Verlet(equations, step)
+    method = lumped.INTEGRATORS["verlet"](equations, step)
     state = start(equations, noise(equations))
     first = energy(equations, state)
     with np.errstate(over="ignore", invalid="ignore"):
@@ -97,9 +89,7 @@ class FirstMode:
     """The first mode of a system about rest: ω [rad/s] and the coordinate q of a motion along it."""
 
     def __init__(self, equations: System, springs: Calibration):
-        from lumped.vibration import modes
-
-        found = modes(equations.scene, springs, 1)
+        found = lumped.modes(equations.scene, springs, 1)
         self.omega = 2.0 * np.pi * float(found.frequencies[0])
         self.shape = found.shapes[0]
         self._weighted = (equations.mass @ self.shape.ravel()).reshape(-1, 3)
@@ -117,14 +107,13 @@ class FirstMode:
 
 def follow(method: Integrator, state: State, step: float, count: int) -> list[State]:
     """`count` steps, the start included. Raises StepFailed, also where the energy grows from nothing, by the
-    measure of `lumped.dynamics.watchdog`."""
+    measure of `lumped.watchdog`."""
     states, first, taken = [state], energy(method.system, state), 0.0
     for _ in range(count):
         advance = method.advance(states[-1], step)
         states.append(advance.state)
         taken += advance.dissipated
-        if energy(method.system, advance.state) + taken > (1.0 + GROWN) * first + GROWN * abs(taken):
-            when, where = advance.state.time, fastest(method.system.assembly.lattice, advance.state.v)
-            said = f"at {when:.3g} s the energy grows from nothing, fastest at {where}"
-            raise StepFailed(f"{said}: use smaller steps")
+        gained = energy(method.system, advance.state) + taken - first
+        if fault := watchdog.energy_grows(method.system, advance.state, gained, first + abs(taken)):
+            raise StepFailed(fault.message)
     return states

@@ -175,7 +175,7 @@ def dynamic_tradeoff(
     Raises BadInput for an integrator that does not exist. A run that diverges is a row with its status.
     """
     import lumped
-    from lumped.dynamics.integrators import INTEGRATORS
+    from lumped import INTEGRATORS
 
     if unknown := [name for name in integrators if name not in INTEGRATORS]:
         raise BadInput(f"integrator = {unknown[0]!r}: choose from {', '.join(INTEGRATORS)}")
@@ -198,7 +198,7 @@ def dynamic_tradeoff(
     judges = [run("midpoint", period / n, False) for n in (reference, reference // 2)]
     asked = []
     for name in integrators:
-        if name == "verlet":
+        if INTEGRATORS[name].explicit:
             limit = explicit_limit(scene, shape)
             asked += [run(name, share * limit, True) for share in SHARES]
         else:
@@ -215,12 +215,9 @@ def dynamic_tradeoff(
 def explicit_limit(scene: Scene, grid: Grid) -> float:
     """Stability limit [s] of the explicit integrator about the flat sheet."""
     import lumped
-    from lumped.dynamics.step_limit import step_limit
-    from lumped.dynamics.system import System
-    from lumped.statics.solver import pose
 
-    problem = pose(scene, lumped.calibrate(scene.sheet, scene.material, grid=grid))
-    return step_limit(System(scene, problem), np.zeros_like(problem.loads.dead)).step
+    problem = lumped.pose(scene, lumped.calibrate(scene.sheet, scene.material, grid=grid))
+    return lumped.step_limit(lumped.System(scene, problem), np.zeros_like(problem.loads.dead)).step
 
 
 def _row(run: Run, outcome: Finished, truth: Finished, duration: float) -> dict[str, Any]:

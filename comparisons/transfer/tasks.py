@@ -47,13 +47,11 @@ def homogenised(
 ) -> dict[str, Any]:
     """Displacement at the points of the finite-element model whose section is the lattice's on a grid."""
     from fem_reference.surface.materials import Section
-    from lumped import moduli
-    from lumped.calibration.calibration import plan_spacing
+    from lumped import homogenised
 
     asked = Scene.model_validate(scene)
     springs = _springs(asked, method, grid, None)
-    spacing = (*plan_spacing(asked.sheet, springs.grid), springs.layer_distance)
-    got = moduli.of_springs(springs.springs, spacing, springs.grid[2])
+    got = homogenised(asked.sheet, springs.grid, springs.springs)
     section = Section(got.membrane, got.bending, np.diag(got.shear))
     return _answer(solve_reference(asked, model=model, elements=elements, section=section), asked)
 

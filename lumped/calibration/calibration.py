@@ -9,6 +9,7 @@ import numpy as np
 
 from lumped import moduli
 from lumped.lattice import Grid
+from lumped.springs import constants
 from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.springs import Distribution, Either
@@ -46,6 +47,10 @@ class Calibration:
         edge[axis] = strip[axis]
         springs = self.springs.model_copy(update={"edge_shear": either(*edge)})
         return replace(self, grid=(grid[0], grid[1], grid[2]), springs=springs)
+
+    def with_constant(self, name: str, value: float) -> Calibration:
+        """The same with one spring constant changed, by its name (`lumped.springs.constants`)."""
+        return replace(self, springs=constants.changed(self.springs, name, value))
 
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench calibrate`; strain springs only where there are any."""
@@ -85,6 +90,11 @@ def _both(value: float | Either) -> list[float]:
     return [value.x, value.y] if isinstance(value, Either) else [value, value]
 
 
+def homogenised(sheet: Sheet, grid: Grid, springs: SpringSet) -> moduli.Moduli:
+    """Moduli of the interior of a sheet's lattice with these springs."""
+    return moduli.of_springs(springs, (*plan_spacing(sheet, grid), springs.layer_distance), grid[2])
+
+
 def report(method: str, sheet: Sheet, material: Material, grid: Grid, springs: SpringSet) -> Calibration:
     """The calibration with its moduli report, and notes on what it misses and why.
 
@@ -92,7 +102,7 @@ def report(method: str, sheet: Sheet, material: Material, grid: Grid, springs: S
     """
     spacing = plan_spacing(sheet, grid)
     square = abs(spacing[0] - spacing[1]) < 1e-9 * spacing[0]
-    whole = moduli.of_springs(springs, (*spacing, springs.layer_distance), grid[2])
+    whole = homogenised(sheet, grid, springs)
     asked = moduli.of_sheet(sheet, material, spacing).named(square)
     got = whole.named(square)
     scale = {name: abs(asked[name.replace("12", "11")]) for name in asked}

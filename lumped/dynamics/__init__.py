@@ -1,6 +1,21 @@
 """Dynamics of the lattice: integrators by name, streaming runs, histories."""
 
+from lumped.dynamics import watchdog
+from lumped.dynamics.integrator import Integrator, StepFailed
 from lumped.dynamics.integrators import INTEGRATORS
 from lumped.dynamics.simulation import simulate
+from lumped.dynamics.step_limit import StepLimit, step_limit, turn_limit
+from lumped.dynamics.system import State, System
 
-__all__ = ["INTEGRATORS", "simulate"]
+__all__ = [
+    "INTEGRATORS",
+    "Integrator",
+    "State",
+    "StepFailed",
+    "StepLimit",
+    "System",
+    "simulate",
+    "step_limit",
+    "turn_limit",
+    "watchdog",
+]

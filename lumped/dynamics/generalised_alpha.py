@@ -29,7 +29,7 @@ CLOSE = 1e-11  # last correction relative to the sheet's side
 class GeneralisedAlpha(Integrator):
     """Generalised-α with radius ρ∞; adaptive unless the step is `fixed`."""
 
-    name, order, options = "generalised-alpha", 2, ("radius",)
+    name, order, adaptive, options = "generalised-alpha", 2, True, ("radius",)
 
     def __init__(self, system: System, step: float, radius: float = 0.9, fixed: bool = True):
         super().__init__(system, step)

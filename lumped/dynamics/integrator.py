@@ -8,9 +8,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from lumped.dynamics.step_limit import StepLimit
 from lumped.dynamics.system import State, System
 from lumped.linear.solver import Factor
 
+STEPS_PER_PERIOD = 200  # by default
 CORRECTIONS = 20
 STALE = 0.2  # ratio of successive corrections above which the factors are made anew
 
@@ -31,16 +33,25 @@ class Advance:
 class Integrator:
     """Takes a system from one state to the next.
 
-    step: [s]; order: declared, of the displacement; options: names of what else the user may choose.
+    step: [s]; order: declared, of the displacement; adaptive: whether it chooses its steps by their error,
+    unless it is made with `fixed`; explicit: whether its steps have a limit of stability; options: names of
+    what else the user may choose.
     """
 
     name: ClassVar[str]
     order: ClassVar[int]
     adaptive: ClassVar[bool] = False
+    explicit: ClassVar[bool] = False
     options: ClassVar[tuple[str, ...]] = ()
 
     def __init__(self, system: System, step: float):
         self.system, self.step = system, step
+
+    @classmethod
+    def default_step(cls, period: float, limit: StepLimit | None) -> float:
+        """The step [s] where none is asked for, an adaptive one's first: from the limit of stability where
+        there is one, else from the lowest period [s]."""
+        return limit.advised if limit is not None else period / STEPS_PER_PERIOD
 
     def advance(self, state: State, at_most: float) -> Advance:
         """One step, no longer than `at_most` [s]. Raises StepFailed."""

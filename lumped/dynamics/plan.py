@@ -7,16 +7,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lumped.calibration import Calibration
-from lumped.dynamics.generalised_alpha import GeneralisedAlpha
 from lumped.dynamics.integrators import INTEGRATORS
-from lumped.dynamics.step_limit import SAFETY, step_limit
+from lumped.dynamics.step_limit import step_limit
 from lumped.dynamics.system import State, System
-from lumped.dynamics.verlet import Verlet
 from lumped.vibration import modes
 from sheetbench.scenes.errors import BadInput
 
 SAMPLES_PER_PERIOD = 100
-STEPS_PER_PERIOD = 200  # of implicit integrators with a fixed step
 MOST_DEFAULT_STEPS = 10_000_000  # that an explicit run takes unasked: an hour or more
 
 
@@ -52,7 +49,7 @@ class Plan:
 
 def plan_run(
     system: System,
-    springs: Calibration,
+    calibration: Calibration,
     start: State,
     duration: float,
     step: float | None,
@@ -64,7 +61,7 @@ def plan_run(
     Raises BadInput for a step above the limit of `verlet`, or too many of them.
     """
     kind = INTEGRATORS[integrator]
-    period = 1.0 / float(modes(system.scene, springs, 1).frequencies[0])
+    period = 1.0 / float(modes(system.scene, calibration, 1).frequencies[0])
     spacing = every if every is not None else period / SAMPLES_PER_PERIOD
     if step is not None and every is None:
         spacing = max(spacing, step)
@@ -72,17 +69,17 @@ def plan_run(
         max(round(duration / spacing), 1) if every is not None else int(np.ceil(duration / spacing - 1e-9))
     )
     spacing = duration / samples
-    if kind is Verlet:
-        limit = step_limit(system, start.u)
-        if step is not None and step > limit.step:
-            raise BadInput(f"step = {step:g} s: above the stability limit of verlet, {limit.describe()}")
-        count = duration / (SAFETY * limit.step)
-        if step is None and count > MOST_DEFAULT_STEPS:
+    limit = step_limit(system, start.u) if kind.explicit else None
+    wanted = step if step is not None else kind.default_step(period, limit)
+    if limit is not None:
+        if wanted > limit.step:
             raise BadInput(
-                f"integrator = 'verlet': would take {count:.1e} steps, its stability limit being "
-                f"{limit.describe()}; choose an implicit integrator, or give a step to insist"
+                f"step = {step:g} s: above the stability limit of {integrator}, {limit.describe()}"
             )
-        step = step if step is not None else SAFETY * limit.step
-    wanted = step if step is not None else period / STEPS_PER_PERIOD
+        if step is None and duration / wanted > MOST_DEFAULT_STEPS:
+            raise BadInput(
+                f"integrator = '{integrator}': would take {duration / wanted:.1e} steps, its stability limit "
+                f"being {limit.describe()}; choose an implicit integrator, or give a step to insist"
+            )
     steps = max(int(np.ceil(spacing / wanted - 1e-9)), 1)
-    return Plan(samples, spacing, steps, kind is GeneralisedAlpha and step is None, samples)
+    return Plan(samples, spacing, steps, kind.adaptive and step is None, samples)

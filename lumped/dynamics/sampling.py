@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.dynamics.system import State, System
-from lumped.loads import locate
+from lumped.mid_surface import MidSurface
 from sheetbench.scenes.history import ENERGIES
 
 
@@ -15,8 +15,7 @@ class Sampling:
     def __init__(self, system: System):
         self._system = system
         scene, lattice = system.scene, system.assembly.lattice
-        self._at, self._share = locate(lattice, scene.probe_points())
-        self._columns = lattice.columns().reshape(-1, lattice.grid[2])
+        self._probes = MidSurface(lattice, scene.probe_points())
         self._supports = list(system.problem.constraints.holders)
         nothing = np.zeros((system.assembly.pattern.size, 3))
         actuators = system.coupling.wrenches(nothing, nothing) if system.coupling is not None else {}
@@ -34,13 +33,11 @@ class Sampling:
         """The sample of a state, (width,)."""
         system = self._system
         energies = {**system.energies(state), "dissipated": dissipated, "work": work}
-        mid = state.u[self._columns].mean(axis=1)
-        probes = np.einsum("pc,pcq->pq", self._share, mid[self._at])
         exerted = system.exerted(state)
         reactions, _ = system.problem.constraints.reactions(exerted)
         parts = [
             np.array([state.time, *(energies[name] for name in ENERGIES)]),
-            probes.ravel(),
+            self._probes.of(state.u).ravel(),
             *(reactions[edge] for edge in self._supports),
         ]
         if system.coupling is not None:

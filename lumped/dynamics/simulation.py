@@ -19,8 +19,7 @@ import numpy as np
 from lumped.assembly import Precision
 from lumped.calibration import Calibration, default
 from lumped.dynamics import watchdog
-from lumped.dynamics.constraints import Projection
-from lumped.dynamics.generalised_alpha import GeneralisedAlpha
+from lumped.dynamics.initial import initial_state
 from lumped.dynamics.integrator import Integrator, StepFailed
 from lumped.dynamics.integrators import INTEGRATORS
 from lumped.dynamics.plan import Plan, plan_run
@@ -30,8 +29,8 @@ from lumped.dynamics.system import State, System
 from lumped.lattice import Weights
 from lumped.linear.threads import one_blas_thread
 from lumped.statics.fields import field_mesh
-from lumped.statics.solver import pose, settle
-from sheetbench.scenes import Chain, Clamped, Curved, History, Scene, Status
+from lumped.statics.solver import pose
+from sheetbench.scenes import History, Scene, Status
 from sheetbench.scenes.errors import BadInput
 
 SAMPLES_PER_CHECKPOINT = 50
@@ -39,7 +38,7 @@ SAMPLES_PER_CHECKPOINT = 50
 
 def simulate(
     scene: Scene,
-    springs: Calibration | None = None,
+    calibration: Calibration | None = None,
     duration: float = 1.0,
     *,
     step: float | None = None,
@@ -78,16 +77,16 @@ def simulate(
         if value is not None and not (value > 0.0 and np.isfinite(value)):
             raise BadInput(f"{name} = {value:g} s: must be greater than 0 and finite")
     began = clock.perf_counter()
-    springs = springs or default(scene)
-    system = System(scene, pose(scene, springs, weights, precision))
-    start = _start(system, springs, weights)
-    plan = plan_run(system, springs, start, duration, step, integrator, every)
+    calibration = calibration or default(scene)
+    system = System(scene, pose(scene, calibration, weights, precision))
+    start = initial_state(system, calibration, weights)
+    plan = plan_run(system, calibration, start, duration, step, integrator, every)
     sampling = Sampling(system)
-    nx, ny, layers = springs.grid
+    nx, ny, layers = calibration.grid
     settings: dict[str, Any] = {
         "grid": [nx, ny, layers],
-        "calibration": springs.method,
-        "layer_distance": springs.layer_distance,
+        "calibration": calibration.method,
+        "layer_distance": calibration.layer_distance,
         **options,
     }
     if precision != "double":
@@ -97,7 +96,7 @@ def simulate(
     drawn = np.concatenate([np.arange(masses), *(rows for rows, _ in axes.values())])
     asked = {
         "scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True),
-        "springs": springs.as_dict()["springs"],
+        "springs": calibration.as_dict()["springs"],
         "integrator": integrator,
         "step": step,
         "every": every,
@@ -130,7 +129,7 @@ def simulate(
     settings["step"] = "adaptive" if plan.adapts else plan.every / plan.steps
     settings["every"] = plan.every
     return History(
-        label=f"lumped {nx}×{ny}×{layers} {springs.method}",
+        label=f"lumped {nx}×{ny}×{layers} {calibration.method}",
         integrator=integrator,
         settings=settings,
         status=status,
@@ -157,7 +156,7 @@ def simulate(
 
 def _method(system: System, plan: Plan, integrator: str, options: dict[str, float]) -> Integrator:
     kind = INTEGRATORS[integrator]
-    extra: dict[str, Any] = {"fixed": not plan.adapts} if kind is GeneralisedAlpha else {}
+    extra: dict[str, Any] = {"fixed": not plan.adapts} if kind.adaptive else {}
     return kind(system, plan.every / plan.steps, **options, **extra)
 
 
@@ -236,26 +235,3 @@ def _run(
         if progress is not None:
             progress(state.time)
     return Status.CONVERGED, "", steps, began
-
-
-def _start(system: System, springs: Calibration, weights: Weights) -> State:
-    """At rest: flat, or in the shape that curved supports and tilted clamps give an unloaded sheet; with the
-    acceleration that loads and commands give it at once."""
-    u = system.place(0.0)
-    scene = system.scene
-    if any(
-        (isinstance(s, Curved) and s.curvature) or (isinstance(s, Clamped) and s.tilt) for s in scene.supports
-    ):
-        slack = tuple(
-            a.model_copy(update={"curvature": 0.0}) if isinstance(a, Chain) else a for a in scene.actuators
-        )
-        unloaded = scene.model_copy(update={"gravity": None, "loads": (), "actuators": slack})
-        u = settle(unloaded, pose(unloaded, springs, weights), "path").state.u
-    v = system.place_rate(0.0)
-    v = v if system.moving else np.zeros_like(u)
-    a = system.accelerate(system.unbalanced(u, v, 0.0))
-    projection = Projection(system)
-    if projection.active:
-        a, multipliers = projection.tangential(a, projection.jacobian(u))
-        u = u + multipliers
-    return State(0.0, u, v, a)

@@ -28,7 +28,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 from lumped.dynamics.constraints import Projection
 from lumped.dynamics.system import System
 
-SAFETY = 0.9  # of the default step: large rotations and tension raise ω_max a little
+SAFETY = 0.9  # share of the limit
 
 
 @dataclass(frozen=True)
@@ -39,6 +39,11 @@ class StepLimit:
     damping_ratio: float
     step: float
     exact: bool = True
+
+    @property
+    def advised(self) -> float:
+        """A step with some distance to the limit [s]: large rotations and tension raise ω_max a little."""
+        return SAFETY * self.step
 
     def describe(self) -> str:
         """The limit and where it comes from."""

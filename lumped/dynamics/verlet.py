@@ -19,7 +19,7 @@ from lumped.dynamics.system import State, System
 class Verlet(Integrator):
     """Velocity Verlet."""
 
-    name, order = "verlet", 2
+    name, order, explicit = "verlet", 2, True
 
     def __init__(self, system: System, step: float):
         super().__init__(system, step)

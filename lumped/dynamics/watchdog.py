@@ -26,12 +26,20 @@ def bark(system: System, state: State, row: np.ndarray, origin: float, round_abo
     if not np.isfinite(row).all():
         where = fastest(lattice, state.v)
         return Fault(Status.NON_FINITE, f"{when} a number overflowed, first at {where}: use smaller steps")
-    if float(row[1:5].sum() - row[5]) - origin > GROWN * round_about:
-        where = fastest(lattice, state.v)
-        said = f"{when} the energy grows from nothing, fastest at {where}: use smaller steps"
-        return Fault(Status.DIVERGED, said)
+    gained = float(row[1:5].sum() - row[5]) - origin
+    if grows := energy_grows(system, state, gained, round_about):
+        return grows
     fault = broken(system.assembly, state.u)
     return None if fault is None else Fault(fault.status, f"{when} {fault.message}")
+
+
+def energy_grows(system: System, state: State, gained: float, round_about: float) -> Fault | None:
+    """Whether a run has gained energy [J] from nowhere, beside the energy that went round in it [J]."""
+    if gained <= GROWN * round_about:
+        return None
+    where = fastest(system.assembly.lattice, state.v)
+    said = f"at {state.time:.6g} s the energy grows from nothing, fastest at {where}: use smaller steps"
+    return Fault(Status.DIVERGED, said)
 
 
 def stagnates(state: State, taken: int) -> Fault | None:

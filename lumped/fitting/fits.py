@@ -12,8 +12,9 @@ frequencies with cross links fourteen times too stiff in shear, and was 28 % off
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -27,7 +28,7 @@ from lumped.lattice import Grid
 from lumped.sensitivity import sensitivity
 from lumped.springs import constants
 from lumped.vibration import frequency_slopes
-from sheetbench.scenes import Material, Sheet, SpringSet
+from sheetbench.scenes import Material, Sheet
 from sheetbench.scenes.errors import BadInput
 
 PRIOR = {"fit-static": 1e-3, "fit-modal": 1e-1}
@@ -55,9 +56,9 @@ def fit_static(
     Raises BadInput without targets, and for other kinds of them.
     """
 
-    def compare(target: StaticTarget, springs: Calibration, names: list[str]) -> Compared:
+    def compare(target: StaticTarget, calibration: Calibration, names: list[str]) -> Compared:
         scale = np.abs(target.displacement).max() * np.sqrt(len(target.points))
-        found = sensitivity(target.scene, springs, names, target.points)
+        found = sensitivity(target.scene, calibration, names, target.points)
         slopes = {name: (found.derivatives[name] / scale).ravel() for name in names}
         return ((found.displacement - target.displacement) / scale).ravel(), slopes
 
@@ -77,8 +78,8 @@ def fit_modal(
     Raises BadInput without targets, and for other kinds of them.
     """
 
-    def compare(target: ModalTarget, springs: Calibration, names: list[str]) -> Compared:
-        frequencies, rates = frequency_slopes(target.scene, springs, names, len(target.frequencies))
+    def compare(target: ModalTarget, calibration: Calibration, names: list[str]) -> Compared:
+        frequencies, rates = frequency_slopes(target.scene, calibration, names, len(target.frequencies))
         slopes = {name: rates[name] / target.frequencies for name in names}
         return frequencies / target.frequencies - 1.0, slopes
 
@@ -103,46 +104,40 @@ def _fit(
     signed = {name for name in names if name in ("area", "mid_area")}
     unit = constants.value_of(first.springs, "diagonal")
 
-    def springs_of(change: np.ndarray) -> Calibration:
-        springs: SpringSet = first.springs
+    def fitted(change: Iterable[float]) -> Calibration:
+        calibration = replace(first, method=method)
         for name, x in zip(names, change, strict=True):
             value = start[name] + unit * x if name in signed else start[name] * np.exp(x)
-            springs = constants.changed(springs, name, float(value))
-        return replace(first, method=method, springs=springs)
+            calibration = calibration.with_constant(name, float(value))
+        return calibration
 
-    def jacobian(slopes: dict[str, np.ndarray], springs: SpringSet) -> np.ndarray:
-        scale = {name: unit if name in signed else constants.value_of(springs, name) for name in names}
-        return np.stack([slopes[name] * scale[name] for name in names], axis=1)
-
-    kept: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
-
-    def at(change: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        key = change.tobytes()
-        if key not in kept:
-            springs = springs_of(change)
-            compared = [compare(target, springs, names) for target in targets]
-            slopes = {name: np.concatenate([rates[name] for _, rates in compared]) for name in names}
-            kept.clear()
-            kept[key] = np.concatenate([misses for misses, _ in compared]), jacobian(slopes, springs.springs)
-        return kept[key]
+    @lru_cache(maxsize=1)
+    def at(change: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
+        """Relative misses, and their derivatives by the changes."""
+        calibration = fitted(change)
+        compared = [compare(target, calibration, names) for target in targets]
+        slopes = []
+        for name in names:
+            scale = unit if name in signed else constants.value_of(calibration.springs, name)
+            slopes.append(scale * np.concatenate([rates[name] for _, rates in compared]))
+        return np.concatenate([misses for misses, _ in compared]), np.stack(slopes, axis=1)
 
     def residuals(change: np.ndarray) -> np.ndarray:
-        return np.concatenate([at(change)[0], PRIOR[method] * change])
+        return np.concatenate([at(tuple(change))[0], PRIOR[method] * change])
 
     def slopes_of(change: np.ndarray) -> np.ndarray:
-        return np.concatenate([at(change)[1], PRIOR[method] * np.eye(len(change))])
+        return np.concatenate([at(tuple(change))[1], PRIOR[method] * np.eye(len(change))])
 
     best = least_squares(residuals, np.zeros(len(names)), jac=slopes_of, xtol=1e-10, ftol=1e-10, max_nfev=60)
-    misses, slopes = at(best.x)
-    plain = report(method, sheet, material, first.grid, springs_of(best.x).springs)
+    misses, slopes = at(tuple(best.x))
+    plain = report(method, sheet, material, first.grid, fitted(best.x).springs)
     known = identifiability(names, slopes, misses) if len(misses) > len(names) else None
-    notes = (*plain.notes, *(known.warnings if known else ("too few data for intervals of the springs",)))
     return FittedCalibration(
         method,
         first.grid,
         plain.springs,
         plain.moduli,
-        notes,
+        (*plain.notes, *(known.warnings if known else ("too few data for intervals of the springs",))),
         first.masses,
         float(np.abs(misses).max()),
         known,

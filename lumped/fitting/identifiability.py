@@ -10,6 +10,7 @@ Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from scipy import stats
@@ -25,6 +26,8 @@ CONFIDENCE = 0.95
 class Identifiability:
     """singular_values: (n,) of the scaled Jacobian; half_widths: parameter → half width of its 95 % interval
     in the scaled parameter (inf where the data do not see it); warnings: sentences."""
+
+    threshold: ClassVar[float] = THRESHOLD
 
     singular_values: np.ndarray
     half_widths: dict[str, float]

@@ -17,14 +17,14 @@ from sheetbench.scenes import Scene, SceneError, require_static
 SMALL_LOAD = 1e-4  # share of the full load that the change of the tangent is taken over, first
 
 
-def buckling_loads(scene: Scene, springs: Calibration, count: int = 1) -> np.ndarray:
+def buckling_loads(scene: Scene, calibration: Calibration, count: int = 1) -> np.ndarray:
     """The `count` lowest positive buckling load factors of a scene's loads, (count,).
 
     Meant for loads that leave the sheet flat. The state of small load is refined once, to a hundredth of
     the first estimate. Raises SceneError when nothing stops a rigid motion or no load factor is positive.
     """
     require_static(scene)
-    problem = pose(scene, springs)
+    problem = pose(scene, calibration)
     rest = at_rest(problem)
     n = problem.system.unknowns
     stiffness = problem.system.matrix(rest.blocks)

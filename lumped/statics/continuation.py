@@ -19,7 +19,8 @@ import numpy as np
 
 from lumped.calibration import Calibration
 from lumped.linear.solver import SingularMatrixError
-from lumped.loads import Loads, locate
+from lumped.loads import Loads
+from lumped.mid_surface import MidSurface
 from lumped.statics.equilibrium import COARSE, State, StepFailed, all_rounding, at_rest, follow
 from lumped.statics.problem import Problem
 from lumped.statics.solver import Branch, pose, settle
@@ -56,7 +57,7 @@ class Path:
 
 def trace(
     scene: Scene,
-    springs: Calibration,
+    calibration: Calibration,
     *,
     vary: Sequence[Load] = (),
     branch: Branch = "path",
@@ -76,7 +77,7 @@ def trace(
     Raises scenes.SceneError when nothing stops a rigid motion, SingularMatrixError at a singular start.
     """
     require_static(scene)
-    problem = pose(scene, springs)
+    problem = pose(scene, calibration)
     if vary:
         outcome = settle(scene, problem, branch)
         start = outcome.state
@@ -95,12 +96,10 @@ def trace(
     problem.progress = progress
     longest = step if step is not None else problem.size / 50.0
 
-    columns, share = locate(problem.assembly.lattice, scene.probe_points())
-    layers = problem.assembly.lattice.columns().reshape(-1, problem.assembly.lattice.grid[2])
+    at_probes = MidSurface(problem.assembly.lattice, scene.probe_points())
 
     def probed(state: State) -> dict[str, np.ndarray]:
-        mean = state.u[layers].mean(axis=1)
-        return dict(zip(scene.probes, np.einsum("pc,pcq->pq", share, mean[columns]), strict=True))
+        return dict(zip(scene.probes, at_probes.of(state.u), strict=True))
 
     arc, message, status = longest, "", Status.STEP_LIMIT
     before, highest = None, 0.0

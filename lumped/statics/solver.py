@@ -17,7 +17,8 @@ from lumped.calibration.consistent import consistent
 from lumped.lattice import Weights
 from lumped.linear.solver import SingularMatrixError
 from lumped.linear.threads import one_blas_thread
-from lumped.loads import Loads, locate
+from lumped.loads import Loads
+from lumped.mid_surface import MidSurface
 from lumped.statics import validity
 from lumped.statics.balance import balance
 from lumped.statics.energy_descent import descend, disturbed
@@ -58,7 +59,7 @@ class Outcome:
 
 def solve(
     scene: Scene,
-    springs: Calibration | None = None,
+    calibration: Calibration | None = None,
     *,
     branch: Branch = "path",
     weights: Weights = "tributary",
@@ -68,7 +69,7 @@ def solve(
 ) -> Solution:
     """Static equilibrium of the scene on a lattice with these springs, from flat to full load.
 
-    springs: from `calibrate`; without them the scene's own [springs], or else `consistent` on nine masses
+    calibration: from `calibrate`; without it the scene's own [springs], or else `consistent` on nine masses
     along the shorter side.
     branch: "path" reports the equilibrium on the load path, stable or not; "stable" leaves an unstable one
     along a direction of negative curvature and descends to a stable equilibrium. weights: "full" gives
@@ -85,8 +86,8 @@ def solve(
         raise BadInput("linear = True: actuators turn with the sheet; solve without")
     began = time.perf_counter()
     _compile()
-    springs = springs or default(scene)
-    problem = pose(scene, springs, weights, precision)
+    calibration = calibration or default(scene)
+    problem = pose(scene, calibration, weights, precision)
     problem.progress = progress
     ready = time.perf_counter()
     with one_blas_thread():
@@ -95,7 +96,7 @@ def solve(
     usual = {"branch": "path", "weights": "tributary", "precision": "double", "linear": False}
     options = {"branch": branch, "weights": weights, "precision": precision, "linear": linear}
     asked = {name: value for name, value in options.items() if value != usual[name]}
-    return _solution(scene, springs, problem, outcome, (ready - began, done - ready), asked)
+    return _solution(scene, calibration, problem, outcome, (ready - began, done - ready), asked)
 
 
 @cache
@@ -113,13 +114,13 @@ def _compile() -> None:
 
 def pose(
     scene: Scene,
-    springs: Calibration,
+    calibration: Calibration,
     weights: Weights = "tributary",
     precision: Precision = "double",
 ) -> Problem:
     """The lattice of a scene under its supports and loads. Raises BadInput if no mass is left to move."""
     couple = partial(Coupling, scene) if scene.actuators else None
-    assembly = Assembly(scene.sheet, springs, weights, couple, precision, scene.twisting_edges())
+    assembly = Assembly(scene.sheet, calibration, weights, couple, precision, scene.twisting_edges())
     constraints = constrain(scene, assembly.lattice, assembly.coupling)
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)
@@ -223,7 +224,7 @@ def _nothing(problem: Problem) -> tuple[Any, ...]:
 
 def _solution(
     scene: Scene,
-    springs: Calibration,
+    calibration: Calibration,
     problem: Problem,
     outcome: Outcome,
     seconds: tuple[float, float],
@@ -238,27 +239,19 @@ def _solution(
     wrenches = coupling.wrenches(state.u, exerted) if coupling is not None else {}
     if coupling is not None:
         reactions |= coupling.reactions(exerted)
-    columns = lattice.columns().reshape(-1, lattice.grid[2])
-    mid_surface = state.u[columns].mean(axis=1)
-
-    def sample(points: np.ndarray) -> np.ndarray:
-        at, share = locate(lattice, points)
-        displacement: np.ndarray = np.einsum("pc,pcq->pq", share, mid_surface[at])
-        return displacement
-
     nx, ny, layers = lattice.grid
-    settings: dict[str, Any] = {"grid": [nx, ny, layers], "calibration": springs.method}
-    settings["layer_distance"] = springs.layer_distance
+    settings: dict[str, Any] = {"grid": [nx, ny, layers], "calibration": calibration.method}
+    settings["layer_distance"] = calibration.layer_distance
     return Solution(
         model="lumped",
-        label=f"lumped {nx}×{ny}×{layers} {springs.method}" + (", linear" if linear else ""),
+        label=f"lumped {nx}×{ny}×{layers} {calibration.method}" + (", linear" if linear else ""),
         settings=settings | asked,
         status=outcome.status,
         unknowns=problem.system.unknowns,
         iterations=problem.factorisations,
         setup_seconds=seconds[0],
         solve_seconds=seconds[1],
-        sample=sample,
+        sample=lambda points: MidSurface(lattice, points).of(state.u),
         reactions=reactions,
         energies=energies,
         mesh=field_mesh(problem, state.u, on_masses, state.stresses),

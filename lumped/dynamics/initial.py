@@ -1,0 +1,35 @@
+"""The state that a run begins in."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lumped.calibration import Calibration
+from lumped.dynamics.constraints import Projection
+from lumped.dynamics.system import State, System
+from lumped.lattice import Weights
+from lumped.statics.solver import pose, settle
+from sheetbench.scenes import Chain, Clamped, Curved
+
+
+def initial_state(system: System, calibration: Calibration, weights: Weights) -> State:
+    """At rest: flat, or in the shape that curved supports and tilted clamps give an unloaded sheet; with the
+    acceleration that loads and commands give it at once."""
+    u = system.place(0.0)
+    scene = system.scene
+    if any(
+        (isinstance(s, Curved) and s.curvature) or (isinstance(s, Clamped) and s.tilt) for s in scene.supports
+    ):
+        slack = tuple(
+            a.model_copy(update={"curvature": 0.0}) if isinstance(a, Chain) else a for a in scene.actuators
+        )
+        unloaded = scene.model_copy(update={"gravity": None, "loads": (), "actuators": slack})
+        u = settle(unloaded, pose(unloaded, calibration, weights), "path").state.u
+    v = system.place_rate(0.0)
+    v = v if system.moving else np.zeros_like(u)
+    a = system.accelerate(system.unbalanced(u, v, 0.0))
+    projection = Projection(system)
+    if projection.active:
+        a, multipliers = projection.tangential(a, projection.jacobian(u))
+        u = u + multipliers
+    return State(0.0, u, v, a)

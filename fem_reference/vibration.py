@@ -32,7 +32,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 from fem_reference.plate import statics as plate
 from fem_reference.shell import statics as shell
 from fem_reference.solid import statics as solid
-from fem_reference.solid import supports as solid_supports
+from fem_reference.solid import supports as column_supports
 from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.threads import one_blas_thread
 from fem_reference.surface.materials import Section
@@ -193,17 +193,17 @@ def _solid_at_rest(
     rest = structure.rest()
     stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
     columns = structure.columns
-    supports = solid_supports.of_scene(scene, columns, clamp)
+    supports = column_supports.of_scene(scene, columns, clamp)
     bases = supports.bases(0.0)
     blocks = np.arange(len(bases) + 1)
     basis = bsr_matrix((bases, blocks[:-1], blocks)).tocsr()  # u = Z q over all columns
     arms = columns.positions - columns.positions.mean(axis=(0, 1))
     moves = [np.broadcast_to(axis, arms.shape) for axis in np.eye(3)]
     turns = [np.cross(axis, arms) for axis in np.eye(3)]
-    rigid = [solid_supports.components(bases, motion).ravel() for motion in moves + turns]
+    rigid = [column_supports.components(bases, motion).ravel() for motion in moves + turns]
 
     def sample(fields: np.ndarray, points: np.ndarray) -> np.ndarray:
-        displacement = solid_supports.vectors(bases, fields.reshape(columns.positions.shape))
+        displacement = column_supports.vectors(bases, fields.reshape(columns.positions.shape))
         return columns.sample(displacement, points)
 
     return RestState(

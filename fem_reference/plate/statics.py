@@ -24,7 +24,7 @@ from skfem import Basis, ElementQuad2, MeshQuad
 
 from fem_reference.plate.element import TILT_X, PlateElements, W
 from fem_reference.plate.rods import PlateRods
-from fem_reference.solving.linear import DirectSolver, SingularMatrix
+from fem_reference.solving.linear import SingularMatrix, solve_free
 from fem_reference.solving.sparsity import Pattern
 from fem_reference.solving.threads import one_blas_thread
 from fem_reference.surface import edge_motion, loads, rod
@@ -136,7 +136,7 @@ def _solved(
     with one_blas_thread():
         stiffness = stiffness_matrix(scene, plate, section, rods)
         try:
-            u[free] = DirectSolver().factor(stiffness[free][:, free]).solve((force - stiffness @ u)[free])
+            u = solve_free(stiffness, force, u, free)
         except SingularMatrix as error:
             status, notes = Status.SINGULAR, (str(error),)
         unbalanced = stiffness @ u - force

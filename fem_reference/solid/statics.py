@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from skfem import MeshQuad
 
-from fem_reference.solid import supports as solid_supports
+from fem_reference.solid import supports as column_supports
 from fem_reference.solid.element import Bricks
 from fem_reference.solid.materials import LAWS, lame
 from fem_reference.solid.mesh import Columns
@@ -160,6 +160,6 @@ def discretise(
     bricks = Bricks.build(positions, LAWS[law], lame(scene.material))
     sides = rod.sides(scene, mesh, columns.plan_elements, columns.plan_nodes)
     rods = rod.of_scene(scene, columns.plan_nodes, sides)
-    supports = solid_supports.of_scene(scene, columns, clamp, rods)
+    supports = column_supports.of_scene(scene, columns, clamp, rods)
     dead, followers = loads.of_scene(scene, mesh, columns.plan_elements, columns.plan_nodes)
     return SolidStructure(columns, bricks, supports, dead, followers, on_columns(rods, columns))

@@ -26,8 +26,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem_reference.solid.mesh import Columns
-from fem_reference.surface import edge_motion
-from fem_reference.surface import supports as shell_supports
+from fem_reference.surface import edge_motion, supports
 from fem_reference.surface.edge_motion import MovedEdge
 from fem_reference.surface.rod import Rod
 from fem_reference.surface.supports import Supports
@@ -115,7 +114,7 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
     if clamp not in CLAMPS:
         raise BadInput(f"clamp = {clamp!r}: known are {', '.join(CLAMPS)}")
     on_edge = {str(on.edge): columns.edge(on.edge) for on in (*scene.supports, *scene.actuators)}
-    line = shell_supports.of_scene(scene, columns.plan_nodes, on_edge)
+    line = supports.of_scene(scene, columns.plan_nodes, on_edge)
     line = edge_motion.hold(line, scene, columns.plan_nodes, on_edge)
     moved = tuple(edge_motion.of_scene(scene, columns.plan_nodes, on_edge))
     edges, hinged = {}, np.zeros(len(columns.plan_nodes), dtype=bool)

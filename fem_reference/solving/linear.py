@@ -7,7 +7,7 @@ is D Lᵀ and tells the inertia too. Every solution is refined, its residual che
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
@@ -34,10 +34,18 @@ class Inertia(NamedTuple):
     zero: int
 
 
+class Factors(Protocol):
+    """What solves with a matrix."""
+
+    def solve(self, b: np.ndarray, /) -> np.ndarray:
+        """x (n,) with A x = b."""
+        ...
+
+
 class Factor:
     """The factors of one matrix."""
 
-    def __init__(self, matrix: csr_matrix, factors, inertia: Inertia | None):
+    def __init__(self, matrix: csr_matrix, factors: Factors, inertia: Inertia | None):
         self.matrix = matrix
         self.inertia = inertia
         self._factors = factors
@@ -86,6 +94,14 @@ class DirectSolver:
         return Factor(matrix, factors, Inertia(*factors.inertia) if self.symmetric else None)
 
 
+def solve_free(matrix: csr_matrix, force: np.ndarray, u: np.ndarray, free: np.ndarray) -> np.ndarray:
+    """K u = f solved for the free unknowns (k,) of u (n,), the others as they are. Raises SingularMatrix."""
+    out = u.copy()
+    out[free] = 0.0
+    out[free] = DirectSolver().factor(matrix[free][:, free]).solve((force - matrix @ out)[free])
+    return out
+
+
 def _with_superlu(matrix: csr_matrix, columns: csc_matrix, symmetric: bool) -> Factor:
     if not symmetric:
         return Factor(matrix, splu(columns), None)
@@ -103,7 +119,7 @@ def _with_superlu(matrix: csr_matrix, columns: csc_matrix, symmetric: bool) -> F
 class _Scaled:
     """Factors of S A S, solving with A."""
 
-    def __init__(self, factors, scale: np.ndarray):
+    def __init__(self, factors: Factors, scale: np.ndarray):
         self._factors, self._scale = factors, scale
 
     def solve(self, b: np.ndarray) -> np.ndarray:

@@ -22,7 +22,7 @@ from fem_reference.solid import statics as solid
 from fem_reference.solid.element import shape
 from fem_reference.solid.materials import lame
 from fem_reference.solid.mesh import Columns
-from fem_reference.solving.linear import DirectSolver
+from fem_reference.solving.linear import solve_free
 from fem_reference.surface.biquadratic import areas
 from fem_reference.surface.loads import area_force
 from fem_reference.verification.rows import Row, relatively
@@ -59,10 +59,7 @@ def stress_at_d(radial: int, around: int, layers: int) -> np.ndarray:
     matrix, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
     force = np.zeros(free.shape)
     force[:, -1, 2] = -PRESSURE * _shares(columns)
-    displacement = np.zeros(free.size)
-    displacement[unknowns] = (
-        DirectSolver().factor(matrix[unknowns][:, unknowns]).solve(force.ravel()[unknowns])
-    )
+    displacement = solve_free(matrix, force.ravel(), np.zeros(free.size), unknowns)
     return _stress(columns, displacement.reshape(-1, 3), _at_d(columns))
 
 

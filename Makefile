@@ -52,7 +52,7 @@ tradeoff: install
 	  --out $(OUT)
 
 advisor-study: install
-	@$(BIN)/python -m comparisons.advice.validation --out $(OUT)
+	@$(BIN)/python -m comparisons.cli.advisor_study --out $(OUT)
 
 stability: install
 	@$(BIN)/sheetbench stability --out $(OUT)/stability

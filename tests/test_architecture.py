@@ -22,9 +22,8 @@ ALLOWED = {
 PACKAGES = ("sheetbench", "lumped", "fem_reference", "comparisons")
 
 
-def imported(path: Path) -> set[str]:
-    """Our packages that a file imports, scenes and files apart from the face; a literal's name counts, but
-    for the name of the plug-ins' entry points."""
+def names_in(path: Path) -> set[str]:
+    """Names that a file imports; a literal's counts too, but for that of the plug-ins' entry points."""
     names = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
@@ -34,8 +33,12 @@ def imported(path: Path) -> set[str]:
             names |= {f"{node.module}.{alias.name}" for alias in node.names}
         elif isinstance(node, ast.Constant) and isinstance(node.value, str) and "." in node.value:
             names.add(node.value)  # tables of modules that are loaded when asked for
-    names.discard("sheetbench.models")
-    parts = (name.split(".") for name in names)
+    return names - {"sheetbench.models"}
+
+
+def imported(path: Path) -> set[str]:
+    """Our packages that a file imports, scenes and files apart from the face."""
+    parts = (name.split(".") for name in names_in(path))
     ground = (["sheetbench", "scenes"], ["sheetbench", "files"])
     return {".".join(part[:2]) if part[:2] in ground else part[0] for part in parts if part[0] in PACKAGES}
 
@@ -47,6 +50,23 @@ def test_imports_run_one_way(package):
     for path in files:
         forbidden = imported(path) - ALLOWED[package]
         assert not forbidden, f"{path.relative_to(ROOT)} imports {', '.join(sorted(forbidden))}"
+
+
+FLOORS = {"models": 0, "report": 0, "runs": 1, "cli": 3}  # of comparisons; every other room is a question: 2
+
+
+def test_rooms_of_the_comparisons_import_from_their_own_floor_and_those_below():
+    """Who answers and how it is shown, below how it is kept, below the questions, below the command line.
+
+    Tasks, "module:function", are called by name by whoever carries them out, and count for nothing.
+    """
+    for path in sorted((ROOT / "comparisons").rglob("*/*.py")):
+        room = path.relative_to(ROOT / "comparisons").parts[0]
+        for name in names_in(path):
+            parts = name.split(".")
+            if parts[0] == "comparisons" and len(parts) > 2 and ":" not in name:
+                above = FLOORS.get(parts[1], 2) > FLOORS.get(room, 2)
+                assert not above, f"{path.relative_to(ROOT)} imports {name}"
 
 
 def module_of(path: Path) -> str:

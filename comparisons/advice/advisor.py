@@ -13,16 +13,15 @@ stiffening" where they hold a share of the energy; "large displacements" where t
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from comparisons.advice import tables
 from comparisons.advice.probing import Probing, Trial
 from comparisons.advice.scales import Scales, scales
 from comparisons.models.candidate import Candidate
+from comparisons.report.report import Report
 from sheetbench.scenes import Scene, require_static
 from sheetbench.scenes.errors import BadInput
-
-if TYPE_CHECKING:
-    from comparisons.report.report import Report
 
 NEGLIGIBLE = 0.25  # of the tolerance: an effect smaller than that is left out
 LINEAR_LOAD_NUMBER = 2.0  # beyond which no linear model is worth trying
@@ -88,9 +87,7 @@ class Advice:
 
     def report(self) -> Report:
         """What is shown of it."""
-        from comparisons.advice.tables import report
-
-        return report(self)
+        return tables.report(self)
 
 
 def advise(scene: Scene, tolerance: float | None = 0.01, budget: float | None = None) -> Advice:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from comparisons.advice.advisor import Advice
+from typing import TYPE_CHECKING
+
 from comparisons.models.candidate import series
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
+
+if TYPE_CHECKING:
+    from comparisons.advice.advisor import Advice
 
 
 def report(advice: Advice) -> Report:

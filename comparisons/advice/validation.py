@@ -11,11 +11,8 @@ scene: the choice as advised beside `ROWS`, whole sheets all of them.
 
 from __future__ import annotations
 
-import argparse
-import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -24,9 +21,9 @@ from comparisons.advice.advisor import advise
 from comparisons.comparison.comparison import error
 from comparisons.models.candidate import Candidate, lattices, references
 from comparisons.models.registry import solve
-from comparisons.report.files import folder, to_json, write_text
+from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
-from comparisons.runs.campaign import Progress, Run, campaign, carry_out
+from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import processes
 from comparisons.runs.manifest import record
 from comparisons.runs.store import Finished, Store
@@ -155,6 +152,17 @@ class Study:
             "skipped": self.skipped,
         }
 
+    def report(self) -> Report:
+        """What is shown of it."""
+        shares = f"met {100 * self.met:.1f} %; within twice the cheapest row {100 * self.within:.1f} %"
+        return Report(
+            name="advisor",
+            title="The advisor on random scenes",
+            document={**record(["advisor_study"]), **self.as_dict()},
+            tables=(self.table(),),
+            notes=(shares,),
+        )
+
     def table(self) -> Table:
         """A row per tolerance."""
         found = []
@@ -175,7 +183,7 @@ class Study:
             Column("within twice the cheapest", "", "%", 100.0, ".1f"),
             Column("median of time over the cheapest", "", "", 1.0, ".2f"),
         )
-        return Table("The advisor on random scenes", columns, tuple(found))
+        return Table("Tolerances asked and kept", columns, tuple(found), "advisor")
 
 
 def study(
@@ -261,26 +269,3 @@ def _compare_costs(
         ]
         case["actual_seconds"] = own.row["solve_seconds"]["median"]
         case["cost_ratio"] = case["actual_seconds"] / min(adequate) if adequate else None
-
-
-def main() -> None:
-    """`python -m comparisons.advice.validation --out DIR`: the whole study, resumable."""
-    from comparisons.cli import console
-
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0] if __doc__ else None)
-    parser.add_argument("--out", type=Path, default=Path("advisor-study"))
-    parser.add_argument("--scenes", type=int, default=60)
-    parser.add_argument("--compared", type=int, default=20)
-    parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
-    asked = parser.parse_args()
-    with campaign(folder(asked.out)) as store, console.campaign_progress() as progress:
-        found = study(store, asked.scenes, asked.compared, workers=asked.workers, progress=progress)
-    table = found.table()
-    write_text(asked.out / "advisor.json", to_json({**record(["advisor_study"]), **found.as_dict()}))
-    write_text(asked.out / "advisor.md", table.to_markdown())
-    console.show(table)
-    console.note(f"met {100 * found.met:.1f} %; within twice the cheapest row {100 * found.within:.1f} %")
-
-
-if __name__ == "__main__":
-    main()

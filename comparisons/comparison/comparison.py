@@ -18,15 +18,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from comparisons.comparison import tables
 from comparisons.comparison.error_bar import CHEAP, ErrorBar, error_bar
 from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked
 from comparisons.models.registry import check, check_reference, has_own_springs, solve
+from comparisons.report.report import Report
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static
 
 if TYPE_CHECKING:
     from comparisons.advice.advisor import Advice
-    from comparisons.report.report import Report
 
 COMPANION = "lumped-uniform"
 ROUND_OFF = 1e-9  # of the largest displacement at a probe
@@ -139,9 +140,7 @@ class Comparison:
 
     def report(self, advice: Advice | None = None) -> Report:
         """What is shown of it; advice: by which the first model was chosen."""
-        from comparisons.comparison.tables import report
-
-        return report(self, advice)
+        return tables.report(self, advice)
 
     def _solution_as_dict(self, solution: Solution) -> dict[str, Any]:
         bar = self.bar if solution is self.reference else None

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.comparison.comparison import Comparison
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 from comparisons.report.vtk import plan_mesh, write_mesh, write_solution
@@ -17,6 +16,7 @@ from sheetbench.scenes import Material, Sheet, Solution, Status
 
 if TYPE_CHECKING:
     from comparisons.advice.advisor import Advice
+    from comparisons.comparison.comparison import Comparison
 
 _MODEL = Column("model")
 

@@ -20,12 +20,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from scipy.optimize import least_squares
 
-from comparisons.identification import surface
+from comparisons.identification import surface, tables
 from comparisons.identification.measurements import Displacements, Measured
 from comparisons.identification.misfit import Misfit, require_same_way
 from comparisons.identification.prediction import (
@@ -38,13 +38,11 @@ from comparisons.identification.prediction import (
 from comparisons.identification.unknowns import DAMPING, Unknown, unknown
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.registry import check_lattice, check_reference
+from comparisons.report.report import Report
 from lumped import CALIBRATIONS, Identifiability, identifiability
 from sheetbench.scenes import Scene, require_static
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import near_square
-
-if TYPE_CHECKING:
-    from comparisons.report.report import Report
 
 MODELS = ("lumped", "shell", "solid")
 REFUSED = 1e3  # residual, in units of the data, where the model has no answer: the step is shortened
@@ -111,9 +109,7 @@ class Identification:
 
     def report(self, file: str = "") -> Report:
         """What is shown of it; file: where the measurements were read from."""
-        from comparisons.identification.tables import report
-
-        return report(self, file)
+        return tables.report(self, file)
 
 
 def identify(

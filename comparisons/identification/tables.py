@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.identification.identification import Identification
 from comparisons.identification.measurements import Displacements
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table, unit
+
+if TYPE_CHECKING:
+    from comparisons.identification.identification import Identification
 
 SHOWN = 20  # residuals on the terminal; all of them are in the files
 

@@ -11,17 +11,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
 import numpy as np
 
 from comparisons.models.grids import Asked
 from comparisons.models.registry import check, check_reference, scene_springs
+from comparisons.modes import tables
+from comparisons.report.report import Report
 from sheetbench.scenes import Scene, load
 from sheetbench.scenes.errors import BadInput
-
-if TYPE_CHECKING:
-    from comparisons.report.report import Report
 
 
 @dataclass(frozen=True)
@@ -79,9 +78,7 @@ class Spectra(Sequence[Spectrum]):
 
     def report(self) -> Report:
         """What is shown of it."""
-        from comparisons.modes.tables import report
-
-        return report(self)
+        return tables.report(self)
 
 
 def spectra(

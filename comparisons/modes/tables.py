@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from comparisons.modes.spectra import Spectra
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
+
+if TYPE_CHECKING:
+    from comparisons.modes.spectra import Spectra
 
 
 def report(found: Spectra) -> Report:

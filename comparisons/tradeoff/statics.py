@@ -14,23 +14,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from comparisons.comparison.comparison import error as probe_error
 from comparisons.models.candidate import Candidate, series
 from comparisons.models.registry import check
+from comparisons.report.report import Report
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
-from comparisons.tradeoff import timing
+from comparisons.tradeoff import tables, timing
 from comparisons.tradeoff.pareto import FLOOR_FACTOR, front, grouped, order
 from fem_reference.uncertainty import coarser, estimate
 from sheetbench.scenes import Scene, comparable, require_static
-
-if TYPE_CHECKING:
-    from comparisons.report.report import Report
 
 REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the rows
 
@@ -87,9 +85,7 @@ class Tradeoff:
 
     def report(self) -> Report:
         """What is shown of it."""
-        from comparisons.tradeoff.tables import report
-
-        return report(self)
+        return tables.report(self)
 
 
 def tradeoff(

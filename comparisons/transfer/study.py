@@ -17,20 +17,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from comparisons.comparison.comparison import error
+from comparisons.report.report import Report
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
+from comparisons.transfer import tables
 from comparisons.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_scenes
 from comparisons.transfer.tasks import FINE
 from sheetbench.scenes import Scene, comparable
-
-if TYPE_CHECKING:
-    from comparisons.report.report import Report
 
 FITTED = ("fit-static", "fit-modal")
 METHODS = ("consistent", "moduli", *FITTED, "uniform", "cauchy", "axial", "van-gelder", "lloyd")
@@ -62,9 +61,7 @@ class Transfer:
 
     def report(self) -> Report:
         """What is shown of it."""
-        from comparisons.transfer.tables import report
-
-        return report(self)
+        return tables.report(self)
 
 
 def transfer(

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
-from comparisons.transfer.study import Transfer
+
+if TYPE_CHECKING:
+    from comparisons.transfer.study import Transfer
 
 _PER_CENT = ("", "%", 100.0, "z.2f")
 

@@ -1,9 +1,11 @@
-"""Natural frequencies and mode shapes of a sheet about its flat, stress-free state.
+"""Natural frequencies and mode shapes of a sheet about its flat, stress-free state, or about its equilibrium.
 
     K φ = ω² M φ,    f = ω/2π,    φᵀ M φ = 1
 
 K is the model's stiffness at rest and M its consistent mass, rotary inertia included. Loads, weight and
 damping have no part in it, nor have actuators; a curved support and a tilted clamp count as upright clamps.
+About the deformed sheet, which the shell alone knows, K is the tangent of its equilibrium under the full load
+(`fem_reference.shell.oscillation`).
 Lanczos iterations (ARPACK) on (K − σM)⁻¹ with the shift σ < 0 below the spectrum, so that a free sheet's
 singular K needs no special care.
 
@@ -31,13 +33,14 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from fem_reference.plate import statics as plate
 from fem_reference.shell import statics as shell
+from fem_reference.shell.oscillation import about_equilibrium
 from fem_reference.solid import statics as solid
 from fem_reference.solid import supports as column_supports
 from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.threads import one_blas_thread
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
-from sheetbench.scenes import Scene
+from sheetbench.scenes import About, Scene, require_static
 from sheetbench.scenes.errors import BadInput
 
 REACH = 0.375  # of the grading
@@ -47,13 +50,14 @@ class RestState(NamedTuple):
     """A model about its undeformed state; n nodes with k unknowns each.
 
     stiffness, mass: (n k, n k); held: (n, k) unknowns that supports hold; rigid: (n k, 6) the sheet's
-    rigid motions; sample: unknowns (n, k), plan points (p, 2) [m] → mid-surface displacement (p, 3).
+    rigid motions, None where none is free; sample: unknowns (n, k), plan points (p, 2) [m] → mid-surface
+    displacement (p, 3).
     """
 
     stiffness: csr_matrix
     mass: csr_matrix
     held: np.ndarray
-    rigid: np.ndarray
+    rigid: np.ndarray | None
     sample: Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
@@ -81,22 +85,36 @@ class Modes:
 
 
 def modes(
-    scene: Scene, model: str = "shell", elements: Elements = 16, count: int = 10, **options: Any
+    scene: Scene,
+    model: str = "shell",
+    elements: Elements = 16,
+    count: int = 10,
+    about: About = "flat",
+    **options: Any,
 ) -> Modes:
     """The `count` lowest elastic modes; a scene without supports is a free sheet.
+
+    about: the flat, stress-free sheet, or its equilibrium under the scene's loads (the shell only; no
+    actuators, no follower loads).
 
     options: the model's own; of plate and shell `section`, as in their `solve`, and `graded`, whether they
     are divided finer towards the edges (they are unless told otherwise).
 
-    Raises BadInput for an unknown model or a count that the mesh cannot give.
+    Raises BadInput for an unknown model or a count that the mesh cannot give, NoEquilibrium where there is
+    none to be about.
     """
     if model not in REST_STATES:
         raise BadInput(f"model = {model!r}: known are {', '.join(REST_STATES)}")
     begin = perf_counter()
+    if about == "deformed":
+        require_static(scene)
+        if model != "shell" or scene.actuators:
+            raise BadInput("--about = deformed: of the references the shell alone, and without actuators")
     scene = scene.model_copy(update={"actuators": ()})
+    at_rest = _shell_deformed if about == "deformed" else REST_STATES[model]
     along_x, along_y = divisions(scene.sheet.lengths, elements)
     with one_blas_thread():
-        rest = REST_STATES[model](scene, (along_x, along_y), **options)
+        rest = at_rest(scene, (along_x, along_y), **options)
         ready = perf_counter()
         free = np.flatnonzero(~rest.held)
         rigid = _free_rigid_motions(rest)
@@ -142,6 +160,8 @@ def _slow(scene: Scene) -> float:
 
 def _free_rigid_motions(rest: RestState) -> int:
     """How many independent rigid motions vanish at every held unknown."""
+    if rest.rigid is None:
+        return 0
     size = np.linalg.norm(rest.rigid, axis=0)
     singular = np.linalg.svd(rest.rigid[rest.held.ravel()] / size, compute_uv=False)
     return 6 - int(np.sum(singular > 1e-9))
@@ -177,6 +197,14 @@ def _shell_at_rest(
     rest = structure.rest()
     stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
     return _plate_at_rest(scene, elements, graded=graded)._replace(stiffness=stiffness)
+
+
+def _shell_deformed(
+    scene: Scene, elements: tuple[int, int], section: Section | None = None, graded: bool = True
+) -> RestState:
+    """The shell about its equilibrium, on its free unknowns alone."""
+    stiffness, mass, sample = about_equilibrium(scene, elements, section, graded, REACH)
+    return RestState(stiffness, mass, np.zeros((mass.shape[0], 1), bool), None, sample)
 
 
 def _solid_at_rest(

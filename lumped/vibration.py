@@ -1,6 +1,6 @@
-"""Natural frequencies of a lattice about the flat, stress-free state: K φ = ω² M φ.
+"""Natural frequencies of a lattice about the flat, stress-free state, or about equilibrium: K φ = ω² M φ.
 
-K is the tangent at rest, M the diagonal matrix of the lumped masses. A lattice whose supports leave rigid
+K is the tangent there, M the diagonal matrix of the lumped masses. A lattice whose supports leave rigid
 motions free has zero frequencies: they are found with a small shift, counted, and left out.
 """
 
@@ -20,9 +20,10 @@ from lumped.linear.threads import one_blas_thread
 from lumped.masses import masses
 from lumped.mid_surface import MidSurface
 from lumped.springs import constants
-from lumped.statics.solver import pose
-from sheetbench.scenes import Scene, free_rigid_motions
-from sheetbench.scenes.errors import BadInput
+from lumped.statics.problem import Problem
+from lumped.statics.solver import pose, settle
+from sheetbench.scenes import About, Scene, Status, free_rigid_motions, require_static
+from sheetbench.scenes.errors import BadInput, NoEquilibrium
 from sheetbench.scenes.springs import Distribution
 
 DENSE = 600  # unknowns below which all eigenvalues are computed
@@ -46,25 +47,34 @@ class Modes:
 
 
 def modes(
-    scene: Scene, calibration: Calibration, count: int = 10, distribution: Distribution | None = None
+    scene: Scene,
+    calibration: Calibration,
+    count: int = 10,
+    distribution: Distribution | None = None,
+    about: About = "flat",
 ) -> Modes:
-    """The `count` lowest natural modes of the scene's sheet on a lattice, without actuators; loads do
-    not matter.
+    """The `count` lowest natural modes of the scene's sheet on a lattice.
 
-    distribution: how the masses are shared out (`lumped.masses`), the springs' own unless given.
+    distribution: how the masses are shared out (`lumped.masses`), the springs' own unless given. about: the
+    flat, stress-free sheet, without actuators, loads not mattering; or "deformed", its equilibrium under the
+    scene's loads (no actuators, no follower loads), with the tangent there.
 
-    Raises BadInput when the lattice has fewer modes than asked.
+    Raises BadInput when the lattice has fewer modes than asked or the scene asks what has no modes,
+    NoEquilibrium where there is none to be about.
     """
-    scene = scene.model_copy(update={"actuators": ()})
-    problem = pose(scene, calibration)
+    if about == "deformed":
+        problem, at = _equilibrium(scene, calibration)
+    else:
+        scene = scene.model_copy(update={"actuators": ()})
+        problem = pose(scene, calibration)
+        at = np.zeros_like(problem.loads.dead)
     transform = problem.constraints.transform
     rigid = len(free_rigid_motions(scene))
     if count + rigid > problem.system.unknowns - 1:
         raise BadInput(f"count = {count}: the lattice has only {problem.system.unknowns - rigid} modes")
     weight = np.repeat(masses(scene, problem.assembly.lattice, distribution or calibration.masses), 3)
     mass = sp.csc_array(transform.T @ sp.diags_array(weight) @ transform)
-    rest = np.zeros_like(problem.loads.dead)
-    blocks = problem.assembly.tangent(rest)
+    blocks = problem.assembly.tangent(at)
     stiffness = problem.system.matrix(blocks)
     wanted = count + rigid
     with one_blas_thread():
@@ -79,6 +89,22 @@ def modes(
     shapes /= np.abs(shapes).max(axis=(1, 2), keepdims=True)
     frequencies = np.sqrt(np.maximum(values[order], 0.0)) / (2.0 * np.pi)
     return Modes(frequencies, shapes, rigid, problem.system.unknowns, problem.assembly.lattice)
+
+
+def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, np.ndarray]:
+    """The problem of a scene, and its displacement (n, 3) [m] under the full load."""
+    require_static(scene)
+    problem = pose(scene, calibration)
+    if scene.actuators or not problem.conservative:
+        raise BadInput(
+            "--about = deformed: actuators are no part of modes, and pressure, edge moments and springs of a "
+            "per-direction law have none"
+        )
+    with one_blas_thread():
+        outcome = settle(scene, problem, "path")
+    if outcome.status is not Status.CONVERGED:
+        raise NoEquilibrium(f"lumped: {outcome.status}: {'; '.join([*outcome.notes, outcome.status.advice])}")
+    return problem, outcome.state.u
 
 
 def frequency_slopes(

@@ -23,24 +23,36 @@ def command(
     elements: Annotated[
         int, typer.Option(metavar="N", help="The reference's elements along the shorter side.")
     ] = 16,
+    about: Annotated[
+        str,
+        typer.Option(
+            metavar="flat|deformed",
+            help="About the flat, stress-free sheet, or its equilibrium under its loads (lattice and shell).",
+        ),
+    ] = "flat",
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> None:
-    """List the natural frequencies of the lattice and of a reference about the undeformed sheet."""
+    """List the natural frequencies of the lattice and a reference, about the flat sheet or the deformed."""
     from comparisons.cli.finish import finish
     from comparisons.modes.spectra import spectra
     from sheetbench.scenes import load
+    from sheetbench.scenes.errors import NoEquilibrium
 
     asked = load(scene)
     with finish("modes", json, out, overwrite, scene=asked) as end:
-        found = spectra(
-            asked,
-            count=count,
-            grid=lumped,
-            calibration=calibration,
-            references=reference or ["shell"],
-            elements=elements,
-            starting=lambda model: end.progress(f"modes of {model} …"),
-        )
+        try:
+            found = spectra(
+                asked,
+                count=count,
+                grid=lumped,
+                calibration=calibration,
+                references=reference or ["shell"],
+                elements=elements,
+                about=about,
+                starting=lambda model: end.progress(f"modes of {model} …"),
+            )
+        except NoEquilibrium as error:
+            end.stop(f"no modes about the deformed sheet: {error}")
         end(found.report())

@@ -1,7 +1,8 @@
 """Natural frequencies of a lattice beside those of a reference.
 
-Both are about the undeformed, stress-free sheet: loads, weight and actuators have no part in them. A sheet
-that supports leave free to move has rigid motions, whose frequency is zero; they are counted and left out.
+About the undeformed, stress-free sheet, where loads, weight and actuators have no part in them, or about its
+equilibrium under its loads. A sheet that supports leave free to move has rigid motions, whose frequency is
+zero; they are counted and left out.
 Modes are told apart by their place in the list, lowest first.
 """
 
@@ -11,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, cast, get_args, overload
 
 import numpy as np
 
@@ -19,8 +20,11 @@ from comparisons.models.grids import Asked
 from comparisons.models.registry import check, check_reference, scene_springs
 from comparisons.modes import tables
 from comparisons.report.report import Report
-from sheetbench.scenes import Scene, load
-from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes import About, Scene, free_rigid_motions, load
+from sheetbench.scenes.errors import BadInput, require_choice
+
+if TYPE_CHECKING:
+    from lumped import Calibration
 
 
 @dataclass(frozen=True)
@@ -52,10 +56,16 @@ class Spectrum:
 
 @dataclass(frozen=True)
 class Spectra(Sequence[Spectrum]):
-    """The spectra of a scene, the lattice's first, then that of each reference."""
+    """The spectra of a scene, the lattice's first, then that of each reference.
+
+    about: "flat" or "deformed"; sag [m]: the largest displacement that the lattice's flat tangent gives under
+    the scene's loads, None where there are none, or nothing that stops a rigid motion.
+    """
 
     scene: Scene
     found: tuple[Spectrum, ...]
+    about: About = "flat"
+    sag: float | None = None
 
     @overload
     def __getitem__(self, index: int) -> Spectrum: ...
@@ -73,6 +83,8 @@ class Spectra(Sequence[Spectrum]):
         """The JSON document of `sheetbench modes`."""
         return {
             "scene": self.scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+            "about": self.about,
+            "sag": self.sag,
             "solutions": [spectrum.as_dict() for spectrum in self],
         }
 
@@ -89,13 +101,16 @@ def spectra(
     calibration: str | None = None,
     references: Sequence[str] = ("shell",),
     elements: int = 16,
+    about: str = "flat",
     starting: Callable[[str], None] = lambda model: None,
 ) -> Spectra:
-    """The spectra of the lattice and of each reference.
+    """The spectra of the lattice and of each reference; about: "flat", or "deformed" under the scene's loads.
 
     Raises SceneError for a scene that cannot be read, BadInput for choices that do not exist and a count
-    that a mesh cannot give.
+    that a mesh cannot give, NoEquilibrium for deformed where a model has no stable equilibrium.
     """
+    require_choice("--about", about, get_args(About))
+    around = cast(About, about)
     scene = scene if isinstance(scene, Scene) else load(scene)
     if count < 1:
         raise BadInput(f"--count = {count}: at least 1")
@@ -103,19 +118,30 @@ def spectra(
     for reference in references:
         check_reference(reference, elements)
     starting("lumped")
-    found = [_lattice(scene, count, grid, calibration)]
+    springs = scene_springs(scene, grid=grid, calibration=calibration)
+    found = [_lattice(scene, count, springs, around)]
     for reference in references:
         starting(reference)
-        found.append(_reference(scene, reference, count, elements))
-    return Spectra(scene, tuple(found))
+        found.append(_reference(scene, reference, count, elements, around))
+    return Spectra(scene, tuple(found), around, _sag(scene, springs))
 
 
-def _lattice(scene: Scene, count: int, grid: Asked, calibration: str | None) -> Spectrum:
+def _sag(scene: Scene, springs: Calibration) -> float | None:
+    """See `Spectra`. Actuators are left out, for small displacements know none."""
     import lumped
 
-    springs = scene_springs(scene, grid=grid, calibration=calibration)
+    scene = scene.model_copy(update={"actuators": ()})
+    if free_rigid_motions(scene) or not (scene.loads or scene.gravity):
+        return None
+    solution = lumped.solve(scene, springs, linear=True)
+    return float(np.abs(solution.mesh.point_data["displacement"]).max())
+
+
+def _lattice(scene: Scene, count: int, springs: Calibration, about: About) -> Spectrum:
+    import lumped
+
     begin = perf_counter()
-    modes = lumped.modes(scene, springs, count)
+    modes = lumped.modes(scene, springs, count, about=about)
     seconds = perf_counter() - begin
     return Spectrum(
         model="lumped",
@@ -129,10 +155,10 @@ def _lattice(scene: Scene, count: int, grid: Asked, calibration: str | None) -> 
     )
 
 
-def _reference(scene: Scene, model: str, count: int, elements: int) -> Spectrum:
+def _reference(scene: Scene, model: str, count: int, elements: int, about: About) -> Spectrum:
     import fem_reference
 
-    modes = fem_reference.modes(scene, model, elements, count)
+    modes = fem_reference.modes(scene, model, elements, count, about)
     return Spectrum(
         model=model,
         label=modes.label,

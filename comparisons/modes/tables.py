@@ -13,6 +13,8 @@ from comparisons.report.table import Column, Table
 if TYPE_CHECKING:
     from comparisons.modes.spectra import Spectra
 
+FLAT = 0.3  # displacement, in thicknesses, from which on stretching stiffens a plate by percents
+
 
 def report(found: Spectra) -> Report:
     """What `sheetbench modes` shows."""
@@ -23,6 +25,7 @@ def report(found: Spectra) -> Report:
         document=found.as_dict(),
         tables=(table(found),),
         notes=tuple(notes(found)),
+        complaints=tuple(complaints(found)),
         pictures=(Picture(("modes.png", "modes.pdf"), partial(_picture, found)),),
         attachments={"modes.vtu": partial(write_shapes, found)},
         scene=found.scene,
@@ -42,7 +45,7 @@ def table(found: Spectra) -> Table:
     columns = [Column("mode", form="d"), *(Column(s.model, "Hz", "Hz", 1.0, ".4g") for s in found)]
     if first is not None:
         columns.append(Column("off by", "", "%", 100.0, "+.2f"))
-    return Table("Natural frequencies about the flat sheet", tuple(columns), tuple(rows), "modes")
+    return Table(f"Natural frequencies about the {found.about} sheet", tuple(columns), tuple(rows), "modes")
 
 
 def write_shapes(found: Spectra, path: Path) -> None:
@@ -64,6 +67,18 @@ def _picture(found: Spectra, paths: Sequence[Path]) -> None:
     from comparisons.modes.figure import picture
 
     picture(paths, found)
+
+
+def complaints(found: Spectra) -> list[str]:
+    """That modes of the flat sheet were asked of one that its loads take far from flat."""
+    thickness = found.scene.sheet.thickness
+    if found.about == "deformed" or found.sag is None or found.sag < FLAT * thickness:
+        return []
+    return [
+        "this scene's sheet is not flat under its loads: by its flat stiffness it would move "
+        f"{found.sag / thickness:.2g} times its thickness, and these modes are the flat sheet's; "
+        "--about deformed gives them about its equilibrium"
+    ]
 
 
 def notes(found: Spectra) -> list[str]:

@@ -28,7 +28,7 @@ from fem_reference.surface.edge_motion import moved
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, quarters
-from sheetbench.scenes import FieldMesh, Scene, Solution
+from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 from sheetbench.scenes.scene import require_static
 
 
@@ -84,6 +84,13 @@ def _run(mesh: MeshQuad, scene: Scene, section: Section | None = None, graded: b
     ready = perf_counter()
     path = trace(structure, solver, inspector(scene, structure, solver, graded), settler(structure, solver))
     return _Run(mesh, structure, nodes, path, ready - begin, perf_counter() - ready)
+
+
+def trace_on(scene: Scene, structure: ShellStructure) -> tuple[State, Status, list[str]]:
+    """The equilibrium of a structure under the full load, how the path to it ended and what is to be said."""
+    solver = DirectSolver(structure.symmetric)
+    path = trace(structure, solver, inspector(scene, structure, solver, False), settler(structure, solver))
+    return path.state, *judge(scene, structure, path)
 
 
 def _solution(

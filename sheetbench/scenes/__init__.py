@@ -8,7 +8,7 @@ from sheetbench.scenes.history import History
 from sheetbench.scenes.loads import EdgeLoad, Load, PointLoad, Pressure
 from sheetbench.scenes.scene import Scene, free_rigid_motions, require_static
 from sheetbench.scenes.sheet import EDGES, Edge, Gravity, Material, Sheet
-from sheetbench.scenes.solution import FieldMesh, Iteration, Solution, Status, comparable
+from sheetbench.scenes.solution import About, FieldMesh, Iteration, Solution, Status, comparable
 from sheetbench.scenes.springs import DamperSet, PerDirection, SpringSet, SpringTable
 from sheetbench.scenes.strains import outside_model, weight_strain
 from sheetbench.scenes.supports import (
@@ -28,6 +28,7 @@ from sheetbench.scenes.tables import FactorTable
 
 __all__ = [
     "EDGES",
+    "About",
     "Actuator",
     "BadInput",
     "Balance",

@@ -20,6 +20,10 @@ class SceneError(BadInput):
     """A scene that cannot be read or asks something impossible; the text names file, key and value."""
 
 
+class NoEquilibrium(ArithmeticError):
+    """A scene without the stable equilibrium that was to be gone out from; the text says how it ended."""
+
+
 class Implausible(UserWarning):
     """A scene that can be solved and is hardly meant; the text names file, key, value and unit."""
 

@@ -8,11 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
 from sheetbench.scenes.balance import Balance
+
+About = Literal["flat", "deformed"]  # what oscillations are about: the sheet at rest, or its equilibrium
 
 
 class Status(StrEnum):

@@ -1,0 +1,93 @@
+"""Modes about the equilibrium: the heavy string, lattice beside shell, and flat where nothing loads it."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import fem_reference
+import lumped
+from comparisons.cli import main
+from comparisons.modes.spectra import spectra
+from sheetbench.scenes import Clamped, Gravity, Material, Pressure, Scene, Sheet, load
+from sheetbench.scenes.errors import BadInput, NoEquilibrium
+
+
+def hanging() -> Scene:
+    """A strip of soft silicone, 250 × 120 × 1.5 mm, hanging down from x0."""
+    return Scene(
+        name="hanging",
+        sheet=Sheet(length_x=0.25, length_y=0.12, thickness=0.0015),
+        material=Material(young=125e3, poisson=0.49, density=1070.0),
+        gravity=Gravity(acceleration=(9.81, 0.0, 0.0)),
+        support=(Clamped(edge="x0"),),
+    )
+
+
+def test_a_hanging_strip_swings_as_a_heavy_string() -> None:
+    """f = j/(4π) √(g/L), j = 2.4048 the zero of J0. Bending adds a layer √(D/(ρ h g L)) of 1.4 % of the
+    length at the clamp, which shortens the string by as much; stretching lengthens it by half of 2.1 %."""
+    string = 2.4048 / (4.0 * np.pi) * np.sqrt(9.81 / 0.25)
+    shell = fem_reference.modes(hanging(), "shell", 8, 2, "deformed").frequencies
+    assert shell[0] == pytest.approx(string, rel=0.02)
+    springs = lumped.calibrate(hanging().sheet, hanging().material, (33, 17))
+    lattice = lumped.modes(hanging(), springs, 2, about="deformed").frequencies
+    assert lattice[0] == pytest.approx(shell[0], rel=0.02)
+    assert fem_reference.modes(hanging(), "shell", 8, 1).frequencies[0] < 0.05 * string
+
+
+def test_the_unloaded_sheet_is_flat() -> None:
+    scene = load("two-edges-clamped").model_copy(update={"gravity": None})
+    springs = lumped.calibrate(scene.sheet, scene.material, (5, 5))
+    for about in ("deformed", "flat"):
+        found = lumped.modes(scene, springs, 4, about=about).frequencies
+        shell = fem_reference.modes(scene, "shell", 4, 4, about).frequencies
+        if about == "deformed":
+            first, second = found, shell
+    assert first == pytest.approx(found, rel=1e-9)
+    assert second == pytest.approx(shell, rel=1e-6)  # shift-invert: ε λ_max/λ_1
+
+
+def test_lattice_and_shell_agree_about_the_sagging_sheet() -> None:
+    """The seed's sheet sags by four thicknesses: its first frequency rises, in both models alike."""
+    found = spectra("two-edges-clamped", count=3, grid=17, elements=8, about="deformed")
+    flat = spectra("two-edges-clamped", count=3, grid=17, elements=8)
+    stiffened = [a.frequencies[0] / b.frequencies[0] for a, b in zip(found, flat, strict=True)]
+    assert stiffened[0] > 1.2 and stiffened[0] == pytest.approx(stiffened[1], rel=0.02)
+    assert flat.sag is not None and flat.sag > 3.0 * flat.scene.sheet.thickness
+
+
+def test_what_has_no_modes_is_refused_in_a_line() -> None:
+    scene = load("two-edges-clamped")
+    springs = lumped.calibrate(scene.sheet, scene.material, (5, 5))
+    pressed = scene.model_copy(update={"loads": (Pressure(value=1.0),)})
+    for ask in (
+        lambda: lumped.modes(pressed, springs, 2, about="deformed"),
+        lambda: fem_reference.modes(pressed, "shell", 2, 2, "deformed"),
+        lambda: fem_reference.modes(scene, "plate", 2, 2, "deformed"),
+        lambda: spectra(scene, count=1, about="sideways"),
+    ):
+        with pytest.raises(BadInput):
+            ask()
+
+
+def test_no_equilibrium_no_modes() -> None:
+    """A sheet a thousand times too soft is stretched beyond the model."""
+    scene = load("two-edges-clamped")
+    soft = scene.model_copy(update={"material": scene.material.model_copy(update={"young": 1e4})})
+    springs = lumped.calibrate(soft.sheet, soft.material, (5, 5))
+    with pytest.raises(NoEquilibrium, match="strain-outside-model"):
+        lumped.modes(soft, springs, 2, about="deformed")
+
+
+def test_the_verb_warns_of_a_sheet_that_is_not_flat(capsys: pytest.CaptureFixture[str]) -> None:
+    asked = ["modes", "two-edges-clamped", "--lumped", "5", "--elements", "2", "--count", "1"]
+    for more, warned in (([], True), (["--about", "deformed"], False)):
+        with pytest.raises(SystemExit) as caught:
+            main([*asked, *more, "--json"])
+        assert not caught.value.code
+        said = capsys.readouterr()
+        assert ("--about deformed" in said.err) is warned
+        assert json.loads(said.out)["about"] == ("flat" if warned else "deformed")

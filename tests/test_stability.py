@@ -163,6 +163,29 @@ def test_single_precision_says_when_it_has_no_digits_left():
     assert row["single_status"] == "converged" and row["single_error"] < 1e-5
 
 
+def test_a_cell_of_explicit_steps_runs_in_the_precision_it_names(monkeypatch):
+    """Limit and run both: the run under gravity was in double precision whatever the cell said."""
+    runs, asked = [], []
+
+    def simulate(*arguments, **options):
+        runs.append(genuine(*arguments, **options))
+        return runs[-1]
+
+    def limit(equations, guess):
+        asked.append(equations.assembly.precision)
+        return guess
+
+    genuine = lumped.simulate
+    monkeypatch.setattr(lumped, "simulate", simulate)
+    monkeypatch.setattr(time_step, "measured_limit", limit)
+    cell = {"masses": 3, "vertical": "4 C", "damping_ratio": 0.0, "slenderness": 0.016}
+    for precision in ("double", "single"):
+        time_step.measure("verlet", **cell, precision=precision)
+    assert asked == ["double", "single"]
+    assert "precision" not in runs[0].settings and runs[1].settings["precision"] == "single"
+    assert not np.array_equal(runs[0].probes["P4"], runs[1].probes["P4"])
+
+
 def test_mechanisms():
     coarse = compare(sheet(0.016, 3.0), (3, 3))
     assert coarse["error"] > 0.05 and coarse["mechanism"] == "resolution"

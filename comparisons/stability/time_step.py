@@ -85,7 +85,12 @@ def _explicit(
     heavy = scene.model_copy(update={"gravity": _gravity()})
     step = limit.advised
     run = lumped.simulate(
-        heavy, springs, SAFE_STEPS * step, integrator="verlet", every=0.1 * SAFE_STEPS * step
+        heavy,
+        springs,
+        SAFE_STEPS * step,
+        integrator="verlet",
+        every=0.1 * SAFE_STEPS * step,
+        precision=precision,
     )
     return {
         "status": str(run.status),

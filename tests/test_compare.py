@@ -12,7 +12,9 @@ import pytest
 from comparisons.comparison import comparison as displacement
 from comparisons.comparison import tables as summary
 from comparisons.comparison.comparison import Comparison, compare
+from comparisons.comparison.error_bar import ErrorBar
 from comparisons.report.files import to_json
+from fem_reference.uncertainty import estimate
 from sheetbench import scenes
 from sheetbench.scenes import Scene, Status
 from sheetbench.scenes.errors import BadInput
@@ -80,6 +82,21 @@ def test_a_probe_on_a_clamped_edge_has_no_relative_difference(scene: Scene) -> N
     lattice = fake_solutions.solution(held, "lumped", sample=round_off)
     first, second = Comparison(held, (lattice, replace(truth, sample=round_off))).differences
     assert (first.relative, second.relative) == (None, 0.0)
+
+
+def test_a_probe_on_a_clamped_edge_has_no_bar_in_percent(scene: Scene) -> None:
+    """The bar of rounding over rounding is no number that says anything."""
+    held = scene.model_copy(update={"probes": {"held": (0.0, 0.1), "free": (0.188, 0.188)}})
+    rounding = np.array([[1e-18], [0.0]])
+    meshes = [fake_solutions.solution(held, "shell", size).sample for size in (-0.01, -0.0101, -0.0103)]
+    answers = [sample(held.probe_points()) + i * rounding for i, sample in enumerate(meshes, start=1)]
+    bar = ErrorBar(estimate(answers, [1.0, 4.0 / 3.0, 2.0]), ("held", "free"), (16, 12, 8), 0.0)
+    truth = fake_solutions.solution(held, "shell", sample=lambda points: answers[0])
+    table = summary.displacements(Comparison(held, (fake_solutions.solution(held), truth), bar))
+    names = [column.name for column in table.columns]
+    rows = [dict(zip(names, row, strict=True)) for row in table.rows]
+    shown = {row["probe"]: row["±"] for row in rows if row["model"] == "shell"}
+    assert shown["held"] is None and 0.0 < shown["free"] < 0.1
 
 
 def test_a_companion_that_fails_does_not_make_the_comparison_fail(scene: Scene) -> None:

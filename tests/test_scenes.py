@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from sheetbench import scenes
@@ -105,6 +106,40 @@ def test_absent_probes_are_centre_mid_sides_and_far_corner(edge: str, far: tuple
         supports=(scenes.Clamped(edge=edge),),
     )
     assert scene.probes == {"P1": (0.1, 0.05), "P2": (0.1, far[1]), "P3": (far[0], 0.05), "P4": far}
+
+
+@pytest.mark.parametrize(
+    ("held", "at"),
+    [
+        ([("x0", "clamped"), ("x1", "clamped")], {"P2": (0.1, 0.1), "P3": (0.15, 0.05), "P4": (0.15, 0.1)}),
+        ([("y0", "hinged"), ("y1", "held")], {"P2": (0.1, 0.075), "P3": (0.2, 0.05), "P4": (0.2, 0.075)}),
+        (
+            [("x0", "hinged"), ("x1", "hinged"), ("y0", "hinged"), ("y1", "clamped")],
+            {"P2": (0.1, 0.075), "P3": (0.15, 0.05), "P4": (0.15, 0.075)},
+        ),
+        ([("x0", "symmetric"), ("x1", "clamped")], {"P2": (0.1, 0.1), "P3": (0.15, 0.05), "P4": (0.15, 0.1)}),
+        ([("x0", "clamped"), ("x1", "motion")], {"P2": (0.1, 0.1), "P3": (0.15, 0.05), "P4": (0.15, 0.1)}),
+    ],
+)
+def test_absent_probes_do_not_lie_where_the_sheet_is_held(
+    held: list[tuple[str, str]], at: dict[str, tuple[float, float]]
+) -> None:
+    more = {
+        "held": {"components": ["z"]},
+        "motion": {"time": [0.0, 1.0], "displacement": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.01]]},
+    }
+    parts = [{"edge": edge, "kind": kind, **more.get(kind, {})} for edge, kind in held]
+    scene = scenes.Scene.model_validate(
+        {
+            "name": "strip",
+            "sheet": {"length_x": 0.2, "length_y": 0.1, "thickness": 0.001},
+            "material": {"young": 1e6, "poisson": 0.3, "density": 1000.0},
+            "support": [part for part in parts if part["kind"] != "motion"],
+            "actuator": [part for part in parts if part["kind"] == "motion"],
+        }
+    )
+    assert list(scene.probes) == ["P1", "P2", "P3", "P4"]
+    assert scene.probe_points() == pytest.approx(np.array([(0.1, 0.05), *at.values()]))
 
 
 def test_python_and_toml_scenes_are_the_same() -> None:

@@ -90,6 +90,11 @@ class Comparison:
         values = solution.displacement(self.scene.probe_points())
         return dict(zip(self.scene.probes, values, strict=True))
 
+    @property
+    def least(self) -> float:
+        """The displacement [m] of the reference at a probe up to which it is rounding, as at a support."""
+        return ROUND_OFF * max(float(np.linalg.norm(u)) for u in self.probes(self.reference).values())
+
     def error(self, solution: Solution) -> float | None:
         """The solution's error against the reference."""
         if solution is self.reference or not (solution.comparable and self.reference.comparable):
@@ -100,8 +105,7 @@ class Comparison:
     @property
     def differences(self) -> tuple[Difference, ...]:
         """The relative difference of every other model from the reference at every probe."""
-        truth = self.probes(self.reference)
-        least = ROUND_OFF * max(float(np.linalg.norm(u)) for u in truth.values())
+        truth, least = self.probes(self.reference), self.least
         found = []
         for solution in self.solutions:
             if solution is self.reference:

@@ -71,7 +71,9 @@ def displacements(comparison: Comparison) -> Table:
     bars = {}
     if comparison.bar is not None:
         size = {probe: float(np.linalg.norm(u)) for probe, u in probes[comparison.reference.model].items()}
-        bars = {probe: comparison.bar.at(probe) / size[probe] for probe in size if size[probe] > 0.0}
+        bars = {
+            probe: comparison.bar.at(probe) / size[probe] for probe in size if size[probe] > comparison.least
+        }
     rows = [
         (
             probe,

@@ -51,7 +51,8 @@ class Scene(Frozen):
     area and strain springs keep."""
     probes: Annotated[dict[str, PlanPoint], Unit("m")] = Field(default_factory=dict)
     """Named plan points [x, y] of the undeformed sheet where displacements are told; without this table P1 is
-    the centre, P4 the corner farthest from the supports, P2 and P3 are the middles of the sides beside P4."""
+    the centre, P4 the corner farthest from the supports, P2 and P3 are the middles of the sides beside P4,
+    each a quarter of the sheet inside where it would lie on an edge that is held."""
 
     @model_validator(mode="before")
     @classmethod
@@ -61,12 +62,11 @@ class Scene(Frozen):
                 sheet = Sheet.model_validate(data["sheet"])
             except ValidationError:
                 return data  # the sheet's own fault is the one to report
-            supports = data.get("support") or data.get("supports") or ()
-            if not isinstance(supports, list | tuple):
-                return data
-            edges = [s.get("edge") if isinstance(s, dict) else getattr(s, "edge", None) for s in supports]
-            named = [edge for edge in edges if isinstance(edge, str) and edge in EDGES]
-            data = {**data, "probes": default_probes(sheet, named)}
+            supports = _edges(data.get("support") or data.get("supports") or ())
+            moved = _edges(data.get("actuator") or data.get("actuators") or ())
+            held = [edge for edge, part in supports if _holds_height(part)]
+            held += [edge for edge, part in moved if _said(part, "kind") == "motion"]
+            data = {**data, "probes": default_probes(sheet, [edge for edge, _ in supports], held)}
         return data
 
     @model_validator(mode="after")
@@ -109,13 +109,16 @@ class Scene(Frozen):
         return np.array(list(self.probes.values()), dtype=float).reshape(-1, 2)
 
 
-def default_probes(sheet: Sheet, supported_edges: list[str]) -> dict[str, PlanPoint]:
-    """Centre P1, middles P2 (y side) and P3 (x side) next to P4, the corner farthest from the supports."""
+def default_probes(sheet: Sheet, supported: list[str], held: list[str]) -> dict[str, PlanPoint]:
+    """Centre P1, middles P2 (y side) and P3 (x side) next to P4, the corner farthest from the supports.
+
+    A point on one of the edges that are `held` would tell nothing: it lies a quarter of the sheet inside.
+    """
     lx, ly = sheet.lengths
 
     def distance(corner: PlanPoint) -> float:
         total = 0.0
-        for name in supported_edges:
+        for name in supported:
             edge = EDGES[name]
             end = sheet.lengths[edge.normal_axis] if edge.far_end else 0.0
             total += abs(corner[edge.normal_axis] - end)
@@ -123,7 +126,35 @@ def default_probes(sheet: Sheet, supported_edges: list[str]) -> dict[str, PlanPo
 
     corners = [(lx, ly), (lx, 0.0), (0.0, ly), (0.0, 0.0)]
     far = max(corners, key=distance)  # ties go to (length_x, length_y)
-    return {"P1": (lx / 2, ly / 2), "P2": (lx / 2, far[1]), "P3": (far[0], ly / 2), "P4": far}
+
+    def free(point: PlanPoint) -> PlanPoint:
+        place = list(point)
+        for name in held:
+            axis, length = EDGES[name].normal_axis, sheet.lengths[EDGES[name].normal_axis]
+            if point[axis] == (length if EDGES[name].far_end else 0.0):
+                place[axis] = 0.75 * length if EDGES[name].far_end else 0.25 * length
+        return place[0], place[1]
+
+    points = {"P1": (lx / 2, ly / 2), "P2": (lx / 2, far[1]), "P3": (far[0], ly / 2), "P4": far}
+    return {name: free(point) for name, point in points.items()}
+
+
+def _edges(parts: Any) -> list[tuple[str, Any]]:
+    """The supports or actuators as they are asked for, as far as they name an edge, with their edges."""
+    if not isinstance(parts, list | tuple):
+        return []
+    named = [(_said(part, "edge"), part) for part in parts]
+    return [(edge, part) for edge, part in named if isinstance(edge, str) and edge in EDGES]
+
+
+def _said(part: Any, key: str) -> Any:
+    return part.get(key) if isinstance(part, dict) else getattr(part, key, None)
+
+
+def _holds_height(support: Any) -> bool:
+    """Whether a support, as it is asked for, holds the mid-surface along z."""
+    kind, components = _said(support, "kind"), _said(support, "components")
+    return "z" in (components or ()) if kind == "held" else kind != "symmetric"
 
 
 def free_rigid_motions(scene: Scene) -> list[str]:

@@ -28,7 +28,6 @@ from comparisons.stability.vibrating import (
     system,
     weightless,
 )
-from lumped.assembly import Precision
 
 IMPLICIT = ("generalised-alpha", "midpoint", "projective")
 AMPLITUDE = 1e-3  # of the thickness
@@ -64,7 +63,7 @@ def measure(integrator: str, **cell: Any) -> Row:
 
 
 def _explicit(
-    masses: int, vertical: str, damping_ratio: float, slenderness: float, precision: Precision = "double"
+    masses: int, vertical: str, damping_ratio: float, slenderness: float, precision: Any = "double"
 ) -> Row:
     import lumped
     from lumped import step_limit

@@ -149,7 +149,9 @@ class Loads:
         mean = x[corners].mean(axis=2)
         return corners, mean[:, 2] - mean[:, 0], mean[:, 3] - mean[:, 1]
 
-    def _couple(self, x: np.ndarray, edge: np.ndarray, moment: np.ndarray, turn: float):
+    def _couple(
+        self, x: np.ndarray, edge: np.ndarray, moment: np.ndarray, turn: float
+    ) -> tuple[np.ndarray, ...]:
         """Top and bottom masses, the force on the top, and what its derivative needs."""
         mean = x[edge].mean(axis=1)
         last = np.arange(len(edge))
@@ -163,7 +165,9 @@ class Loads:
         couple = (moment / square)[:, None] * np.cross(tangent, director)
         return top, bottom, couple, tangent, length, director, square, before, after
 
-    def _add_couple_tangent(self, x, edge, moment, turn, blocks) -> None:
+    def _add_couple_tangent(
+        self, x: np.ndarray, edge: np.ndarray, moment: np.ndarray, turn: float, blocks: np.ndarray
+    ) -> None:
         top, bottom, couple, tangent, length, director, square, before, after = self._couple(
             x, edge, moment, turn
         )

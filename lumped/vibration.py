@@ -134,12 +134,20 @@ def frequency_slopes(
     return found.frequencies, slopes
 
 
-def _product(problem, rest, shape):
+def _product(problem: Problem, rest: np.ndarray, shape: np.ndarray) -> np.ndarray:
     """K times a shape (n, 3), K the tangent at rest."""
     return problem.system.apply(problem.assembly.tangent(rest), shape)
 
 
-def _shift_invert(scene, problem, blocks, stiffness, mass, weight, wanted):
+def _shift_invert(
+    scene: Scene,
+    problem: Problem,
+    blocks: np.ndarray,
+    stiffness: sp.csc_array,
+    mass: sp.csc_array,
+    weight: np.ndarray,
+    wanted: int,
+) -> tuple[np.ndarray, np.ndarray]:
     """Lanczos on (K − σM)⁻¹, σ = −100 E h²/(12 ρ a⁴), as far below zero as the lowest elastic eigenvalue of a
     plate is above it (12 to 1300 of E h²/(12 ρ a⁴), by its supports).
 

@@ -229,7 +229,7 @@ def _superlu(matrix: sp.csc_array, symmetric: bool) -> Factor:
     return Factor(matrix, lambda b: scale * factors.solve(scale * b), negative)
 
 
-def _expand(transform: sp.csr_array, rows: np.ndarray, columns: np.ndarray):
+def _expand(transform: sp.csr_array, rows: np.ndarray, columns: np.ndarray) -> tuple[np.ndarray, ...]:
     """Entries of Tᵀ K T that each entry (row, column) of K feeds: source entry, row, column, weight."""
     counts = np.diff(transform.indptr)
     left, right = counts[rows], counts[columns]

@@ -20,7 +20,9 @@ from lumped.springs.areas import add_tangent, cross, diagonal_changes, measure, 
 
 
 @njit(cache=True)
-def rates(u: np.ndarray, v: np.ndarray, nodes, diagonals, damping) -> np.ndarray:
+def rates(
+    u: np.ndarray, v: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, damping: np.ndarray
+) -> np.ndarray:
     """Stress c ȧ/a0 of every cell's damper, (c,) [N/m]."""
     change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     normal, work = np.empty(3), np.empty(3)
@@ -36,7 +38,14 @@ def rates(u: np.ndarray, v: np.ndarray, nodes, diagonals, damping) -> np.ndarray
 
 
 @njit(cache=True)
-def add_forces(u, v, nodes, diagonals, damping, force) -> float:
+def add_forces(
+    u: np.ndarray,
+    v: np.ndarray,
+    nodes: np.ndarray,
+    diagonals: np.ndarray,
+    damping: np.ndarray,
+    force: np.ndarray,
+) -> float:
     """Add the damping force, signed as an internal one, to `force` (n, 3) [N]; the power taken [W]."""
     change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     normal, work = np.empty(3), np.empty(3)
@@ -57,13 +66,29 @@ def add_forces(u, v, nodes, diagonals, damping, force) -> float:
 
 
 @njit(cache=True)
-def add_velocity_tangent(u, nodes, diagonals, damping, slots, scale, blocks) -> None:
+def add_velocity_tangent(
+    u: np.ndarray,
+    nodes: np.ndarray,
+    diagonals: np.ndarray,
+    damping: np.ndarray,
+    slots: np.ndarray,
+    scale: float,
+    blocks: np.ndarray,
+) -> None:
     """Add scale × the derivative of the force with respect to the velocity to the 3×3 blocks."""
     add_tangent(u, nodes, diagonals, scale * damping, np.zeros(len(nodes)), slots, blocks)
 
 
 @njit(cache=True)
-def add_displacement_tangent(u, v, nodes, diagonals, damping, slots, blocks) -> None:
+def add_displacement_tangent(
+    u: np.ndarray,
+    v: np.ndarray,
+    nodes: np.ndarray,
+    diagonals: np.ndarray,
+    damping: np.ndarray,
+    slots: np.ndarray,
+    blocks: np.ndarray,
+) -> None:
     """Add the derivative of the force with respect to the displacement to the 3×3 blocks."""
     add_tangent(
         u, nodes, diagonals, np.zeros(len(nodes)), rates(u, v, nodes, diagonals, damping), slots, blocks

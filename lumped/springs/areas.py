@@ -21,14 +21,14 @@ from numba import njit
 
 
 @njit(cache=True)
-def cross(a, b, out):
+def cross(a: np.ndarray, b: np.ndarray, out: np.ndarray) -> None:
     out[0] = a[1] * b[2] - a[2] * b[1]
     out[1] = a[2] * b[0] - a[0] * b[2]
     out[2] = a[0] * b[1] - a[1] * b[0]
 
 
 @njit(cache=True)
-def diagonal_changes(u, nodes, c, change):
+def diagonal_changes(u: np.ndarray, nodes: np.ndarray, c: int, change: np.ndarray) -> None:
     """Change of the two diagonals of cell c, (2, 3), into `change`."""
     p = nodes.shape[2]
     for q in range(3):
@@ -41,7 +41,17 @@ def diagonal_changes(u, nodes, c, change):
 
 
 @njit(cache=True)
-def measure(u, nodes, diagonals, c, change, current, normal, gradient, work):
+def measure(
+    u: np.ndarray,
+    nodes: np.ndarray,
+    diagonals: np.ndarray,
+    c: int,
+    change: np.ndarray,
+    current: np.ndarray,
+    normal: np.ndarray,
+    gradient: np.ndarray,
+    work: np.ndarray,
+) -> tuple[float, float, float]:
     """Relative area change, rest area, |c|; fills normal (3,) and gradient (2, 3) = ∂a/∂d1, ∂a/∂d2."""
     diagonal_changes(u, nodes, c, change)
     d1, d2 = diagonals[c, 0], diagonals[c, 1]
@@ -74,7 +84,7 @@ def measure(u, nodes, diagonals, c, change, current, normal, gradient, work):
 
 
 @njit(cache=True)
-def scatter(nodes, c, pair, force) -> None:
+def scatter(nodes: np.ndarray, c: int, pair: np.ndarray, force: np.ndarray) -> None:
     """Add forces (2, 3) on the two diagonals of cell c to its masses."""
     p = nodes.shape[2]
     for q in range(3):
@@ -86,7 +96,7 @@ def scatter(nodes, c, pair, force) -> None:
 
 
 @njit(cache=True)
-def stresses(u: np.ndarray, nodes, diagonals, stiffness) -> np.ndarray:
+def stresses(u: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
     """Stress k (a/a0 − 1) of every cell, (c,) [N/m]."""
     change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     normal, work = np.empty(3), np.empty(3)
@@ -98,7 +108,9 @@ def stresses(u: np.ndarray, nodes, diagonals, stiffness) -> np.ndarray:
 
 
 @njit(cache=True)
-def extrapolated_stresses(u, step, nodes, diagonals, stiffness) -> np.ndarray:
+def extrapolated_stresses(
+    u: np.ndarray, step: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray
+) -> np.ndarray:
     """Stresses that the linearisation at u predicts after `step` (n, 3) [m]; (c,) [N/m]."""
     change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     normal, work = np.empty(3), np.empty(3)
@@ -114,7 +126,9 @@ def extrapolated_stresses(u, step, nodes, diagonals, stiffness) -> np.ndarray:
 
 
 @njit(cache=True)
-def add_forces(u, nodes, diagonals, stiffness, force) -> float:
+def add_forces(
+    u: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray, force: np.ndarray
+) -> float:
     """Add the internal force to `force` (n, 3) [N]; returns the energy [J]."""
     change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     normal, work = np.empty(3), np.empty(3)
@@ -131,7 +145,7 @@ def add_forces(u, nodes, diagonals, stiffness, force) -> float:
 
 
 @njit(cache=True)
-def _products(d):
+def _products(d: np.ndarray) -> tuple[float, float, float]:
     """g11, g12, g22 of two vectors (2, 3)."""
     g11 = d[0, 0] * d[0, 0] + d[0, 1] * d[0, 1] + d[0, 2] * d[0, 2]
     g12 = d[0, 0] * d[1, 0] + d[0, 1] * d[1, 1] + d[0, 2] * d[1, 2]
@@ -140,7 +154,14 @@ def _products(d):
 
 
 @njit(cache=True)
-def add_average_forces(start, end, nodes, diagonals, stiffness, force) -> None:
+def add_average_forces(
+    start: np.ndarray,
+    end: np.ndarray,
+    nodes: np.ndarray,
+    diagonals: np.ndarray,
+    stiffness: np.ndarray,
+    force: np.ndarray,
+) -> None:
     """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it:
 
     τ̄ (ḡ22 d̄1 − ḡ12 d̄2, ḡ11 d̄2 − ḡ12 d̄1)/(|c0| + |c1|),   τ̄ = k ((a0 + a1)/2a_rest − 1)
@@ -171,7 +192,15 @@ def add_average_forces(start, end, nodes, diagonals, stiffness, force) -> None:
 
 
 @njit(cache=True)
-def add_tangent(u, nodes, diagonals, stiffness, stress, slots, blocks) -> None:
+def add_tangent(
+    u: np.ndarray,
+    nodes: np.ndarray,
+    diagonals: np.ndarray,
+    stiffness: np.ndarray,
+    stress: np.ndarray,
+    slots: np.ndarray,
+    blocks: np.ndarray,
+) -> None:
     """Add (k/a0) ∇a ∇aᵀ + τ ∇²a of every cell to the 3×3 blocks."""
     change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     normal, work = np.empty(3), np.empty(3)

@@ -13,7 +13,14 @@ from lumped.springs.links import stretch
 
 
 @njit(cache=True)
-def add_forces(u, nodes, offset, rest_length, stiffness, force) -> float:
+def add_forces(
+    u: np.ndarray,
+    nodes: np.ndarray,
+    offset: np.ndarray,
+    rest_length: np.ndarray,
+    stiffness: np.ndarray,
+    force: np.ndarray,
+) -> float:
     """Add the force on the links' ends to `force` (n, 3) [N]; there is no energy, 0 [J]."""
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
@@ -26,7 +33,16 @@ def add_forces(u, nodes, offset, rest_length, stiffness, force) -> float:
 
 
 @njit(cache=True)
-def add_tangent(u, nodes, offset, rest_length, stiffness, stress, slots, blocks) -> None:
+def add_tangent(
+    u: np.ndarray,
+    nodes: np.ndarray,
+    offset: np.ndarray,
+    rest_length: np.ndarray,
+    stiffness: np.ndarray,
+    stress: np.ndarray,
+    slots: np.ndarray,
+    blocks: np.ndarray,
+) -> None:
     """Tangent of the per-direction law, diag(k) [n nᵀ + (e/r)(I − n nᵀ)]; `stress` is not looked at."""
     n = np.empty(3)
     for m in range(len(nodes)):

@@ -16,7 +16,15 @@ from lumped.springs.links import stretch
 
 
 @njit(cache=True)
-def add_forces(u: np.ndarray, v: np.ndarray, nodes, offset, rest_length, damping, force) -> float:
+def add_forces(
+    u: np.ndarray,
+    v: np.ndarray,
+    nodes: np.ndarray,
+    offset: np.ndarray,
+    rest_length: np.ndarray,
+    damping: np.ndarray,
+    force: np.ndarray,
+) -> float:
     """Add the damping force, signed as an internal one, to `force` (n, 3) [N]; the power taken [W]."""
     power = 0.0
     for m in range(len(nodes)):
@@ -35,7 +43,16 @@ def add_forces(u: np.ndarray, v: np.ndarray, nodes, offset, rest_length, damping
 
 
 @njit(cache=True)
-def add_velocity_tangent(u, nodes, offset, rest_length, damping, slots, scale, blocks) -> None:
+def add_velocity_tangent(
+    u: np.ndarray,
+    nodes: np.ndarray,
+    offset: np.ndarray,
+    rest_length: np.ndarray,
+    damping: np.ndarray,
+    slots: np.ndarray,
+    scale: float,
+    blocks: np.ndarray,
+) -> None:
     """Add scale × the derivative of the force with respect to the velocity, c n nᵀ, to the 3×3 blocks."""
     n = np.empty(3)
     for m in range(len(nodes)):
@@ -50,7 +67,16 @@ def add_velocity_tangent(u, nodes, offset, rest_length, damping, slots, scale, b
 
 
 @njit(cache=True)
-def add_displacement_tangent(u, v, nodes, offset, rest_length, damping, slots, blocks) -> None:
+def add_displacement_tangent(
+    u: np.ndarray,
+    v: np.ndarray,
+    nodes: np.ndarray,
+    offset: np.ndarray,
+    rest_length: np.ndarray,
+    damping: np.ndarray,
+    slots: np.ndarray,
+    blocks: np.ndarray,
+) -> None:
     """Add the derivative of the force with respect to the displacement to the 3×3 blocks."""
     n, across = np.empty(3), np.empty(3)
     for m in range(len(nodes)):

@@ -20,7 +20,9 @@ from numba import njit
 
 
 @njit(cache=True, inline="always")
-def stretch(u, nodes, offset, rest_length, m):
+def stretch(
+    u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest_length: np.ndarray, m: int
+) -> tuple[float, float, float, float, float]:
     """Elongation, current length and unit vector of link m."""
     a, b = nodes[m, 0], nodes[m, 1]
     dx, dy, dz = u[b, 0] - u[a, 0], u[b, 1] - u[a, 1], u[b, 2] - u[a, 2]
@@ -33,7 +35,9 @@ def stretch(u, nodes, offset, rest_length, m):
 
 
 @njit(cache=True)
-def stresses(u: np.ndarray, nodes, offset, rest_length, stiffness) -> np.ndarray:
+def stresses(
+    u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest_length: np.ndarray, stiffness: np.ndarray
+) -> np.ndarray:
     """Tension of every link, (m,) [N]."""
     out = np.empty(len(nodes))
     for m in range(len(nodes)):
@@ -42,7 +46,14 @@ def stresses(u: np.ndarray, nodes, offset, rest_length, stiffness) -> np.ndarray
 
 
 @njit(cache=True)
-def extrapolated_stresses(u, step, nodes, offset, rest_length, stiffness) -> np.ndarray:
+def extrapolated_stresses(
+    u: np.ndarray,
+    step: np.ndarray,
+    nodes: np.ndarray,
+    offset: np.ndarray,
+    rest_length: np.ndarray,
+    stiffness: np.ndarray,
+) -> np.ndarray:
     """Tensions k (e(u) + n·δ) that the linearisation at u predicts after `step` (n, 3) [m]; (m,) [N]."""
     out = np.empty(len(nodes))
     for m in range(len(nodes)):
@@ -56,7 +67,14 @@ def extrapolated_stresses(u, step, nodes, offset, rest_length, stiffness) -> np.
 
 
 @njit(cache=True)
-def add_forces(u, nodes, offset, rest_length, stiffness, force) -> float:
+def add_forces(
+    u: np.ndarray,
+    nodes: np.ndarray,
+    offset: np.ndarray,
+    rest_length: np.ndarray,
+    stiffness: np.ndarray,
+    force: np.ndarray,
+) -> float:
     """Add the internal force (gradient of the energy) to `force` (n, 3) [N]; returns the energy [J]."""
     energy = 0.0
     for m in range(len(nodes)):
@@ -74,7 +92,15 @@ def add_forces(u, nodes, offset, rest_length, stiffness, force) -> float:
 
 
 @njit(cache=True)
-def add_average_forces(start, end, nodes, offset, rest_length, stiffness, force) -> None:
+def add_average_forces(
+    start: np.ndarray,
+    end: np.ndarray,
+    nodes: np.ndarray,
+    offset: np.ndarray,
+    rest_length: np.ndarray,
+    stiffness: np.ndarray,
+    force: np.ndarray,
+) -> None:
     """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it:
 
     k (e0 + e1)/(l0 + l1) r̄, with r̄ the mean of relative positions, since l1² − l0² = 2 r̄·Δr and
@@ -92,7 +118,16 @@ def add_average_forces(start, end, nodes, offset, rest_length, stiffness, force)
 
 
 @njit(cache=True)
-def add_tangent(u, nodes, offset, rest_length, stiffness, tension, slots, blocks) -> None:
+def add_tangent(
+    u: np.ndarray,
+    nodes: np.ndarray,
+    offset: np.ndarray,
+    rest_length: np.ndarray,
+    stiffness: np.ndarray,
+    tension: np.ndarray,
+    slots: np.ndarray,
+    blocks: np.ndarray,
+) -> None:
     """Add k n nᵀ + (N/r)(I − n nᵀ) of every link to the 3×3 blocks."""
     n = np.empty(3)
     for m in range(len(nodes)):

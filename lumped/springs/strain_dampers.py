@@ -17,7 +17,17 @@ from lumped.springs.strains import A_SIGNS, B_SIGNS, add_tangent, measure, scatt
 
 
 @njit(cache=True)
-def _rates(v, nodes, diagonals, c, change, sides, a0, b0, moving):
+def _rates(
+    v: np.ndarray,
+    nodes: np.ndarray,
+    diagonals: np.ndarray,
+    c: int,
+    change: np.ndarray,
+    sides: np.ndarray,
+    a0: float,
+    b0: float,
+    moving: np.ndarray,
+) -> tuple[float, float, float]:
     """ε̇1, ε̇2, γ̇; fills moving (2, 3), the velocities of the sides."""
     diagonal_changes(v, nodes, c, change)
     r1 = r2 = r3 = 0.0
@@ -31,7 +41,9 @@ def _rates(v, nodes, diagonals, c, change, sides, a0, b0, moving):
 
 
 @njit(cache=True)
-def rates(u: np.ndarray, v: np.ndarray, nodes, diagonals, damping) -> np.ndarray:
+def rates(
+    u: np.ndarray, v: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, damping: np.ndarray
+) -> np.ndarray:
     """Stresses c ε̇ of every cell's dampers, (c, 3) [N/m]."""
     change, sides, moving = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     out = np.empty((len(nodes), 3))
@@ -43,7 +55,14 @@ def rates(u: np.ndarray, v: np.ndarray, nodes, diagonals, damping) -> np.ndarray
 
 
 @njit(cache=True)
-def add_forces(u, v, nodes, diagonals, damping, force) -> float:
+def add_forces(
+    u: np.ndarray,
+    v: np.ndarray,
+    nodes: np.ndarray,
+    diagonals: np.ndarray,
+    damping: np.ndarray,
+    force: np.ndarray,
+) -> float:
     """Add the damping force, signed as an internal one, to `force` (n, 3) [N]; the power taken [W]."""
     change, sides, moving = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     power = 0.0
@@ -57,13 +76,29 @@ def add_forces(u, v, nodes, diagonals, damping, force) -> float:
 
 
 @njit(cache=True)
-def add_velocity_tangent(u, nodes, diagonals, damping, slots, scale, blocks) -> None:
+def add_velocity_tangent(
+    u: np.ndarray,
+    nodes: np.ndarray,
+    diagonals: np.ndarray,
+    damping: np.ndarray,
+    slots: np.ndarray,
+    scale: float,
+    blocks: np.ndarray,
+) -> None:
     """Add scale × the derivative of the force with respect to the velocity to the 3×3 blocks."""
     add_tangent(u, nodes, diagonals, scale * damping, np.zeros((len(nodes), 3)), slots, blocks)
 
 
 @njit(cache=True)
-def add_displacement_tangent(u, v, nodes, diagonals, damping, slots, blocks) -> None:
+def add_displacement_tangent(
+    u: np.ndarray,
+    v: np.ndarray,
+    nodes: np.ndarray,
+    diagonals: np.ndarray,
+    damping: np.ndarray,
+    slots: np.ndarray,
+    blocks: np.ndarray,
+) -> None:
     """Add the derivative of the force with respect to the displacement to the 3×3 blocks."""
     none = np.zeros((len(nodes), 3))
     add_tangent(u, nodes, diagonals, none, rates(u, v, nodes, diagonals, damping), slots, blocks)

@@ -25,7 +25,9 @@ B_SIGNS = np.array([-0.5, -0.5, 0.5, 0.5])
 
 
 @njit(cache=True)
-def measure(u, nodes, diagonals, c, change, sides):
+def measure(
+    u: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, c: int, change: np.ndarray, sides: np.ndarray
+) -> tuple[float, float, float, float, float]:
     """Strains ε1, ε2, γ and the squares a0², b0²; fills change (2, 3) of the sides, and sides (2, 3)."""
     diagonal_changes(u, nodes, c, change)
     first = second = shear = a0 = b0 = 0.0
@@ -47,7 +49,7 @@ def measure(u, nodes, diagonals, c, change, sides):
 
 
 @njit(cache=True)
-def stresses(u: np.ndarray, nodes, diagonals, stiffness) -> np.ndarray:
+def stresses(u: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
     """Stresses k ε of every cell, (c, 3) [N/m]."""
     change, sides = np.empty((2, 3)), np.empty((2, 3))
     out = np.empty((len(nodes), 3))
@@ -58,7 +60,9 @@ def stresses(u: np.ndarray, nodes, diagonals, stiffness) -> np.ndarray:
 
 
 @njit(cache=True)
-def extrapolated_stresses(u, step, nodes, diagonals, stiffness) -> np.ndarray:
+def extrapolated_stresses(
+    u: np.ndarray, step: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray
+) -> np.ndarray:
     """Stresses that the linearisation at u predicts after `step` (n, 3) [m]; (c, 3) [N/m]."""
     change, sides = np.empty((2, 3)), np.empty((2, 3))
     out = np.empty((len(nodes), 3))
@@ -75,7 +79,17 @@ def extrapolated_stresses(u, step, nodes, diagonals, stiffness) -> np.ndarray:
 
 
 @njit(cache=True)
-def scatter(nodes, c, t1, t2, t3, sides, a0, b0, force):
+def scatter(
+    nodes: np.ndarray,
+    c: int,
+    t1: float,
+    t2: float,
+    t3: float,
+    sides: np.ndarray,
+    a0: float,
+    b0: float,
+    force: np.ndarray,
+) -> None:
     """Add the forces of stresses t1, t2, t3 on sides (2, 3) of cell c."""
     p = nodes.shape[2]
     area = np.sqrt(a0 * b0)
@@ -89,7 +103,9 @@ def scatter(nodes, c, t1, t2, t3, sides, a0, b0, force):
 
 
 @njit(cache=True)
-def add_forces(u, nodes, diagonals, stiffness, force) -> float:
+def add_forces(
+    u: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray, force: np.ndarray
+) -> float:
     """Add the internal force to `force` (n, 3) [N]; returns the energy [J]."""
     change, sides = np.empty((2, 3)), np.empty((2, 3))
     energy = 0.0
@@ -102,7 +118,14 @@ def add_forces(u, nodes, diagonals, stiffness, force) -> float:
 
 
 @njit(cache=True)
-def add_average_forces(start, end, nodes, diagonals, stiffness, force) -> None:
+def add_average_forces(
+    start: np.ndarray,
+    end: np.ndarray,
+    nodes: np.ndarray,
+    diagonals: np.ndarray,
+    stiffness: np.ndarray,
+    force: np.ndarray,
+) -> None:
     """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it.
 
     The strains are quadratic in the sides: the mean stress on the mean sides is exact (Simo, Tarnow 1992).
@@ -121,7 +144,15 @@ def add_average_forces(start, end, nodes, diagonals, stiffness, force) -> None:
 
 
 @njit(cache=True)
-def add_tangent(u, nodes, diagonals, stiffness, stress, slots, blocks) -> None:
+def add_tangent(
+    u: np.ndarray,
+    nodes: np.ndarray,
+    diagonals: np.ndarray,
+    stiffness: np.ndarray,
+    stress: np.ndarray,
+    slots: np.ndarray,
+    blocks: np.ndarray,
+) -> None:
     """Add Σ k g gᵀ and the stresses' geometric part of every cell to the 3×3 blocks."""
     change, sides = np.empty((2, 3)), np.empty((2, 3))
     gradient = np.empty((3, 4, 3))  # of each strain at each corner

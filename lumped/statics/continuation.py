@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lumped.calibration import Calibration
-from lumped.linear.solver import SingularMatrixError
+from lumped.linear.solver import Factor, SingularMatrixError
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
 from lumped.statics.equilibrium import COARSE, State, StepFailed, all_rounding, at_rest, follow
@@ -191,7 +191,7 @@ def _per_load(problem: Problem, state: State, blocks: np.ndarray) -> np.ndarray:
     return loaded + _prescribed_rate(problem, state.load_factor, state.factor, blocks)
 
 
-def _prescribed_rate(problem: Problem, load_factor: float, factor, blocks: np.ndarray) -> np.ndarray:
+def _prescribed_rate(problem: Problem, load_factor: float, factor: Factor, blocks: np.ndarray) -> np.ndarray:
     """What the supports' own movement adds to the displacement per unit of load factor, (n, 3) [m]."""
     h = 1e-6
     rate = (problem.prescribed(load_factor + h) - problem.prescribed(load_factor - h)) / (2.0 * h)

@@ -7,8 +7,26 @@ import io
 import pytest
 from rich.console import Console
 
-from comparisons.cli import console
+from comparisons.cli import characters, console
 from comparisons.runs.campaign import Progress
+
+
+@pytest.mark.parametrize(
+    ("encoding", "text", "printed"),
+    [
+        ("ascii", "ν = 0.48, κ₀ −1.5e−3 ± 2 %, 9 × 9", "nu = 0.48, kappa0 -1.5e-3 +- 2 %, 9 x 9"),
+        ("ascii", "ρ² m⁻¹ Σ ½ é ω̇ │─┼ …", "rho^2 m^-1 Sigma 1/2 e omega |-+ ..."),
+        ("latin-1", "µ ± ² × é −", "µ ± ² × é -"),
+        ("utf-8", "ν ω̇ ❤", "ν ω̇ ❤"),
+        ("ascii", "❤", "?"),
+    ],
+)
+def test_what_an_encoding_lacks_is_spelled(encoding: str, text: str, printed: str) -> None:
+    stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
+    characters.adapt(stream)
+    stream.write(text)
+    stream.flush()
+    assert stream.buffer.getvalue().decode(encoding) == printed == characters.spelled(text, encoding)  # type: ignore[attr-defined]
 
 
 @pytest.mark.parametrize("width", [50, 80, 160])

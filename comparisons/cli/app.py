@@ -4,18 +4,21 @@ A verb is a module of this package named like the verb, with a function `command
 quick, so a verb imports what it works with inside that function.
 
 Exit status: 0 done; 1 a fault of the program, with its traceback; 2 bad input, said in one line; 3 a solver
-did not converge.
+did not converge; 130 interrupted.
 """
 
 from __future__ import annotations
 
 import sys
 import traceback
+from collections.abc import Callable
+from functools import wraps
 from importlib import import_module
+from typing import Any
 
 import typer
 
-from comparisons.cli import warned
+from comparisons.cli import characters, interruption, warned
 
 VERBS = (
     "new",
@@ -44,8 +47,21 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+
+
+def _with_promise(verb: str, command: Callable[..., None]) -> Callable[..., None]:
+    """The command, which notes first what an interrupt of it leaves behind."""
+
+    @wraps(command)
+    def run(**given: Any) -> None:
+        interruption.promise(verb, given.get("out"))
+        command(**given)
+
+    return run
+
+
 for _verb in VERBS:
-    app.command(_verb)(import_module(f"comparisons.cli.{_verb}").command)
+    app.command(_verb)(_with_promise(_verb, import_module(f"comparisons.cli.{_verb}").command))
 
 
 def _print_version(asked: bool) -> None:
@@ -69,21 +85,32 @@ def _help_where_nothing_is_asked(
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit status."""
-    try:
-        with warned.in_a_line():
+    for stream in (sys.stdout, sys.stderr):
+        characters.adapt(stream)
+    with interruption.heeded(), warned.in_a_line():
+        try:
             app(args=arguments, prog_name="sheetbench")
-    except Exception as error:
-        from sheetbench.scenes.errors import BadInput  # with numpy and pydantic: help must not wait for them
+        except SystemExit as leaving:
+            if leaving.code == interruption.STATUS:
+                interruption.say()
+            raise
+        except Exception as error:
+            raise SystemExit(_explained(error)) from None
 
-        if isinstance(error, BadInput):
-            from comparisons.report.escape import terminal
 
-            print(f"sheetbench: {terminal(' '.join(str(error).split()))}", file=sys.stderr)
-            raise SystemExit(BAD_INPUT) from None
-        traceback.print_exc()
-        print(
-            "sheetbench: this is a fault of the program, not of your input: please report it, with the lines "
-            "above and the command",
-            file=sys.stderr,
-        )
-        raise SystemExit(FAULT) from None
+def _explained(error: Exception) -> int:
+    """Say what the user did wrong, or that we did; the exit status."""
+    from sheetbench.scenes.errors import BadInput  # with numpy and pydantic: help must not wait for them
+
+    if isinstance(error, BadInput):
+        from comparisons.report.escape import terminal
+
+        print(f"sheetbench: {terminal(' '.join(str(error).split()))}", file=sys.stderr)
+        return BAD_INPUT
+    traceback.print_exception(error)
+    print(
+        "sheetbench: this is a fault of the program, not of your input: please report it, with the lines "
+        "above and the command",
+        file=sys.stderr,
+    )
+    return FAULT

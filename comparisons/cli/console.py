@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.text import Text
 
+from comparisons.cli.characters import spelled, takes_everything
 from comparisons.report.escape import terminal
 
 if TYPE_CHECKING:
@@ -19,14 +20,19 @@ out = Console(highlight=False)
 err = Console(stderr=True, highlight=False)
 
 
+def _said(text: str, keep: str = "") -> str:
+    """A text without control characters but those in `keep`, in characters that the output's encoding has."""
+    return spelled(terminal(text, keep), out.encoding)
+
+
 @contextmanager
 def progress() -> Iterator[Callable[[str], None]]:
     """A function that says on standard error what is being done: a spinner on a terminal, else lines."""
     if not err.is_terminal:
         yield lambda text: err.print(text, markup=False)
         return
-    with err.status("") as spinner:
-        yield lambda text: spinner.update(Text(text))
+    with err.status("", spinner="dots" if takes_everything(err.encoding) else "line") as spinner:
+        yield lambda text: spinner.update(Text(spelled(terminal(text), err.encoding)))
 
 
 @contextmanager
@@ -65,7 +71,7 @@ def _duration(seconds: float) -> str:
 
 def heading(title: str, subtitle: str = "") -> None:
     """What the output is about."""
-    said = Text.assemble((terminal(title), "bold"), f"  {terminal(subtitle)}" if subtitle else "")
+    said = Text.assemble((_said(title), "bold"), f"  {_said(subtitle)}" if subtitle else "")
     out.print(said, soft_wrap=True)
 
 
@@ -74,21 +80,21 @@ def show(table: Table) -> None:
     from comparisons.report.layout import blocks
 
     out.print()
-    for line in _fitted(terminal(table.caption)):
+    for line in _fitted(_said(table.caption)):
         out.print(Text(line, style="bold"), soft_wrap=True)
-    for i, block in enumerate(blocks(table, out.width if out.is_terminal else None)):
+    for i, block in enumerate(blocks(table, out.width if out.is_terminal else None, _said)):
         if i > 0:
             out.print()
         for line in block.head:
             out.print(Text(line, style="bold"), soft_wrap=True)
-        for line in [block.rule, *block.rows]:
+        for line in [_said(block.rule), *block.rows]:
             out.print(Text(line), soft_wrap=True)
     out.print()
 
 
 def note(text: str) -> None:
     """A remark under the tables; its lines are broken between words."""
-    for line in terminal(text, keep="\n").split("\n"):
+    for line in _said(text, keep="\n").split("\n"):
         for part in _fitted(line):
             out.print(Text(part, style="dim"), soft_wrap=True)
 

@@ -7,7 +7,7 @@ the width itself is broken, and goes on in the next line: nothing is ever cut of
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import chain
 
@@ -31,20 +31,22 @@ class Block:
 
 @dataclass(frozen=True)
 class _Strip:
-    """A column with its cells as text, and the widths that it may have."""
+    """A column with its name, unit and cells as text, and the widths that it may have."""
 
     column: Column
+    name: str
+    unit: str
     cells: list[str]
 
     @property
     def wide(self) -> int:
         """Width without a broken line."""
-        return max(map(cell_len, [*self.cells, self.column.name, self.unit]))
+        return max(map(cell_len, [*self.cells, self.name, self.unit]))
 
     @property
     def narrow(self) -> int:
         """The least width at which every number and word is whole."""
-        words = chain(self.column.name.split(), *(c.split() for c in self.cells if self.column.prose))
+        words = chain(self.name.split(), *(c.split() for c in self.cells if self.column.prose))
         whole = [] if self.column.prose else self.cells
         return max(map(cell_len, [*whole, *words, self.unit]))
 
@@ -53,21 +55,27 @@ class _Strip:
         """The width below which columns are stacked rather than prose squeezed."""
         return max(self.narrow, min(self.wide, PROSE)) if self.column.prose else self.narrow
 
-    @property
-    def unit(self) -> str:
-        """The shown unit in brackets."""
-        return f"[{self.column.shown_unit}]" if self.column.shown_unit else ""
 
+def blocks(table: Table, width: int | None, say: Callable[[str], str] = terminal) -> list[Block]:
+    """The table without its details, in blocks of at most `width` columns of text; without one, in one.
 
-def blocks(table: Table, width: int | None) -> list[Block]:
-    """The table without its details, in blocks of at most `width` columns of text; without one, in one."""
+    say: what makes a text fit to be shown, before it is laid out.
+    """
     brief = table.brief()
-    shown = [[terminal(text) for text in row] for row in brief.shown_rows()]
+    shown = [[say(text) for text in row] for row in brief.shown_rows()]
     starts = [i == 0 or not table.grouped or shown[i][0] != shown[i - 1][0] for i in range(len(shown))]
     for row, start in zip(shown, starts, strict=True):
         if not start:
             row[0] = ""
-    strips = [_Strip(column, [row[i] for row in shown]) for i, column in enumerate(brief.columns)]
+    strips = [
+        _Strip(
+            column,
+            say(column.name),
+            say(f"[{column.shown_unit}]") if column.shown_unit else "",
+            [row[i] for row in shown],
+        )
+        for i, column in enumerate(brief.columns)
+    ]
     ruled = [table.grouped and start and i > 0 for i, start in enumerate(starts)]
     return [_block(part, _widths(part, width), ruled) for part in _stacked(strips, width)]
 
@@ -123,7 +131,7 @@ def _block(strips: list[_Strip], widths: list[int], ruled: list[bool]) -> Block:
     any_unit = any(strip.unit for strip in strips)
     heads = []
     for strip, width in zip(strips, widths, strict=True):
-        lines = wrapped(strip.column.name, width)
+        lines = wrapped(strip.name, width)
         heads.append([*lines, strip.unit] if any_unit and strip.unit else lines)
     rule = "─" * _total(widths)
     rows: list[str] = []

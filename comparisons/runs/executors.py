@@ -11,6 +11,7 @@ from __future__ import annotations
 import logging
 import multiprocessing
 import os
+import signal
 import socket
 import threading
 import time
@@ -18,6 +19,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection, Pipe, wait
+from multiprocessing.resource_tracker import ensure_running
 from typing import Any, Protocol, runtime_checkable
 from urllib.parse import urlsplit
 
@@ -51,12 +53,17 @@ class Watched(Protocol):
 
 
 class Processes(ProcessPoolExecutor):
-    """Single-threaded processes of this machine."""
+    """Single-threaded processes of this machine, which do not hear Ctrl-C: it is for who started them."""
 
     def __init__(self, workers: int) -> None:
         theirs, self._ours = Pipe(duplex=False)
         start = multiprocessing.get_context("spawn")
         super().__init__(workers, mp_context=start, initializer=_join, initargs=(theirs,))
+
+    def submit(self, *asked: Any, **named: Any) -> Future[Any]:
+        """As usual; a process that this starts inherits that the interrupt is held back."""
+        with _interrupt_held_back():
+            return super().submit(*asked, **named)
 
     def watch(self) -> None:
         """A process that dies breaks the pool, which says so by itself."""
@@ -70,6 +77,20 @@ class Processes(ProcessPoolExecutor):
 def processes(workers: int) -> Executor:
     """A pool of that many single-threaded processes."""
     return Processes(workers)
+
+
+@contextmanager
+def _interrupt_held_back() -> Iterator[None]:
+    """A block in which Ctrl-C waits, in this thread and in the processes that it starts."""
+    if not hasattr(signal, "pthread_sigmask"):  # not on Windows
+        yield
+        return
+    ensure_running()  # of multiprocessing's own process, whose start would let the interrupt through
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager
@@ -201,6 +222,7 @@ class _Workers(Executor):
 
 def _join(stopped: Connection) -> None:
     """End this worker as soon as its parent has ended or closed the other end of `stopped`."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_follow, args=([parent.sentinel, stopped],), daemon=True).start()

@@ -1,0 +1,67 @@
+"""Ctrl-C: a command ends within two seconds, with status 130 and a line that says what it leaves behind.
+
+Python heeds an interrupt between two of its own instructions, and a factorisation may last longer than that.
+So a thread that the signal wakes ends the process where it has not ended by then. Worker processes do not
+hear the interrupt: the process that started them ends them (`comparisons.runs.executors`).
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+STATUS = 130  # 128 + SIGINT, as shells have it
+PATIENCE = 1.2  # s, from the signal to the end of a process that does not heed it
+RESUMED = ("simulate", "tradeoff", "transfer", "stability")  # with --out
+
+_left_behind = "nothing was kept"
+
+
+def promise(verb: str, out: object) -> None:
+    """Note what an interrupt of this verb leaves behind, given its --out."""
+    global _left_behind
+    if out is None:
+        _left_behind = "nothing was kept"
+    elif verb in RESUMED:
+        _left_behind = "the same command goes on"
+    else:
+        _left_behind = f"what was written by then is in {out}"
+
+
+def say() -> None:
+    """The line, on standard error."""
+    print(f"interrupted; {_left_behind}", file=sys.stderr, flush=True)
+
+
+@contextmanager
+def heeded() -> Iterator[None]:
+    """A block that Ctrl-C ends in time, whatever it does; only the main thread can arrange that."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    heard, wake = os.pipe()
+    os.set_blocking(wake, False)
+    before = signal.set_wakeup_fd(wake, warn_on_full_buffer=False)
+    over = threading.Event()
+    threading.Thread(target=_end_in_time, args=(heard, over), daemon=True).start()
+    try:
+        yield
+    finally:
+        over.set()
+        signal.set_wakeup_fd(before)
+        os.close(wake)
+
+
+def _end_in_time(heard: int, over: threading.Event) -> None:
+    """End the process if the block is not over some time after an interrupt."""
+    while woken_by := os.read(heard, 1):  # nothing once the other end is closed
+        if woken_by[0] == signal.SIGINT and not over.wait(PATIENCE):
+            if sys.stderr.isatty():
+                sys.stderr.write("\r\x1b[K\x1b[?25h")  # the spinner's line, and the cursor it has hidden
+            say()
+            os._exit(STATUS)
+    os.close(heard)

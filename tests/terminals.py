@@ -1,0 +1,71 @@
+"""A program on a terminal of its own, as a person has it: what it shows, keys pressed, how it ends."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import pty
+import re
+import select
+import signal
+import struct
+import sys
+import termios
+
+CONTROL = re.compile(r"\x1b\[[0-?]*[ -/]*[@-~]|\r")
+COMMAND = "from comparisons.cli import main; main()"
+
+
+def resize(file: int, columns: int) -> None:
+    """Make a terminal so many columns wide."""
+    fcntl.ioctl(file, termios.TIOCSWINSZ, struct.pack("HHHH", 50, columns, 0, 0))
+
+
+class Terminal:
+    """Python code that runs on a terminal of its own; `shown` is what it has shown, without the colours."""
+
+    def __init__(self, code: str, *arguments: str, columns: int = 80) -> None:
+        self.process, self._terminal = pty.fork()
+        if not self.process:
+            os.environ["TERM"] = "xterm"
+            for name in ("COLUMNS", "LINES", "NO_COLOR", "FORCE_COLOR"):
+                os.environ.pop(name, None)
+            os.execv(sys.executable, [sys.executable, "-c", code, *arguments])
+        resize(self._terminal, columns)
+        self._bytes = b""
+
+    @property
+    def shown(self) -> str:
+        return CONTROL.sub("", self._bytes.decode("utf-8", "replace"))
+
+    def read(self) -> bool:
+        """Wait for more to be shown; whether there was more. The limit only ends a test that hangs."""
+        ready, _, _ = select.select([self._terminal], [], [], 600.0)
+        assert ready, f"nothing more is shown after {self.shown}"
+        try:
+            more = os.read(self._terminal, 65536)
+        except OSError:  # nobody has the terminal open any more
+            more = b""
+        self._bytes += more
+        return bool(more)
+
+    def wait_for(self, text: str) -> None:
+        """Read until a text is shown."""
+        while text not in self.shown:
+            assert self.read(), f"it ended without {text!r}: {self.shown}"
+
+    def press(self, keys: bytes) -> None:
+        """Press keys; Ctrl-C is b"\\x03"."""
+        os.write(self._terminal, keys)
+
+    def end(self) -> int:
+        """Read to the end; the exit status. None of its processes is left then."""
+        while self.read():
+            pass
+        os.close(self._terminal)
+        _, status = os.waitpid(self.process, 0)
+        try:
+            os.killpg(self.process, signal.SIGKILL)
+        except ProcessLookupError:
+            return os.waitstatus_to_exitcode(status)
+        raise AssertionError(f"processes are left behind: {self.shown}")

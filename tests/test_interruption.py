@@ -1,0 +1,51 @@
+"""Ctrl-C on a terminal: a line, status 130, no traceback, nobody left behind, and what was kept goes on."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from terminals import COMMAND, Terminal
+
+from comparisons.cli import interruption
+
+CTRL_C = b"\x03"
+DEAF = """
+from hashlib import pbkdf2_hmac
+from comparisons.cli import main
+from comparisons.comparison import comparison
+comparison.solve = lambda *_, **__: pbkdf2_hmac("sha256", b"", b"", 2**31 - 1)  # an hour of native code
+main()
+"""
+
+
+def test_it_is_in_time() -> None:
+    assert interruption.PATIENCE < 2.0
+
+
+SIMULATE = ["simulate", "two-edges-settling", "--lumped", "3", "--duration", "5", "--out", "kept"]
+COMPARE = ["compare", "two-edges-clamped"]
+TRADEOFF = ["tradeoff", "two-edges-clamped", "--solid", "48", "--workers", "2"]
+
+
+@pytest.mark.parametrize(
+    ("code", "arguments", "begun", "left"),
+    [
+        (COMMAND, SIMULATE, "simulated", "the same command goes on"),
+        (COMMAND, [*TRADEOFF, "--out", "kept"], "0/", "the same command goes on"),
+        (COMMAND, TRADEOFF, "0/", "nothing was kept"),
+        (DEAF, COMPARE, "solving", "nothing was kept"),
+        (DEAF, [*COMPARE, "--out", "kept"], "solving", "what was written by then is in kept"),
+    ],
+    ids=["simulate", "tradeoff-out", "tradeoff", "compare", "compare-out"],
+)
+def test_a_long_command_is_interrupted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: str, arguments: list[str], begun: str, left: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    terminal = Terminal(code, *arguments)
+    terminal.wait_for(begun)
+    terminal.press(CTRL_C)
+    assert terminal.end() == interruption.STATUS
+    assert f"interrupted; {left}" in terminal.shown
+    assert "Traceback" not in terminal.shown and "Error" not in terminal.shown

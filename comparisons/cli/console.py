@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.text import Text
@@ -67,6 +67,13 @@ def _duration(seconds: float) -> str:
     if seconds < 90:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
+
+
+def document(content: Mapping[str, Any]) -> None:
+    """One JSON document, for programs; characters that the encoding lacks are escaped as JSON has it."""
+    from comparisons.report.files import to_json
+
+    print(to_json(content, escaped=not takes_everything(out.encoding)), end="")
 
 
 def heading(title: str, subtitle: str = "") -> None:

@@ -82,8 +82,6 @@ class End:
     def __call__(self, report: Report, instead: str | None = None) -> None:
         """Write the files, print the document or the tables or what is wanted `instead` of them, warn, and
         leave with 3 where the question was not met."""
-        from comparisons.report.files import to_json
-
         report = replace(report, document={**report.document, "warnings": list(warned.said)})
         missing: list[str] = []
         if self._folder is not None:
@@ -92,7 +90,7 @@ class End:
         if instead is not None:
             print(instead, end="")
         elif self._json:
-            print(to_json(report.document), end="")
+            console.document(report.document)
         else:
             self._print(report)
         for said in [*missing, *report.complaints]:

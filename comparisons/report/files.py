@@ -50,6 +50,9 @@ def plain(value: Any) -> Any:
     return value
 
 
-def to_json(value: Any) -> str:
-    """One JSON document, indented, with a final newline. It never holds NaN or Infinity."""
-    return json.dumps(plain(value), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+def to_json(value: Any, escaped: bool = False) -> str:
+    """One JSON document, indented, with a final newline. It never holds NaN or Infinity.
+
+    escaped: in ASCII alone, other characters as \\uXXXX.
+    """
+    return json.dumps(plain(value), indent=2, ensure_ascii=escaped, allow_nan=False) + "\n"

@@ -10,7 +10,7 @@ import codecs
 import unicodedata
 from typing import TextIO
 
-HANDLER = "sheetbench.ascii"
+HANDLER = "nearest-ascii"
 NEAREST = {
     "−": "-",
     "–": "-",

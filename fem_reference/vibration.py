@@ -40,7 +40,7 @@ from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.threads import one_blas_thread
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
-from sheetbench.scenes import About, Scene, require_static
+from sheetbench.scenes import About, Scene, require_static, summary
 from sheetbench.scenes.errors import BadInput
 
 REACH = 0.375  # of the grading
@@ -61,8 +61,8 @@ class RestState(NamedTuple):
     sample: Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
-@dataclass(frozen=True)
-class Modes:
+@dataclass(frozen=True, repr=False)
+class Modes(summary.Summarised):
     """The lowest modes, rigid motions left out; rigid_modes is the number of those.
 
     frequencies: (count,) [Hz], rising; shapes: (count, n, k), nodal unknowns scaled to φᵀ M φ = 1.
@@ -82,6 +82,13 @@ class Modes:
     def displacement(self, mode: int, points: np.ndarray) -> np.ndarray:
         """Mid-surface displacement (n, 3) of one mode, counted from 0, at plan points (n, 2) [m]."""
         return self.sample(self.shapes[mode], np.asarray(points, dtype=float).reshape(-1, 2))
+
+    def _summary(self) -> tuple[str, summary.Facts]:
+        return f"{len(self.frequencies)} modes of {self.label}", [
+            ("frequencies", summary.numbers(self.frequencies.tolist(), "Hz")),
+            ("rigid motions", f"{self.rigid_modes} left out" if self.rigid_modes else ""),
+            ("unknowns", str(self.unknowns)),
+        ]
 
 
 def modes(

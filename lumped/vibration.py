@@ -22,15 +22,15 @@ from lumped.mid_surface import MidSurface
 from lumped.springs import constants
 from lumped.statics.problem import Problem
 from lumped.statics.solver import pose, settle
-from sheetbench.scenes import About, Scene, Status, free_rigid_motions, require_static
+from sheetbench.scenes import About, Scene, Status, free_rigid_motions, require_static, summary
 from sheetbench.scenes.errors import BadInput, NoEquilibrium
 from sheetbench.scenes.springs import Distribution
 
 DENSE = 600  # unknowns below which all eigenvalues are computed
 
 
-@dataclass(frozen=True)
-class Modes:
+@dataclass(frozen=True, repr=False)
+class Modes(summary.Summarised):
     """frequencies: (count,) [Hz], ascending; shapes: (count, n, 3), largest component 1, of the masses of
     `lattice`; rigid: rigid motions left out; unknowns of the eigenproblem."""
 
@@ -44,6 +44,13 @@ class Modes:
         """Mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
         at = MidSurface(self.lattice, points)
         return np.stack([at.of(shape) for shape in self.shapes])
+
+    def _summary(self) -> tuple[str, summary.Facts]:
+        return f"{len(self.frequencies)} modes of the lattice", [
+            ("frequencies", summary.numbers(self.frequencies.tolist(), "Hz")),
+            ("rigid motions", f"{self.rigid} left out" if self.rigid else ""),
+            ("unknowns", str(self.unknowns)),
+        ]
 
 
 def modes(

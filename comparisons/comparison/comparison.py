@@ -24,7 +24,7 @@ from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked
 from comparisons.models.registry import check, check_reference, has_own_springs, solve
 from comparisons.report.report import Report
-from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static
+from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static, summary
 
 if TYPE_CHECKING:
     from comparisons.advice.advisor import Advice
@@ -63,8 +63,8 @@ class Difference:
     distinguishable: bool | None = None
 
 
-@dataclass(frozen=True)
-class Comparison:
+@dataclass(frozen=True, repr=False)
+class Comparison(summary.Summarised):
     """Solutions of one scene: the chosen lattice first, the reference second, then what is shown alongside.
 
     Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
@@ -145,6 +145,20 @@ class Comparison:
     def report(self, advice: Advice | None = None) -> Report:
         """What is shown of it; advice: by which the first model was chosen."""
         return tables.report(self, advice)
+
+    def _summary(self) -> tuple[str, summary.Facts]:
+        facts = []
+        for solution in self.solutions:
+            off, time = self.error(solution), summary.milliseconds(solution.solve_seconds)
+            said = (
+                "the reference" if solution is self.reference else f"error {100 * off:.3g} %" if off else ""
+            )
+            facts.append((solution.model, ", ".join(filter(None, [str(solution.status), said, time]))))
+        bar = "" if self.bar is None else f"±{100 * self.bar.error:.2g} %"
+        return f"Comparison of {self.scene.name}; .report() has tables, pictures and files", [
+            *facts,
+            ("reference's own error", bar),
+        ]
 
     def _solution_as_dict(self, solution: Solution) -> dict[str, Any]:
         bar = self.bar if solution is self.reference else None

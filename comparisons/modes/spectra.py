@@ -20,7 +20,7 @@ from comparisons.models.grids import Asked
 from comparisons.models.registry import check, check_reference, scene_springs
 from comparisons.modes import tables
 from comparisons.report.report import Report
-from sheetbench.scenes import About, Scene, free_rigid_motions, load
+from sheetbench.scenes import About, Scene, free_rigid_motions, load, summary
 from sheetbench.scenes.errors import BadInput, require_choice
 
 if TYPE_CHECKING:
@@ -54,8 +54,8 @@ class Spectrum:
         }
 
 
-@dataclass(frozen=True)
-class Spectra(Sequence[Spectrum]):
+@dataclass(frozen=True, repr=False)
+class Spectra(summary.Summarised, Sequence[Spectrum]):
     """The spectra of a scene, the lattice's first, then that of each reference.
 
     about: "flat" or "deformed"; sag [m]: the largest displacement that the lattice's flat tangent gives under
@@ -87,6 +87,10 @@ class Spectra(Sequence[Spectrum]):
             "sag": self.sag,
             "solutions": [spectrum.as_dict() for spectrum in self],
         }
+
+    def _summary(self) -> tuple[str, summary.Facts]:
+        found = [(one.label, summary.numbers(one.frequencies.tolist(), "Hz")) for one in self]
+        return f"Natural frequencies of {self.scene.name}; .report() has the table", found
 
     def report(self) -> Report:
         """What is shown of it."""

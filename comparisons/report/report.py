@@ -12,7 +12,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from comparisons.report.escape import html, markdown
+from comparisons.report.escape import html, markdown, terminal
+from comparisons.report.files import folder as made
 from comparisons.report.files import to_json, write_text
 from comparisons.report.table import Table
 from sheetbench.scenes import Scene
@@ -32,7 +33,7 @@ class Picture:
     starting: str = ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Report:
     """The answer to a question, ready to be shown.
 
@@ -63,6 +64,25 @@ class Report:
     def shown(self) -> tuple[Table, ...]:
         """The tables for a terminal."""
         return self.tables if self.printed is None else self.printed
+
+    def save(self, folder: Path | str) -> tuple[str, ...]:
+        """Write every file and picture into a folder; sentences that say why a picture is missing."""
+        target = made(folder, "folder")
+        for name, write in self.files().items():
+            write(target / name)
+        drawn = (picture.draw([target / name for name in picture.names]) for picture in self.pictures)
+        return tuple(said for said in drawn if said)
+
+    def __repr__(self) -> str:
+        heading = " ".join(filter(None, [self.title, self.subtitle]))
+        return "\n".join(
+            [f"{terminal(heading)}\n", *(f"{table}" for table in self.shown), *map(terminal, self.notes)]
+        )
+
+    def _repr_html_(self) -> str:
+        heading = " ".join(filter(None, [self.title, self.subtitle]))
+        notes = "".join(f"<p>{html(said)}</p>" for said in (*self.notes, *self.complaints))
+        return f"<h3>{html(heading)}</h3>{''.join(table._repr_html_() for table in self.shown)}{notes}"
 
     def files(self, made_with: str = "") -> dict[str, Write]:
         """Every file but the pictures, by name, with what writes it. made_with: a line under the page."""

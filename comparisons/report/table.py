@@ -10,9 +10,13 @@ from __future__ import annotations
 import csv
 import io
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from comparisons.report.escape import cell, csv_cell, latex, markdown, terminal
+from comparisons.report.escape import cell, csv_cell, html, latex, markdown, terminal
+from sheetbench.scenes.errors import BadInput
+
+if TYPE_CHECKING:
+    import pandas
 
 
 class Unit(NamedTuple):
@@ -77,7 +81,7 @@ def number(value: float, form: str = "g") -> str:
     return format(value, form).replace("-", "−")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Table:
     """A caption, columns, and rows of as many values [SI] as there are columns.
 
@@ -100,6 +104,31 @@ class Table:
         for row in self.rows:
             writer.writerow(csv_cell(value.si if isinstance(value, Unit) else value) for value in row)
         return text.getvalue()
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """All values in SI units as a data frame, with the unit in a column's name. Raises BadInput where
+        pandas is not installed."""
+        try:
+            import pandas
+        except ModuleNotFoundError:
+            raise BadInput("to_pandas needs pandas: pip install pandas") from None
+        rows = [[value.si if isinstance(value, Unit) else value for value in row] for row in self.rows]
+        return pandas.DataFrame(rows, columns=[column.header(shown=False) for column in self.columns])
+
+    def __repr__(self) -> str:
+        return self.to_markdown()
+
+    def _repr_html_(self) -> str:
+        heads = "".join(f"<th>{html(column.header(shown=True))}</th>" for column in self.columns)
+        rows = (
+            "".join(
+                f'<td style="text-align:{"right" if column.numeric else "left"}">{html(shown)}</td>'
+                for column, shown in zip(self.columns, row, strict=True)
+            )
+            for row in self.shown_rows()
+        )
+        body = "".join(f"<tr>{row}</tr>" for row in rows)
+        return f"<table><caption>{html(self.caption)}</caption><tr>{heads}</tr>{body}</table>"
 
     def to_markdown(self) -> str:
         """A pipe table with shown units, its caption above it."""

@@ -10,13 +10,13 @@ import numpy as np
 from lumped import moduli
 from lumped.lattice import Grid
 from lumped.springs import constants
-from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
+from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet, summary
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.springs import Distribution, Either
 
 
-@dataclass(frozen=True)
-class Calibration:
+@dataclass(frozen=True, repr=False)
+class Calibration(summary.Summarised):
     """Springs of a lattice: method, grid (nx, ny, layers), spring constants [N/m] and layer distance [m].
 
     moduli: one row per plate modulus with what the sheet asks and what the lattice's interior gives
@@ -68,6 +68,23 @@ class Calibration:
             "masses": self.masses,
             "notes": list(self.notes),
         }
+
+    def _summary(self) -> tuple[str, summary.Facts]:
+        springs = self.as_dict()["springs"]
+        numbers = [f"{name} {k:.4g}" for name, k in springs.items() if isinstance(k, float) and k]
+        along = [
+            f"{name} {' × '.join(f'{k:.4g}' for k in each.values())}"
+            for name, each in springs.items()
+            if isinstance(each, dict)
+        ]
+        missed = [row for row in self.moduli if abs(row["miss"]) > 0.01]
+        return f"Calibration {self.method} of {' × '.join(map(str, self.grid))} masses", [
+            ("springs [N/m]", ", ".join(numbers)),
+            ("x × y [N/m]", ", ".join(along)),
+            ("layers", f"{1e3 * self.layer_distance:.5g} mm apart"),
+            ("moduli", ", ".join(f"{row['name']} off by {row['miss']:+.2%}" for row in missed) or "all met"),
+            ("notes", "; ".join(self.notes)),
+        ]
 
 
 def plan_spacing(sheet: Sheet, grid: Grid) -> tuple[float, float]:

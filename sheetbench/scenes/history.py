@@ -10,13 +10,14 @@ from typing import Any
 
 import numpy as np
 
+from sheetbench.scenes import summary
 from sheetbench.scenes.solution import Status
 
 ENERGIES = ("kinetic", "elastic", "potential", "dissipated", "work")
 
 
-@dataclass(frozen=True)
-class History:
+@dataclass(frozen=True, repr=False)
+class History(summary.Summarised):
     """Samples of a run; n of them, of which the first is the start.
 
     time: (n,) [s]; probes: name → displacement (n, 3) [m]; energies: kinetic, elastic, potential,
@@ -50,3 +51,20 @@ class History:
         e = self.energies
         total: np.ndarray = e["kinetic"] + e["elastic"] + e["potential"] + e["dissipated"] - e["work"]
         return total
+
+    def _summary(self) -> tuple[str, summary.Facts]:
+        end = {name: 1e3 * values[-1] for name, values in self.probes.items() if len(values)}
+        return f"History of {self.label}, {self.integrator}: {self.status}", [
+            (
+                "time",
+                f"{len(self.time)} samples to {self.time[-1]:.4g} s" if len(self.time) else "no samples",
+            ),
+            ("steps", f"{self.steps} in {summary.milliseconds(self.solve_seconds)}"),
+            ("at the end", ", ".join(f"{name} uz = {u[2]:.4g} mm" for name, u in end.items())),
+            ("reactions", summary.forces({name: force[-1] for name, force in self.reactions.items()})),
+            (
+                "energies",
+                summary.energies({name: float(e[-1]) for name, e in self.energies.items() if len(e)}),
+            ),
+            ("message", self.message),
+        ]

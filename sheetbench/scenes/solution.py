@@ -8,11 +8,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any, Literal
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from sheetbench.scenes import summary
 from sheetbench.scenes.balance import Balance
+
+if TYPE_CHECKING:
+    import meshio
+    import pyvista
 
 About = Literal["flat", "deformed"]  # what oscillations are about: the sheet at rest, or its equilibrium
 
@@ -81,9 +87,32 @@ class FieldMesh:
     point_data: dict[str, np.ndarray]
     cell_data: dict[str, list[np.ndarray]] = field(default_factory=dict)
 
+    def to_meshio(self) -> meshio.Mesh:
+        """The same as meshio has it."""
+        import meshio
 
-@dataclass(frozen=True)
-class Solution:
+        return meshio.Mesh(self.points, self.cells, self.point_data, self.cell_data)
+
+    def to_pyvista(self) -> pyvista.UnstructuredGrid:
+        """The same as pyvista has it, undeformed, with `displacement` as the active vectors."""
+        import pyvista
+
+        grid = pyvista.from_meshio(self.to_meshio())
+        grid.set_active_vectors("displacement")
+        return grid
+
+    def save(self, path: str | Path) -> None:
+        """Write the mesh in the format of the path's suffix: .vtu, .vtk, .xdmf, …"""
+        self.to_meshio().write(path)
+
+    def __repr__(self) -> str:
+        cells = ", ".join(f"{len(block)} {kind}" for kind, block in self.cells)
+        fields = ", ".join([*self.point_data, *self.cell_data])
+        return f"FieldMesh of {len(self.points)} points and {cells} with {fields}"
+
+
+@dataclass(frozen=True, repr=False)
+class Solution(summary.Summarised):
     """A model's answer to a static scene.
 
     sample: plan points (n, 2) [m] → mid-surface displacement (n, 3) [m]; reactions: force (3,) [N] that a
@@ -136,3 +165,23 @@ class Solution:
     def displacement(self, points: np.ndarray) -> np.ndarray:
         """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m] of the undeformed sheet."""
         return self.sample(np.asarray(points, dtype=float).reshape(-1, 2))
+
+    def to_pyvista(self) -> pyvista.UnstructuredGrid:
+        """The model's mesh with its fields, for pyvista: `solution.to_pyvista().warp_by_vector().plot()`."""
+        return self.mesh.to_pyvista()
+
+    def _summary(self) -> tuple[str, summary.Facts]:
+        moved = self.mesh.point_data.get("displacement", np.zeros((1, 3)))
+        reached = "" if self.load_factor == 1.0 else f" at {100 * self.load_factor:.3g} % of the load"
+        return f"Solution of {self.label}: {self.status}{reached}", [
+            ("unknowns", f"{self.unknowns}, {self.iterations} factorisations"),
+            (
+                "time",
+                f"{summary.milliseconds(self.solve_seconds)}, "
+                f"set-up {summary.milliseconds(self.setup_seconds)}",
+            ),
+            ("largest", f"|u| = {1e3 * float(np.max(np.linalg.norm(moved, axis=1))):.4g} mm"),
+            ("reactions", summary.forces(self.reactions)),
+            ("energies", summary.energies(self.energies)),
+            ("notes", self.message),
+        ]

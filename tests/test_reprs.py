@@ -1,0 +1,95 @@
+"""Answers at a prompt and in notebooks: a few lines that say what matters, and ways on to other programs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import meshio
+import numpy as np
+import pytest
+
+import fem_reference
+import lumped
+from comparisons.comparison.comparison import Comparison
+from comparisons.modes.spectra import Spectra, Spectrum
+from sheetbench import scenes
+from sheetbench.scenes.history import ENERGIES
+
+SCENE = scenes.load("two-edges-clamped")
+SPRINGS = lumped.calibrate(SCENE.sheet, SCENE.material, grid=(5, 7))
+LATTICE = lumped.solve(SCENE, SPRINGS)
+SHELL = fem_reference.solve(SCENE, elements=2)
+BOTH = Comparison(SCENE, (LATTICE, SHELL))
+HISTORY = scenes.History(
+    "lumped 5×5×2", "verlet", {}, scenes.Status.CONVERGED, "", np.linspace(0.0, 1.0, 500),
+    {f"P{i}": np.full((500, 3), -1e-3) for i in range(40)}, {name: np.ones(500) for name in ENERGIES},
+    {"x0": np.ones((500, 3))}, {}, 1000, 0.1, 2.0,
+)  # fmt: skip
+FREQUENCIES = np.arange(1.0, 60.0)
+SPECTRA = Spectra(
+    SCENE,
+    (Spectrum("lumped", "lumped 5×5×2", {}, FREQUENCIES, 0, 96, 0.1, lambda at: np.zeros((59, len(at), 3))),),
+)
+SAID: dict[str, tuple[Any, list[str]]] = {
+    "solution": (LATTICE, ["lumped 5×7×2 consistent: converged", "factorisations", "|u| = 13", "mm", "x0 ("]),
+    "calibration": (SPRINGS, ["Calibration consistent of 5 × 7 × 2 masses", "[N/m]", "mm apart", "all met"]),
+    "history": (HISTORY, ["verlet: converged", "500 samples to 1 s", "P0 uz = -1 mm", "elastic 1 J"]),
+    "comparison": (BOTH, ["two-edges-clamped", "error ", "the reference", ".report()"]),
+    "modes": (lumped.modes(SCENE, SPRINGS, 3), ["3 modes of the lattice", " Hz"]),
+    "modes of the shell": (fem_reference.modes(SCENE, elements=2, count=3), ["3 modes of shell", " Hz"]),
+    "spectra": (SPECTRA, ["two-edges-clamped", "1, 2, 3, 4, 5, … Hz"]),
+    "mesh": (LATTICE.mesh, ["70 points", "quad", "displacement"]),
+    "report": (BOTH.report(), ["Displacement of the mid-surface", "| P4 |", "converged"]),
+}
+
+
+@pytest.mark.parametrize("what", SAID)
+def test_answers_say_what_matters_in_a_few_lines(what: str) -> None:
+    answer, parts = SAID[what]
+    text = repr(answer)
+    assert all(part in text for part in parts), text
+    if what != "report":
+        assert len(text.splitlines()) <= 8 and len(text) < 1000
+
+
+@pytest.mark.parametrize("what", [what for what in SAID if what != "mesh"])
+def test_notebooks_show_a_table(what: str) -> None:
+    html = SAID[what][0]._repr_html_()
+    assert html.count("<table>") == html.count("</table>") >= 1
+    assert "Traceback" not in html and "[0.0, 0.0" not in html
+
+
+def test_names_cannot_bring_markup_into_a_notebook() -> None:
+    scene = SCENE.model_copy(update={"name": "<script>alert(1)</script>", "title": "\x1b[31m"})
+    both = Comparison(scene, (LATTICE, SHELL))
+    for html in (both._repr_html_(), both.report()._repr_html_()):
+        assert "<script>" not in html
+    assert "\x1b" not in repr(both) + repr(both.report())
+
+
+@pytest.mark.parametrize("solution", [LATTICE, SHELL], ids=["lattice", "shell"])
+def test_a_solution_goes_on_to_pyvista_and_to_files(tmp_path: Path, solution: scenes.Solution) -> None:
+    grid = solution.to_pyvista()
+    assert np.array_equal(grid.points, solution.mesh.points)
+    assert np.array_equal(grid["displacement"], solution.mesh.point_data["displacement"])
+    assert grid.active_vectors_name == "displacement"
+    solution.mesh.save(tmp_path / "answer.vtu")
+    read = meshio.read(tmp_path / "answer.vtu")
+    assert np.allclose(read.point_data["displacement"], solution.mesh.point_data["displacement"], rtol=1e-15)
+
+
+def test_tables_go_on_to_pandas_in_si_units() -> None:
+    (table, *_) = BOTH.report().tables
+    frame = table.to_pandas()
+    assert list(frame["probe"])[::2] == list(SCENE.probes)
+    at_p4 = frame[(frame["probe"] == "P4") & (frame["model"] == "lumped")]
+    expected = LATTICE.displacement(np.array([SCENE.probes["P4"]]))[0, 2]
+    assert float(at_p4["uz [m]"].iloc[0]) == pytest.approx(expected, rel=1e-15)
+
+
+def test_a_report_is_saved_as_the_command_line_leaves_it(tmp_path: Path) -> None:
+    missing = BOTH.report().save(tmp_path / "here")
+    names = {path.name for path in (tmp_path / "here").iterdir()}
+    assert names >= {"comparison.json", "table.csv", "table.md", "lumped.vtu", "shell.vtu"}
+    assert missing or "comparison.png" in names

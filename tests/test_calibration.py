@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 import lumped
+from comparisons.calibration import tables
 from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration.calibration import report
 from sheetbench import scenes
-from sheetbench.scenes import Material, PerDirection, SpringSet
+from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
 
 SEED = scenes.load("two-edges-clamped")
 RIGIDITY = 54.5e6 * 0.003**3 / 12 / (1 - 0.48**2)
@@ -206,3 +207,15 @@ def test_json_document():
         "axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area",
     }  # fmt: skip
     assert [row["name"] for row in document["moduli"]] == ["D11", "D12", "D66", "A11", "A12", "A66", "S"]
+
+
+def test_the_table_shows_the_sheets_shear_stiffness_beside_the_grids():
+    """A strip of 250 × 120 × 1.5 mm, 9 × 9 masses: κGh = 52.4 N/m, S* of the long cells a 93rd of it."""
+    sheet = Sheet(length_x=0.25, length_y=0.12, thickness=0.0015)
+    found = lumped.calibrate(sheet, Material(young=125e3, poisson=0.49, density=1070.0), (9, 9)).as_dict()
+    shown = {row[0]: row for row in tables.moduli(found).rows}
+    row = next(row for row in found["moduli"] if row["name"] == "Sx")
+    assert row["kappa_G_h"] == pytest.approx(5 / 6 * 125e3 / 2.98 * 0.0015, rel=1e-12)
+    assert shown["Sx"][2:5] == (row["kappa_G_h"], row["asked"], row["got"])
+    assert row["asked"] == pytest.approx(0.562, abs=5e-4)
+    assert shown["D11"][2] == shown["D11"][3]

@@ -311,30 +311,6 @@ def test_command_prints_tables(file, capsys):
     assert all(said in printed for said in ("young    MPa", "40 ", "off in uz", "20 points of 64"))
 
 
-BAD = {
-    "empty": ("", ["column x, y, ux, uy, uz missing"]),
-    "no rows": ("x,y,ux,uy,uz\n", ["no displacement"]),
-    "missing column": ("x,y,ux,uz\n0,0,0,0\n", ["column uy missing"]),
-    "a word": ("x,y,ux,uy,uz\n0.1,0.1,0,0,low\n", ["line 2", "uz = 'low'"]),
-    "nan": ("x,y,ux,uy,uz\n0.1,0.1,0,nan,0\n", ["line 2", "uy = 'nan'"]),
-    "off the sheet": ("x,y,ux,uy,uz\n0.1,0.1,0,0,1e-3\n94,94,0,0,1e-3\n", ["line 3", "off the sheet"]),
-    "millimetres": ("x,y,ux,uy,uz\n0.1,0.1,0,0,-6.02\n", ["line 2", "metres"]),
-    "still": ("x,y,ux,uy,uz\n0.1,0.1,0,0,0\n", ["nothing moved"]),
-    "too few": ("x,y,ux,uy,uz\n0.1,0.1,,,-1e-3\n", ["1 measured number"]),
-    "probe": ("probe,ux,uy,uz\nP9,0,0,-1e-3\n", ["line 2", "P9", "P1, P2, P3, P4"]),
-}
-
-
-@pytest.mark.parametrize("fault", BAD)
-def test_bad_file_leaves_with_2_and_one_line(fault, tmp_path, capsys):
-    text, named = BAD[fault]
-    path = tmp_path / "bad.csv"
-    path.write_text(text)
-    assert run("identify", SCENE.name, "--measured", str(path)) == 2
-    said = capsys.readouterr().err.splitlines()[-1]
-    assert said.startswith("sheetbench: ") and all(part in said for part in named)
-
-
 @pytest.mark.parametrize(
     ("arguments", "named"),
     [
@@ -361,19 +337,6 @@ def test_an_equilibrium_knows_nothing_of_damping(truth):
     moving = Displacements(POINTS, truth, np.linspace(0.0, 1.0, 64))
     with pytest.raises(ValueError, match="lattice only"):
         identify(SCENE, moving, ["young"], model="shell")
-
-
-@pytest.mark.parametrize("suffix", [".ply", ".vtp"])
-def test_bad_clouds(suffix, tmp_path):
-    path = tmp_path / f"cloud{suffix}"
-    with pytest.raises(ValueError, match="no such file"):
-        read(path, SCENE)
-    path.write_text("not a point cloud")
-    with pytest.raises(ValueError, match="cloud"):
-        read(path, SCENE)
-    pyvista.PolyData(np.array([[94.0, 94.0, -6.0]])).save(path)
-    with pytest.raises(ValueError, match="in metres"):
-        read(path, SCENE)
 
 
 def test_a_surface_without_noise_gives_the_value_back():

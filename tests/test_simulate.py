@@ -89,7 +89,9 @@ def test_bad_input_leaves_with_2_in_one_line(options, said, capsys):
     [
         ("t,probe,ux,uy,uz\n", "the header must be"),
         ("time,probe,ux,uy,uz\n0.1,P9,0,0,0\n", "line 2"),
-        ("time,probe,ux,uy,uz\n0.1,P1,0,0,zero\n", "not numbers"),
+        ("time,probe,ux,uy,uz\n0.1,P1,0,0,zero\n", "not a number"),
+        ("time,probe,ux,uy,uz\n0.1,P1,0,0,inf\n", "line 2: uz = 'inf'"),
+        ("time,probe,ux,uy,uz\n,P1,0,0,0\n", "line 2: time = ''"),
     ],
 )
 def test_measured_files_are_checked(tmp_path, text, said):

@@ -16,8 +16,8 @@ def command(
         Path,
         typer.Option(
             metavar="FILE",
-            help="CSV with the header x,y,ux,uy,uz (metres; with a column time [s], a motion), or a VTP or "
-            "PLY point cloud of the deformed surface.",
+            help="CSV with the columns x,y,ux,uy,uz or x,y,uz (metres; with a column time [s], a motion), or "
+            "x,y,z of the deformed surface; or a VTP or PLY point cloud of it.",
         ),
     ],
     unknown: Annotated[

@@ -1,9 +1,13 @@
 """What was measured of a deformed sheet: displacements of marked points, or the shape of its surface.
 
-CSV with the header x,y,ux,uy,uz: plan point on the flat sheet, then its displacement, all in metres and in
-the scene's axes; a component may be left empty. In the place of x,y a column probe may name probes of the
-scene. With a further column time [s] the rows are samples of a motion from rest. Other columns are passed
-over.
+CSV (`comparisons.measured.columns`), in metres and in the scene's axes, with the columns
+
+    x,y,ux,uy,uz    plan point on the flat sheet, then its displacement; a component may be left empty
+    x,y,uz          the same of deflections alone
+    x,y,z           points of the deformed surface, a height map or a scan
+
+In the place of x,y a column probe may name probes of the scene. With a further column time [s] displacements
+are samples of a motion from rest. Other columns are passed over.
 
 VTP or PLY: points (x, y, z) [m] of the deformed surface, in the scene's axes. Which material point each of
 them is need not be known.
@@ -11,13 +15,14 @@ them is need not be known.
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
 
 import numpy as np
 
+from comparisons.measured.columns import Columns, Row, read_columns
+from comparisons.measured.ply import read_points
 from sheetbench.scenes import Scene, Sheet
 from sheetbench.scenes.errors import BadInput
 
@@ -72,35 +77,35 @@ def read(path: Path, scene: Scene) -> Measured:
     return measured
 
 
-def _table(path: Path, scene: Scene) -> Displacements:
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise BadInput(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise BadInput(f"{path}: not a text file; a point cloud is named {' or '.join(CLOUDS)}") from None
-    reader = csv.DictReader(text.splitlines(), skipinitialspace=True)
-    header = [name.strip() for name in reader.fieldnames or ()]
-    reader.fieldnames = header
-    named = "probe" in header and not set(PLACE) & set(header)
-    missing = [name for name in (*(() if named else PLACE), *MOVED) if name not in header]
+def _table(path: Path, scene: Scene) -> Measured:
+    columns = read_columns(path)
+    moved = [name for name in MOVED if name in columns.names]
+    if "z" in columns.names and not moved and set(PLACE) <= set(columns.names):
+        return _heights(path, columns, scene.sheet)
+    named = "probe" in columns.names and not set(PLACE) & set(columns.names)
+    needed = (*(() if named else PLACE), *(MOVED if moved != ["uz"] else ()))
+    missing = [name for name in needed if name not in columns.names]
     if missing:
         raise BadInput(
-            f"{path}: column {', '.join(missing)} missing; the header is {','.join(PLACE + MOVED)} (metres)"
+            f"{path}: column {', '.join(missing)} missing; the header is {','.join(PLACE + MOVED)}, x,y,uz, "
+            "or x,y,z of points of the deformed surface (metres)"
         )
+    return _displacements(path, columns, scene, named)
+
+
+def _displacements(path: Path, columns: Columns, scene: Scene, named: bool) -> Displacements:
     rows, times = [], []
-    for row in reader:
-        where = f"{path}, line {reader.line_num}"
+    for row in columns.rows:
         if named:
-            point = _probe(row["probe"], scene, where)
+            point = _probe(row, scene)
         else:
-            point = [_number(row[name], where, name) for name in PLACE]
-            _require_on_sheet(point, scene.sheet, where)
-        moved = [_number(row[name], where, name, optional=True) for name in MOVED]
-        _require_metres(moved, scene.sheet, where)
+            point = [row.number(name) for name in PLACE]
+            _require_on_sheet(point, scene.sheet, row.where)
+        moved = [row.measured(name) if name in columns.names else np.nan for name in MOVED]
+        _require_metres(moved, scene.sheet, row.where)
         rows.append([*point, *moved])
-        if "time" in header:
-            times.append(_number(row["time"], where, "time"))
+        if "time" in columns.names:
+            times.append(row.number("time"))
     values = np.array(rows, dtype=float).reshape(-1, 5)
     if not np.isfinite(values[:, 2:]).any():
         raise BadInput(f"{path}: no displacement in it")
@@ -109,22 +114,19 @@ def _table(path: Path, scene: Scene) -> Displacements:
     return Displacements(values[:, :2], values[:, 2:], np.array(times) if times else None, str(path))
 
 
-def _probe(name: str | None, scene: Scene, where: str) -> list[float]:
-    if name not in scene.probes:
-        raise BadInput(f"{where}: probe = '{name}': scene '{scene.name}' has {', '.join(scene.probes)}")
-    return list(scene.probes[name])
+def _heights(path: Path, columns: Columns, sheet: Sheet) -> Surface:
+    """Points of the surface where z is measured."""
+    if "time" in columns.names:
+        raise BadInput(f"{path}: column time: a motion is measured as ux,uy,uz of marked points")
+    found = [[row.number("x"), row.number("y"), row.measured("z")] for row in columns.rows]
+    points = np.array(found, dtype=float).reshape(-1, 3)
+    return _surface(path, points[np.isfinite(points[:, 2])], sheet)
 
 
-def _number(text: str | None, where: str, name: str, optional: bool = False) -> float:
-    if optional and not (text or "").strip():
-        return np.nan
-    try:
-        value = float(text or "")
-    except ValueError:
-        value = np.nan
-    if not isfinite(value):
-        raise BadInput(f"{where}: {name} = '{text or ''}': not a number")
-    return value
+def _probe(row: Row, scene: Scene) -> list[float]:
+    if row.cells["probe"] not in scene.probes:
+        raise row.refused("probe", f"scene '{scene.name}' has {', '.join(scene.probes)}")
+    return list(scene.probes[row.cells["probe"]])
 
 
 def _require_on_sheet(point: list[float], sheet: Sheet, where: str) -> None:
@@ -148,23 +150,37 @@ def _require_metres(moved: list[float], sheet: Sheet, where: str) -> None:
 def _cloud(path: Path, sheet: Sheet) -> Surface:
     if not path.is_file():
         raise BadInput(f"{path}: no such file")
+    try:
+        with np.errstate(invalid="ignore"):  # a damaged file's numbers are looked at below
+            points = read_points(path) if path.suffix.lower() == ".ply" else _vtp(path)
+    except BadInput:
+        raise
+    except Exception as error:  # VTK's reader has no error of its own for a damaged file
+        said = str(error) or type(error).__name__
+        raise BadInput(f"{path}: cannot be read as a point cloud: {said}") from None
+    finite = np.isfinite(points).all(axis=1)
+    if not finite.all():
+        raise BadInput(f"{path}: point {int(np.argmin(finite))} is not finite")
+    return _surface(path, points, sheet)
+
+
+def _vtp(path: Path) -> np.ndarray:
     import pyvista
     from vtkmodules.vtkCommonCore import vtkObject
 
     chatty = vtkObject.GetGlobalWarningDisplay()
     vtkObject.GlobalWarningDisplayOff()  # VTK reports a bad file on the terminal and answers with no points
     try:
-        points = np.asarray(pyvista.read(path).points, dtype=float)
-    except (OSError, ValueError, RuntimeError, AttributeError) as error:
-        raise BadInput(f"{path}: cannot be read as a point cloud: {error}") from None
+        return np.asarray(pyvista.read(path).points, dtype=float).reshape(-1, 3)
     finally:
         vtkObject.SetGlobalWarningDisplay(chatty)
+
+
+def _surface(path: Path, points: np.ndarray, sheet: Sheet) -> Surface:
     if not len(points):
         raise BadInput(f"{path}: no points in it")
-    if not np.isfinite(points).all():
-        raise BadInput(f"{path}: point {int(np.argmin(np.isfinite(points).all(axis=1)))} is not finite")
     centre = np.array([*sheet.lengths, 0.0]) / 2.0
-    away = np.linalg.norm(points - centre, axis=1)
+    away = np.abs(points - centre).max(axis=1)
     if away.max() > FARTHEST * max(sheet.lengths):
         worst = points[int(np.argmax(away))]
         raise BadInput(

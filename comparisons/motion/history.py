@@ -1,25 +1,26 @@
 """Histories of dynamic runs: documents, tables, measured histories beside them.
 
-A measured history is a CSV with the header `time,probe,ux,uy,uz`: seconds, a probe's name, metres; a
-component may be left empty. Its error at a probe is the largest |component of (simulated − measured)| over
-its times within the run, divided by the largest |measured component|, the simulation interpolated linearly.
+A measured history is a CSV with the columns time,probe,ux,uy,uz: seconds, a probe's name, metres; a
+component may be left empty (`comparisons.measured.columns`). Its error at a probe is the largest
+|component of (simulated − measured)| over its times within the run, divided by the largest |measured
+component|, the simulation interpolated linearly.
 """
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from comparisons.measured.columns import read_columns
 from comparisons.report.table import Column, Table
 from sheetbench.scenes import History
 from sheetbench.scenes.errors import BadInput
 
 COMPONENTS = ("ux", "uy", "uz")
-HEADER = ["time", "probe", *COMPONENTS]
+HEADER = ("time", "probe", *COMPONENTS)
 
 
 @dataclass(frozen=True)
@@ -32,27 +33,15 @@ class Measured:
 
 def read_measured(path: Path, probes: list[str]) -> dict[str, Measured]:
     """Measured histories by probe. Raises BadInput naming file and line."""
-    try:
-        with path.open(newline="", encoding="utf-8") as file:
-            lines = list(csv.reader(file))
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"--measured = '{path}': cannot be read: {error}") from None
-    if not lines or [name.strip() for name in lines[0]] != HEADER:
-        raise BadInput(f"--measured = '{path}': the header must be {','.join(HEADER)}")
+    columns = read_columns(path)
+    if not set(HEADER) <= set(columns.names):
+        raise BadInput(f"{path}: the header must be {','.join(HEADER)}")
     rows: dict[str, list[list[float]]] = {}
-    for number, line in enumerate(lines[1:], start=2):
-        if not any(cell.strip() for cell in line):
-            continue
-        if len(line) != len(HEADER) or line[1].strip() not in probes:
-            raise BadInput(
-                f"--measured = '{path}', line {number}: {','.join(line)!r} is not time, a probe "
-                f"({', '.join(probes)}), ux, uy, uz"
-            )
-        try:
-            numbers = [float(line[0]), *(float(cell) if cell.strip() else np.nan for cell in line[2:])]
-        except ValueError:
-            raise BadInput(f"--measured = '{path}', line {number}: {','.join(line)!r}: not numbers") from None
-        rows.setdefault(line[1].strip(), []).append(numbers)
+    for row in columns.rows:
+        if row.cells["probe"] not in probes:
+            raise row.refused("probe", f"the scene has {', '.join(probes)}")
+        numbers = [row.number("time"), *(row.measured(name) for name in COMPONENTS)]
+        rows.setdefault(row.cells["probe"], []).append(numbers)
     found = {}
     for probe, values in rows.items():
         table = np.array(sorted(values))

@@ -1,0 +1,130 @@
+"""Columns of numbers from a CSV file as spreadsheets, cameras and numpy write them.
+
+The first line that is no comment names the columns, in any order and case; "[m]" or "[s]" after a name is
+passed over. Lines that begin with # are comments. Cells are separated by commas, semicolons or tabs,
+whichever the header has; where commas do not separate they may be decimal commas, as long as no number has a
+point. An empty cell, or NaN, is a number that was not measured.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import isfinite, nan
+from pathlib import Path
+
+from sheetbench.scenes.errors import BadInput
+
+SEPARATORS = ";\t,"
+SI = ("[m]", "[s]")
+_COMMA, _POINT = (re.compile(rf"[+-]?(\d+{mark}\d*|{mark}\d+)([eE][+-]?\d+)?") for mark in (",", r"\."))
+_SHOWN = 40  # characters of a cell that a refusal repeats
+
+
+@dataclass(frozen=True)
+class Row:
+    """A line of a file: `where` names it, `cells` holds its text by column."""
+
+    where: str
+    cells: dict[str, str]
+    decimal_comma: bool = False
+
+    def number(self, name: str) -> float:
+        """The finite number in a column. Raises BadInput where there is none."""
+        value = self.measured(name)
+        if value != value:
+            raise self.refused(name, "a number is needed")
+        return value
+
+    def measured(self, name: str) -> float:
+        """The number in a column, nan where it was not measured. Raises BadInput for what is no number."""
+        text = self.cells[name]
+        if text.lower() in ("", "nan"):
+            return nan
+        plain = text.replace(",", ".") if self.decimal_comma else text
+        try:
+            value = float(plain) if "_" not in plain else nan
+        except ValueError:
+            value = nan
+        if not isfinite(value):
+            raise self.refused(name, "not a number")
+        return value
+
+    def refused(self, name: str, why: str) -> BadInput:
+        """The refusal of a cell."""
+        text = self.cells[name]
+        shown = text if len(text) <= _SHOWN else f"{text[:_SHOWN]}…"
+        return BadInput(f"{self.where}: {name} = '{shown}': {why}")
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Names of the columns, and the rows."""
+
+    names: tuple[str, ...]
+    rows: tuple[Row, ...]
+
+
+def read_columns(path: Path) -> Columns:
+    """The columns of a file. Raises BadInput naming the file, the line and what is wrong there."""
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise BadInput(f"{path}: not a text file in UTF-8") from None
+    kept = [
+        (i, line) for i, line in enumerate(lines, 1) if line.strip() and not line.lstrip().startswith("#")
+    ]
+    if not kept:
+        return Columns((), ())
+    separator = next((mark for mark in SEPARATORS if mark in kept[0][1]), ",")
+    (_, header), *parsed = _parsed(path, kept, separator)
+    names = tuple(_name(path, cell) for cell in header)
+    repeated = [name for name in names if name and names.count(name) > 1]
+    if repeated:
+        raise BadInput(f"{path}: column {repeated[0]} is there twice")
+    comma = separator != "," and _decimal_comma(path, parsed)
+    rows = []
+    for i, cells in parsed:
+        padded = [cell.strip() for cell in cells] + [""] * (len(names) - len(cells))
+        if any(padded):
+            rows.append(Row(f"{path}, line {i}", dict(zip(names, padded, strict=False)), comma))
+    return Columns(names, tuple(rows))
+
+
+def _parsed(path: Path, kept: list[tuple[int, str]], separator: str) -> Iterator[tuple[int, list[str]]]:
+    """The cells of every line, with the line's number in the file."""
+    reader = csv.reader((line for _, line in kept), delimiter=separator, skipinitialspace=True)
+    while True:
+        try:
+            cells = next(reader)
+        except StopIteration:
+            return
+        except csv.Error as error:
+            raise BadInput(f"{path}, line {kept[reader.line_num - 1][0]}: {error}") from None
+        yield kept[reader.line_num - 1][0], cells
+
+
+def _name(path: Path, cell: str) -> str:
+    """A column's name without its unit, which has to be the metre or the second."""
+    name, bracket, unit = cell.strip().lower().partition("[")
+    if bracket and bracket + unit not in SI:
+        raise BadInput(f"{path}: column {cell.strip()}: lengths are in m, times in s")
+    return name.strip()
+
+
+def _decimal_comma(path: Path, parsed: list[tuple[int, list[str]]]) -> bool:
+    """Whether numbers have commas. Raises BadInput where some have commas and others points."""
+    commas = points = None
+    for i, cells in parsed:
+        for cell in map(str.strip, cells):
+            commas = commas or (i if _COMMA.fullmatch(cell) else None)
+            points = points or (i if _POINT.fullmatch(cell) else None)
+    if commas and points:
+        raise BadInput(
+            f"{path}: decimal commas (line {commas}) and decimal points (line {points}): which is meant?"
+        )
+    return commas is not None

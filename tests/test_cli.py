@@ -16,6 +16,7 @@ from test_scenes import BAD, LOOSE, written
 
 from comparisons.cli import main
 from comparisons.comparison import comparison as displacement
+from comparisons.models.candidate import Candidate
 from sheetbench import scenes
 from sheetbench.scenes import Scene, Solution, Status
 
@@ -42,12 +43,11 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> dict[str, Solution]:
     """Answers without a solver; a test may put its own in."""
     answers: dict[str, Solution] = {}
 
-    def solve(scene: Scene, model: str, **settings: object) -> Solution:
-        return answers.get(model) or fake_solutions.solution(
-            scene, model, -0.01 if model == "lumped" else -0.0101
-        )
+    def answer(scene: Scene, candidate: Candidate, name: str = "") -> Solution:
+        size = -0.01 if candidate.model == "lumped" else -0.0101
+        return answers.get(candidate.model) or fake_solutions.solution(scene, name or candidate.model, size)
 
-    monkeypatch.setattr(displacement, "solve", solve)
+    monkeypatch.setattr(displacement, "answer", answer)
     return answers
 
 
@@ -171,7 +171,7 @@ def test_a_fault_of_ours_is_not_passed_off_as_bad_input(
     def stumble(*_: object, **__: object) -> None:
         raise fault
 
-    monkeypatch.setattr(displacement, "solve", stumble)
+    monkeypatch.setattr(displacement, "answer", stumble)
     assert run("compare", "two-edges-clamped") == 1
     *trace, asked = capsys.readouterr().err.splitlines()
     assert any("in stumble" in line for line in trace)
@@ -216,12 +216,12 @@ def test_a_solver_that_does_not_converge_leaves_with_3_and_keeps_its_answer(
 def test_what_is_finished_is_kept_when_a_later_model_fails(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    def solve(scene: Scene, model: str, **settings: object) -> Solution:
-        if model == "shell":
+    def answer(scene: Scene, candidate: Candidate, name: str = "") -> Solution:
+        if candidate.model == "shell":
             raise KeyboardInterrupt
-        return fake_solutions.solution(scene, model)
+        return fake_solutions.solution(scene, name)
 
-    monkeypatch.setattr(displacement, "solve", solve)
+    monkeypatch.setattr(displacement, "answer", answer)
     assert run("compare", "two-edges-clamped", "--out", str(tmp_path)) != 0
     assert {path.name for path in tmp_path.iterdir()} == {"lumped.vtu", "manifest.json"}
     (run_of_compare,) = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))["runs"].values()

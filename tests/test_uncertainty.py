@@ -12,6 +12,7 @@ import fem_reference
 from comparisons.comparison import comparison as displacement
 from comparisons.comparison import tables as summary
 from comparisons.comparison.comparison import compare
+from comparisons.models.candidate import Candidate
 from comparisons.report.files import to_json
 from fem_reference.uncertainty import coarser, estimate, of_solutions, solve_with_bar
 from sheetbench import scenes
@@ -105,15 +106,15 @@ def by_mesh(monkeypatch: pytest.MonkeyPatch) -> dict[str, float]:
     """Answers without a solver: the reference's error is 8 % at one element and falls like h²."""
     sizes = {"lumped": -0.0100, "limit": -0.0100, "share": 0.08}
 
-    def solve(scene: Scene, model: str, **settings: object) -> Solution:
-        if model == "lumped":
-            return fake_solutions.solution(scene, model, sizes["lumped"])
-        n = settings["elements"]
+    def answer(scene: Scene, candidate: Candidate, name: str = "") -> Solution:
+        if candidate.model == "lumped":
+            return fake_solutions.solution(scene, name, sizes["lumped"])
+        n = candidate.settings["elements"]
         assert isinstance(n, int)
         size = sizes["limit"] * (1 + sizes["share"] / n**2)
-        return fake_solutions.solution(scene, model, size, solve_seconds=0.004)
+        return fake_solutions.solution(scene, candidate.model, size, solve_seconds=0.004)
 
-    monkeypatch.setattr(displacement, "solve", solve)
+    monkeypatch.setattr(displacement, "answer", answer)
     return sizes
 
 

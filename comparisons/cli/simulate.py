@@ -43,6 +43,7 @@ def command(
 ) -> None:
     """Simulate the lattice from rest. With --out the run streams to a folder; the same command resumes it."""
     from comparisons.cli.finish import finish
+    from comparisons.models.candidate import Candidate
     from comparisons.models.registry import check, simulate
     from comparisons.motion.history import read_measured
     from comparisons.motion.tables import report
@@ -50,7 +51,7 @@ def command(
 
     asked = scenes.load(scene)
     truth = read_measured(measured, list(asked.probes)) if measured is not None else {}
-    check(asked, "lumped", {"grid": lumped, "calibration": calibration})
+    check(asked, Candidate("lumped", {"grid": lumped, "calibration": calibration}))
     run = {
         "--integrator": integrator,
         "--lumped": lumped,

@@ -12,7 +12,7 @@ round-off, a number is not finite, or one of the two models did not reach the fu
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +22,7 @@ from comparisons.comparison import tables
 from comparisons.comparison.error_bar import CHEAP, ErrorBar, error_bar
 from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked
-from comparisons.models.registry import check, check_reference, has_own_springs, solve
+from comparisons.models.registry import answer, check, check_reference, has_own_springs
 from comparisons.report.report import Report
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static, summary
 
@@ -215,34 +215,25 @@ def compare(
     if not isinstance(scene, Scene):
         scene = load_static(scene)
     require_static(scene)
-    asked: dict[str, Any] = {"grid": grid, "layer_distance": layer_distance, "k": k}
-    asked["calibration"] = "uniform" if calibration is None and k is not None else calibration
-    check(scene, "lumped", asked)
     check_reference(reference, elements)
-
-    def run(model: str, name: str, **settings: Any) -> Solution:
+    judge = Candidate(reference, {"elements": elements})
+    method = "uniform" if calibration is None and k is not None else calibration
+    springs = {"calibration": method, "k": k, "layer_distance": layer_distance}
+    first = Candidate("lumped", {"grid": grid, **springs}) if choice is None else choice
+    check(scene, first)
+    named = {first.model if first.model != reference else f"{first.model}-advised": first, reference: judge}
+    if choice is None and method is None and not has_own_springs(scene, **springs):
+        named[COMPANION] = first.but(calibration="uniform")
+    solutions = []
+    for name, candidate in named.items():
         starting(name)
-        solution = solve(scene, model, **settings)
-        solution = solution if solution.model == name else replace(solution, model=name)
-        finished(solution)
-        return solution
-
-    if choice is not None:
-        first = run(choice.model, _apart(choice.model, reference), **choice.settings)
-    else:
-        first = run("lumped", "lumped", **asked)
-    solutions = [first, run(reference, reference, elements=elements)]
-    if choice is None and asked["calibration"] is None and not has_own_springs(scene, **asked):
-        solutions.append(run("lumped", COMPANION, **{**asked, "calibration": "uniform"}))
+        solutions.append(answer(scene, candidate, name))
+        finished(solutions[-1])
     bar = None
     if (reference in CHEAP if uncertainty is None else uncertainty) and solutions[1].comparable:
         starting(f"{reference} on coarser meshes")
-        bar = error_bar(scene, solutions[1], elements, lambda n: solve(scene, reference, elements=n))
+        bar = error_bar(scene, solutions[1], elements, lambda n: answer(scene, judge.but(elements=n)))
     return Comparison(scene, tuple(solutions), bar)
-
-
-def _apart(model: str, reference: str) -> str:
-    return model if model != reference else f"{model}-advised"
 
 
 def load_static(scene: str | Path) -> Scene:

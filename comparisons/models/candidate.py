@@ -24,6 +24,10 @@ class Candidate:
     model: str
     settings: dict[str, Any] = field(default_factory=dict)
 
+    def but(self, **settings: Any) -> Candidate:
+        """The same model with other values of some settings."""
+        return Candidate(self.model, {**self.settings, **settings})
+
     @property
     def series(self) -> str:
         """What stays the same as the grid is refined: the model's name, calibration and other settings."""

@@ -1,7 +1,8 @@
-"""The one place that knows both solvers: a name and settings in, a Solution out.
+"""The one place that knows both solvers: a candidate in, a Solution out.
 
-The solvers are imported when they are first used, so that asking for help stays quick. `solve` warms a
-model up first: what a process pays once, to import and compile, counts as set-up and not as solving.
+The solvers are imported when they are first used, so that asking for help stays quick. A model is warmed up
+first: what a process pays once, to import and compile, counts as set-up and not as solving, and so do the
+springs of a lattice.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 from warnings import warn
 
 from comparisons.models import plugins
+from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.symmetry import half, planes, whole
 from sheetbench.scenes import History, Material, Scene, Sheet, Solution, load
@@ -48,9 +50,21 @@ def calibrate(
     or lengths that are not above zero, and for options it does not take; warns of a layer distance that is
     hardly meant.
     """
+    check_lattice(calibration, k, layer_distance)
+    return _calibrate(sheet, material, grid, calibration, k, layer_distance, training)
+
+
+def _calibrate(
+    sheet: Sheet,
+    material: Material,
+    grid: int | Sequence[int],
+    calibration: str | None = None,
+    k: float | None = None,
+    layer_distance: float | None = None,
+    training: Sequence[Scene] | None = None,
+) -> Calibration:
     import lumped
 
-    check_lattice(calibration, k, layer_distance)
     method = calibration or "consistent"
     if layer_distance is not None:
         for said in layer_slips(sheet, layer_distance, "layer-distance"):
@@ -99,33 +113,34 @@ def has_own_springs(scene: Scene, **settings: Any) -> bool:
 
 
 def scene_springs(scene: Scene, *, grid: Asked = None, **settings: Any) -> Calibration:
-    """Springs of a lattice for a scene, with the settings of `calibrate`: its own [springs] if it has them
-    and no calibration, k or layer distance is given. grid: as `comparisons.models.grids` reads it."""
+    """Springs of a lattice for a scene, with settings of `calibrate` that `check` has seen: its own [springs]
+    if it has them and no calibration, k or layer distance is given. grid: as `comparisons.models.grids`
+    reads it."""
     import lumped
 
     masses = scene_grid(scene, grid)
     if has_own_springs(scene, **settings):
         return lumped.given(scene, masses)
-    return calibrate(scene.sheet, scene.material, grid=masses, **settings)
+    return _calibrate(scene.sheet, scene.material, masses, **settings)
 
 
-def solve_lumped(scene: Scene, *, linear: bool = False, symmetry: bool = False, **settings: Any) -> Solution:
-    """The lattice's static answer with the settings of `scene_springs`, which count as set-up.
+Solve = Callable[[], Solution]
+
+
+def lattice(scene: Scene, *, linear: bool = False, symmetry: bool = False, **settings: Any) -> Solve:
+    """The lattice with the settings of `scene_springs`, ready to be solved.
 
     linear: one step with the flat sheet's tangent. symmetry: solve a half or a quarter where scene and grid
     allow it (see `comparisons.models.symmetry`).
     """
     import lumped
 
-    started = perf_counter()
     springs = scene_springs(scene, **settings)
     grid = springs.grid
     axes = [axis for axis in planes(scene) if grid[axis] % 2 and grid[axis] > 3] if symmetry else []
     for axis in axes:
         springs = springs.halved(axis)
-    calibrating = perf_counter() - started
-    solution = _by_parts(scene, axes, lambda part: lumped.solve(part, springs, linear=linear))
-    return replace(solution, setup_seconds=solution.setup_seconds + calibrating)
+    return lambda: _by_parts(scene, axes, lambda part: lumped.solve(part, springs, linear=linear))
 
 
 def simulate(
@@ -144,23 +159,32 @@ def simulate(
 
 
 def solve_reference(
-    scene: Scene,
-    *,
-    model: str = "shell",
-    elements: int | Sequence[int] = 16,
-    symmetry: bool = False,
-    **options: Any,
+    scene: Scene, *, model: str = "shell", elements: int | Sequence[int] = 16, **options: Any
 ) -> Solution:
     """A finite-element reference's static answer; `elements` along the shorter side, or along x and y.
 
+    Raises BadInput for a model, a number of elements or an option that does not exist.
+    """
+    check_reference(model, elements, options)
+    return reference(scene, model=model, elements=elements, **options)()
+
+
+def reference(
+    scene: Scene,
+    *,
+    model: str,
+    elements: int | Sequence[int] = 16,
+    symmetry: bool = False,
+    **options: Any,
+) -> Solve:
+    """A finite-element reference, ready to be solved.
+
     symmetry: solve a half or a quarter where scene and mesh allow it; of plate and shell only. options: the
-    model's own, as the solid's layers. Raises BadInput for a model, a number of elements or an option that
-    does not exist.
+    model's own, as the solid's layers.
     """
     import fem_reference
 
     asked = [elements] if isinstance(elements, int) else list(elements)
-    check_reference(model, asked, options)
     along = list(near_square(scene.sheet, asked[0])) if len(asked) == 1 else asked
     axes = [axis for axis in planes(scene) if along[axis] % 2 == 0] if symmetry else []
     if axes and model == "solid":
@@ -172,7 +196,7 @@ def solve_reference(
     def answer(part: Scene) -> Solution:
         return fem_reference.solve(part, model=model, elements=counts, **options)
 
-    return _by_parts(scene, axes, answer)
+    return lambda: _by_parts(scene, axes, answer)
 
 
 def _by_parts(scene: Scene, axes: Sequence[int], answer: Callable[[Scene], Solution]) -> Solution:
@@ -195,9 +219,9 @@ def _by_parts(scene: Scene, axes: Sequence[int], answer: Callable[[Scene], Solut
     return replace(solution, label=f"{solution.label}, a {cut} of the sheet", settings=settings)
 
 
-MODELS: dict[str, Callable[..., Solution]] = {
-    "lumped": solve_lumped,
-    **{name: partial(solve_reference, model=name) for name in REFERENCES},
+MODELS: dict[str, Callable[..., Solve]] = {
+    "lumped": lattice,
+    **{name: partial(reference, model=name) for name in REFERENCES},
 }
 
 
@@ -205,24 +229,36 @@ def solve(scene: Scene, model: str, **settings: Any) -> Solution:
     """The answer of any model by its name, with that model's settings, on warm code.
 
     The name is one of `MODELS` or of an installed plug-in (`comparisons.models.plugins`). Settings are plain
-    data.
+    data. Raises BadInput as `check` does.
     """
-    check(scene, model, settings)
+    candidate = Candidate(model, settings)
+    check(scene, candidate)
+    return answer(scene, candidate)
+
+
+def answer(scene: Scene, candidate: Candidate, name: str = "") -> Solution:
+    """The answer of a candidate that `check` has let pass; name: what to call it instead of its model."""
     started = perf_counter()
-    warm(model)
-    warming = perf_counter() - started
-    if model in MODELS:
-        solution = MODELS[model](scene, **settings)
-    else:
-        outside = plugins.plugin(model)
-        solution = outside.solve(scene, plugins.settings_of(outside, settings))
-    return replace(solution, setup_seconds=solution.setup_seconds + warming)
+    warm(candidate.model)
+    ready = _ready(scene, candidate)
+    preparing = perf_counter() - started
+    solution = ready()
+    called = name or solution.model
+    return replace(solution, model=called, setup_seconds=solution.setup_seconds + preparing)
 
 
-def check(scene: Scene, model: str, settings: Mapping[str, Any]) -> None:
+def _ready(scene: Scene, candidate: Candidate) -> Solve:
+    if candidate.model in MODELS:
+        return MODELS[candidate.model](scene, **candidate.settings)
+    outside = plugins.plugin(candidate.model)
+    return partial(outside.solve, scene, plugins.settings_of(outside, candidate.settings))
+
+
+def check(scene: Scene, candidate: Candidate) -> None:
     """Raise BadInput for a model that does not exist, or settings that it cannot use on this scene."""
+    model, settings = candidate.model, candidate.settings
     if model == "lumped":
-        known = [*_keywords(calibrate), *_keywords(solve_lumped)]
+        known = [*_keywords(calibrate), *_keywords(lattice)]
         unknown = [name for name in settings if name not in known]
         if unknown:
             raise BadInput(f"lumped: no setting '{unknown[0]}'; it has {', '.join(known)}")
@@ -252,4 +288,4 @@ def warm(model: str) -> None:
         plugins.plugin(model)
         return
     coarse = {"grid": (3, 3, 2)} if model == "lumped" else {"elements": 2}
-    MODELS[model](load("one-edge-clamped"), **coarse)
+    MODELS[model](load("one-edge-clamped"), **coarse)()

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, cast, get_args, overload
 
 import numpy as np
 
+from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked
 from comparisons.models.registry import check, check_reference, scene_springs
 from comparisons.modes import tables
@@ -118,7 +119,7 @@ def spectra(
     scene = scene if isinstance(scene, Scene) else load(scene)
     if count < 1:
         raise BadInput(f"--count = {count}: at least 1")
-    check(scene, "lumped", {"grid": grid, "calibration": calibration})
+    check(scene, Candidate("lumped", {"grid": grid, "calibration": calibration}))
     for reference in references:
         check_reference(reference, elements)
     starting("lumped")

@@ -109,9 +109,9 @@ def tradeoff(
     """
     require_static(scene)
     for candidate in candidates:
-        check(scene, candidate.model, candidate.settings)
+        check(scene, candidate)
     fine = reference or _finest(candidates)
-    check(scene, fine.model, fine.settings)
+    check(scene, fine)
     meshes = coarser(fine.settings["elements"])
     judges = [timing.run(scene, fine.model, {**fine.settings, "elements": n}, timed=False) for n in meshes]
     asked = [timing.run(scene, c.model, c.settings, repeats) for c in candidates]

@@ -117,7 +117,7 @@ def modes(
         require_static(scene)
         if model != "shell" or scene.actuators:
             raise BadInput("--about = deformed: of the references the shell alone, and without actuators")
-    scene = scene.model_copy(update={"actuators": ()})
+    scene = scene.replace(actuators=())
     at_rest = _shell_deformed if about == "deformed" else REST_STATES[model]
     along_x, along_y = divisions(scene.sheet.lengths, elements)
     with one_blas_thread():
@@ -199,7 +199,7 @@ def _shell_at_rest(
     scene: Scene, elements: tuple[int, int], section: Section | None = None, graded: bool = True
 ) -> RestState:
     """The tangent of the shell that nothing holds or loads; the last two fields turn the director."""
-    bare = scene.model_copy(update={"supports": (), "loads": (), "actuators": (), "gravity": None})
+    bare = scene.replace(supports=(), loads=(), actuators=(), gravity=None)
     structure, _ = shell.discretise(mesh_of(scene, elements, graded, REACH), bare, section)
     rest = structure.rest()
     stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0, mixed=False)
@@ -222,7 +222,7 @@ def _solid_at_rest(
     grading: str = "edges",
 ) -> RestState:
     """The tangent of the solid that nothing holds or loads; both laws have the same."""
-    bare = scene.model_copy(update={"supports": (), "loads": (), "actuators": (), "gravity": None})
+    bare = scene.replace(supports=(), loads=(), actuators=(), gravity=None)
     mesh = solid.plan_mesh(scene, elements, grading)
     structure = solid.discretise(mesh, bare, layers)
     rest = structure.rest()

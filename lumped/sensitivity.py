@@ -29,12 +29,12 @@ from lumped.springs import constants
 from lumped.statics.equilibrium import State
 from lumped.statics.problem import Problem
 from lumped.statics.solver import pose, settle
-from sheetbench.scenes import Clamped, Curved, Scene, Status, require_static
-from sheetbench.scenes.corners import conflict
+from sheetbench.scenes import Scene, Status, require_static
 from sheetbench.scenes.errors import BadInput
-from sheetbench.scenes.supports import contradiction
+from sheetbench.scenes.parameters import parameter, put
 
 STEP = 1e-4  # of a parameter, for the difference of residuals
+CALIBRATED_FROM = ("young", "poisson", "thickness")  # what springs are found from
 STEP_OF = {"curvature_": 1e-4, "tilt_": 1e-5}  # 1/m and rad, of parameters that may be zero
 
 
@@ -99,86 +99,37 @@ def _rates(
     scene: Scene, calibration: Calibration, problem: Problem, state: State, name: str
 ) -> tuple[float, np.ndarray, np.ndarray]:
     """Value of a parameter, ∂R/∂θ on the free unknowns (supports' movement included), and dg/dθ (n, 3)."""
-    value = _value(scene, calibration, name)
+    value, low, high = _value(scene, calibration, name)
     step = next((h for kind, h in STEP_OF.items() if name.startswith(kind)), STEP * abs(value))
     if step == 0.0:
         raise BadInput(f"parameter {name!r} is zero here: it has no scale to differentiate on")
     sides = []
-    placed = problem.prescribed(1.0)
-    for sign in (1.0, -1.0):
-        changed_scene, recalibrated = _changed(scene, calibration, name, value + sign * step)
+    placed, ends = problem.prescribed(1.0), np.clip([value + step, value - step], low, high)
+    for end in ends:
+        changed_scene, recalibrated = _changed(scene, calibration, name, float(end))
         changed = pose(changed_scene, recalibrated)
         moved = changed.prescribed(1.0) - placed
         sides.append((changed.residual(state.u + moved, 1.0)[0], moved))
-    rate = problem.reduce(sides[0][0] - sides[1][0]) / (2.0 * step)
-    return value, rate, (sides[0][1] - sides[1][1]) / (2.0 * step)
+    apart = float(ends[0] - ends[1])
+    rate = problem.reduce(sides[0][0] - sides[1][0]) / apart
+    return value, rate, (sides[0][1] - sides[1][1]) / apart
 
 
-def _value(scene: Scene, calibration: Calibration, name: str) -> float:
-    if name in ("young", "poisson", "density"):
-        return float(getattr(scene.material, name))
-    if name == "thickness":
-        return scene.sheet.thickness
-    if name.startswith("curvature_"):
-        return _bent(scene, name)
-    if name.startswith("tilt_"):
-        return _tilted(scene, name).tilt
+def _value(scene: Scene, calibration: Calibration, name: str) -> tuple[float, float, float]:
+    """The value of a parameter and its bounds."""
+    if _of_scene(name):
+        found = parameter(scene, name)
+        return found.value, found.low, found.high
     constants.changed(calibration.springs, name, 1.0)  # refuses unknown names
-    return constants.value_of(calibration.springs, name)
-
-
-def _bent(scene: Scene, name: str) -> float:
-    edge = name.removeprefix("curvature_")
-    for support in scene.supports:
-        if isinstance(support, Curved) and support.edge == edge:
-            return support.curvature
-    for actuator in scene.actuators:
-        curvature = getattr(actuator, "curvature", None)
-        if actuator.edge == edge and isinstance(curvature, float | int):
-            return float(curvature)
-    raise BadInput(f"parameter {name!r}: edge {edge} has no curved support, nor an actuator of one curvature")
-
-
-def _tilted(scene: Scene, name: str) -> Clamped:
-    edge = name.removeprefix("tilt_")
-    for clamp in scene.supports:
-        if isinstance(clamp, Clamped) and clamp.edge == edge:
-            return clamp
-    raise BadInput(f"parameter {name!r}: edge {edge} has no clamp")
+    return constants.value_of(calibration.springs, name), -np.inf, np.inf
 
 
 def _changed(scene: Scene, calibration: Calibration, name: str, value: float) -> tuple[Scene, Calibration]:
-    if name == "density":
-        return scene.model_copy(
-            update={"material": scene.material.model_copy(update={name: value})}
-        ), calibration
-    if name in ("young", "poisson"):
-        material = scene.material.model_copy(update={name: value})
-        return _recalibrated(scene.model_copy(update={"material": material}), calibration)
-    if name == "thickness":
-        sheet = scene.sheet.model_copy(update={"thickness": value})
-        return _recalibrated(scene.model_copy(update={"sheet": sheet}), calibration)
-    if name.startswith("curvature_"):
-        edge = name.removeprefix("curvature_")
-        update = {"curvature": value}
-        bent = {
-            "supports": tuple(
-                s.model_copy(update=update) if isinstance(s, Curved) and s.edge == edge else s
-                for s in scene.supports
-            ),
-            "actuators": tuple(
-                a.model_copy(update=update) if a.edge == edge and hasattr(a, "curvature") else a
-                for a in scene.actuators
-            ),
-        }
-        return scene.model_copy(update=bent), calibration
-    if name.startswith("tilt_"):
-        clamp = _tilted(scene, name)
-        supports = tuple(s.model_copy(update={"tilt": value}) if s is clamp else s for s in scene.supports)
-        if said := contradiction(supports) or conflict(scene.actuators, supports, scene.sheet):
-            raise BadInput(f"parameter {name!r}: {said}")
-        return scene.model_copy(update={"supports": supports}), calibration
-    return scene, calibration.with_constant(name, value)
+    if not _of_scene(name):
+        return scene, calibration.with_constant(name, value)
+    changed = put(scene, name, value)
+    return _recalibrated(changed, calibration) if name in CALIBRATED_FROM else (changed, calibration)
+
 
 
 def _recalibrated(scene: Scene, calibration: Calibration) -> tuple[Scene, Calibration]:

@@ -72,7 +72,7 @@ def modes(
     if about == "deformed":
         problem, at = _equilibrium(scene, calibration)
     else:
-        scene = scene.model_copy(update={"actuators": ()})
+        scene = scene.replace(actuators=())
         problem = pose(scene, calibration)
         at = np.zeros_like(problem.loads.dead)
     transform = problem.constraints.transform

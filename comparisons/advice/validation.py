@@ -202,7 +202,7 @@ def study(
         wanted = [
             Run(
                 f"advice.{task}",
-                {"scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True), **rest},
+                {"scene": scene.document(), **rest},
                 f"{task} {scene.name}",
                 timed,
             )

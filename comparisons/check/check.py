@@ -27,7 +27,7 @@ def check(scene: Scene) -> Report:
         notes=() if free else ("Solve it with:  sheetbench compare SCENE",),
         complaints=("nothing holds the sheet: only `modes` and `simulate` can answer",) if free else (),
         document={
-            "scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+            "scene": scene.document(),
             "parts": [{"part": part, "what": what} for part, what in parts],
             "free_rigid_motions": free,
         },

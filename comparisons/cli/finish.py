@@ -140,7 +140,7 @@ def finish(
         from comparisons.runs.folder import Folder
 
         if scene is not None:
-            about = {"scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True)}
+            about = {"scene": scene.document()}
         folder = Folder(out, verb, command_line(), about=about, apart=apart, overwrite=overwrite)
     end = End(json, folder)
     try:

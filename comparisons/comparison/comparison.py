@@ -127,7 +127,7 @@ class Comparison(summary.Summarised):
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench compare`: metres, newtons, seconds."""
         return {
-            "scene": self.scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+            "scene": self.scene.document(),
             "solutions": [self._solution_as_dict(solution) for solution in self.solutions],
             "differences": [vars(difference) for difference in self.differences],
             "errors": [

@@ -87,7 +87,7 @@ def motion(scene: Scene, grid: Grid, calibration: str | None, time: np.ndarray) 
     def displacement(here: Scene, points: np.ndarray) -> np.ndarray:
         places, which = np.unique(points, axis=0, return_inverse=True)
         probes = {f"m{i}": (float(x), float(y)) for i, (x, y) in enumerate(places)}
-        here = here.model_copy(update={"probes": probes})
+        here = here.replace(probes=probes)
         springs = calibrate(here.sheet, here.material, grid=grid, calibration=calibration)
         run = lumped.simulate(here, springs, float(time.max()))
         if run.status is not Status.CONVERGED:

@@ -1,4 +1,4 @@
-"""What can be sought in a scene: its parameters by name, where they sit, and how they are varied.
+"""What can be sought in a scene: its parameters (`sheetbench.scenes.parameters`), and how they are varied.
 
 Each is varied through a dimensionless x, 0 at the scene's own value: parameters above zero by their
 logarithm, value = start·eˣ; Poisson's ratio and a clamp's tilt by x = value − start; a curvature by
@@ -8,19 +8,15 @@ x = (value − start) · longer side.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import exp, inf, log
-from typing import Any
+from math import exp, log
 
-from sheetbench.scenes import Chain, Clamped, Curved, Scene
-from sheetbench.scenes.corners import conflict
-from sheetbench.scenes.errors import BadInput
-from sheetbench.scenes.supports import LARGEST_TILT, contradiction
+from sheetbench.scenes import Scene
+from sheetbench.scenes.errors import BadInput, SceneError
+from sheetbench.scenes.parameters import parameter, put
+from sheetbench.scenes.supports import LARGEST_TILT
 
-_MATERIAL = {"young": "Pa", "poisson": "", "density": "kg/m³", "damping_time": "s", "damping_rate": "1/s"}
 DAMPING = ("damping_time", "damping_rate")
-NAMES = (*_MATERIAL, "thickness", "curvature_EDGE", "tilt_EDGE")
 FARTHEST = 1e6  # times the scene's own value, up or down, that a parameter above zero is sought
-_POISSON = (-0.99, 0.4999)
 
 
 @dataclass(frozen=True)
@@ -50,7 +46,7 @@ class Unknown:
     def bounds(self) -> tuple[float, float]:
         """Of x."""
         if self.step is None:
-            return -log(FARTHEST), log(FARTHEST)
+            return -log(FARTHEST), min(log(FARTHEST), log(self.high / self.start))
         return (self.low - self.start) / self.step, (self.high - self.start) / self.step
 
     def interval(self, x: float, half_width: float) -> tuple[float, float]:
@@ -64,64 +60,20 @@ class Unknown:
 
 def unknown(scene: Scene, name: str) -> Unknown:
     """A parameter of this scene. Raises BadInput where there is none of that name, or it has no value yet."""
-    if name == "poisson":
-        return Unknown(name, "", scene.material.poisson, *_POISSON, step=1.0)
-    if name in _MATERIAL:
-        return _positive(scene, name, _MATERIAL[name], getattr(scene.material, name))
-    if name == "thickness":
-        return _positive(scene, name, "m", scene.sheet.thickness)
-    if name.startswith("curvature_"):
-        edge = name.removeprefix("curvature_")
-        bent = [h for h in (*scene.supports, *scene.actuators) if isinstance(h, Curved | Chain)]
-        values = [h.curvature for h in bent if h.edge == edge and isinstance(h.curvature, int | float)]
-        if values:
-            return Unknown(name, "1/m", values[0], -inf, inf, 1.0 / max(scene.sheet.lengths))
-        raise BadInput(f"unknown = '{name}': edge '{edge}' has no support or actuator of one curvature")
-    if name.startswith("tilt_"):
-        return _tilt(scene, name, name.removeprefix("tilt_"))
-    raise BadInput(f"unknown = '{name}': cannot be sought; choose from {', '.join(NAMES)}")
-
-
-def _positive(scene: Scene, name: str, unit: str, value: float) -> Unknown:
-    if value == 0.0:
+    try:
+        found = parameter(scene, name)
+        if name.startswith("tilt_"):
+            put(scene, name, found.value or LARGEST_TILT)
+    except SceneError as error:
+        said = "supports and actuators allow no tilt there"
+        raise BadInput(f"unknown = '{name}': {said}: {error}") from None
+    except BadInput as error:
+        raise BadInput(f"unknown = {error}") from None
+    if found.low < 0.0:
+        step = 1.0 / max(scene.sheet.lengths) if name.startswith("curvature_") else 1.0
+        return Unknown(name, found.unit, found.value, found.low, found.high, step)
+    if found.value == 0.0:
         raise BadInput(
             f"unknown = '{name}': scene '{scene.name}' has it at 0; give a first guess above 0 there"
         )
-    return Unknown(name, unit, value, 0.0, inf)
-
-
-def _tilt(scene: Scene, name: str, edge: str) -> Unknown:
-    for clamp in scene.supports:
-        if isinstance(clamp, Clamped) and clamp.edge == edge:
-            turned = put(scene, name, clamp.tilt or LARGEST_TILT)
-            said = contradiction(turned.supports)
-            if said := said or conflict(scene.actuators, turned.supports, scene.sheet):
-                raise BadInput(f"unknown = '{name}': supports and actuators allow no tilt there: {said}")
-            return Unknown(name, "rad", clamp.tilt, -LARGEST_TILT, LARGEST_TILT, step=1.0)
-    raise BadInput(f"unknown = '{name}': edge '{edge}' has no clamp")
-
-
-def put(scene: Scene, name: str, value: float) -> Scene:
-    """The scene with the parameter at another value."""
-    if name in _MATERIAL:
-        return scene.model_copy(update={"material": scene.material.model_copy(update={name: value})})
-    if name == "thickness":
-        return scene.model_copy(update={"sheet": scene.sheet.model_copy(update={name: value})})
-    if name.startswith("tilt_"):
-        edge = name.removeprefix("tilt_")
-        supports = tuple(
-            s.model_copy(update={"tilt": value}) if s.edge == edge and isinstance(s, Clamped) else s
-            for s in scene.supports
-        )
-        return scene.model_copy(update={"supports": supports})
-    edge = name.removeprefix("curvature_")
-
-    def bent(holders: tuple[Any, ...]) -> tuple[Any, ...]:
-        return tuple(
-            h.model_copy(update={"curvature": value})
-            if h.edge == edge and isinstance(h, Curved | Chain)
-            else h
-            for h in holders
-        )
-
-    return scene.model_copy(update={"supports": bent(scene.supports), "actuators": bent(scene.actuators)})
+    return Unknown(name, found.unit, found.value, found.low, found.high)

@@ -55,7 +55,7 @@ def half(scene: Scene, axis: int) -> Scene:
     return Scene(
         name=scene.name,
         title=scene.title,
-        sheet=scene.sheet.model_copy(update=lengths),
+        sheet=scene.sheet.model_copy(update=lengths),  # not validated: half a sheet may be thicker than wide
         material=scene.material,
         gravity=scene.gravity,
         support=(*supports, Symmetric(edge=cut)),
@@ -99,7 +99,7 @@ def whole(part: Solution, scene: Scene, axis: int) -> Solution:
 def _mirrors(scene: Scene, axis: int) -> bool:
     across = scene.gravity.acceleration[axis] if scene.gravity is not None else 0.0
     supports = {_support_key(support) for support in scene.supports}
-    mirrored = {_support_key(s.model_copy(update={"edge": _image(s.edge, axis)})) for s in scene.supports}
+    mirrored = {_support_key(s.replace(edge=_image(s.edge, axis))) for s in scene.supports}
     return across == 0.0 and supports == mirrored and _loads_mirror(scene, axis)
 
 
@@ -131,10 +131,10 @@ def _image_of(load: Load, scene: Scene, axis: int) -> Load:
     if isinstance(load, PointLoad):
         at = list(load.at)
         at[axis] = scene.sheet.lengths[axis] - at[axis]
-        return load.model_copy(update={"at": (at[0], at[1]), "force": _times(load.force, flip)})
+        return load.replace(at=(at[0], at[1]), force=_times(load.force, flip))
     if isinstance(load, EdgeLoad):
         force = _times(load.force_per_length, flip)
-        return load.model_copy(update={"edge": _image(load.edge, axis), "force_per_length": force})
+        return load.replace(edge=_image(load.edge, axis), force_per_length=force)
     return load
 
 
@@ -149,7 +149,7 @@ def _half_load(load: Load, scene: Scene, axis: int) -> Load | None:
         on_plane = list(load.at)
         on_plane[axis] = middle
         force = _times(load.force, [0.5, 0.5, 0.5])
-        return load.model_copy(update={"at": (on_plane[0], on_plane[1]), "force": force})
+        return load.replace(at=(on_plane[0], on_plane[1]), force=force)
     return load if load.at[axis] < middle else None
 
 

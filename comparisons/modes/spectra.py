@@ -83,7 +83,7 @@ class Spectra(summary.Summarised, Sequence[Spectrum]):
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench modes`."""
         return {
-            "scene": self.scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+            "scene": self.scene.document(),
             "about": self.about,
             "sag": self.sag,
             "solutions": [spectrum.as_dict() for spectrum in self],
@@ -135,7 +135,7 @@ def _sag(scene: Scene, springs: Calibration) -> float | None:
     """See `Spectra`. Actuators are left out, for small displacements know none."""
     import lumped
 
-    scene = scene.model_copy(update={"actuators": ()})
+    scene = scene.replace(actuators=())
     if free_rigid_motions(scene) or not (scene.loads or scene.gravity):
         return None
     solution = lumped.solve(scene, springs, linear=True)

@@ -174,4 +174,4 @@ def _there_and_back(scene: Scene, grid: tuple[int, int], springs: Any, ours: Sol
 
 def loaded(scene: Scene, *loads: Load) -> Scene:
     """The scene with these loads instead of its own."""
-    return scene.model_copy(update={"loads": loads})
+    return scene.replace(loads=loads)

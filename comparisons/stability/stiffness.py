@@ -50,7 +50,7 @@ def measure(
     scene = sheet(SLENDERNESS, CONTRAST_LOAD)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=GRID)
     changed = {family: contrast * getattr(springs.springs, family)}
-    uneven = replace(springs, springs=springs.springs.model_copy(update=changed))
+    uneven = replace(springs, springs=springs.springs.replace(**changed))
     return compare(scene, GRID, springs=uneven)
 
 

@@ -82,7 +82,7 @@ def _explicit(
     equations = system(scene, springs, precision)
     limit = step_limit(equations, flat)
     found = measured_limit(equations, limit.step)
-    heavy = scene.model_copy(update={"gravity": _gravity()})
+    heavy = scene.replace(gravity=_gravity())
     step = limit.advised
     run = lumped.simulate(
         heavy,

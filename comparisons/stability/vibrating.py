@@ -23,8 +23,8 @@ SMALL = 1e-6
 def weightless(slenderness: float = 0.016, young: float = 1e7, **material: float) -> Scene:
     """A square sheet clamped at one edge, without gravity."""
     scene = sheet(slenderness, 1.0, young=young)
-    changed = scene.material.model_copy(update=material)
-    return scene.model_copy(update={"gravity": None, "material": changed})
+    changed = scene.material.replace(**material)
+    return scene.replace(gravity=None, material=changed)
 
 
 def system(

@@ -71,7 +71,7 @@ class DynamicTradeoff:
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
         return {
-            "scene": self.scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+            "scene": self.scene.document(),
             "duration": self.duration,
             "lowest_period": self.lowest_period,
             "rows": list(self.rows),
@@ -186,7 +186,7 @@ def dynamic_tradeoff(
 
     def run(integrator: str, step: float, timed: bool) -> Run:
         arguments = {
-            "scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+            "scene": scene.document(),
             "grid": list(shape),
             "integrator": integrator,
             "step": step,

@@ -72,7 +72,7 @@ class Tradeoff:
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench tradeoff`."""
         return {
-            "scene": self.scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+            "scene": self.scene.document(),
             "rows": list(self.rows),
             "front": self.front,
             "orders": self.orders,

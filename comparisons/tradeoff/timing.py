@@ -32,7 +32,7 @@ GAUSS_POINTS = 24  # along each side, for norms over the sheet
 def run(scene: Scene, model: str, settings: Mapping[str, Any], repeats: int = 5, timed: bool = True) -> Run:
     """The run of a campaign that solves a scene with a model; repeats = 1 where time does not matter."""
     arguments = {
-        "scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+        "scene": scene.document(),
         "model": model,
         "settings": dict(settings),
         "repeats": repeats if timed else 0,

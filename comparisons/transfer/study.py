@@ -102,7 +102,7 @@ class _Study:
         self, scenes: dict[str, Scene], methods: tuple[str, ...], grids: tuple[int, ...], elements: int
     ) -> None:
         self.scenes, self.methods, self.grids, self.elements = scenes, methods, grids, elements
-        self.texts = {name: _plain(scene) for name, scene in scenes.items()}
+        self.texts = {name: scene.document() for name, scene in scenes.items()}
         self.planned: dict[str, Run] = {}
         self.outcomes: dict[str, Finished] | None = None
 
@@ -273,10 +273,6 @@ class _Study:
 def _answered(done: Finished) -> bool:
     """Whether a run ended with what may be used: what it was to do done, or an answer to compare."""
     return done.status == "done" or comparable(done.status, done.row.get("load_factor", 1.0))
-
-
-def _plain(scene: Scene) -> dict[str, Any]:
-    return scene.model_dump(mode="json", by_alias=True, exclude_none=True)
 
 
 def _own_masses(method: str) -> str:

@@ -21,9 +21,9 @@ def initial_state(system: System, calibration: Calibration, weights: Weights) ->
         (isinstance(s, Curved) and s.curvature) or (isinstance(s, Clamped) and s.tilt) for s in scene.supports
     ):
         slack = tuple(
-            a.model_copy(update={"curvature": 0.0}) if isinstance(a, Chain) else a for a in scene.actuators
+            a.replace(curvature=0.0) if isinstance(a, Chain) else a for a in scene.actuators
         )
-        unloaded = scene.model_copy(update={"gravity": None, "loads": (), "actuators": slack})
+        unloaded = scene.replace(gravity=None, loads=(), actuators=slack)
         u = settle(unloaded, pose(unloaded, calibration, weights), "path").state.u
     v = system.place_rate(0.0)
     v = v if system.moving else np.zeros_like(u)

@@ -95,7 +95,7 @@ def simulate(
     axes = system.coupling.axes() if system.coupling is not None else {}
     drawn = np.concatenate([np.arange(masses), *(rows for rows, _ in axes.values())])
     asked = {
-        "scene": scene.model_dump(mode="json", by_alias=True, exclude_none=True),
+        "scene": scene.document(),
         "springs": calibration.as_dict()["springs"],
         "integrator": integrator,
         "step": step,

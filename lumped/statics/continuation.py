@@ -81,7 +81,7 @@ def trace(
     if vary:
         outcome = settle(scene, problem, branch)
         start = outcome.state
-        added = scene.model_copy(update={"gravity": None, "loads": tuple(vary)})
+        added = scene.replace(gravity=None, loads=tuple(vary))
         problem = Problem(
             problem.assembly,
             problem.constraints,

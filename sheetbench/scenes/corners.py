@@ -60,7 +60,7 @@ def _between(motion: EdgeMotion, other: Neighbour | Chain, sheet: Sheet) -> str 
             f"motion on edge {motion.edge} holds"
         )
     axes, turns = _held(other)
-    resting = other.model_copy(update={"motion": None}) if getattr(other, "motion", None) else None
+    resting = other.replace(motion=None) if getattr(other, "motion", None) else None
     cases = [(other, time, f"at t = {time:.3g} s") for time in _moments(motion, other)]
     if resting is not None:
         cases.append((resting, motion.time[-1], "in statics, where supports rest"))

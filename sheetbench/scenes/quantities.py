@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, Strict, ValidationError
 
@@ -50,6 +50,11 @@ class Frozen(BaseModel):
             super().__init__(**keys)
         except ValidationError as error:
             raise SceneError(f"{type(self).__name__}: {in_one_line(error, type(self))}") from None
+
+    def replace(self, **values: Any) -> Self:
+        """The same with other values for some keys. Raises SceneError for what makes no sense."""
+        kept = {name: getattr(self, name) for name in type(self).model_fields}
+        return type(self)(**{**kept, **values})
 
     # what is read from a file or lies within another object is built without the above, so that the whole
     # scene's faults are told together

@@ -91,6 +91,10 @@ class Scene(Frozen):
     def _extent(self) -> str:
         return f"which is 0 ≤ x ≤ {self.sheet.length_x:g} m, 0 ≤ y ≤ {self.sheet.length_y:g} m"
 
+    def document(self) -> dict[str, Any]:
+        """The scene as in a file, for JSON: plain lists, dicts, numbers and texts."""
+        return self.model_dump(mode="json", by_alias=True, exclude_none=True)
+
     def named_actuators(self) -> dict[str, Actuator]:
         """The actuators in their order by their names: an actuator's is its edge, or, where an edge has
         several, its edge and its number."""

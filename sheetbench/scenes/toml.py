@@ -23,7 +23,7 @@ def to_toml(scene: Scene) -> str:
 
 def keys(scene: Scene) -> dict[str, Any]:
     """The scene's keys and values as they stand in a file; what is absent or empty is left out."""
-    data = scene.model_dump(mode="json", by_alias=True, exclude_none=True)
+    data = scene.document()
     return {key: value for key, value in data.items() if value not in ("", [], {})}
 
 

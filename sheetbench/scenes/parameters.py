@@ -1,0 +1,96 @@
+"""The parameters of a scene by name: where each sits, its unit and what it may be.
+
+young, poisson, density, damping_time, damping_rate   of the material
+thickness                                             of the sheet
+curvature_EDGE                                        of the curved support, or of the chains, on an edge
+tilt_EDGE                                             of the clamp on an edge
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import inf
+from typing import Any
+
+from sheetbench.scenes.actuators import Chain
+from sheetbench.scenes.errors import BadInput, SceneError
+from sheetbench.scenes.scene import Scene
+from sheetbench.scenes.supports import LARGEST_TILT, Clamped, Curved
+
+MATERIAL = {"young": "Pa", "poisson": "", "density": "kg/m³", "damping_time": "s", "damping_rate": "1/s"}
+NAMES = (*MATERIAL, "thickness", "curvature_EDGE", "tilt_EDGE")
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number of a scene: its name, unit and value (SI), and the bounds within which it makes sense."""
+
+    name: str
+    unit: str
+    value: float
+    low: float
+    high: float
+
+
+def parameter(scene: Scene, name: str) -> Parameter:
+    """The parameter of this name. Raises BadInput where the scene has none."""
+    if name in MATERIAL:
+        low, high = (-0.99, 0.4999) if name == "poisson" else (0.0, inf)
+        return Parameter(name, MATERIAL[name], getattr(scene.material, name), low, high)
+    if name == "thickness":
+        return Parameter(name, "m", scene.sheet.thickness, 0.0, min(scene.sheet.lengths))
+    kind, _, edge = name.partition("_")
+    if kind == "curvature":
+        return Parameter(name, "1/m", _curvature(scene, edge), -inf, inf)
+    if kind == "tilt":
+        for clamp in scene.supports:
+            if isinstance(clamp, Clamped) and clamp.edge == edge:
+                return Parameter(name, "rad", clamp.tilt, -LARGEST_TILT, LARGEST_TILT)
+        raise BadInput(f"{name}: edge '{edge}' has no clamp")
+    raise BadInput(f"{name}: not a parameter of a scene; choose from {', '.join(NAMES)}")
+
+
+def put(scene: Scene, name: str, value: float) -> Scene:
+    """The scene with a parameter at another value. Raises BadInput where it has none of this name, and
+    SceneError where the value cannot be."""
+    parameter(scene, name)
+    try:
+        return _with(scene, name, value)
+    except SceneError as error:
+        raise SceneError(f"{name} = {value:g}: {error}") from None
+
+
+def _with(scene: Scene, name: str, value: float) -> Scene:
+    if name in MATERIAL:
+        return scene.replace(material=scene.material.replace(**{name: value}))
+    if name == "thickness":
+        return scene.replace(sheet=scene.sheet.replace(thickness=value))
+    kind, _, edge = name.partition("_")
+    if kind == "tilt":
+        return scene.replace(supports=_changed(scene.supports, _is(Clamped, edge), tilt=value))
+    bent = _is(Curved | Chain, edge)
+    return scene.replace(
+        supports=_changed(scene.supports, bent, curvature=value),
+        actuators=_changed(scene.actuators, bent, curvature=value),
+    )
+
+
+def _curvature(scene: Scene, edge: str) -> float:
+    bent = [
+        h for h in (*scene.supports, *scene.actuators) if isinstance(h, Curved | Chain) and h.edge == edge
+    ]
+    values = {holder.curvature for holder in bent}
+    if len(values) == 1 and isinstance(value := values.pop(), int | float):
+        return float(value)
+    if bent:
+        raise BadInput(f"curvature_{edge}: what is bent on edge '{edge}' has not one curvature")
+    raise BadInput(f"curvature_{edge}: edge '{edge}' has no curved support, nor a chain")
+
+
+def _is(kind: Any, edge: str) -> Callable[[Any], bool]:
+    return lambda holder: isinstance(holder, kind) and holder.edge == edge
+
+
+def _changed(holders: tuple[Any, ...], which: Callable[[Any], bool], **values: float) -> tuple[Any, ...]:
+    return tuple(holder.replace(**values) if which(holder) else holder for holder in holders)

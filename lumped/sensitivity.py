@@ -131,6 +131,9 @@ def _changed(scene: Scene, calibration: Calibration, name: str, value: float) ->
     return _recalibrated(changed, calibration) if name in CALIBRATED_FROM else (changed, calibration)
 
 
+def _of_scene(name: str) -> bool:
+    return name in (*CALIBRATED_FROM, "density") or name.startswith(tuple(STEP_OF))
+
 
 def _recalibrated(scene: Scene, calibration: Calibration) -> tuple[Scene, Calibration]:
     """The scene with springs for its changed sheet, by the same method."""

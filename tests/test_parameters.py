@@ -40,7 +40,7 @@ def test_a_pair_of_one_curvature_changes_together_and_one_of_two_is_refused():
     bent = put(SCENE.replace(actuators=tuple(pair)), "curvature_x1", 5.0)
     assert [chain.curvature for chain in bent.actuators] == [5.0, 5.0]
     uneven = SCENE.replace(actuators=(pair[0], pair[1].replace(curvature=1.0)))
-    with pytest.raises(BadInput, match="has not one curvature"):
+    with pytest.raises(BadInput, match="no support or actuator of one curvature"):
         parameter(uneven, "curvature_x1")
 
 
@@ -49,7 +49,7 @@ def test_a_pair_of_one_curvature_changes_together_and_one_of_two_is_refused():
     [
         ("mass", "not a parameter of a scene; choose from young, poisson"),
         ("tilt_y1", "edge 'y1' has no clamp"),
-        ("curvature_x0", "edge 'x0' has no curved support, nor a chain"),
+        ("curvature_x0", "edge 'x0' has no support or actuator of one curvature"),
     ],
 )
 def test_what_a_scene_does_not_have_is_refused(name, said):

@@ -20,9 +20,7 @@ def initial_state(system: System, calibration: Calibration, weights: Weights) ->
     if any(
         (isinstance(s, Curved) and s.curvature) or (isinstance(s, Clamped) and s.tilt) for s in scene.supports
     ):
-        slack = tuple(
-            a.replace(curvature=0.0) if isinstance(a, Chain) else a for a in scene.actuators
-        )
+        slack = tuple(a.replace(curvature=0.0) if isinstance(a, Chain) else a for a in scene.actuators)
         unloaded = scene.replace(gravity=None, loads=(), actuators=slack)
         u = settle(unloaded, pose(unloaded, calibration, weights), "path").state.u
     v = system.place_rate(0.0)

@@ -47,8 +47,8 @@ def parameter(scene: Scene, name: str) -> Parameter:
         for clamp in scene.supports:
             if isinstance(clamp, Clamped) and clamp.edge == edge:
                 return Parameter(name, "rad", clamp.tilt, -LARGEST_TILT, LARGEST_TILT)
-        raise BadInput(f"{name}: edge '{edge}' has no clamp")
-    raise BadInput(f"{name}: not a parameter of a scene; choose from {', '.join(NAMES)}")
+        raise BadInput(f"'{name}': edge '{edge}' has no clamp")
+    raise BadInput(f"'{name}': not a parameter of a scene; choose from {', '.join(NAMES)}")
 
 
 def put(scene: Scene, name: str, value: float) -> Scene:
@@ -83,9 +83,7 @@ def _curvature(scene: Scene, edge: str) -> float:
     values = {holder.curvature for holder in bent}
     if len(values) == 1 and isinstance(value := values.pop(), int | float):
         return float(value)
-    if bent:
-        raise BadInput(f"curvature_{edge}: what is bent on edge '{edge}' has not one curvature")
-    raise BadInput(f"curvature_{edge}: edge '{edge}' has no curved support, nor a chain")
+    raise BadInput(f"'curvature_{edge}': edge '{edge}' has no support or actuator of one curvature")
 
 
 def _is(kind: Any, edge: str) -> Callable[[Any], bool]:

@@ -323,6 +323,7 @@ def test_command_prints_tables(file, capsys):
         (("--model", "plate"), ["plate", "shell"]),
         (("--calibration", "fit-static"), ["fit-static"]),
         (("--lumped", "9y"), ["9y"]),
+        (("--offset", "0.001"), ["offset = 0.001 m", "cloud"]),
     ],
 )
 def test_bad_option_leaves_with_2_and_one_line(arguments, named, file, capsys):

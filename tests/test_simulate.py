@@ -76,6 +76,7 @@ def test_files_of_a_run(tmp_path, capsys):
         (["--integrator", "rk4"], "choose from"),
         (["--duration", "-1"], "duration = -1 s"),
         (["--measured", "nowhere.csv"], "nowhere.csv"),
+        (["--animate"], "--animate: needs --out"),
     ],
 )
 def test_bad_input_leaves_with_2_in_one_line(options, said, capsys):
@@ -99,6 +100,19 @@ def test_measured_files_are_checked(tmp_path, text, said):
     path.write_text(text)
     with pytest.raises(ValueError, match=said):
         histories.read_measured(path, ["P1"])
+
+
+def test_measured_times_beyond_the_run_are_said(tmp_path, capsys):
+    path = tmp_path / "measured.csv"
+    path.write_text("time,probe,ux,uy,uz\n0.05,P4,,,-0.02\n0.2,P4,,,-0.01\n0.3,P4,,,-0.01\n")
+    assert leaves_with(0, [*RUN, "--every", "0.02", "--measured", str(path)])
+    said = " ".join(capsys.readouterr().err.split())
+    assert "P4: 2 of 3 measured times left out, for the run is from 0 to 0.1 s" in said
+    path.write_text("time,probe,ux,uy,uz\n0.2,P4,,,-0.02\n0.3,P1,,,-0.01\n")
+    assert leaves_with(2, [*RUN, "--every", "0.02", "--measured", str(path)])
+    said = capsys.readouterr().err
+    assert "no time within the run of 0.1 s (--duration), but from 0.2 to 0.3 s" in said
+    assert "simulated" not in said
 
 
 def test_measured_error_is_relative_to_the_largest_measured_component():

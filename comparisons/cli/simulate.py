@@ -45,12 +45,18 @@ def command(
     from comparisons.cli.finish import finish
     from comparisons.models.candidate import Candidate
     from comparisons.models.registry import check, simulate
-    from comparisons.motion.history import read_measured
+    from comparisons.motion.history import read_measured, require_within
     from comparisons.motion.tables import report
     from sheetbench import scenes
+    from sheetbench.scenes.errors import BadInput
 
     asked = scenes.load(scene)
-    truth = read_measured(measured, list(asked.probes)) if measured is not None else {}
+    if animate and out is None:
+        raise BadInput("--animate: needs --out, a folder to draw into")
+    truth = {}
+    if measured is not None:
+        truth = read_measured(measured, list(asked.probes))
+        require_within(truth, duration, measured)
     check(asked, Candidate("lumped", {"grid": lumped, "calibration": calibration}))
     run = {
         "--integrator": integrator,

@@ -26,7 +26,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from comparisons.identification import surface, tables
-from comparisons.identification.measurements import Displacements, Measured
+from comparisons.identification.measurements import Displacements, Measured, Surface
 from comparisons.identification.misfit import Misfit, require_same_way
 from comparisons.identification.prediction import (
     NotReached,
@@ -138,6 +138,10 @@ def identify(
     require_static(scene)
     unknowns = tuple(unknown(scene, name) for name in names)
     _check(measured, unknowns, model, calibration, elements)
+    if offset and not isinstance(measured, Surface):
+        raise BadInput(
+            f"offset = {offset:g} m: of the points of a cloud from the mid-surface; displacements are its own"
+        )
     predict, settings, axes = _predictor(scene, measured, model, grid, calibration, elements)
     misfit = Misfit(measured, axes, offset)
     kept: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}

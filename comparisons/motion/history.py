@@ -8,6 +8,7 @@ component|, the simulation interpolated linearly.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -49,9 +50,36 @@ def read_measured(path: Path, probes: list[str]) -> dict[str, Measured]:
     return found
 
 
+def require_within(measured: Mapping[str, Measured], duration: float, file: Path) -> None:
+    """Raise BadInput where no measured time lies within a run of `duration` [s]."""
+    first = min((float(one.time[0]) for one in measured.values()), default=0.0)
+    last = max((float(one.time[-1]) for one in measured.values()), default=0.0)
+    if not any(_inside(one, 0.0, duration).any() for one in measured.values()):
+        raise BadInput(
+            f"--measured = '{file}': no time within the run of {duration:g} s (--duration), "
+            f"but from {first:g} to {last:g} s"
+        )
+
+
+def left_out(history: History, measured: Mapping[str, Measured]) -> list[str]:
+    """A sentence for every probe with measurements outside the time of the run."""
+    start, end = float(history.time[0]), float(history.time[-1])
+    said = []
+    for probe, one in measured.items():
+        if outside := int(np.sum(~_inside(one, start, end))):
+            of = f"{outside} of {len(one.time)} measured times"
+            said.append(f"{probe}: {of} left out, for the run is from {start:g} to {end:g} s")
+    return said
+
+
+def _inside(measured: Measured, start: float, end: float) -> np.ndarray:
+    found: np.ndarray = (measured.time >= start) & (measured.time <= end)
+    return found
+
+
 def error(history: History, probe: str, measured: Measured) -> float | None:
     """The error of a simulated probe against its measured history, as the module defines it."""
-    inside = (measured.time >= history.time[0]) & (measured.time <= history.time[-1])
+    inside = _inside(measured, history.time[0], history.time[-1])
     truth = measured.displacement[inside]
     if not np.isfinite(truth).any() or np.nanmax(np.abs(truth)) == 0.0:
         return None

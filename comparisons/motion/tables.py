@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from comparisons.motion import frames
-from comparisons.motion.history import Measured, as_dict, series, summary
+from comparisons.motion.history import Measured, as_dict, left_out, series, summary
 from comparisons.report.files import write_text
 from comparisons.report.report import Picture, Report
 from sheetbench.scenes import History, Scene, Status
@@ -35,7 +35,10 @@ def report(
         document=as_dict(history, truth),
         tables=(summary(history, truth),),
         notes=(*([earlier] if resumed else []), balance(history)),
-        complaints=() if complete else (f"{history.status}: {history.message}",),
+        complaints=(
+            *(() if complete else (f"{history.status}: {history.message}",)),
+            *left_out(history, truth),
+        ),
         pictures=tuple(pictures),
         attachments={
             "history.csv": lambda path: write_text(path, series(history).to_csv()),

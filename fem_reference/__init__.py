@@ -11,7 +11,7 @@ from importlib import import_module
 from inspect import signature
 from typing import Any
 
-from sheetbench.scenes import Scene, Solution
+from sheetbench.scenes import AnyScene, Solution, scene_of
 from sheetbench.scenes.errors import BadInput
 
 MODELS = {
@@ -23,13 +23,13 @@ MODELS = {
 __all__ = ["MODELS", "check", "modes", "options", "solve"]
 
 
-def solve(scene: Scene, model: str = "shell", **asked: Any) -> Solution:
+def solve(scene: AnyScene, model: str = "shell", **asked: Any) -> Solution:
     """The static answer of a reference model; `elements` along the shorter side, or a pair (nx, ny).
 
     Raises BadInput for an unknown model or option, scenes.SceneError for a scene that no support holds.
     """
     check(model, asked)
-    return _solver(model)(scene, **asked)
+    return _solver(model)(scene_of(scene), **asked)
 
 
 def check(model: str, asked: Mapping[str, Any]) -> None:

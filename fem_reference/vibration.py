@@ -40,7 +40,7 @@ from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.threads import one_blas_thread
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
-from sheetbench.scenes import About, Scene, require_static, summary
+from sheetbench.scenes import About, AnyScene, Scene, require_static, scene_of, summary
 from sheetbench.scenes.errors import BadInput
 
 REACH = 0.375  # of the grading
@@ -92,7 +92,7 @@ class Modes(summary.Summarised):
 
 
 def modes(
-    scene: Scene,
+    scene: AnyScene,
     model: str = "shell",
     elements: Elements = 16,
     count: int = 10,
@@ -113,6 +113,7 @@ def modes(
     if model not in REST_STATES:
         raise BadInput(f"model = {model!r}: known are {', '.join(REST_STATES)}")
     begin = perf_counter()
+    scene = scene_of(scene)
     if about == "deformed":
         require_static(scene)
         if model != "shell" or scene.actuators:

@@ -14,7 +14,7 @@ import scipy.linalg
 import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, eigsh
 
-from lumped.calibration import Calibration
+from lumped.calibration import Calibration, default
 from lumped.lattice import Lattice
 from lumped.linear.threads import one_blas_thread
 from lumped.masses import masses
@@ -22,7 +22,16 @@ from lumped.mid_surface import MidSurface
 from lumped.springs import constants
 from lumped.statics.problem import Problem
 from lumped.statics.solver import pose, settle
-from sheetbench.scenes import About, Scene, Status, free_rigid_motions, require_static, summary
+from sheetbench.scenes import (
+    About,
+    AnyScene,
+    Scene,
+    Status,
+    free_rigid_motions,
+    require_static,
+    scene_of,
+    summary,
+)
 from sheetbench.scenes.errors import BadInput, NoEquilibrium
 from sheetbench.scenes.springs import Distribution
 
@@ -54,21 +63,24 @@ class Modes(summary.Summarised):
 
 
 def modes(
-    scene: Scene,
-    calibration: Calibration,
+    scene: AnyScene,
+    calibration: Calibration | None = None,
     count: int = 10,
     distribution: Distribution | None = None,
     about: About = "flat",
 ) -> Modes:
     """The `count` lowest natural modes of the scene's sheet on a lattice.
 
-    distribution: how the masses are shared out (`lumped.masses`), the springs' own unless given. about: the
-    flat, stress-free sheet, without actuators, loads not mattering; or "deformed", its equilibrium under the
-    scene's loads (no actuators, no follower loads), with the tangent there.
+    calibration: as of `lumped.solve`. distribution: how the masses are shared out (`lumped.masses`), the
+    springs' own unless given. about: the flat, stress-free sheet, without actuators, loads not mattering; or
+    "deformed", its equilibrium under the scene's loads (no actuators, no follower loads), with the tangent
+    there.
 
     Raises BadInput when the lattice has fewer modes than asked or the scene asks what has no modes,
     NoEquilibrium where there is none to be about.
     """
+    scene = scene_of(scene)
+    calibration = calibration or default(scene)
     if about == "deformed":
         problem, at = _equilibrium(scene, calibration)
     else:

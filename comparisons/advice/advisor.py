@@ -20,7 +20,7 @@ from comparisons.advice.probing import Probing, Trial
 from comparisons.advice.scales import Scales, scales
 from comparisons.models.candidate import Candidate
 from comparisons.report.report import Report
-from sheetbench.scenes import Scene, require_static
+from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
 from sheetbench.scenes.errors import BadInput
 
 NEGLIGIBLE = 0.25  # of the tolerance: an effect smaller than that is left out
@@ -90,12 +90,13 @@ class Advice:
         return tables.report(self)
 
 
-def advise(scene: Scene, tolerance: float | None = 0.01, budget: float | None = None) -> Advice:
+def advise(scene: AnyScene, tolerance: float | None = 0.01, budget: float | None = None) -> Advice:
     """The cheapest model predicted to meet `tolerance` (a fraction), or the most accurate in `budget` [s].
 
     With both, the cheapest that meets the tolerance; where that takes longer, the most accurate in time, and
     `met` is false. Raises SceneError for a scene without a static answer.
     """
+    scene = scene_of(scene)
     require_static(scene)
     probing = Probing(scene)
     sizes = scales(scene)

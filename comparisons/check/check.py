@@ -8,15 +8,16 @@ from __future__ import annotations
 from comparisons.models.grids import scene_grid
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
-from sheetbench.scenes import Scene, free_rigid_motions
+from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
 from sheetbench.scenes.grid import near_square
 from sheetbench.scenes.words import in_words
 
 ELEMENTS = 16  # of the shell, along the shorter side
 
 
-def check(scene: Scene) -> Report:
+def check(scene: AnyScene) -> Report:
     """The report of `sheetbench check`."""
+    scene = scene_of(scene)
     parts = [*in_words(scene), ("lattice", _lattice(scene)), ("shell", _shell(scene))]
     free = free_rigid_motions(scene)
     return Report(

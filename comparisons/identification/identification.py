@@ -20,13 +20,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import inf
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from scipy.optimize import least_squares
 
 from comparisons.identification import surface, tables
-from comparisons.identification.measurements import Displacements, Measured, Surface
+from comparisons.identification.measurements import Displacements, Measured, Surface, read
 from comparisons.identification.misfit import Misfit, require_same_way
 from comparisons.identification.prediction import (
     NotReached,
@@ -40,7 +41,7 @@ from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.registry import check_lattice, check_reference
 from comparisons.report.report import Report
 from lumped import CALIBRATIONS, Identifiability, identifiability
-from sheetbench.scenes import Scene, require_static
+from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import near_square
 
@@ -113,9 +114,9 @@ class Identification:
 
 
 def identify(
-    scene: Scene,
-    measured: Measured,
-    names: Sequence[str],
+    scene: AnyScene,
+    measured: Measured | Path | str,
+    names: Sequence[str] | str = "young",
     *,
     model: str = "lumped",
     grid: Asked = None,
@@ -125,7 +126,7 @@ def identify(
     refine: bool = True,
     progress: Callable[[str], None] = lambda text: None,
 ) -> Identification:
-    """The unknowns of these names, from measurements.
+    """The unknowns of these names, from measurements or a file of them (`measurements.read`).
 
     grid (as `comparisons.models.grids` reads it), calibration: of the lattice; elements: of a reference;
     offset [m]: where a cloud was taken along the surface's normal, 0 on the mid-surface. refine: whether to
@@ -135,7 +136,10 @@ def identify(
     Raises BadInput for names, models and data that do not go together, and NotReached where the model has no
     stable answer with the scene's own values.
     """
+    scene = scene_of(scene)
     require_static(scene)
+    measured = read(Path(measured), scene) if isinstance(measured, str | Path) else measured
+    names = [names] if isinstance(names, str) else names
     unknowns = tuple(unknown(scene, name) for name in names)
     _check(measured, unknowns, model, calibration, elements)
     if offset and not isinstance(measured, Surface):

@@ -30,14 +30,14 @@ from lumped.lattice import Weights
 from lumped.linear.threads import one_blas_thread
 from lumped.statics.fields import field_mesh
 from lumped.statics.solver import pose
-from sheetbench.scenes import History, Scene, Status
+from sheetbench.scenes import AnyScene, History, Status, scene_of
 from sheetbench.scenes.errors import BadInput
 
 SAMPLES_PER_CHECKPOINT = 50
 
 
 def simulate(
-    scene: Scene,
+    scene: AnyScene,
     calibration: Calibration | None = None,
     duration: float = 1.0,
     *,
@@ -77,6 +77,7 @@ def simulate(
         if value is not None and not (value > 0.0 and np.isfinite(value)):
             raise BadInput(f"{name} = {value:g} s: must be greater than 0 and finite")
     began = clock.perf_counter()
+    scene = scene_of(scene)
     calibration = calibration or default(scene)
     system = System(scene, pose(scene, calibration, weights, precision))
     start = initial_state(system, calibration, weights)

@@ -12,17 +12,18 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 from lumped.calibration import Calibration
 from lumped.statics.equilibrium import at_rest, follow
 from lumped.statics.solver import pose
-from sheetbench.scenes import Scene, SceneError, require_static
+from sheetbench.scenes import AnyScene, SceneError, require_static, scene_of
 
 SMALL_LOAD = 1e-4  # share of the full load that the change of the tangent is taken over, first
 
 
-def buckling_loads(scene: Scene, calibration: Calibration, count: int = 1) -> np.ndarray:
+def buckling_loads(scene: AnyScene, calibration: Calibration, count: int = 1) -> np.ndarray:
     """The `count` lowest positive buckling load factors of a scene's loads, (count,).
 
     Meant for loads that leave the sheet flat. The state of small load is refined once, to a hundredth of
     the first estimate. Raises SceneError when nothing stops a rigid motion or no load factor is positive.
     """
+    scene = scene_of(scene)
     require_static(scene)
     problem = pose(scene, calibration)
     rest = at_rest(problem)

@@ -24,7 +24,7 @@ from lumped.mid_surface import MidSurface
 from lumped.statics.equilibrium import COARSE, State, StepFailed, all_rounding, at_rest, follow
 from lumped.statics.problem import Problem
 from lumped.statics.solver import Branch, pose, settle
-from sheetbench.scenes import Iteration, Load, Scene, Status, require_static
+from sheetbench.scenes import AnyScene, Iteration, Load, Status, require_static, scene_of
 
 CORRECTIONS = 10
 TOLERANCE = 1e-9  # residual relative to the forces
@@ -56,7 +56,7 @@ class Path:
 
 
 def trace(
-    scene: Scene,
+    scene: AnyScene,
     calibration: Calibration,
     *,
     vary: Sequence[Load] = (),
@@ -76,6 +76,7 @@ def trace(
 
     Raises scenes.SceneError when nothing stops a rigid motion, SingularMatrixError at a singular start.
     """
+    scene = scene_of(scene)
     require_static(scene)
     problem = pose(scene, calibration)
     if vary:

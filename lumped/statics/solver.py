@@ -27,6 +27,7 @@ from lumped.statics.fields import field_mesh
 from lumped.statics.problem import Problem
 from lumped.supports import constrain
 from sheetbench.scenes import (
+    AnyScene,
     Clamped,
     Gravity,
     Iteration,
@@ -37,6 +38,7 @@ from sheetbench.scenes import (
     Status,
     outside_model,
     require_static,
+    scene_of,
 )
 from sheetbench.scenes.errors import BadInput
 
@@ -58,7 +60,7 @@ class Outcome:
 
 
 def solve(
-    scene: Scene,
+    scene: AnyScene,
     calibration: Calibration | None = None,
     *,
     branch: Branch = "path",
@@ -69,8 +71,8 @@ def solve(
 ) -> Solution:
     """Static equilibrium of the scene on a lattice with these springs, from flat to full load.
 
-    calibration: from `calibrate`; without it the scene's own [springs], or else `consistent` on nine masses
-    along the shorter side.
+    scene: or a name of the catalogue, or a path. calibration: from `calibrate`; without it the scene's own
+    [springs], or else `consistent` on nine masses along the shorter side.
     branch: "path" reports the equilibrium on the load path, stable or not; "stable" leaves an unstable one
     along a direction of negative curvature and descends to a stable equilibrium. weights: "full" gives
     boundary links and masses full shares, as the seed has them. linear: the answer for small displacements,
@@ -81,6 +83,7 @@ def solve(
     other outcome is a status; where the full load was not reached, the last converged load is kept and
     `load_factor` says which.
     """
+    scene = scene_of(scene)
     require_static(scene)
     if linear and scene.actuators:
         raise BadInput("linear = True: actuators turn with the sheet; solve without")

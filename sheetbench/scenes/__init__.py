@@ -3,7 +3,7 @@
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable, EdgeMotion
 from sheetbench.scenes.balance import Balance, dead_force
 from sheetbench.scenes.errors import BadInput, Implausible, SceneError
-from sheetbench.scenes.files import catalogue, load
+from sheetbench.scenes.files import AnyScene, catalogue, load, scene_of
 from sheetbench.scenes.history import History
 from sheetbench.scenes.loads import EdgeLoad, Load, PointLoad, Pressure
 from sheetbench.scenes.scene import Scene, free_rigid_motions, require_static
@@ -30,6 +30,7 @@ __all__ = [
     "EDGES",
     "About",
     "Actuator",
+    "AnyScene",
     "BadInput",
     "Balance",
     "Chain",
@@ -74,5 +75,6 @@ __all__ = [
     "outside_model",
     "require_static",
     "rod_middle",
+    "scene_of",
     "weight_strain",
 ]

@@ -21,6 +21,14 @@ def catalogue() -> dict[str, Path]:
     return {path.stem: path for path in sorted(folder.glob("*.toml"))}
 
 
+AnyScene = Scene | str | Path
+
+
+def scene_of(asked: AnyScene) -> Scene:
+    """The scene itself, or that of a catalogue name or a TOML file."""
+    return asked if isinstance(asked, Scene) else load(asked)
+
+
 def load(scene: str | Path) -> Scene:
     """The scene of a catalogue name or of a TOML file.
 

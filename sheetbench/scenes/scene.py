@@ -6,6 +6,7 @@ once, and frozen; see `sheetbench.scenes.supports` and `sheetbench.scenes.loads`
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -107,6 +108,12 @@ class Scene(Frozen):
         """The edges along which nothing holds the director: free, hinged and held ones."""
         bound = {actuator.edge for actuator in self.actuators}
         return frozenset(e for e in EDGES if e not in bound and lets_twist_go(e, self.supports))
+
+    def save(self, path: str | Path) -> None:
+        """Write the scene as TOML, from which `load` reads an equal one."""
+        from sheetbench.scenes.toml import to_toml  # a scene that is only solved need not know how
+
+        Path(path).write_text(to_toml(self), encoding="utf-8")
 
     def probe_points(self) -> np.ndarray:
         """Plan points of the probes, (n, 2) [m], in the order of `probes`."""

@@ -1,0 +1,113 @@
+"""Verbs in Python where what stands behind them wants more than a scene: springs, a campaign to keep rows in.
+
+The other verbs of `sheetbench` are the functions of the packages below, as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+from comparisons.models import registry
+from comparisons.models.candidate import Candidate
+from comparisons.models.grids import Asked, scene_grid
+from sheetbench.scenes import AnyScene, History, Solution, scene_of
+
+if TYPE_CHECKING:
+    from comparisons.runs.campaign import Progress
+    from comparisons.tradeoff.statics import Tradeoff
+    from lumped import Calibration
+
+
+def calibrate(
+    scene: AnyScene,
+    *,
+    grid: Asked = None,
+    method: str = "consistent",
+    k: float | None = None,
+    layer_distance: float | None = None,
+) -> Calibration:
+    """Spring constants of a lattice for the scene's sheet and material, with the moduli that they meet.
+
+    grid: 9 along the shorter side with near-square cells unless given; (nx, ny), (nx, ny, layers). method: a
+    name of `lumped.CALIBRATIONS`; the fitted ones train on the scene. k [N/m] and layer_distance [m] are for
+    the methods that take them. Raises BadInput for what does not exist or go together.
+    """
+    asked = scene_of(scene)
+    return registry.calibrate(
+        asked.sheet,
+        asked.material,
+        grid=scene_grid(asked, grid),
+        calibration=method,
+        k=k,
+        layer_distance=layer_distance,
+        training=[asked],
+    )
+
+
+def solve(scene: AnyScene, model: str = "lumped", **settings: Any) -> Solution:
+    """The static answer of one model: "lumped", "plate", "shell", "solid", or a plug-in's name.
+
+    settings: of the lattice `grid`, `calibration`, `k`, `layer_distance`; of the references `elements`.
+    Raises SceneError for a scene that could float away, BadInput for a model or setting that does not exist;
+    a solve that fails is a status.
+    """
+    return registry.solve(scene_of(scene), model, **settings)
+
+
+def simulate(
+    scene: AnyScene,
+    duration: float,
+    *,
+    grid: Asked = None,
+    calibration: str | None = None,
+    **settings: Any,
+) -> History:
+    """The lattice's motion from rest over `duration` [s], loads and weight on at t = 0.
+
+    settings: those of `lumped.simulate`, as `integrator`, `step` [s], `every` [s].
+    """
+    return registry.simulate(scene_of(scene), duration, grid=grid, calibration=calibration, **settings)
+
+
+def tradeoff(
+    scene: AnyScene,
+    *,
+    lumped: Sequence[Asked] = (3, 5, 9, 17),
+    calibration: Sequence[str] = ("consistent",),
+    plate: Sequence[int] = (),
+    shell: Sequence[int] = (4, 8, 16),
+    solid: Sequence[int] = (),
+    models: Sequence[Candidate] = (),
+    repeats: int = 5,
+    workers: int = 1,
+    out: Path | str | None = None,
+    progress: Callable[[Progress], None] = lambda progress: None,
+) -> Tradeoff:
+    """Error against time over lattices (grids), references (elements along the shorter side) and others.
+
+    models: further ones, plug-ins too. repeats: timed solves of every row, at least. out: a folder that
+    keeps the rows, so that the same call goes on where an earlier one was stopped. Rows are computed in
+    processes of their own: a script calls this under `if __name__ == "__main__":`.
+    """
+    from comparisons.runs.campaign import campaign
+    from comparisons.tradeoff.statics import tradeoff
+
+    asked = scene_of(scene)
+    candidates = [
+        Candidate("lumped", {"grid": list(scene_grid(asked, grid)), "calibration": name})
+        for name in calibration
+        for grid in lumped
+    ]
+    for name, meshes in (("plate", plate), ("shell", shell), ("solid", solid)):
+        candidates += [Candidate(name, {"elements": count}) for count in meshes]
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(TemporaryDirectory()) if out is None else out)
+        folder.mkdir(parents=True, exist_ok=True)
+        store = stack.enter_context(campaign(folder))
+        return tradeoff(
+            asked, [*candidates, *models], store, repeats=repeats, workers=workers, progress=progress
+        )

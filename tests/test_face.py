@@ -1,0 +1,170 @@
+"""The face in Python: quick to import, one name for everything, and a scene is a scene, a name or a path."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import fem_reference
+import lumped
+import sheetbench as sb
+from comparisons.tradeoff import statics
+
+NAME = "one-edge-clamped"
+HEAVY = [
+    "numpy",
+    "scipy",
+    "pydantic",
+    "numba",
+    "skfem",
+    "meshio",
+    "pyvista",
+    "vtkmodules",
+    "matplotlib",
+    "rich",
+]
+HEAVY += ["typer", "lumped", "fem_reference", "comparisons", "sheetbench.scenes"]
+
+
+def python(*arguments: str, **environment: str) -> str:
+    """What a fresh interpreter prints."""
+    around = {**os.environ, **environment}
+    done = subprocess.run(
+        [sys.executable, *arguments], capture_output=True, text=True, check=True, env=around
+    )
+    return done.stdout.strip()
+
+
+def test_importing_sheetbench_imports_nothing_heavy() -> None:
+    code = "import sys, sheetbench; print([m for m in sys.argv[1:] if m in sys.modules])"
+    assert python("-c", code, *HEAVY) == "[]"
+
+
+def test_a_scene_is_read_without_any_solver() -> None:
+    solvers = [name for name in HEAVY if name not in ("numpy", "pydantic", "sheetbench.scenes")]
+    code = f"import sys, sheetbench as sb; sb.load('{NAME}')"
+    code += "; print([m for m in sys.argv[1:] if m in sys.modules])"
+    assert python("-c", code, *solvers) == "[]"
+
+
+def test_every_name_is_there() -> None:
+    for name in sb.__all__:
+        assert getattr(sb, name) is not None
+        assert name in dir(sb)
+    assert sb.__version__ == "0.1.0"
+    with pytest.raises(AttributeError, match="no attribute 'weigh'"):
+        sb.weigh  # noqa: B018
+
+
+def test_it_is_a_command_too() -> None:
+    assert python("-m", "sheetbench", "--version") == "sheetbench 0.1.0"
+
+
+def test_a_users_own_modules_do_not_shadow_ours(tmp_path: Path) -> None:
+    for taken in ("scenes.py", "report.py", "models.py", "catalogue.py"):
+        (tmp_path / taken).write_text("raise SystemExit('mine')\n")
+    script = tmp_path / "run.py"
+    script.write_text(f"import sheetbench as sb\nprint(sb.load('{NAME}').name)\n")
+    assert python(str(script)) == NAME
+
+
+def test_compiled_kernels_are_kept_outside_the_packages(tmp_path: Path) -> None:
+    ask = "import lumped, numba; print(numba.config.CACHE_DIR)"
+    forget = "import os; os.environ.pop('NUMBA_CACHE_DIR', None); "
+    quick = {"NUMBA_DISABLE_JIT": "1"}
+    ours = tmp_path / "sheetbench" / "numba"
+    assert python("-c", forget + ask, XDG_CACHE_HOME=str(tmp_path), **quick) == str(ours)
+    theirs = str(tmp_path / "theirs")
+    assert python("-c", ask, NUMBA_CACHE_DIR=theirs, **quick) == theirs
+
+
+def test_the_packages_say_that_they_are_typed() -> None:
+    for package in (sb, lumped, fem_reference, sys.modules["comparisons"]):
+        assert (Path(str(package.__file__)).parent / "py.typed").is_file()
+
+
+VERBS: dict[str, Callable[[Any], Any]] = {
+    "sb.calibrate": lambda scene: sb.calibrate(scene, grid=3).springs.axial,
+    "sb.solve": lambda scene: sb.solve(scene, grid=3).displacement([[0.1, 0.1]]),
+    "sb.solve shell": lambda scene: sb.solve(scene, "shell", elements=2).displacement([[0.1, 0.1]]),
+    "sb.compare": lambda scene: (
+        sb.compare(scene, grid=3, elements=2, uncertainty=False).differences[0].relative
+    ),
+    "sb.modes": lambda scene: sb.modes(scene, grid=3, count=2, elements=2)[0].frequencies,
+    "sb.simulate": lambda scene: sb.simulate(scene, 1e-3, grid=3).probes["P4"][-1],
+    "sb.check": lambda scene: sb.check(scene).tables[0].rows,
+    "lumped.solve": lambda scene: lumped.solve(scene, sb.calibrate(NAME, grid=3)).displacement([[0.1, 0.1]]),
+    "lumped.modes": lambda scene: lumped.modes(scene, sb.calibrate(NAME, grid=3), 2).frequencies,
+    "lumped.simulate": lambda scene: lumped.simulate(scene, sb.calibrate(NAME, grid=3), 1e-3).time,
+    "fem_reference.solve": lambda scene: fem_reference.solve(scene, elements=2).displacement([[0.1, 0.1]]),
+    "fem_reference.modes": lambda scene: fem_reference.modes(scene, elements=2, count=2).frequencies,
+}
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_a_scene_a_name_and_a_path_are_the_same_to_every_verb(tmp_path: Path, verb: str) -> None:
+    scene = sb.load(NAME)
+    path = tmp_path / "saved.toml"
+    scene.save(path)
+    ask = VERBS[verb]
+    expected = ask(scene)
+    for other in (NAME, path, str(path)):
+        assert np.all(np.asarray(ask(other) == expected))
+
+
+@pytest.mark.parametrize("verb", ["advise", "calibrate", "check", "compare", "modes", "solve", "tradeoff"])
+def test_a_name_that_is_none_is_refused(verb: str) -> None:
+    with pytest.raises(sb.SceneError, match="no-such-sheet: no such file"):
+        getattr(sb, verb)("no-such-sheet")
+
+
+def test_grids_are_numbers_or_tuples() -> None:
+    assert sb.calibrate(NAME, grid=5) == sb.calibrate(NAME, grid=(5, 5)) == sb.calibrate(NAME, grid=(5, 5, 2))
+    scene = sb.load(NAME)
+    direct = lumped.calibrate(scene.sheet, scene.material, grid=5)
+    assert direct == lumped.calibrate(scene.sheet, scene.material, grid=(5, 5)) == sb.calibrate(scene, grid=5)
+
+
+def test_identify_reads_a_file_and_finds_the_modulus_again(tmp_path: Path) -> None:
+    softer = sb.load(NAME).model_copy(update={"material": sb.Material(4.0e7, 0.48, 1678.0)})
+    points = np.array([[0.1, 0.05], [0.1, 0.15], [0.188, 0.094]])
+    moved = sb.solve(softer, grid=3).displacement(points)
+    rows = [",".join(map(repr, map(float, [*at, *u]))) for at, u in zip(points, moved, strict=True)]
+    file = tmp_path / "measured.csv"
+    file.write_text("\n".join(["x,y,ux,uy,uz", *rows]) + "\n")
+    found = sb.identify(NAME, file, "young", grid=3, refine=False)
+    assert found.unknowns["young"].value == pytest.approx(4.0e7, rel=1e-4)
+
+
+def test_a_trade_off_is_asked_in_lists(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[Any] = []
+    monkeypatch.setattr(statics, "tradeoff", lambda scene, candidates, store, **_: asked.extend(candidates))
+    out = tmp_path / "kept"
+    sb.tradeoff(NAME, lumped=(3, (5, 7)), calibration=("consistent", "uniform"), shell=(4,), out=out)
+    assert [one.settings.get("grid") for one in asked] == [[3, 3, 2], [5, 7, 2], [3, 3, 2], [5, 7, 2], None]
+    assert [one.model for one in asked] == 4 * ["lumped"] + ["shell"]
+    assert (out / "campaign.sqlite").is_file()
+
+
+def test_a_saved_scene_holds_every_digit(tmp_path: Path) -> None:
+    moved = sb.EdgeMotion(
+        kind="motion", time=[0.0, 1.0], edge="x1", displacement=[[0.0] * 3, [0.01, 0.0, 0.0]]
+    )
+    scene = sb.Scene(
+        name='it\'s "quoted"',
+        sheet=sb.Sheet(0.1 + 0.2, 0.2, 1e-3 / 3),
+        material=sb.Material(1e6 / 7, 0.3, 1e3),
+        loads=[sb.Pressure(value=1e-9, history={"time": [0.0, 0.1], "factor": [0.0, 1.0]})],
+        supports=[sb.Clamped("x0"), sb.Held(edge="y0", components=("z",)), sb.Symmetric(edge="y1")],
+        actuators=[moved],
+        probes={"µ 1": (0.1, 0.1)},
+    )
+    scene.save(tmp_path / "scene.toml")
+    assert sb.load(tmp_path / "scene.toml") == scene

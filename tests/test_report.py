@@ -18,7 +18,7 @@ from test_scenes import written
 from comparisons.report import escape
 from comparisons.report.layout import blocks
 from comparisons.report.report import Report
-from comparisons.report.table import Column, Table, Unit, unit
+from comparisons.report.table import Column, Table, Unit, quantity, unit
 from comparisons.runs.folder import MANIFEST, Folder
 from sheetbench import scenes
 from sheetbench.scenes.errors import BadInput
@@ -101,6 +101,7 @@ def test_a_row_with_a_unit_is_shown_in_it_and_kept_in_si() -> None:
     assert table.shown_rows() == [["young", "MPa", "4.1", "50.0"], ["poisson", "", "0.3", "50.0"]]
     assert "young,Pa,4100000.0,0.5" in table.to_csv()
     assert unit("kg/m³") == Unit("kg/m³", "kg/m³")
+    assert [quantity(-4.1e6, "Pa"), quantity(0.3, "")] == ["−4.1 MPa", "0.3"]
 
 
 def test_terminal_text_acts_on_no_terminal() -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from comparisons.models.candidate import series
 from comparisons.report.report import Report
-from comparisons.report.table import Column, Table
+from comparisons.report.table import Column, Table, number
 
 if TYPE_CHECKING:
     from comparisons.advice.advisor import Advice
@@ -56,8 +56,8 @@ def sentences(advice: Advice) -> list[str]:
     """The advice and its reasons, a sentence a line."""
     scales = advice.scales
     said = [
-        f"load number q a³/D = {scales.load_number:.3g}, h/a = {scales.slenderness:.3g}, "
-        f"q a/(E h) = {scales.strain:.2g}",
+        f"load number q a³/D = {number(scales.load_number, '.3g')}, "
+        f"h/a = {number(scales.slenderness, '.3g')}, q a/(E h) = {number(scales.strain, '.2g')}",
         f"needs {', '.join(advice.needs)}",
         *(f"leaves out {left}" for left in advice.left_out),
         f"{advice.reason} (probing took {advice.probing_seconds:.2g} s)",

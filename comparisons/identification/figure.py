@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from comparisons.identification.identification import Identification
 from comparisons.identification.measurements import Displacements
 from comparisons.report.style import DARK, GREY, STYLE, plain, save
+from comparisons.report.table import quantity
 
 WIDTH, HEIGHT = 7.2, 3.0  # inches
 COLOURS = {"ux": "#1b6ca8", "uy": "#3a9d6e", "uz": "#b5453c"}
@@ -44,7 +45,7 @@ def compose(found: Identification) -> Figure:
         right.legend(frameon=False, ncols=3)
     else:
         _map(figure, right, found)
-    said = ", ".join(f"{name} = {u.value:.5g} {u.unit}".strip() for name, u in found.unknowns.items())
+    said = ", ".join(f"{name} = {quantity(u.value, u.unit, '.5g')}" for name, u in found.unknowns.items())
     for axis, title in ((left, f"Fit: {said}"), (right, "What is left")):
         axis.set_title(title, loc="left", fontsize=7.5, fontweight="bold")
         axis.spines[["top", "right"]].set_visible(False)

@@ -40,6 +40,7 @@ from comparisons.identification.unknowns import DAMPING, Unknown, unknown
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.registry import check_lattice, check_reference
 from comparisons.report.report import Report
+from comparisons.report.table import quantity
 from lumped import CALIBRATIONS, Identifiability, identifiability
 from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
 from sheetbench.scenes.errors import BadInput
@@ -206,17 +207,18 @@ def identify(
     warnings = [
         *known.warnings,
         *(
-            f"{u.name} ended at {u.value(x):.4g} {u.unit}, as far from the scene's own value as the search "
-            "goes: the data pull it further"
+            f"{u.name} ended at {quantity(u.value(x), u.unit)}, as far from the scene's own value as the "
+            "search goes: the data pull it further"
             for u, x, active in zip(unknowns, best.x, best.active_mask, strict=True)
             if active
         ),
     ]
     warnings += [
-        f"{u.name} would be {found[u.name].refined:.4g} on cells half as large: the grid's error is not "
+        f"{u.name} would be {quantity(refined, u.unit)} on cells half as large: the grid's error is not "
         "small beside the interval"
         for u, step in zip(unknowns, steps, strict=True)
         if step is not None
+        and (refined := found[u.name].refined) is not None
         and known.half_widths[u.name] < inf
         and abs(step) > known.half_widths[u.name] / 3.0
     ]

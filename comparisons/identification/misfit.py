@@ -13,6 +13,7 @@ import numpy as np
 from comparisons.identification import surface
 from comparisons.identification.measurements import MOVED, Displacements, Measured, Surface
 from comparisons.identification.prediction import Prediction
+from comparisons.report.table import number
 from sheetbench.scenes.errors import BadInput
 
 OPPOSITE = -0.5  # correlation with the model's displacement below which the measured one is turned round
@@ -80,7 +81,7 @@ def require_same_way(measured: Measured, predicted: Prediction, axes: tuple[np.n
     if correlation < OPPOSITE:
         raise BadInput(
             f"{measured.source}: the measured {name} point the other way than the model's (correlation "
-            f"{correlation:.2f} at the scene's own values); z points up"
+            f"{number(correlation, '.2f')} at the scene's own values); z points up"
         )
 
 

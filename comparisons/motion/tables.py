@@ -11,6 +11,7 @@ from comparisons.motion import frames
 from comparisons.motion.history import Measured, as_dict, left_out, series, summary
 from comparisons.report.files import write_text
 from comparisons.report.report import Picture, Report
+from comparisons.report.table import number
 from sheetbench.scenes import History, Scene, Status
 
 
@@ -54,7 +55,8 @@ def balance(history: History) -> str:
     """How well the run kept its energy, in a sentence."""
     spread = float(abs(history.balance - history.balance[0]).max())
     scale = max(float(abs(energy).max()) for energy in history.energies.values())
-    return f"energy balance held to {spread / scale if scale else spread:.1e} of the largest energy"
+    held = number(spread / scale if scale else spread, ".1e")
+    return f"energy balance held to {held} of the largest energy"
 
 
 def _plot(history: History, scene: Scene, measured: dict[str, Measured], paths: Sequence[Path]) -> None:

@@ -81,6 +81,12 @@ def number(value: float, form: str = "g") -> str:
     return format(value, form).replace("-", "−")
 
 
+def quantity(value: float, si: str, form: str = ".4g") -> str:
+    """A value in an SI unit as people read it, in the unit of `unit`."""
+    shown = unit(si)
+    return f"{number(value * shown.scale, form)} {shown.shown}".rstrip()
+
+
 @dataclass(frozen=True, repr=False)
 class Table:
     """A caption, columns, and rows of as many values [SI] as there are columns.

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.report.report import Picture, Report
-from comparisons.report.table import Column, Table
+from comparisons.report.table import Column, Table, number
 from fem_reference.verification import CASES, Row
 
 COLUMNS = (
@@ -38,7 +38,8 @@ def report(rows: Sequence[Row], locking: bool = False) -> Report:
         printed=tuple(by_case(rows)),
         notes=(f"{len(rows) - len(failed)} of {len(rows)} rows pass",),
         complaints=tuple(
-            f"{row.case}: {row.quantity}: {row.computed:g} instead of {row.published:g}" for row in failed
+            f"{row.case}: {row.quantity}: {number(row.computed)} instead of {number(row.published)}"
+            for row in failed
         ),
         pictures=(Picture(("locking.png",), partial(_picture, rows)),) if locking else (),
         met=not failed,
@@ -62,7 +63,7 @@ def table(rows: Sequence[Row]) -> Table:
             row.source,
             row.computed,
             row.relative,
-            f"± {row.tolerance:g}" if row.relative is None else f"{100.0 * row.tolerance:g} %",
+            f"± {number(row.tolerance)}" if row.relative is None else f"{number(100.0 * row.tolerance)} %",
             "yes" if row.passed else "NO",
         )
         for row in rows

@@ -8,6 +8,12 @@ along +z, an edge moment m as −m on the tilt towards the outward normal. Actua
 flat sheet (`rods`, `edge_motion`), and their forces' moments taken there. So is a curved support: with
 s from the edge's middle w = κ s²/2 and the tilt along the edge is −κ s, none across it; the mid-line's
 shortening is of second order. A clamp tilted by τ holds a director's tilt of −τ towards the outward normal.
+
+Along an edge whose director nothing holds (free, hinged, held) the twisting moment fades within a layer of
+width √(D66/κGh) = h/√10, far less than an element. On equal elements the answer then converges like the width
+of the elements there: on 16 × 16 of the seed's sheet it is 0.06 to 0.4 % off with such edges, and 0.01 % with
+all edges clamped. Divided finer towards all edges it is 0.002 to 0.03 % off with such edges, and 0.04 % with
+all edges clamped: so it is graded where an edge lets twist go.
 Source: Hughes, The Finite Element Method (2000), ch. 5. SI units.
 """
 
@@ -89,21 +95,25 @@ def solve(
     elements: Elements = 16,
     hard_edges: tuple[str, ...] = (),
     section: Section | None = None,
+    graded: bool | None = None,
 ) -> Solution:
     """The linear static answer; elements along the shorter side (near-square), or (nx, ny).
 
-    hard_edges: edges on which the tilt along the edge is held as well. A hinged support is soft; with
-    its edge hard it is the simple support of the published Mindlin benchmarks. section: stiffness per width,
-    from material and thickness unless given. Raises SceneError if the supports leave a rigid motion free.
+    graded: finer towards the edges, or equal elements; unless given, where an edge lets twist go. hard_edges:
+    edges on which the tilt along the edge is held as well. A hinged support is soft; with its edge hard it is
+    the simple support of the published Mindlin benchmarks. section: stiffness per width, from material and
+    thickness unless given. Raises SceneError if the supports leave a rigid motion free.
     """
     require_static(scene)
     along_x, along_y = divisions(scene.sheet.lengths, elements)
-    settings: dict[str, Any] = {"elements": [along_x, along_y]}
+    if graded is None:
+        graded = not scene.twisting_edges() <= set(hard_edges)
+    settings: dict[str, Any] = {"elements": [along_x, along_y], "graded": graded}
     if hard_edges:
         settings["hard_edges"] = list(hard_edges)
     if section is not None:
         settings["section"] = section._asdict()
-    mesh = mesh_of(scene, (along_x, along_y))
+    mesh = mesh_of(scene, (along_x, along_y), graded)
     return _solved(mesh, scene, f"plate {along_x} × {along_y}", settings, hard_edges, section)
 
 

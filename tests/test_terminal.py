@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import io
+import json
+import re
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import pytest
 from rich.console import Console
+from terminals import CONTROL, Terminal
 
 from comparisons.cli import characters, console
+from comparisons.cli.app import VERBS
 from comparisons.runs.campaign import Progress
 
 
@@ -39,3 +47,116 @@ def test_a_campaigns_bar_stands_before_its_first_run_is_done(
         progress(Progress(1, 3, "shell [2]", "converged", None))
         progress(Progress(3, 3, "shell [4]", "converged", 0.0))
     assert "starting" in screen.getvalue() and "3/3" in screen.getvalue() and "shell [4]" in screen.getvalue()
+
+
+MEASURED = "x,y,ux,uy,uz\n0.188,0.188,-0.0004,-0.0004,-0.0135\n0.094,0.094,0,0,-0.00245\n0.1,0.15,,,-0.0075\n"
+SEED, SETTLING = "two-edges-clamped", "two-edges-settling"
+SMALL = {
+    "new": ["new", "new.toml"],
+    "check": ["check", SEED],
+    "scenes": ["scenes"],
+    "compare": ["compare", SEED, "--lumped", "3", "--elements", "2"],
+    "calibrate": ["calibrate", SEED, "--grid", "3"],
+    "identify": ["identify", SEED, "--measured", "measured.csv", "--lumped", "3"],
+    "simulate": ["simulate", SETTLING, "--lumped", "3", "--duration", "0.02", "--every", "0.004"],
+    "tradeoff": [
+        *("tradeoff", SEED, "--lumped", "3", "--plate", "", "--shell", "2", "--solid", ""),
+        *("--elements", "4", "--repeats", "1", "--workers", "1", "--out", "tradeoff"),
+    ],
+    "transfer": [
+        *("transfer", "--methods", "consistent,uniform", "--grids", "5,9", "--scenes", "one-edge-clamped"),
+        *("--part", "static", "--elements", "4", "--workers", "1", "--out", "transfer"),
+    ],
+    "advise": ["advise", "one-edge-clamped", "--tolerance", "0.2"],
+    "stability": ["stability", "--study", "mass", "--workers", "1", "--out", "stability"],
+    "verify": ["verify", "--case", "patch"],
+    "modes": ["modes", SEED, "--lumped", "3", "--elements", "2", "--count", "3"],
+    "schema": ["schema"],
+}
+WIDE = 400  # columns, where nothing has to give way
+WAYS: dict[str, tuple[int, dict[str, str], str]] = {
+    "50": (50, {}, "utf-8"),
+    "80": (80, {}, "utf-8"),
+    "160": (160, {}, "utf-8"),
+    "50, no colour": (50, {"NO_COLOR": "1"}, "utf-8"),
+    "160, no colour": (160, {"NO_COLOR": "1"}, "utf-8"),
+    "80, ASCII": (80, {"NO_COLOR": "1"}, "ascii"),
+}
+FIGURES: dict[str, Callable[[Any], list[float]]] = {
+    "compare": lambda d: [u for one in d["solutions"] for u in one["probes"]["P4"]],
+    "calibrate": lambda d: [d["springs"]["axial"], d["springs"]["vertical"], d["layer_distance"]],
+    "identify": lambda d: [d["unknowns"]["young"]["value"], *d["unknowns"]["young"]["interval"]],
+    "tradeoff": lambda d: [row["error"] for row in d["rows"]],
+    "modes": lambda d: [f for one in d["solutions"] for f in one["frequencies_hz"]],
+    "verify": lambda d: [row["computed"] for row in d["rows"] if abs(row["computed"]) > 1e-3],
+    "advise": lambda d: [d["predicted"]["error"]],
+}  # the main figures of a document
+SCALES = (1.0, 1e2, 1e3, 1e6, 1e-3, 1e-6)  # of shown units
+
+Screens = dict[tuple[str, str], tuple[int, str, str]]
+
+
+@pytest.fixture(scope="module")
+def screens(tmp_path_factory: pytest.TempPathFactory) -> Screens:
+    """(verb, way) → exit status, standard output and standard error, of every verb in every way."""
+    folder = tmp_path_factory.mktemp("terminal")
+    (folder / "measured.csv").write_text(MEASURED, encoding="utf-8")
+    cases = []
+    for verb, arguments in SMALL.items():
+        if verb in FIGURES:  # first, so that no way pays for the compiling
+            cases.append([[verb, "json"], [*arguments, "--json"], 80, {}, "utf-8"])
+        ways = {"wide": (WIDE, {}, "utf-8"), **WAYS}
+        for way, (columns, environment, encoding) in ways.items():
+            fresh = [f"new-{len(cases)}.toml" if part == "new.toml" else part for part in arguments]
+            cases.append([[verb, way], fresh, columns, environment, encoding])
+    asked, answered = folder / "cases.json", folder / "screens.json"
+    asked.write_text(json.dumps(cases), encoding="utf-8")
+    driver = Path(__file__).with_name("terminal_driver.py")
+    code = f"import os, runpy, sys; os.chdir({str(folder)!r}); sys.path.insert(0, {str(driver.parent)!r}); "
+    code += f"runpy.run_path({str(driver)!r}, run_name='__main__')"
+    terminal = Terminal(code, str(asked), str(answered))
+    assert terminal.end() == 0, terminal.shown
+    found = json.loads(answered.read_text(encoding="utf-8"))
+    return {tuple(name): (status, CONTROL.sub("", out), err) for name, status, out, err in found}
+
+
+def numbers(text: str) -> list[str]:
+    """The numbers of a text as they are printed."""
+    return re.findall(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?", text.replace("−", "-"))
+
+
+def test_every_verb_is_tried() -> None:
+    assert set(SMALL) == set(VERBS)
+
+
+@pytest.mark.parametrize("way", ["wide", *WAYS])
+@pytest.mark.parametrize("verb", SMALL)
+def test_a_verb_on_a_terminal_ends_well(screens: Screens, verb: str, way: str) -> None:
+    status, out, err = screens[verb, way]
+    assert status == 0, f"{out}\n{err}"
+    assert "Traceback" not in out + err
+    if way in WAYS and "NO_COLOR" in WAYS[way][1]:
+        assert "\x1b[3" not in err  # no colours
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("verb", SMALL)
+def test_no_number_is_cut(screens: Screens, verb: str, way: str) -> None:
+    whole, shown = (Counter(numbers(screens[verb, one][1])) for one in ("wide", way))
+    if verb not in ("new", "advise"):  # a file's name, times that decide what is tried
+        assert not whole - shown and not set(shown) - set(whole)
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("verb", FIGURES)
+def test_the_main_figures_are_shown(screens: Screens, verb: str, way: str) -> None:
+    figures = FIGURES[verb](json.loads(screens[verb, "json"][1]))
+    printed = [(float(n), 0.51 * 10.0 ** _last_digit(n)) for n in numbers(screens[verb, way][1])]
+    for figure in figures:
+        assert any(abs(scale * figure - n) <= digit for scale in SCALES for n, digit in printed), figure
+
+
+def _last_digit(number: str) -> int:
+    """The power of ten of a printed number's last digit."""
+    mantissa, _, exponent = number.partition("e")
+    return int(exponent or 0) - len(mantissa.partition(".")[2])

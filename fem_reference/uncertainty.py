@@ -27,7 +27,7 @@ from typing import Any
 import numpy as np
 
 from fem_reference import solve
-from fem_reference.surface.mesh import divisions
+from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.scenes import Scene, Solution
 from sheetbench.scenes.errors import BadInput
 
@@ -64,19 +64,26 @@ class Uncertainty:
         return float(self.order[known][np.argmax(self.bar[known])]) if known.any() else float("nan")
 
 
-def coarser(elements: int) -> list[int]:
-    """The meshes to solve on, by elements along the shorter side: the one asked for first."""
-    return list(dict.fromkeys(max(1, round(elements * share)) for share in MESHES))
+def coarser(elements: Elements) -> list[Elements]:
+    """The meshes to solve on, the one asked for first: elements along the shorter side, or along x and y."""
+
+    def smaller(share: float) -> Elements:
+        if isinstance(elements, int):
+            return max(1, round(elements * share))
+        along_x, along_y = elements
+        return max(1, round(along_x * share)), max(1, round(along_y * share))
+
+    return list(dict.fromkeys(smaller(share) for share in MESHES))
 
 
-def mesh_size(scene: Scene, elements: int) -> float:
+def mesh_size(scene: Scene, elements: Elements) -> float:
     """Mean size of an element [m]."""
     along_x, along_y = divisions(scene.sheet.lengths, elements)
     return float(np.sqrt(np.prod(scene.sheet.lengths) / (along_x * along_y)))
 
 
 def solve_with_bar(
-    scene: Scene, points: np.ndarray, model: str = "shell", elements: int = 16, **options: Any
+    scene: Scene, points: np.ndarray, model: str = "shell", elements: Elements = 16, **options: Any
 ) -> tuple[Solution, Uncertainty | None]:
     """A reference's answer and the uncertainty of its displacement (n, 3) [m] at plan points (n, 2) [m].
 

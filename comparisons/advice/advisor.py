@@ -85,9 +85,9 @@ class Advice:
             "message": self.message,
         }
 
-    def report(self) -> Report:
-        """What is shown of it."""
-        return tables.report(self)
+    def report(self, named: str = "") -> Report:
+        """What is shown of it; named: how the scene was asked for, its name unless said."""
+        return tables.report(self, named)
 
 
 def advise(scene: AnyScene, tolerance: float | None = 0.01, budget: float | None = None) -> Advice:

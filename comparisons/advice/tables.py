@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
+from shlex import join
 from typing import TYPE_CHECKING
 
-from comparisons.models.candidate import series
+from comparisons.models.candidate import series, written
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table, number
 
 if TYPE_CHECKING:
     from comparisons.advice.advisor import Advice
 
+PLAIN = "consistent"  # what `compare` calibrates with unless told
 
-def report(advice: Advice) -> Report:
-    """What `sheetbench advise` shows."""
+
+def report(advice: Advice, named: str = "") -> Report:
+    """What `sheetbench advise` shows; named: how the scene was asked for, its name unless said."""
+    line = command(advice, named)
     return Report(
         name="advice",
         title=advice.scene.name,
         subtitle=advice.scene.title,
-        document=advice.as_dict(),
+        document={**advice.as_dict(), "command": line},
         tables=(tried(advice),),
-        notes=tuple(sentences(advice)),
+        notes=(*sentences(advice), *([] if line is None else ["Solve it with:", line])),
         complaints=() if advice.met else (advice.reason,),
         scene=advice.scene,
         met=advice.met,
@@ -55,14 +59,25 @@ def tried(advice: Advice) -> Table:
 def sentences(advice: Advice) -> list[str]:
     """The advice and its reasons, a sentence a line."""
     scales = advice.scales
-    said = [
+    return [
         f"load number q a³/D = {number(scales.load_number, '.3g')}, "
         f"h/a = {number(scales.slenderness, '.3g')}, q a/(E h) = {number(scales.strain, '.2g')}",
         f"needs {', '.join(advice.needs)}",
         *(f"leaves out {left}" for left in advice.left_out),
         f"{advice.reason} (probing took {advice.probing_seconds:.2g} s)",
     ]
-    if advice.choice is not None:
-        settings = ", ".join(f"{name} = {value}" for name, value in advice.choice.settings.items())
-        said.append(f"Solve {advice.choice.model} with {settings}.")
-    return said
+
+
+def command(advice: Advice, named: str = "") -> str | None:
+    """The command line that solves the choice; None without one."""
+    if advice.choice is None:
+        return None
+    model, settings = advice.choice.model, dict(advice.choice.settings)
+    mirrored = ["--symmetry"] if settings.pop("symmetry", False) else []
+    if model == "lumped" and settings.keys() == {"grid", "calibration"} and settings["calibration"] == PLAIN:
+        options = ["--lumped", "x".join(map(str, settings["grid"])), *mirrored]
+    elif model != "lumped" and settings.keys() == {"elements"}:
+        options = ["--reference", model, "--elements", "x".join(map(str, settings["elements"])), *mirrored]
+    else:
+        options = ["--model", written(advice.choice)]
+    return join(["sheetbench", "compare", named or advice.scene.name, *options])

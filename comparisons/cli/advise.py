@@ -40,4 +40,4 @@ def command(
         checked_tolerance(tolerance)
     with finish("advise", json, out, overwrite, scene=asked) as end:
         end.progress("probing …")
-        end(advise(asked, tolerance, budget).report())
+        end(advise(asked, tolerance, budget).report(scene))

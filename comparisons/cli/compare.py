@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Grid, Json, Out, Overwrite, Scene
+from comparisons.cli.options import Elements, Grid, Json, Models, Out, Overwrite, Scene, Symmetry
 
 
 def command(
@@ -27,9 +27,9 @@ def command(
         float | None, typer.Option(metavar="M", help="Distance of the lattice's layers.")
     ] = None,
     reference: Annotated[str, typer.Option(metavar="MODEL", help="plate, shell or solid.")] = "shell",
-    elements: Annotated[
-        int, typer.Option(metavar="N", help="The reference's elements along the shorter side.")
-    ] = 16,
+    elements: Elements = "16",
+    symmetry: Symmetry = False,
+    model: Models = None,
     uncertainty: Annotated[
         bool | None,
         typer.Option(
@@ -54,13 +54,17 @@ def command(
     from comparisons.advice.advisor import advise, check_auto
     from comparisons.cli.finish import finish
     from comparisons.comparison.comparison import compare, load_static
+    from comparisons.models.candidate import parse_model
+    from comparisons.models.grids import parse_elements
     from comparisons.report.vtk import write_solution
 
     asked = load_static(scene)
+    size, others = parse_elements(elements), [parse_model(text) for text in model or ()]
     given = {"--lumped": lumped, "--calibration": calibration, "--k": k, "--layer-distance": layer_distance}
     check_auto(auto, tolerance, given)
     named = calibration is not None or k is not None
     models = {"--reference": reference, "--calibration": "named" if named else "open", "--auto": auto}
+    models |= {"--model": " ".join(model)} if model else {}
     with finish("compare", json, out, overwrite, scene=asked, apart=models) as end:
         advice = None
         if auto:
@@ -75,9 +79,11 @@ def command(
             k=k,
             layer_distance=layer_distance,
             reference=reference,
-            elements=elements,
+            elements=size,
             uncertainty=uncertainty,
+            symmetry=symmetry,
             choice=advice.choice if advice is not None else None,
+            others=others,
             starting=lambda model: end.progress(f"solving {model} …"),
             finished=lambda s: end.keep(f"{s.model}.vtu", lambda path: write_solution(path, s)),
         )

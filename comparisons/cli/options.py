@@ -52,6 +52,32 @@ Wait = Annotated[
 Retry = Annotated[
     bool, typer.Option("--retry", help="Run again what failed in an earlier run.", show_default=False)
 ]
+Elements = Annotated[
+    str,
+    typer.Option(
+        "--elements",
+        metavar="N",
+        help="The reference's elements along the shorter side, or 8x4 along x and y.",
+    ),
+]
+Symmetry = Annotated[
+    bool,
+    typer.Option(
+        "--symmetry",
+        help="Solve a half or a quarter where scene and grid mirror themselves; solids are solved whole.",
+        show_default=False,
+    ),
+]
+Models = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--model",
+        metavar="MODEL",
+        help="A model more: a plug-in's NAME, FILE.py:CLASS with one of your own, or lumped, plate, shell, "
+        "solid; settings after it, as NAME:grid=9x5,symmetry=true. May be repeated.",
+        show_default=False,
+    ),
+]
 
 
 def command_line() -> list[str]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from comparisons.cli import options
-from comparisons.cli.options import Json, Out, Overwrite, Retry, Scheduler, Wait
+from comparisons.cli.options import Json, Models, Out, Overwrite, Retry, Scheduler, Symmetry, Wait
 
 if TYPE_CHECKING:
     from comparisons.tradeoff.motion import DynamicTradeoff
@@ -36,7 +36,8 @@ def command(
         "consistent,uniform"
     ),
     plate: Annotated[
-        str, typer.Option(metavar="ELEMENTS", help="Elements of the linear plate along the shorter side.")
+        str,
+        typer.Option(metavar="ELEMENTS", help="Elements of the linear plate along the shorter side, or NxM."),
     ] = "8",
     shell: Annotated[
         str, typer.Option(metavar="ELEMENTS", help="Elements of the nonlinear shell, likewise.")
@@ -44,10 +45,8 @@ def command(
     solid: Annotated[
         str, typer.Option(metavar="ELEMENTS", help="Elements of the nonlinear solid, likewise.")
     ] = ("2,4,8"),
-    model: Annotated[
-        list[str] | None,
-        typer.Option(metavar="NAME:KEY=VALUE,…", help="A plug-in with its settings; may be repeated."),
-    ] = None,
+    model: Models = None,
+    symmetry: Symmetry = False,
     elements: Annotated[
         int | None,
         typer.Option(
@@ -99,6 +98,8 @@ def command(
         candidates = lattices(asked.sheet, items(GRIDS if lumped is None else lumped), items(calibration))
         for name, sizes in (("plate", plate), ("shell", shell), ("solid", solid)):
             candidates += references(name, items(sizes))
+        if symmetry:
+            candidates = [c if c.model == "solid" else c.but(symmetry=True) for c in candidates]
         candidates += [parse_model(text) for text in model or ()]
         if not candidates:
             raise BadInput("no model left to measure")

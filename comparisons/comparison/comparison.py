@@ -11,7 +11,7 @@ round-off, a number is not finite, or one of the two models did not reach the fu
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,7 +21,8 @@ import numpy as np
 from comparisons.comparison import tables
 from comparisons.comparison.error_bar import CHEAP, ErrorBar, error_bar
 from comparisons.models.candidate import Candidate
-from comparisons.models.grids import Asked
+from comparisons.models.grids import Asked, Elements
+from comparisons.models.plugins import shown_name
 from comparisons.models.registry import answer, check, check_reference, has_own_springs
 from comparisons.report.report import Report
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static, summary
@@ -191,23 +192,26 @@ def compare(
     k: float | None = None,
     layer_distance: float | None = None,
     reference: str = "shell",
-    elements: int = 16,
+    elements: Elements = 16,
     uncertainty: bool | None = None,
+    symmetry: bool = False,
     choice: Candidate | None = None,
+    others: Sequence[Candidate] = (),
     starting: Callable[[str], None] = lambda model: None,
     finished: Callable[[Solution], None] = lambda solution: None,
 ) -> Comparison:
     """Solve a scene with the lattice and with a reference, and put the answers side by side.
 
     grid: masses, 9 by default: a number is along the shorter side, with near-square cells; (nx, ny) or "9x13"
-    along x and y; (nx, ny, layers). calibration: by default
-    `consistent`, and then the uniform calibration is solved too and shown alongside as `lumped-uniform`;
-    where `k` [N/m] is given the default is `uniform`, and where the scene brings its own [springs] they are
-    used alone. layer_distance [m]. elements: along the shorter side. uncertainty: find the reference's error
-    bar on coarser meshes too; for the plate and the shell it is unless False, for others if True. choice: a
-    model that takes the lattice's place (`comparisons.advice.advisor`); a name that the reference has is
-    changed. `starting` and `finished` are called before and after each model, so that a caller can show
-    progress and keep what is done.
+    along x and y; (nx, ny, layers). calibration: by default `consistent`, and then the uniform calibration is
+    solved too and shown alongside as `lumped-uniform`; where `k` [N/m] is given the default is `uniform`, and
+    where the scene brings its own [springs] they are used alone. layer_distance [m]. elements: along the
+    shorter side, or (nx, ny). uncertainty: find the reference's error bar on coarser meshes too; for plate
+    and shell it is unless False, for others if True. symmetry: solve a half or a quarter where scene and grid
+    mirror themselves; solids are solved whole. choice: a model that takes the lattice's place
+    (`comparisons.advice.advisor`); others: models that stand in the table too, plug-ins or our own. A name
+    that is taken is changed. `starting` and `finished` are called before and after each model, so that a
+    caller can show progress and keep what is done.
 
     Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
     solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.
@@ -216,14 +220,18 @@ def compare(
         scene = load_static(scene)
     require_static(scene)
     check_reference(reference, elements)
-    judge = Candidate(reference, {"elements": elements})
+    mirrored = {"symmetry": True} if symmetry else {}
+    judge = Candidate(reference, {"elements": elements, **(mirrored if reference != "solid" else {})})
     method = "uniform" if calibration is None and k is not None else calibration
     springs = {"calibration": method, "k": k, "layer_distance": layer_distance}
-    first = Candidate("lumped", {"grid": grid, **springs}) if choice is None else choice
-    check(scene, first)
+    first = Candidate("lumped", {"grid": grid, **springs, **mirrored}) if choice is None else choice
+    for candidate in (first, *others):
+        check(scene, candidate)
     named = {first.model if first.model != reference else f"{first.model}-advised": first, reference: judge}
     if choice is None and method is None and not has_own_springs(scene, **springs):
         named[COMPANION] = first.but(calibration="uniform")
+    for other in others:
+        named[_unlike(shown_name(other.model), named)] = other
     solutions = []
     for name, candidate in named.items():
         starting(name)
@@ -234,6 +242,11 @@ def compare(
         starting(f"{reference} on coarser meshes")
         bar = error_bar(scene, solutions[1], elements, lambda n: answer(scene, judge.but(elements=n)))
     return Comparison(scene, tuple(solutions), bar)
+
+
+def _unlike(name: str, taken: Collection[str]) -> str:
+    """The name, or with the first number after it that makes it a new one."""
+    return next(n for n in (name, *(f"{name}-{i}" for i in range(2, len(taken) + 3))) if n not in taken)
 
 
 def load_static(scene: str | Path) -> Scene:

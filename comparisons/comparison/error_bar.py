@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from comparisons.models.grids import Elements
 from sheetbench.scenes import Scene, Solution
 
 if TYPE_CHECKING:
@@ -24,12 +25,12 @@ CHEAP = ("plate", "shell")  # references whose error bar is found unless told ot
 class ErrorBar:
     """The uncertainty of a reference at the probes of a scene.
 
-    elements: along the shorter side, the finest mesh first; solve_seconds: of the coarser meshes.
+    elements: along the shorter side, or (nx, ny), the finest mesh first; solve_seconds: of the coarser ones.
     """
 
     uncertainty: Uncertainty
     names: tuple[str, ...]
-    elements: tuple[int, ...]
+    elements: tuple[Elements, ...]
     solve_seconds: float
 
     @property
@@ -43,7 +44,7 @@ class ErrorBar:
 
     def note(self, model: str) -> str:
         """The bar in words."""
-        found, meshes = self.uncertainty, ", ".join(str(n) for n in self.elements)
+        found, meshes = self.uncertainty, ", ".join(_size(n) for n in self.elements)
         if len(self.elements) == 2:
             why = "order 2 assumed, factor 3: two meshes show none"
         elif np.isfinite(found.overall_order) and found.trusted.all():
@@ -71,8 +72,12 @@ class ErrorBar:
         }
 
 
+def _size(elements: Elements) -> str:
+    return str(elements) if isinstance(elements, int) else "×".join(map(str, elements))
+
+
 def error_bar(
-    scene: Scene, finest: Solution, elements: int, solve: Callable[[int], Solution]
+    scene: Scene, finest: Solution, elements: Elements, solve: Callable[[Elements], Solution]
 ) -> ErrorBar | None:
     """The bar of a reference's solution on `elements`; `solve` answers on other numbers of elements.
 

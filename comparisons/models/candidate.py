@@ -1,20 +1,25 @@
 """The rows of a trade-off: which models with which settings, as the user lists them.
 
 Sizes are numbers of masses (lumped) or of elements (plate, shell, solid) along the shorter side of the sheet,
-with cells as square as that allows; `NxM` and `NxMxL` say it in full.
+with cells as square as that allows; `NxM` and `NxMxL` say it in full (`comparisons.models.grids`).
 """
 
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-from comparisons.models.grids import parse_grid
+from comparisons.models import plugins
+from comparisons.models.grids import parse_elements, parse_grid
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import LAYERS
+
+_FROM_FILE = re.compile(r"(?P<file>.+\.py)(:(?P<object>\w+)(?![\w=]))?(:(?P<rest>.*=.*))?")
+_COUNTS = re.compile(r"\d{1,9}(x\d{1,9})+")
 
 
 @dataclass(frozen=True)
@@ -60,27 +65,49 @@ def lattices(sheet: Sheet, grids: Iterable[str], calibrations: Iterable[str]) ->
 
 def references(model: str, elements: Iterable[str]) -> list[Candidate]:
     """A finite-element model on several meshes. Raises BadInput for what is not a number of elements."""
-    found = []
-    for text in elements:
-        if not text.isdigit() or int(text) < 1:
-            raise BadInput(f"--{model} = '{text}': not a number of elements along the shorter side")
-        found.append(Candidate(model, {"elements": int(text)}))
-    return found
+    counts = [parse_elements(text, f"--{model}") for text in elements]
+    return [Candidate(model, {"elements": n if isinstance(n, int) else list(n)}) for n in counts]
 
 
 def parse_model(text: str) -> Candidate:
-    """The candidate of `NAME` or `NAME:key=value,key=value`, values as in JSON or else plain text."""
-    name, _, rest = text.partition(":")
+    """The candidate of `NAME`, `FILE.py` or `FILE.py:OBJECT`, with `:key=value,key=value` after it.
+
+    Values are as in JSON, `8x4` is a list of numbers, anything else plain text. Raises BadInput.
+    """
+    found = _FROM_FILE.fullmatch(text)
+    if found is not None:
+        name, rest = f"{found['file']}:{found['object'] or plugins.OBJECT}", found["rest"] or ""
+    else:
+        name, _, rest = text.partition(":")
     settings: dict[str, Any] = {}
     for part in filter(None, rest.split(",")):
         key, equals, value = part.partition("=")
         if not equals:
-            raise BadInput(f"--model = '{text}': write NAME:key=value,key=value")
-        try:
-            settings[key] = json.loads(value)
-        except json.JSONDecodeError:
-            settings[key] = value
+            raise BadInput(f"--model = '{text}': write NAME:key=value,key=value or FILE.py:CLASS:key=value")
+        settings[key] = _value(value)
     return Candidate(name, settings)
+
+
+def written(candidate: Candidate) -> str:
+    """The text that `parse_model` reads as this candidate."""
+    settings = [
+        f"{key}={'x'.join(map(str, value)) if isinstance(value, list | tuple) else _plain(value)}"
+        for key, value in candidate.settings.items()
+    ]
+    return candidate.model + (f":{','.join(settings)}" if settings else "")
+
+
+def _value(text: str) -> Any:
+    if _COUNTS.fullmatch(text):
+        return [int(part) for part in text.split("x")]
+    try:
+        return json.loads(text)
+    except (json.JSONDecodeError, RecursionError):
+        return text
+
+
+def _plain(value: Any) -> str:
+    return value if isinstance(value, str) else json.dumps(value)
 
 
 def items(text: str | None) -> list[str]:

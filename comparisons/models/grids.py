@@ -1,6 +1,6 @@
 """Grids as the user writes them: `N` along the shorter side, `NxM` along x and y, `NxMxL` with layers.
 
-What the numbers mean is said in `sheetbench.scenes.grid`.
+Masses of lattices, elements of references. What the numbers mean is said in `sheetbench.scenes.grid`.
 """
 
 from __future__ import annotations
@@ -12,6 +12,23 @@ from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import MASSES, Grid, grid_of
 
 Asked = int | Sequence[int] | str | None
+Elements = int | tuple[int, int]
+
+
+def parse_elements(text: str, option: str = "--elements") -> Elements:
+    """The elements of `N`, along the shorter side and near-square, or `NxM` along x and y.
+
+    Raises BadInput naming the option.
+    """
+    parts = text.lower().replace("×", "x").split("x")
+    if len(parts) > 2 or not all(part.isascii() and part.isdigit() for part in parts):
+        raise BadInput(
+            f"{option} = '{text}': write 16 (elements along the shorter side) or 8x4 (along x and y)"
+        )
+    numbers = [int(part) for part in parts]
+    if min(numbers) < 1:
+        raise BadInput(f"{option} = {text}: at least 1")
+    return numbers[0] if len(numbers) == 1 else (numbers[0], numbers[1])
 
 
 def parse_grid(sheet: Sheet, text: str) -> Grid:

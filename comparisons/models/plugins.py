@@ -1,28 +1,36 @@
 """Models from outside: any simulator that answers a static scene can stand in the tables and on the front.
 
-A plug-in is an object with a name, its default settings, and `solve(scene, settings)`; a package offers it
-under the entry-point group `sheetbench.models`:
+A plug-in is an object with a name, its default settings, and `solve(scene, settings)`. It is asked for as a
+file, `FILE.py:OBJECT`, where OBJECT is that object or a class of it, MODEL unless said; or by its name, which
+a package offers under the entry-point group `sheetbench.models`:
 
     [project.entry-points."sheetbench.models"]
     mine = "my_package.my_module:MODEL"
 
 `settings` holds the defaults overridden by what the user asks (plain JSON data), and nothing that the
-defaults do not name. What `solve` raises as `sheetbench.scenes.BadInput` is bad input, anything else a fault
-of the plug-in; a solve that does not get there says so in its Solution's status. docs/plugin.py is a short
-one.
+defaults do not name. What `solve` raises as ValueError is bad input; a solve that does not get there says so
+in its Solution's status. docs/plugin.py is a short one.
 """
 
 from __future__ import annotations
 
+import hashlib
+import re
+import sys
 from collections.abc import Mapping
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from types import ModuleType
 from typing import Any, Protocol, runtime_checkable
 
 from sheetbench.scenes import Scene, Solution
 from sheetbench.scenes.errors import BadInput
 
 GROUP = "sheetbench.models"
+OBJECT = "MODEL"  # what of a file is the model, unless said
+OWN = "A model of your own is named as FILE.py:CLASS, see docs/plugin.py, or installed with an entry point"
 
 
 @runtime_checkable
@@ -46,14 +54,66 @@ def names() -> list[str]:
 
 
 def plugin(name: str) -> Model:
-    """The plug-in of a name. Raises BadInput if it cannot be loaded or is not a `Model`."""
+    """The plug-in of a name, or of `FILE.py:OBJECT`.
+
+    Raises BadInput if it cannot be loaded, is not a `Model`, or has a name that no file can have.
+    """
     try:
-        model = _found()[name].load()
+        model = _loaded(name)
     except Exception as error:  # whatever a plug-in does on import, the user is told whose fault it is
-        raise BadInput(f"model = '{name}': the plug-in cannot be loaded: {error}") from None
+        said = str(error) or type(error).__name__
+        raise BadInput(f"model = '{name}': the plug-in cannot be loaded: {said}") from None
     if not isinstance(model, Model):
         raise BadInput(f"model = '{name}': the plug-in lacks a name, settings or solve(scene, settings)")
+    if not re.fullmatch(r"\w[\w.+-]*", str(model.name)):
+        raise BadInput(f"model = '{name}': its name = '{model.name}': letters, digits and . + - _ alone")
     return model
+
+
+def from_file(name: str) -> Path | None:
+    """The file of a model `FILE.py:OBJECT`, None of any other name."""
+    file, colon, _ = name.rpartition(":")
+    return Path(file) if colon and file.endswith(".py") else None
+
+
+def shown_name(name: str) -> str:
+    """What tables call a model: its plug-in's own name where it was asked for as a file."""
+    return plugin(name).name if from_file(name) is not None else name
+
+
+def digest(name: str) -> str | None:
+    """Of the file of a model, None where it has none: with another file it is another model."""
+    file = from_file(name)
+    return None if file is None else hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+def _loaded(name: str) -> Any:
+    """The object that a name or file stands for; a class is called."""
+    if from_file(name) is not None:
+        return _of_file(name)
+    found = _found()[name].load()
+    return found() if isinstance(found, type) else found
+
+
+@cache
+def _of_file(name: str) -> Any:
+    """The object of `FILE.py:OBJECT`, the same throughout a process."""
+    file, _, wanted = name.rpartition(":")
+    found = getattr(_module(Path(file)), wanted)
+    return found() if isinstance(found, type) else found
+
+
+def _module(file: Path) -> ModuleType:
+    """The file as a module, which may import what lies beside it."""
+    spec = spec_from_file_location(f"sheetbench_plugin_{file.stem}", file)
+    if spec is None or spec.loader is None:
+        raise BadInput(f"{file}: not a Python file")
+    if (folder := str(file.resolve().parent)) not in sys.path:
+        sys.path.append(folder)
+    module = module_from_spec(spec)
+    sys.modules[spec.name] = module  # dataclasses look their module up
+    spec.loader.exec_module(module)
+    return module
 
 
 def settings_of(model: Model, asked: Mapping[str, Any]) -> dict[str, Any]:

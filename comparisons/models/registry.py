@@ -272,7 +272,9 @@ def check(scene: Scene, candidate: Candidate) -> None:
         own = {name: value for name, value in settings.items() if name not in ("elements", "symmetry")}
         check_reference(model, settings.get("elements", 16), own)
     else:
-        require_choice("model", model, [*MODELS, *plugins.names()])
+        known = [*MODELS, *plugins.names()]
+        if model not in known and plugins.from_file(model) is None:
+            raise BadInput(f"model = '{model}': unknown, choose one of {', '.join(known)}. {plugins.OWN}")
         plugins.settings_of(plugins.plugin(model), settings)
 
 

@@ -20,6 +20,7 @@ import numpy as np
 
 from comparisons.comparison.comparison import error as probe_error
 from comparisons.models.candidate import Candidate, series
+from comparisons.models.plugins import shown_name
 from comparisons.models.registry import check
 from comparisons.report.report import Report
 from comparisons.runs.campaign import Progress, Run, carry_out
@@ -153,8 +154,8 @@ def _bars(
 
 
 def _finest(candidates: Sequence[Candidate]) -> Candidate:
-    shells = [c.settings.get("elements", 16) for c in candidates if c.model == "shell"]
-    return Candidate("shell", {"elements": max([REFERENCE_ELEMENTS, *(2 * n for n in shells)])})
+    shells = [np.min(c.settings.get("elements", 16)) for c in candidates if c.model == "shell"]
+    return Candidate("shell", {"elements": max([REFERENCE_ELEMENTS, *(2 * int(n) for n in shells)])})
 
 
 def _errors(outcome: Finished, truth: Finished, weights: np.ndarray) -> tuple[float | None, float | None]:
@@ -173,7 +174,7 @@ def _comparable(outcome: Finished) -> bool:
 
 def _row(scene: Scene, run: Run, outcome: Finished) -> dict[str, Any]:
     """The row of an outcome; a run that ended without an answer has what was asked and its status."""
-    model, settings = run.arguments["model"], run.arguments["settings"]
+    model, settings = shown_name(run.arguments["model"]), run.arguments["settings"]
     blank = {
         "model": model,
         "label": run.label,

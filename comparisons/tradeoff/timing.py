@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.models import plugins
 from comparisons.models import registry as models
 from comparisons.runs import manifest
 from comparisons.runs.campaign import Run
@@ -37,14 +38,19 @@ def run(scene: Scene, model: str, settings: Mapping[str, Any], repeats: int = 5,
         "settings": dict(settings),
         "repeats": repeats if timed else 0,
     }
+    if (digest := plugins.digest(model)) is not None:
+        arguments["digest"] = digest
     label = ", ".join(f"{name} {_short(value)}" for name, value in settings.items())
-    return Run("timing", arguments, f"{model} {label}", timed)
+    return Run("timing", arguments, f"{plugins.shown_name(model)} {label}", timed)
 
 
-def measure(scene: dict[str, Any], model: str, settings: dict[str, Any], repeats: int) -> dict[str, Any]:
+def measure(
+    scene: dict[str, Any], model: str, settings: dict[str, Any], repeats: int, digest: str | None = None
+) -> dict[str, Any]:
     """The row of a run, as plain data in SI units: see the module and `comparisons.tradeoff.statics`.
 
     repeats: timed solves at least, after two that are not; with 0 there is one solve, and no memory is told.
+    digest: of the file of a model of one's own, under which the row is kept.
     """
     asked = Scene.model_validate(scene)
     models.warm(model)
@@ -57,7 +63,7 @@ def measure(scene: dict[str, Any], model: str, settings: dict[str, Any], repeats
     if not samples:
         samples = [solution.solve_seconds]
     return {
-        "model": model,
+        "model": plugins.shown_name(model),
         "label": solution.label,
         "settings": settings,
         "status": str(solution.status),

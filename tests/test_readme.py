@@ -23,7 +23,10 @@ def blocks(language: str) -> list[str]:
     return found
 
 
-def test_python_runs(capsys: pytest.CaptureFixture[str]) -> None:
+def test_python_runs(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)  # what the examples save
     namespace: dict[str, object] = {}
     for block in blocks("python"):
         exec(compile(block, "README.md", "exec"), namespace)

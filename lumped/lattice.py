@@ -8,9 +8,9 @@ symbols): axial ka, diagonal kd, vertical kz, cross kdT, cross_diagonal kddT; ax
 belong to the direction, x or y, in which they run. Area springs act on every cell of each layer and,
 with the layers averaged, on every cell of the mid-surface.
 
-Source: the seed's lattice (Habibi et al.), with the tributary weights and area springs of the
-project's lattice theory: links lying in a boundary line of the sheet carry half, vertical links and
-masses their tributary share (½ on edges, ¼ at corners).
+Source: the seed's lattice (Habibi et al.), with the tributary weights and area springs of
+docs/theory.md: links lying in a boundary line of the sheet carry half, vertical links and masses their
+tributary share (½ on edges, ¼ at corners).
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ from fem_reference.surface.mesh import rectangle
 from sheetbench import scenes
 from sheetbench.scenes import Material, Scene, Sheet, Status
 
-TABLE = {  # issue 2: probe → component → millimetres, three independent codes
+TABLE = {  # probe → component → millimetres: this project's own, converged; P4 of the first is CalculiX's too
     "two-edges-clamped": {"P1": {2: -2.456}, "P2": {2: -6.102}, "P4": {0: -0.405, 1: -0.405, 2: -13.504}},
     "one-edge-clamped": {
         "P1": {2: -17.10},

@@ -1,6 +1,6 @@
 """Springs that meet D, A and the shear stiffness S* of the grid all together, in closed form.
 
-Square cells of side l, two layers at distance lz (the project's lattice theory, section 3; S* is MacNeal's):
+Square cells of side l, two layers at distance lz (docs/theory.md, section 3; S* is MacNeal's):
 
     lz² = [4 D + (2/3) S* l²/(1 − ν)]/A,  kd = D (1 − ν)/lz²,  ka = 2 kd,  kA = D (3ν − 1)/lz²,
     p = S* l²/(3 lz²),  kdT = p (l² + lz²)/l²,  kddT = p (2 l² + lz²)/(4 l²),

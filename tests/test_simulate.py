@@ -229,6 +229,20 @@ def test_files_shorter_than_the_checkpoint_says_are_refused(kept, name, left):
     assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
 
 
+@pytest.mark.parametrize("name", ["samples.bin", "frames.bin"])
+def test_files_of_the_right_length_that_were_changed_are_refused(kept, name):
+    """They went unnoticed into the history."""
+    folder, _, again = kept
+    path = folder / name
+    content = bytearray(path.read_bytes())
+    content[len(content) // 3] ^= 1
+    path.write_bytes(content)
+    before = {file.name: file.read_bytes() for file in folder.iterdir()}
+    with pytest.raises(BadInput, match=rf"{name}: is not what the run wrote: .*; remove the folder"):
+        again()
+    assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
+
+
 @pytest.mark.parametrize(
     "name, content, said",
     [
@@ -264,6 +278,17 @@ def test_a_run_has_one_writer(kept):
     ):
         again()
     assert np.array_equal(again().probes["P4"], history.probes["P4"])
+
+
+def test_a_second_writer_is_refused_before_it_touches_the_folder(tmp_path, capsys):
+    """It rewrote the manifest of the first."""
+    manifest = tmp_path / "manifest.json"
+    assert leaves_with(0, [*RUN, "--every", "0.02", "--out", str(tmp_path)])
+    before = manifest.read_bytes()
+    with only_writer(tmp_path):
+        assert leaves_with(2, [*RUN, "--every", "0.02", "--out", str(tmp_path)])
+    assert "another process writes here" in capsys.readouterr().err
+    assert manifest.read_bytes() == before
 
 
 @pytest.mark.parametrize("name", ["run.json", "samples.bin", "frames.bin", "checkpoint.npz", ".lock"])

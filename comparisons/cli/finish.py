@@ -6,7 +6,7 @@ This module alone knows of `--json`, `--out`, `--overwrite`, the manifest, warni
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -128,22 +128,25 @@ def finish(
     scene: Scene | None = None,
     about: Mapping[str, Any] | None = None,
     apart: Mapping[str, Any] | None = None,
+    alone: bool = False,
 ) -> Iterator[End]:
     """The end of a verb, to be called with its report.
 
-    scene, or about: what the answer is about; apart: options that decide which files it leaves. Raises
-    BadInput for a folder that cannot be had, or that holds files of something else.
+    scene, or about: what the answer is about; apart: options that decide which files it leaves; alone: no
+    other process may write to the folder meanwhile (campaigns see to that themselves). Raises BadInput for a
+    folder that cannot be had, or that holds files of something else.
     """
-    folder = None
-    if out is not None:
-        from comparisons.cli.options import command_line
-        from comparisons.runs.folder import Folder
+    with ExitStack() as held:
+        folder = None
+        if out is not None:
+            from comparisons.cli.options import command_line
+            from comparisons.report import files
+            from comparisons.runs.folder import Folder
+            from sheetbench.files import only_writer
 
-        if scene is not None:
-            about = {"scene": scene.document()}
-        folder = Folder(out, verb, command_line(), about=about, apart=apart, overwrite=overwrite)
-    end = End(json, folder)
-    try:
-        yield end
-    finally:
-        end.close()
+            if scene is not None:
+                about = {"scene": scene.document()}
+            if alone:
+                held.enter_context(only_writer(files.folder(out)))
+            folder = Folder(out, verb, command_line(), about=about, apart=apart, overwrite=overwrite)
+        yield held.enter_context(closing(End(json, folder)))

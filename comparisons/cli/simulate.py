@@ -65,7 +65,7 @@ def command(
         "--step": step,
         "--every": every,
     }
-    with finish("simulate", json, out, overwrite, scene=asked, apart=run) as end:
+    with finish("simulate", json, out, overwrite, scene=asked, apart=run, alone=True) as end:
         last = 0
 
         def reached(time: float) -> None:

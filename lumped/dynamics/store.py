@@ -2,9 +2,10 @@
 
 A folder holds `run.json` (what was asked, and how it is sampled), `samples.bin` (rows of float64, one a
 sample), `frames.bin` (displacements (rows, 3) float64, one a frame) and `checkpoint.npz`. Those that are not
-appended to are replaced as a whole. Rows after the last checkpoint are dropped on resuming and computed
-again, so that a resumed run gives the same file to the last bit. Memory does not grow with the duration. A
-folder has one writer at a time; links in it are not followed.
+appended to are replaced as a whole. The checkpoint counts the bytes of the others and holds their CRC-32.
+Rows after it are dropped on resuming and computed again, so that a resumed run gives the same file to the
+last bit. Memory does not grow with the duration. A folder has one writer at a time; links in it are not
+followed.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from __future__ import annotations
 import json
 import os
 import zipfile
+import zlib
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -24,6 +26,8 @@ from sheetbench.files import NOT_FOLLOWED, only_writer, whole, writing
 from sheetbench.scenes.errors import BadInput
 
 APPENDED = ("samples", "frames")
+CHECKSUM = "{}_crc32"  # in the checkpoint, of what it counts of a file
+CHUNK = 1 << 20  # bytes read at a time
 
 
 class MemoryStore:
@@ -70,6 +74,7 @@ class FolderStore:
         self.folder, self._width, self._rows = folder, width, rows
         self._asked = json.loads(json.dumps(asked))
         self._held = ExitStack()
+        self._checksums = dict.fromkeys(APPENDED, 0)
         self.plan: dict[str, Any] | None = None
 
     def __enter__(self) -> Self:
@@ -107,15 +112,17 @@ class FolderStore:
     def checkpoint(self, content: dict[str, Any]) -> None:
         """Replace the checkpoint; what was appended so far is on disk before it is."""
         sizes = {name: self._synced(name) for name in APPENDED}
+        checksums = {CHECKSUM.format(name): self._checksums[name] for name in APPENDED}
         with whole(self.folder / "checkpoint.npz") as partial, partial.open("xb") as file:
-            np.savez(file, **{**content, **sizes})
+            np.savez(file, **{**content, **sizes, **checksums})
             file.flush()
             os.fsync(file.fileno())
 
     def resume(self) -> dict[str, Any] | None:
         """The last checkpoint, with the files cut back to it; None, and empty files, where there is none.
 
-        Raises BadInput for a damaged checkpoint, and for files that are missing or shorter than it says.
+        Raises BadInput for a damaged checkpoint, and for files that are missing, shorter than it says or not
+        what was written.
         """
         path = self.folder / "checkpoint.npz"
         if not path.exists():
@@ -124,6 +131,7 @@ class FolderStore:
         try:
             content = dict(np.load(path))
             sizes = {name: int(content[name]) for name in APPENDED}
+            self._checksums = {name: int(content[CHECKSUM.format(name)]) for name in APPENDED}
         except (OSError, ValueError, LookupError, EOFError, zipfile.BadZipFile) as error:
             raise self._damaged(path, f"is damaged ({error})") from None
         for name, size in sizes.items():
@@ -131,6 +139,8 @@ class FolderStore:
             there = place.stat().st_size if place.exists() else 0
             if there < size:
                 raise self._damaged(place, f"holds {there} of the {size} bytes that the checkpoint counts")
+            if _checksum(place, size) != self._checksums[name]:
+                raise self._damaged(place, "is not what the run wrote: its checksum is another")
         self._cut(sizes)
         return content
 
@@ -181,8 +191,10 @@ class FolderStore:
             yield file
 
     def _append(self, name: str, values: np.ndarray) -> None:
+        written = np.ascontiguousarray(values, dtype=float).tobytes()
         with self._opened(name, os.O_WRONLY | os.O_APPEND) as file:
-            file.write(np.ascontiguousarray(values, dtype=float).tobytes())
+            file.write(written)
+        self._checksums[name] = zlib.crc32(written, self._checksums[name])
 
     def _synced(self, name: str) -> int:
         with self._opened(name, os.O_WRONLY | os.O_APPEND) as file:
@@ -194,3 +206,12 @@ class FolderStore:
         if path.stat().st_size == 0:
             return np.empty((0, *shape))
         return np.memmap(path, dtype=float, mode="r").reshape(-1, *shape)
+
+
+def _checksum(path: Path, size: int) -> int:
+    """CRC-32 of a file's first `size` bytes."""
+    found = 0
+    with path.open("rb") as file:
+        while size > 0 and (chunk := file.read(min(size, CHUNK))):
+            found, size = zlib.crc32(chunk, found), size - len(chunk)
+    return found

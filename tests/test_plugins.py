@@ -13,6 +13,7 @@ from test_cli import one_line, run
 
 from comparisons.models import plugins
 from comparisons.models import registry as models
+from comparisons.tradeoff import timing
 from sheetbench import scenes
 from sheetbench.scenes import Chain, Clamped, EdgeLoad, FactorTable, Hinged, PointLoad, Status
 from sheetbench.scenes.errors import BadInput
@@ -99,6 +100,39 @@ def test_what_is_wrong_with_a_plugin_is_said_in_a_line(
         models.solve(scene, "strip", grid=9)
     assert run("tradeoff", "one-edge-clamped", "--model", "strip:grid=9") == 2
     assert "no setting 'grid'" in one_line(capsys)
+
+
+def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_path: Path) -> None:
+    """Rows of an edited plug-in were read as if nothing had changed."""
+    file, beside = tmp_path / "own.py", tmp_path / "constants.py"
+    example = (DOCS / "plugin.py").read_text()
+    file.write_text(f"from constants import UNIT\n{example}")
+    beside.write_text("UNIT = 1\n")
+    (tmp_path / "elsewhere.py").write_text("x = 1\n")
+    scene, name = scenes.load("one-edge-clamped"), f"{file}:Strip"
+
+    def key() -> str:
+        return timing.run(scene, name, {}).key
+
+    first = key()
+    (tmp_path / "elsewhere.py").write_text("x = 2\n")
+    assert key() == first
+    beside.write_text("UNIT = 2\n")
+    second = key()
+    file.write_text(f"from constants import UNIT\n{example}\n")
+    assert len({first, second, key()}) == 3
+    with pytest.raises(RuntimeError, match="changed since this was asked"):
+        timing.measure(scene.document(), name, {}, 0, plugins.digest("lumped"))
+
+
+def test_a_row_is_of_an_installed_plug_ins_version(installed: None, tmp_path: Path) -> None:
+    scene = scenes.load("one-edge-clamped")
+    first = timing.run(scene, "strip", {}).key
+    assert timing.run(scene, "strip", {}).key == first
+    metadata = tmp_path / "outside-1.0.dist-info" / "METADATA"
+    metadata.write_text(metadata.read_text().replace("Version: 1.0", "Version: 1.1"))
+    plugins._found.cache_clear()
+    assert timing.run(scene, "strip", {}).key != first
 
 
 def test_mujoco_is_installed_as_a_plugin() -> None:

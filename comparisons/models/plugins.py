@@ -14,7 +14,6 @@ in its Solution's status. docs/plugin.py is a short one.
 
 from __future__ import annotations
 
-import hashlib
 import re
 import sys
 from collections.abc import Mapping
@@ -25,6 +24,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Protocol, runtime_checkable
 
+from comparisons.models import plugin_sources
 from sheetbench.scenes import Scene, Solution
 from sheetbench.scenes.errors import BadInput
 
@@ -82,9 +82,14 @@ def shown_name(name: str) -> str:
 
 
 def digest(name: str) -> str | None:
-    """Of the file of a model, None where it has none: with another file it is another model."""
-    file = from_file(name)
-    return None if file is None else hashlib.sha256(file.read_bytes()).hexdigest()
+    """Of a plug-in's Python files, and of its distribution's name and version where it is installed: with
+    another digest it is another model. None of a model that is no plug-in."""
+    if (file := from_file(name)) is not None:
+        return plugin_sources.digest(plugin_sources.of_file(file))
+    if (entry := _found().get(name)) is None:
+        return None
+    said = [entry.dist.name, entry.dist.version] if entry.dist is not None else []
+    return plugin_sources.digest(plugin_sources.of_module(entry.module), *said)
 
 
 def _loaded(name: str) -> Any:

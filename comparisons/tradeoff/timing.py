@@ -50,8 +50,10 @@ def measure(
     """The row of a run, as plain data in SI units: see the module and `comparisons.tradeoff.statics`.
 
     repeats: timed solves at least, after two that are not; with 0 there is one solve, and no memory is told.
-    digest: of the file of a model of one's own, under which the row is kept.
+    digest: of a plug-in, under which the row is kept; one that has changed since raises RuntimeError.
     """
+    if plugins.digest(model) != digest:
+        raise RuntimeError(f"model = '{model}': the plug-in changed since this was asked")
     asked = Scene.model_validate(scene)
     models.warm(model)
     solution = models.solve(asked, model, **settings)

@@ -1,7 +1,7 @@
 """The shell about its static equilibrium: tangent stiffness and consistent mass on its own unknowns.
 
-    K = ∂R/∂(u, β) at full load, geometric stiffness and dead loads' part included,
-    M = ∫ ρh N_i N_j on displacements, ∫ ρh³/12 N_i N_j T_iᵀ T_j on the directors' rotations β, δd = T β.
+K = ∂R/∂(u, β) at full load, geometric stiffness and dead loads' part included,
+M = ∫ ρh N_i N_j on displacements, ∫ ρh³/12 N_i N_j T_iᵀ T_j on the directors' rotations β, δd = T β.
 """
 
 from __future__ import annotations

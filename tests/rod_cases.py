@@ -5,13 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from cases import GRAVITY, RUBBER, SHEET
 
 import fem_reference
 from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet, Solution
 
-SHEET = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
-RUBBER = Material(young=54.5e6, poisson=0.48, density=1678.0)
-GRAVITY = Gravity(acceleration=(0.0, 0.0, -9.81))
 STRIP = Sheet(length_x=0.02, length_y=1.0, thickness=0.0005)
 FLOPPY = Material(young=1e2, poisson=0.0, density=1e-3)  # a sheet that the rod does not feel
 

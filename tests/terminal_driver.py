@@ -16,28 +16,19 @@ import json
 import os
 import sys
 import time
-from concurrent.futures import Executor, Future
 from pathlib import Path
 from typing import Any
 
 _ticks = itertools.count()
 time.perf_counter = lambda: 1e-3 * next(_ticks)
 
+from campaigns import Here  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from terminals import resize  # noqa: E402
 
 from comparisons import stability  # noqa: E402
 from comparisons.cli import console, main  # noqa: E402
 from comparisons.runs import campaign, executors  # noqa: E402
-
-
-class Here(Executor):
-    """Carries out what is submitted at once, in this process."""
-
-    def submit(self, task: Any, /, *asked: Any, **named: Any) -> Future[Any]:
-        future: Future[Any] = Future()
-        future.set_result(task(*asked, **named))
-        return future
 
 
 class Echo(io.RawIOBase):
@@ -85,7 +76,7 @@ def screen(
 
 if __name__ == "__main__":
     sys.stdin = io.StringIO()  # nobody is there to be asked
-    executors.processes = lambda workers: Here()
+    executors.processes = Here
     campaign.carry_out.__kwdefaults__["pool"] = executors.processes
     Figure.savefig = lambda self, place, *_, **__: Path(place).touch()  # type: ignore[method-assign, assignment]
     cells = stability.STUDIES["mass"].cells

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from dynamic_cases import scene, springs
+from lattice_cases import derivative
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
@@ -31,16 +32,6 @@ def chain_of(*changes, lattice=LATTICE, sheet=SHEET, **common):
 
 def disturbed(chain, size=5e-3, seed=0):
     return np.where(chain.free, size * np.random.default_rng(seed).standard_normal((chain.rows, 3)), 0.0)
-
-
-def derivative(function, y, h=1e-6):
-    columns = []
-    for i in range(y.size):
-        step = np.zeros(y.size)
-        step[i] = h
-        step = step.reshape(y.shape)
-        columns.append((np.ravel(function(y + step)) - np.ravel(function(y - step))) / (2 * h))
-    return np.stack(columns, axis=-1)
 
 
 @pytest.mark.parametrize("segments", [3, 4])

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from test_cli import one_line, run
+from commands import one_line, run
 
 import fem_reference
 from comparisons.advice import probing

@@ -140,3 +140,11 @@ def test_misuse_is_refused_by_an_error_of_its_own(package):
             if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
                 raised = ast.unparse(node.exc.func)
                 assert raised not in ("ValueError", "TypeError"), f"{path}:{node.lineno}: {raised}"
+
+
+def test_tests_share_by_modules_of_their_own_and_stay_short():
+    """No test module imports another: what two need is in conftest.py or a module without tests."""
+    for path in sorted((ROOT / "tests").rglob("*.py")):
+        assert len(path.read_text(encoding="utf-8").splitlines()) <= 350, path
+        shared = [name for name in names_in(path) if name.startswith("test_")]
+        assert not shared, f"{path.relative_to(ROOT)} imports {', '.join(shared)}"

@@ -7,22 +7,17 @@ import signal
 import sqlite3
 import subprocess
 import sys
-import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future
+from collections.abc import Callable
 from pathlib import Path
 from threading import Thread
-from typing import Any
 
 import campaign_tasks
 import pytest
-from distributed import LocalCluster
+from campaigns import Here, alive, interrupt_when, rows_in, task, wait_for
 from limits import at_most
 
 from comparisons.runs import campaign as runs_campaign
-from comparisons.runs import executors
 from comparisons.runs.campaign import Progress, Run, campaign, carry_out, execute
-from comparisons.runs.executors import Cluster, pool_of
 from comparisons.runs.manifest import digest, source
 from comparisons.runs.store import FILE, Finished, Store
 from comparisons.runs.tasks import TASKS, function
@@ -30,49 +25,6 @@ from comparisons.stability import STUDIES
 from sheetbench.scenes.errors import BadInput
 
 HERE = Path(campaign_tasks.__file__).parent
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with campaign(tmp_path) as opened:
-        yield opened
-
-
-def task(name: str, **arguments: object) -> Run:
-    return Run(f"campaign_tasks:{name}", arguments, name)
-
-
-class here(Executor):
-    """A pool that is this process."""
-
-    def __init__(self, workers: int) -> None:
-        pass
-
-    def submit(self, task: Callable[..., Any], /, *arguments: Any, **named: Any) -> Future[Any]:
-        future: Future[Any] = Future()
-        future.set_result(task(*arguments, **named))
-        return future
-
-
-def wait_for(condition: Callable[[], bool], seconds: float = 600.0) -> None:
-    """Wait for what is certain to happen; the limit is only there to end a test that hangs."""
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, "it did not happen in time"
-        time.sleep(0.02)
-
-
-def rows_in(path: Path) -> dict[str, tuple]:
-    """What a campaign's file holds at this moment, read from beside it."""
-    if not path.exists():
-        return {}
-    with sqlite3.connect(path, timeout=10) as database:
-        try:
-            return {row[0]: row for row in database.execute("select * from runs")}
-        except sqlite3.OperationalError:
-            return {}  # the table is not there yet
-        finally:
-            database.commit()
 
 
 def test_outcomes_come_in_the_order_asked_and_are_kept(store: Store) -> None:
@@ -166,16 +118,6 @@ def test_timed_runs_go_alone_and_on_one_thread(store: Store, tmp_path: Path) -> 
     assert max(o.finished for o in found[4:]) <= min(o.started for o in found[:4])
     assert found[-1].row["threads"] == "1"
     assert dict(os.environ) == environment
-
-
-def alive(process: int) -> bool:
-    """Whether a process still runs; one that nobody has buried yet does not."""
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    stat = Path(f"/proc/{process}/stat")
-    return not (stat.exists() and stat.read_text(encoding="utf-8").rpartition(")")[2].split()[0] == "Z")
 
 
 def test_kill_9_loses_nothing_that_had_finished_and_leaves_no_worker(tmp_path: Path) -> None:
@@ -285,13 +227,13 @@ def test_a_full_disk_ends_a_campaign_in_a_line_and_loses_nothing(tmp_path: Path)
     runs = [task("ballast", x=x, size=20_000) for x in range(4)]
     refused = pytest.raises(BadInput, match=f"{tmp_path / FILE}: .*; (free some space|the disk is full)")
     with campaign(tmp_path) as store:
-        carry_out(runs[:1], store, pool=here)
+        carry_out(runs[:1], store, pool=Here)
         with at_most(50_000), refused:
-            carry_out(runs, store, pool=here)
+            carry_out(runs, store, pool=Here)
     kept = rows_in(tmp_path / FILE)
     assert 1 <= len(kept) < 4
     with campaign(tmp_path) as store:
-        found = carry_out(runs, store, pool=here)
+        found = carry_out(runs, store, pool=Here)
     assert [outcome.row["x"] for outcome in found] == [0, 1, 2, 3]
     after = rows_in(tmp_path / FILE)
     assert {key: after[key] for key in kept} == kept
@@ -301,14 +243,9 @@ def test_two_campaigns_at_one_folder_do_not_meet(tmp_path: Path) -> None:
     with campaign(tmp_path) as store:
         with pytest.raises(BadInput, match=f"{tmp_path}: another process writes here"):
             campaign(tmp_path).__enter__()
-        carry_out([task("square", x=1.0)], store, pool=here)
+        carry_out([task("square", x=1.0)], store, pool=Here)
     with campaign(tmp_path) as store:
         assert carry_out([task("square", x=1.0)], store, pool=pytest.fail)[0].status == "done"
-
-
-def test_no_scheduler_is_said_in_a_line() -> None:
-    with pytest.raises(BadInput, match=r"--scheduler = 'tcp://127\.0\.0\.1:9'"):
-        Cluster("tcp://127.0.0.1:9")
 
 
 def test_ctrl_c_is_obeyed_and_leaves_no_process(store: Store, tmp_path: Path) -> None:
@@ -321,90 +258,3 @@ def test_ctrl_c_is_obeyed_and_leaves_no_process(store: Store, tmp_path: Path) ->
     assert len(rows_in(store.path)) == 1
     process = int((tmp_path / "1.started").read_text() or 0)
     wait_for(lambda: not alive(process), 10.0)
-
-
-def interrupt_when(condition: Callable[[], bool]) -> None:
-    """Ctrl-C, for the main thread, as soon as the condition holds."""
-    wait_for(condition)
-    os.kill(os.getpid(), signal.SIGINT)
-
-
-@pytest.fixture
-def lonely(monkeypatch: pytest.MonkeyPatch) -> Iterator[LocalCluster]:
-    """A cluster whose only worker is in this process; patience ends quickly."""
-    monkeypatch.setattr(executors, "PATIENCE", 0.5)
-    monkeypatch.setattr(runs_campaign, "LOOK", 0.1)
-    with LocalCluster(
-        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None, protocol="tcp"
-    ) as local:
-        yield local
-
-
-def test_without_workers_a_campaign_stops_in_a_line_and_keeps_its_rows(
-    store: Store, lonely: LocalCluster
-) -> None:
-    runs = [task("square", x=float(x)) for x in range(6)]
-    with pool_of(lonely.scheduler_address) as pool:
-        carry_out(runs[:2], store, pool=pool)
-        lonely.scale(0)
-        with pytest.raises(BadInput, match=r"no worker for 0\.5 s; what was done is kept"):
-            carry_out(runs, store, pool=pool)
-    assert len(rows_in(store.path)) == 2
-
-
-def test_a_patient_campaign_says_that_it_waits_and_goes_on(store: Store, lonely: LocalCluster) -> None:
-    said: list[str] = []
-
-    def say(text: str) -> None:
-        said.append(text)
-        lonely.scale(1)
-
-    with pool_of(lonely.scheduler_address, True, say) as pool:
-        lonely.scale(0)
-        found = carry_out([task("square", x=2.0)], store, pool=pool)
-    assert found[0].row["square"] == 4.0
-    assert len(said) == 1 and "no worker for 0.5 s; waiting" in said[0]
-
-
-def test_a_patient_campaign_obeys_ctrl_c(store: Store, lonely: LocalCluster) -> None:
-    said: list[str] = []
-    interrupting = Thread(target=interrupt_when, args=(lambda: bool(said),))
-    interrupting.start()
-    with pool_of(lonely.scheduler_address, True, said.append) as pool:
-        lonely.scale(0)
-        with pytest.raises(KeyboardInterrupt):
-            carry_out([task("square", x=2.0)], store, pool=pool)
-    interrupting.join()
-
-
-def test_a_lost_scheduler_is_said_and_the_rows_are_kept(
-    store: Store, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(executors, "PATIENCE", 0.5)
-    code = (
-        "import sys, time; sys.path.insert(0, sys.argv[1]); import campaign_tasks\n"
-        "from distributed import LocalCluster\n"
-        "if __name__ == '__main__':\n"
-        "    print(LocalCluster(n_workers=1, processes=False, dashboard_address=None, protocol='tcp')"
-        ".scheduler_address, flush=True)\n"
-        "    time.sleep(600)\n"
-    )
-    with subprocess.Popen([sys.executable, "-c", code, str(HERE)], stdout=subprocess.PIPE, text=True) as far:
-        assert far.stdout is not None
-        address = far.stdout.readline().strip()
-        runs = [task("square", x=1.0), task("square", x=2.0, seconds=600.0)]
-        with pool_of(address) as pool, pytest.raises(BadInput, match=r"no scheduler for .* what was done"):
-            carry_out(runs, store, pool=pool, progress=lambda progress: far.kill())
-    assert len(rows_in(store.path)) == 1
-
-
-def test_dask_cluster_loses_a_worker_mid_run_and_finishes(store: Store, tmp_path: Path) -> None:
-    task_file = str(HERE / "campaign_tasks.py")
-    with LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=None, preload=[task_file]
-    ) as local:
-        runs = [task("die_once", x=x, folder=str(tmp_path), victim=3) for x in range(8)]
-        with pool_of(local.scheduler_address) as pool:
-            found = carry_out(runs, store, workers=2, pool=pool)
-    assert [outcome.row["x"] for outcome in found] == list(range(8))
-    assert found[3].row["process"] != int((tmp_path / "died").read_text(encoding="utf-8"))

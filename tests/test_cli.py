@@ -12,43 +12,15 @@ from pathlib import Path
 import fake_solutions
 import numpy as np
 import pytest
-from test_scenes import BAD, LOOSE, written
+from commands import one_line, run
+from scene_files import BAD, LOOSE, written
 
-from comparisons.cli import main
 from comparisons.comparison import comparison as displacement
 from comparisons.models.candidate import Candidate
 from sheetbench import scenes
 from sheetbench.scenes import Scene, Solution, Status
 
 HEAVY = ("numpy", "scipy", "pydantic", "matplotlib", "pyvista", "vtkmodules", "numba", "skfem", "meshio")
-
-
-def run(*arguments: str) -> int:
-    with pytest.raises(SystemExit) as caught:
-        main(list(arguments))
-    return int(caught.value.code or 0)
-
-
-def one_line(capsys: pytest.CaptureFixture[str]) -> str:
-    """What was said on standard error: one line and no traceback, and nothing on standard output."""
-    printed = capsys.readouterr()
-    assert printed.out == ""
-    assert printed.err.count("\n") == 1 and printed.err.endswith("\n")
-    assert "Traceback" not in printed.err
-    return printed.err
-
-
-@pytest.fixture
-def quick(monkeypatch: pytest.MonkeyPatch) -> dict[str, Solution]:
-    """Answers without a solver; a test may put its own in."""
-    answers: dict[str, Solution] = {}
-
-    def answer(scene: Scene, candidate: Candidate, name: str = "") -> Solution:
-        size = -0.01 if candidate.model == "lumped" else -0.0101
-        return answers.get(candidate.model) or fake_solutions.solution(scene, name or candidate.model, size)
-
-    monkeypatch.setattr(displacement, "answer", answer)
-    return answers
 
 
 def test_importing_the_command_line_imports_nothing_heavy() -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_lattice_mechanics import ALL, assembly_of, dense, derivative, state
+from lattice_cases import ALL, assembly_of, dense, derivative, state
 
 GRIDS = [(3, 4, 2), (3, 3, 3)]
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from rod_cases import RUBBER, SHEET, driven, shell
+from cases import RUBBER, SHEET
+from rod_cases import driven, shell
 
 import fem_reference
 import lumped

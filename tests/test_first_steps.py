@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from test_cli import one_line, run
+from commands import one_line, run
 
 from sheetbench import scenes
 from sheetbench.scenes import Chain, Clamped, EdgeLoad, Held, Hinged, Material, PointLoad, Scene, Sheet, load

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from cases import POINTS
 
 import fem_reference
 import lumped
@@ -14,8 +15,6 @@ from sheetbench import scenes
 
 TRAINING = [scenes.load(name) for name in ("one-edge-clamped", "two-edges-clamped")]
 SHEET, MATERIAL = TRAINING[0].sheet, TRAINING[0].material
-SIDE = np.linspace(0.188 / 8, 0.188, 8)
-POINTS = np.array([[x, y] for x in SIDE for y in SIDE])
 
 
 @pytest.fixture(scope="module")

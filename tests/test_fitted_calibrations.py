@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from test_cli import run
+from commands import run
 
 from comparisons.models import training as targets
 from comparisons.models.registry import calibrate

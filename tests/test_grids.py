@@ -7,29 +7,28 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_cli import one_line, run
+from cases import GRAVITY, RUBBER, SHEET
+from commands import one_line, run
 
 import lumped
 from comparisons.models.grids import parse_grid, scene_grid
 from comparisons.models.registry import solve
-from sheetbench.scenes import BadInput, Clamped, Gravity, Material, Scene, Sheet, SpringTable, load
+from sheetbench.scenes import BadInput, Clamped, Scene, Sheet, SpringTable, load
 from sheetbench.scenes.grid import grid_of, near_square
 
-SQUARE = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
 LONG = Sheet(length_x=0.2, length_y=0.1, thickness=0.003)
-RUBBER = Material(young=54.5e6, poisson=0.48, density=1678.0)
 SCENE = Scene(
     name="long",
     sheet=LONG,
     material=RUBBER,
-    gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
+    gravity=GRAVITY,
     support=(Clamped(edge="x0"),),
 )
 END = np.array([[0.2, 0.05]])
 
 
 def test_a_number_counts_along_the_shorter_side() -> None:
-    assert grid_of(SQUARE) == (9, 9, 2)
+    assert grid_of(SHEET) == (9, 9, 2)
     assert grid_of(LONG) == grid_of(LONG, 9) == grid_of(LONG, np.int64(9)) == (17, 9, 2)
     assert grid_of(Sheet(length_x=0.1, length_y=0.3, thickness=0.003)) == (9, 25, 2)
     assert grid_of(LONG, (9, 9)) == (9, 9, 2) and grid_of(LONG, [9, 5, 3]) == (9, 5, 3)

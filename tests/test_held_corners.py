@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from cases import GRAVITY, RUBBER, SHEET, WEIGHT
 from numpy.testing import assert_allclose
 
 import fem_reference
@@ -13,10 +14,7 @@ from lumped.actuators.chain import Chain as Bound
 from lumped.lattice import build
 from sheetbench.scenes import Chain, Clamped, Curved, Gravity, Material, Scene, Sheet, Solution, Status
 
-SHEET = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
-RUBBER = Material(young=54.5e6, poisson=0.48, density=1678.0)
-DOWN = Gravity(acceleration=(0.0, 0.0, -9.81))
-WEIGHT, OWN = 1678.0 * 0.003 * 0.188**2 * 9.81, 0.05 * 0.188 * 9.81  # N, of the sheet and of a chain
+OWN = 0.05 * 0.188 * 9.81  # N, of a chain
 POINTS = np.random.default_rng(0).uniform(0.0, 0.188, (60, 2))
 
 
@@ -25,7 +23,7 @@ def chain(**asked) -> Chain:
     return Chain(**{**data, **asked})
 
 
-def scene(supports, *actuators, sheet=SHEET, material=RUBBER, gravity=DOWN, **more) -> Scene:
+def scene(supports, *actuators, sheet=SHEET, material=RUBBER, gravity=GRAVITY, **more) -> Scene:
     return Scene(
         name="corner", sheet=sheet, material=material, gravity=gravity, supports=supports,
         actuators=actuators, **more,

@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
-from test_cli import one_line, run
+from cases import POINTS, with_material
+from commands import one_line, run
 
 import fem_reference
 import lumped
@@ -18,14 +19,8 @@ from sheetbench import scenes
 from sheetbench.scenes.seed import seed_displacements
 
 SCENE = scenes.load("two-edges-clamped")
-SIDE = np.linspace(0.188 / 8, 0.188, 8)
-POINTS = np.array([[x, y] for x in SIDE for y in SIDE])
 TRUE = 40e6
 MEASURED = Path(__file__).parent.parent / "docs" / "measured"
-
-
-def with_material(scene=SCENE, **values):
-    return scene.model_copy(update={"material": scene.material.model_copy(update=values)})
 
 
 def lattice(scene, grid=(9, 9)):
@@ -35,7 +30,7 @@ def lattice(scene, grid=(9, 9)):
 @pytest.fixture(scope="module")
 def truth():
     """Displacement (64, 3) of the lattice with E = 40 MPa."""
-    return lattice(with_material(young=TRUE)).displacement(POINTS)
+    return lattice(with_material(SCENE, young=TRUE)).displacement(POINTS)
 
 
 def noisy(values, rng, share=0.01):
@@ -53,7 +48,7 @@ def test_the_interval_holds_the_true_value_in_90_of_100_draws(truth):
     rng = np.random.default_rng(11)
     hits, widths = 0, []
     for _ in range(100):
-        start = with_material(young=TRUE * float(np.exp(rng.uniform(-0.5, 0.5))))
+        start = with_material(SCENE, young=TRUE * float(np.exp(rng.uniform(-0.5, 0.5))))
         found = identify(start, Displacements(POINTS, noisy(truth, rng)), ["young"], refine=False)
         low, high = found.unknowns["young"].interval
         hits += low <= TRUE <= high
@@ -64,7 +59,7 @@ def test_the_interval_holds_the_true_value_in_90_of_100_draws(truth):
 
 def test_the_grids_own_error_is_told():
     """Exact data of the shell: 9 × 9 × 2 masses put E 0.9 % too low, half of which a finer lattice mends."""
-    values = fem_reference.solve(with_material(young=TRUE), elements=12).displacement(POINTS)
+    values = fem_reference.solve(with_material(SCENE, young=TRUE), elements=12).displacement(POINTS)
     found = identify(SCENE, Displacements(POINTS, values), ["young"])
     young = found.unknowns["young"]
     assert 0.002 < 1.0 - young.value / TRUE < 0.015
@@ -74,7 +69,7 @@ def test_the_grids_own_error_is_told():
 
 def test_two_unknowns_through_the_lattice(truth):
     rng = np.random.default_rng(3)
-    true = with_material(young=TRUE, poisson=0.4)
+    true = with_material(SCENE, young=TRUE, poisson=0.4)
     values = noisy(lattice(true).displacement(POINTS), rng, 0.002)
     found = identify(SCENE, Displacements(POINTS, values), ["young", "poisson"]).unknowns
     assert found["young"].interval[0] < TRUE < found["young"].interval[1]
@@ -83,7 +78,7 @@ def test_two_unknowns_through_the_lattice(truth):
 
 def test_the_shell_finds_what_the_shell_made():
     rng = np.random.default_rng(4)
-    values = fem_reference.solve(with_material(young=TRUE), elements=4).displacement(POINTS)
+    values = fem_reference.solve(with_material(SCENE, young=TRUE), elements=4).displacement(POINTS)
     found = identify(SCENE, Displacements(POINTS, noisy(values, rng)), ["young"], model="shell", elements=4)
     low, high = found.unknowns["young"].interval
     assert low < TRUE < high and high / low < 1.05
@@ -216,7 +211,7 @@ def test_a_scanned_surface(tmp_path):
     rng = np.random.default_rng(6)
     plan = rng.uniform(0.0, 0.188, (300, 2))
     axes = surface.plan_grid((0.188, 0.188), (17, 17))
-    deformed = lattice(with_material(young=TRUE), (17, 17)).displacement(surface.plan_points(axes))
+    deformed = lattice(with_material(SCENE, young=TRUE), (17, 17)).displacement(surface.plan_points(axes))
     field = surface.Field(axes, deformed)
     on = np.column_stack([plan, np.zeros(300)]) + field.at(plan)
     feet = surface.feet(axes, field, on)
@@ -234,12 +229,12 @@ def test_a_scanned_surface(tmp_path):
 
 
 def test_damping_from_a_measured_motion():
-    true = with_material(damping_time=4e-3)
+    true = with_material(SCENE, damping_time=4e-3)
     springs = lumped.calibrate(true.sheet, true.material, (4, 4))
     run = lumped.simulate(true, springs, 0.15)
     place = np.tile(SCENE.probes["P4"], (len(run.time[::4]), 1))
     measured = Displacements(place, run.probes["P4"][::4], run.time[::4])
-    first_guess = with_material(damping_time=3e-3)
+    first_guess = with_material(SCENE, damping_time=3e-3)
     found = identify(first_guess, measured, ["damping_time"], grid=(4, 4, 2))
     assert found.unknowns["damping_time"].value == pytest.approx(4e-3, rel=0.01)
 
@@ -267,7 +262,7 @@ def test_the_seeds_own_figures_do_not_fit_one_young():
 
 def test_no_answer_with_the_scenes_own_values(truth):
     with pytest.raises(NotReached):
-        identify(with_material(young=1e3), Displacements(POINTS, truth), ["young"])
+        identify(with_material(SCENE, young=1e3), Displacements(POINTS, truth), ["young"])
 
 
 @pytest.fixture
@@ -334,7 +329,7 @@ def test_bad_option_leaves_with_2_and_one_line(arguments, named, file, capsys):
 
 def test_an_equilibrium_knows_nothing_of_damping(truth):
     with pytest.raises(ValueError, match="does not depend on it"):
-        identify(with_material(damping_rate=1.0), Displacements(POINTS, truth), ["damping_rate"])
+        identify(with_material(SCENE, damping_rate=1.0), Displacements(POINTS, truth), ["damping_rate"])
     moving = Displacements(POINTS, truth, np.linspace(0.0, 1.0, 64))
     with pytest.raises(ValueError, match="lattice only"):
         identify(SCENE, moving, ["young"], model="shell")
@@ -343,7 +338,9 @@ def test_an_equilibrium_knows_nothing_of_damping(truth):
 def test_a_surface_without_noise_gives_the_value_back():
     axes = surface.plan_grid((0.188, 0.188), (9, 9))
     nodes = surface.plan_points(axes)
-    on = np.column_stack([nodes, np.zeros(81)]) + lattice(with_material(young=TRUE)).displacement(nodes)
+    on = np.column_stack([nodes, np.zeros(81)]) + lattice(with_material(SCENE, young=TRUE)).displacement(
+        nodes
+    )
     found = identify(SCENE, Surface(on), ["young"])
     assert found.unknowns["young"].value == pytest.approx(TRUE, rel=1e-6)
     assert found.residuals.shape == (81,)

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from cases import SHEET
 
 from lumped.lattice import build
 from sheetbench.scenes import Sheet
 
-SHEET = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
 OBLONG = Sheet(length_x=0.2, length_y=0.3, thickness=0.003)
 
 

@@ -5,8 +5,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from dynamic_cases import run, scene, springs, system
+from lattice_cases import ALL, MATERIAL, SHEET, assembly_of, dense, derivative, state
 from scipy.integrate import solve_ivp
-from test_lattice_mechanics import ALL, MATERIAL, SHEET, assembly_of, dense, derivative, state
 
 import fem_reference
 import lumped

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from cases import with_material
 
 import fem_reference
 from comparisons.verification.locking import picture
@@ -45,7 +46,7 @@ def test_stretched_elements_that_bend_stay_stable(elements: int) -> None:
     functions too, elements of sides 10 to 20 : 1 gave its tangent a negative eigenvalue from 22 on."""
     scene = scenes.load("one-edge-clamped")
     young = scene.material.young / 10.0
-    scene = scene.model_copy(update={"material": scene.material.model_copy(update={"young": young})})
+    scene = with_material(scene, young=young)
     answer = fem_reference.solve(scene, model="shell", elements=elements)
     assert answer.status is scenes.Status.CONVERGED
     assert answer.message == "" and answer.settings["graded"]

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from cases import WEIGHT, with_material
 
 import lumped
 from sheetbench import scenes
@@ -28,12 +29,10 @@ CONVERGED = {
     "two-edges-clamped": [-2.456, -6.102, -6.102, -13.504],
     "one-edge-clamped": [-17.10, -16.51, -48.04, -47.64],
 }
-WEIGHT = 1678.0 * 0.188**2 * 0.003 * 9.81
 
 
 def softer(scene, factor):
-    material = scene.material.model_copy(update={"young": scene.material.young / factor})
-    return scene.model_copy(update={"material": material})
+    return with_material(scene, young=scene.material.young / factor)
 
 
 def solve(scene, grid=(9, 9), method="consistent", **options):

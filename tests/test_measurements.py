@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 import pyvista
-from test_cli import run
+from cases import with_material
+from commands import run
 
 import lumped
 from comparisons.identification import surface
@@ -45,7 +46,7 @@ def test_files_are_read_as_people_write_them(way, tmp_path):
 def test_a_height_map_is_a_surface(tmp_path):
     path = tmp_path / "heights.csv"
     nodes = surface.plan_points(surface.plan_grid((0.188, 0.188), (9, 9)))
-    stiff = SCENE.model_copy(update={"material": SCENE.material.model_copy(update={"young": TRUE})})
+    stiff = with_material(SCENE, young=TRUE)
     moved = np.column_stack([nodes, np.zeros(81)]) + lumped.solve(stiff).displacement(nodes)
     lines = [f"{x:.9f};{y:.9f};{z:.9f}" for x, y, z in moved] + ["0.1;0.1;NaN"]
     path.write_text("x;y;z\n" + "\n".join(lines).replace(".", ","))

@@ -6,6 +6,7 @@ import json
 
 import numpy as np
 import pytest
+from cases import with_material
 
 import fem_reference
 import lumped
@@ -76,7 +77,7 @@ def test_what_has_no_modes_is_refused_in_a_line() -> None:
 def test_no_equilibrium_no_modes() -> None:
     """A sheet a thousand times too soft is stretched beyond the model."""
     scene = load("two-edges-clamped")
-    soft = scene.model_copy(update={"material": scene.material.model_copy(update={"young": 1e4})})
+    soft = with_material(scene, young=1e4)
     springs = lumped.calibrate(soft.sheet, soft.material, (5, 5))
     with pytest.raises(NoEquilibrium, match="strain-outside-model"):
         lumped.modes(soft, springs, 2, about="deformed")

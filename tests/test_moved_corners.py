@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from cases import CLAMP, GRAVITY, OBLONG, SILICONE
 from numpy.testing import assert_allclose
 
 import fem_reference
@@ -14,23 +15,16 @@ from sheetbench.scenes import (
     Clamped,
     Curved,
     EdgeMotion,
-    Gravity,
     Held,
     Hinged,
-    Material,
     Scene,
-    Sheet,
     Solution,
     Status,
     Symmetric,
 )
 from sheetbench.scenes.supports import Motion
 
-SHEET = Sheet(length_x=0.2, length_y=0.1, thickness=0.005)
-MATERIAL = Material(young=2.0e7, poisson=0.3, density=1200.0)
-DOWN = Gravity(acceleration=(0.0, 0.0, -9.81))
 WEIGHT = 9.81 * 1200.0 * 0.005 * 0.2 * 0.1
-CLAMP = Clamped(edge="x0")
 CORNER = (0.2, 0.0)
 
 
@@ -45,15 +39,15 @@ def chain(**changes) -> Chain:
     return Chain(**{**data, **changes})
 
 
-def scene(supports, *actuators, gravity=DOWN) -> Scene:
+def scene(supports, *actuators, gravity=GRAVITY) -> Scene:
     return Scene(
-        name="corner", sheet=SHEET, material=MATERIAL, gravity=gravity, support=supports, actuator=actuators
+        name="corner", sheet=OBLONG, material=SILICONE, gravity=gravity, support=supports, actuator=actuators
     )
 
 
 def solve(asked: Scene, model: str) -> Solution:
     if model == "lumped":
-        found = lumped.solve(asked, lumped.calibrate(SHEET, MATERIAL, (33, 17)))
+        found = lumped.solve(asked, lumped.calibrate(OBLONG, SILICONE, (33, 17)))
     else:
         found = fem_reference.solve(asked, model=model, elements=(16, 8))
     assert found.status is Status.CONVERGED, found.message
@@ -78,8 +72,8 @@ def test_models_agree_where_both_can_be_obeyed(name: str) -> None:
     """Within 1 % of the largest displacement; the moved edge is where it was put, corners included."""
     supports, *actuators = COMPATIBLE[name]
     asked = scene(supports, *actuators)
-    points = np.random.default_rng(3).uniform(0.0, 1.0, (60, 2)) * SHEET.lengths
-    ends = np.array(SHEET.edge_ends("x1"))
+    points = np.random.default_rng(3).uniform(0.0, 1.0, (60, 2)) * OBLONG.lengths
+    ends = np.array(OBLONG.edge_ends("x1"))
     found = {model: solve(asked, model) for model in ("lumped", "shell", "solid")}
     truth = found["shell"].displacement(points)
     for model, solution in found.items():
@@ -108,7 +102,7 @@ def test_the_plate_is_their_limit_of_small_motions(name: str) -> None:
         rotation=tuple(1e-4 * np.array(one.rotation[0])),
     )
     asked = scene(supports, small, gravity=None)
-    points = np.random.default_rng(3).uniform(0.0, 1.0, (60, 2)) * SHEET.lengths
+    points = np.random.default_rng(3).uniform(0.0, 1.0, (60, 2)) * OBLONG.lengths
     truth = solve(asked, "shell").displacement(points)
     plate = solve(asked, "plate")
     assert np.abs(plate.displacement(points) - truth)[:, 2].max() < 1e-3 * np.abs(truth).max()
@@ -185,7 +179,7 @@ def test_a_support_that_moves_counts_in_dynamics_and_rests_in_statics() -> None:
     table = {"time": (0.0, 1.0, 2.0), "displacement": ((0, 0, 0), LIFT, (0, 0, 0))}
     moving = Clamped(edge="y0", motion=Motion(**table))
     asked = scene((moving,), EdgeMotion(kind="motion", edge="x1", **table), gravity=None)
-    assert not lumped.solve(asked, lumped.calibrate(SHEET, MATERIAL, (5, 3))).displacement([CORNER]).any()
+    assert not lumped.solve(asked, lumped.calibrate(OBLONG, SILICONE, (5, 3))).displacement([CORNER]).any()
     with pytest.raises(ValueError, match=r"z by 0.01 m at t = 1 s"):
         scene((CLAMP, Clamped(edge="y0")), *asked.actuators)
     stays = {"time": (0.0, 1.0), "displacement": ((0, 0, 0), LIFT)}
@@ -197,7 +191,7 @@ def test_in_dynamics_too_the_corner_follows_the_motion() -> None:
     table = {"time": (0.0, 0.02), "displacement": ((0.0, 0.0, 0.0), PULL)}
     asked = scene((CLAMP, Held(edge="y0", components=("z",))), EdgeMotion(kind="motion", edge="x1", **table))
     asked = asked.model_copy(update={"probes": {"corner": CORNER, "far": (0.2, 0.1)}})
-    run = lumped.simulate(asked, lumped.calibrate(SHEET, MATERIAL, (9, 5)), 0.02)
+    run = lumped.simulate(asked, lumped.calibrate(OBLONG, SILICONE, (9, 5)), 0.02)
     for place in run.probes.values():
         assert_allclose(place[:, 0], 0.5 * run.time, atol=1e-12)
         assert_allclose(place[:, 1:], 0.0, atol=1e-12)

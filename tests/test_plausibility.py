@@ -7,13 +7,13 @@ import warnings
 from pathlib import Path
 
 import pytest
-from test_cli import run
+from commands import run
+from scene_files import GOOD, written
 
 from sheetbench import scenes
 from sheetbench.scenes import Implausible
 from sheetbench.scenes.plausibility import slips
 
-GOOD = scenes.catalogue()["one-edge-clamped"].read_text(encoding="utf-8")
 SPRINGS = """[springs]
 axial = 1.0
 diagonal = 1.0
@@ -37,12 +37,6 @@ SLIPS = {
     "no load": ("[0.0, 0.0, -9.81]", "[0.0, 0.0, 0.0]", ["nothing moves the sheet"]),
 }
 IN_MILLIMETRES = GOOD.replace("0.188", "188.0").replace("0.003", "3.0").replace("0.094", "94.0")
-
-
-def written(folder: Path, text: str) -> str:
-    path = folder / "scene.toml"
-    path.write_text(text, encoding="utf-8")
-    return str(path)
 
 
 @pytest.mark.parametrize("slip", SLIPS)

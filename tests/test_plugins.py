@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_cli import one_line, run
+from commands import one_line, run
 
 from comparisons.models import plugins
 from comparisons.models import registry as models

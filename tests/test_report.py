@@ -9,11 +9,11 @@ import re
 from pathlib import Path
 
 import pytest
+from commands import one_line, run
 from hypothesis import given
 from hypothesis import strategies as st
 from rich.cells import cell_len
-from test_cli import one_line, quick, run  # noqa: F401  (quick: answers without a solver)
-from test_scenes import written
+from scene_files import written
 
 from comparisons.report import escape
 from comparisons.report.layout import blocks

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from rod_cases import CHAINS, GRAVITY, RUBBER, SHEET, STRIP, alone, chain, driven, shell
+from cases import GRAVITY, RUBBER, SHEET
+from rod_cases import CHAINS, STRIP, alone, chain, driven, shell
 
 import fem_reference
 import lumped

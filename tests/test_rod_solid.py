@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from rod_cases import CHAINS, SHEET, chain, driven, shell
+from cases import SHEET
+from rod_cases import CHAINS, chain, driven, shell
 
 import fem_reference
 from fem_reference.solid.statics import discretise

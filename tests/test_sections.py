@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from cases import with_material
 
 import fem_reference
 from fem_reference.surface.materials import Section, section_of
@@ -27,7 +28,7 @@ def test_the_sheets_own_section_changes_nothing(model):
 
 @pytest.mark.parametrize("model", ["plate", "shell"])
 def test_a_section_twice_as_stiff_is_a_material_twice_as_stiff(model):
-    twice = SCENE.model_copy(update={"material": SCENE.material.model_copy(update={"young": 2 * 54.5e6})})
+    twice = with_material(SCENE, young=2 * 54.5e6)
     section = Section(*(2.0 * part for part in own(SCENE)))
     stiff = fem_reference.solve(twice, model=model, elements=4).displacement(POINTS)
     given = fem_reference.solve(SCENE, model=model, elements=4, section=section).displacement(POINTS)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from cases import with_material
 
 import lumped
 from lumped.springs import constants
@@ -127,7 +128,7 @@ def test_follower_loads_have_sensitivities_too():
     found = lumped.sensitivity(scene, springs, ["young"]).derivatives["young"]
 
     def change(scene, springs, value):
-        changed = scene.model_copy(update={"material": scene.material.model_copy(update={"young": value})})
+        changed = with_material(scene, young=value)
         return changed, springs_of(changed)
 
     assert_close(found, by_differences(scene, springs, change, 54.5e6, 5.45e3))

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from cases import RUBBER, SHEET
 from scipy.spatial.transform import Rotation
 from skfem import Basis, ElementQuad2, MeshQuad
 
@@ -15,10 +16,7 @@ from fem_reference.surface.loads import FollowerMoment, FollowerPressure, Line, 
 from fem_reference.surface.materials import section_of
 from fem_reference.surface.mesh import rectangle
 from sheetbench import scenes
-from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Hinged, Material, Pressure, Scene, Sheet
-
-SHEET = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
-RUBBER = Material(young=54.5e6, poisson=0.48, density=1678.0)
+from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Hinged, Pressure, Scene, Sheet
 
 
 def distorted(elements=3, by=0.2, seed=0) -> MeshQuad:

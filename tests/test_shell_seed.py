@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from analytical_shell import SEED
+from cases import GRAVITY, RUBBER, SHEET, WEIGHT, with_material
 
 import fem_reference
 from fem_reference.surface.mesh import rectangle
@@ -23,11 +24,6 @@ from sheetbench.scenes import (
     Status,
 )
 
-SHEET = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
-RUBBER = Material(young=54.5e6, poisson=0.48, density=1678.0)
-GRAVITY = Gravity(acceleration=(0.0, 0.0, -9.81))
-WEIGHT = 1678.0 * 0.003 * 0.188**2 * 9.81
-
 
 def solve(scene, elements=16, **options):
     return fem_reference.solve(scene, model="shell", elements=elements, **options)
@@ -38,9 +34,7 @@ def probes(scene, elements=16, **options):
 
 
 def softer(name):
-    return scenes.load(name).model_copy(
-        update={"material": Material(young=5.45e6, poisson=0.48, density=1678.0)}
-    )
+    return with_material(scenes.load(name), young=5.45e6)
 
 
 @pytest.fixture(scope="module")

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from commands import one_line, run
 from scipy.integrate import solve_ivp
-from test_cli import one_line, run
 
 import lumped
 from comparisons.report.table import Column

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from cases import OBLONG
 from dynamic_cases import springs
 
 import fem_reference
@@ -13,13 +14,11 @@ from sheetbench.scenes import (
     Gravity,
     Material,
     Scene,
-    Sheet,
     Status,
     outside_model,
     weight_strain,
 )
 
-SHEET = Sheet(length_x=0.2, length_y=0.1, thickness=0.005)
 SOFT = Material(young=5e3, poisson=0.3, density=1000.0)
 
 
@@ -33,7 +32,7 @@ def hanging(last):
     """ρ g a/E = 0.39 × the last factor of the weight's history."""
     history = FactorTable(time=(0.0, 1.0), factor=(1.0, last))
     gravity = Gravity(acceleration=(9.81, 0.0, 0.0), history=history)
-    return Scene(name="s", sheet=SHEET, material=SOFT, gravity=gravity, supports=(Clamped(edge="x0"),))
+    return Scene(name="s", sheet=OBLONG, material=SOFT, gravity=gravity, supports=(Clamped(edge="x0"),))
 
 
 def test_the_weight_strain_is_that_of_the_last_factor():
@@ -58,12 +57,12 @@ def test_every_model_sees_that_it_is_stretched_by_more_than_half(model):
     material = Material(young=5e4, poisson=0.0, density=1000.0)
     for stretch, outside in ((0.4, False), (0.6, True)):
         pull = stretch if model == "plate" else stretch + 1.5 * stretch**2 + 0.5 * stretch**3
-        force = pull * material.young * SHEET.thickness
+        force = pull * material.young * OBLONG.thickness
         if model == "lumped":
-            force = stretch * material.young * SHEET.thickness
+            force = stretch * material.young * OBLONG.thickness
         scene = Scene(
             name="s",
-            sheet=SHEET,
+            sheet=OBLONG,
             material=material,
             supports=(Clamped(edge="x0"),),
             loads=(EdgeLoad(edge="x1", force_per_length=(force, 0.0, 0.0)),),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from cases import GRAVITY, RUBBER
 
 import fem_reference
 from comparisons.models import registry as models
@@ -16,7 +17,6 @@ from sheetbench.scenes import (
     Gravity,
     Held,
     Hinged,
-    Material,
     PointLoad,
     Pressure,
     Scene,
@@ -29,15 +29,13 @@ from sheetbench.scenes import (
 from sheetbench.scenes.errors import BadInput
 
 SHEET = Sheet(length_x=0.188, length_y=0.25, thickness=0.003)
-MATERIAL = Material(young=54.5e6, poisson=0.48, density=1678.0)
-DOWN = Gravity(acceleration=(0.0, 0.0, -9.81))
 
 
-def scene(supports: list, loads: list | None = None, gravity: Gravity = DOWN) -> Scene:
+def scene(supports: list, loads: list | None = None, gravity: Gravity = GRAVITY) -> Scene:
     return Scene(
         name="part",
         sheet=SHEET,
-        material=MATERIAL,
+        material=RUBBER,
         gravity=gravity,
         support=tuple(supports),
         load=tuple(loads or ()),

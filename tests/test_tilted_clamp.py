@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from cases import GRAVITY, OBLONG, SILICONE, relative
 
 import fem_reference
 import lumped
@@ -13,10 +14,8 @@ from sheetbench.scenes import (
     Clamped,
     Curved,
     EdgeMotion,
-    Gravity,
     Held,
     Hinged,
-    Material,
     Scene,
     SceneError,
     Sheet,
@@ -25,15 +24,12 @@ from sheetbench.scenes import (
     Symmetric,
 )
 
-SHEET = Sheet(length_x=0.2, length_y=0.1, thickness=0.005)
-MATERIAL = Material(young=2.0e7, poisson=0.3, density=1200.0)
-DOWN = Gravity(acceleration=(0.0, 0.0, -9.81))
 CUTS = (Symmetric(edge="y0"), Symmetric(edge="y1"))
 SEED = scenes.load("one-edge-clamped")
 
 
 def scene(*supports, gravity=None, **changes) -> Scene:
-    return Scene(name="tilted", sheet=SHEET, material=MATERIAL, support=supports, gravity=gravity, **changes)
+    return Scene(name="tilted", sheet=OBLONG, material=SILICONE, support=supports, gravity=gravity, **changes)
 
 
 def solve(asked: Scene, model: str, size: tuple[int, int] = (8, 4)) -> Solution:
@@ -58,7 +54,7 @@ def points_of(sheet: Sheet) -> np.ndarray:
 def rigid(edge: str, tilt: float, points: np.ndarray) -> np.ndarray:
     """Of a sheet that turns with its clamp, (n, 3): u = −r (n (cos τ − 1) + e_z sin τ), r from the edge."""
     at = EDGES[edge]
-    inside = np.abs(points[:, at.normal_axis] - (SHEET.lengths[at.normal_axis] if at.far_end else 0.0))
+    inside = np.abs(points[:, at.normal_axis] - (OBLONG.lengths[at.normal_axis] if at.far_end else 0.0))
     turned = (np.cos(tilt) - 1.0) * np.array(at.outward) + np.sin(tilt) * np.array([0.0, 0.0, 1.0])
     return -inside[:, None] * turned
 
@@ -67,23 +63,23 @@ def rigid(edge: str, tilt: float, points: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize(("edge", "tilt"), [("x0", 0.05), ("x1", -0.6), ("y0", 1.2), ("y1", 1.5)])
 def test_a_weightless_sheet_turns_with_its_clamp(model: str, edge: str, tilt: float) -> None:
     found = solve(scene(Clamped(edge=edge, tilt=tilt)), model, (4, 2))
-    points = points_of(SHEET)
-    assert np.abs(found.displacement(points) - rigid(edge, tilt, points)).max() < 1e-9 * max(SHEET.lengths)
+    points = points_of(OBLONG)
+    assert np.abs(found.displacement(points) - rigid(edge, tilt, points)).max() < 1e-9 * max(OBLONG.lengths)
 
 
 @pytest.mark.parametrize("edge", EDGES)
 def test_the_plate_turns_by_small_angles(edge: str) -> None:
     found = solve(scene(Clamped(edge=edge, tilt=0.3)), "plate", (4, 2))
-    points = points_of(SHEET)
+    points = points_of(OBLONG)
     small = 1e6 * rigid(edge, 0.3e-6, points) * [0.0, 0.0, 1.0]
-    assert np.abs(found.displacement(points) - small).max() < 1e-9 * max(SHEET.lengths)
+    assert np.abs(found.displacement(points) - small).max() < 1e-9 * max(OBLONG.lengths)
 
 
 @pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
 def test_planes_of_symmetry_let_the_clamp_between_them_turn(model: str) -> None:
     found = solve(scene(Clamped(edge="x0", tilt=0.4), *CUTS), model, (4, 2))
-    points = points_of(SHEET)
-    assert np.abs(found.displacement(points) - rigid("x0", 0.4, points)).max() < 1e-9 * max(SHEET.lengths)
+    points = points_of(OBLONG)
+    assert np.abs(found.displacement(points) - rigid("x0", 0.4, points)).max() < 1e-9 * max(OBLONG.lengths)
 
 
 SMALL = 1e-5  # rad: the answers' own nonlinearity is 2 (τ L/h)² = 3e-7 of them
@@ -95,13 +91,13 @@ def bent_beam(first: float, second: float, x: np.ndarray, shear: float = 0.0) ->
     Equal tilts bend it to a constant curvature, w = −τ x (1 − x/L); opposite ones (τ, −τ) to the cubic
     −τ x (1 − x/L)(1 − 2x/L)/(1 + Φ), Φ = 12 D/(κ G h L²) the beam's shear (Timoshenko 1921).
     """
-    length = SHEET.length_x
+    length = OBLONG.length_x
     alike, opposite, s = (first + second) / 2.0, (first - second) / 2.0, x / length
     w: np.ndarray = -x * (1.0 - s) * (alike + opposite * (1.0 - 2.0 * s) / (1.0 + shear))
     return w
 
 
-SHEAR = (SHEET.thickness / SHEET.length_x) ** 2 / (1.0 - 0.3**2) * 2.0 * (1.0 + 0.3) / (5.0 / 6.0)
+SHEAR = (OBLONG.thickness / OBLONG.length_x) ** 2 / (1.0 - 0.3**2) * 2.0 * (1.0 + 0.3) / (5.0 / 6.0)
 
 
 @pytest.mark.parametrize(
@@ -110,9 +106,9 @@ SHEAR = (SHEET.thickness / SHEET.length_x) ** 2 / (1.0 - 0.3**2) * 2.0 * (1.0 + 
 def test_ends_tilted_alike_bend_the_strip_to_one_curvature(model: str, within: float) -> None:
     """Both τ > 0: the strip sags by τ L/4."""
     found = solve(scene(Clamped(edge="x0", tilt=SMALL), Clamped(edge="x1", tilt=SMALL), *CUTS), model)
-    x = np.linspace(0.0, SHEET.length_x, 9)
+    x = np.linspace(0.0, OBLONG.length_x, 9)
     w = found.displacement(np.column_stack([x, np.full(9, 0.05)]))[:, 2]
-    sag = SMALL * SHEET.length_x / 4.0
+    sag = SMALL * OBLONG.length_x / 4.0
     assert w[4] == pytest.approx(-sag, rel=within)
     assert w == pytest.approx(bent_beam(SMALL, SMALL, x), abs=within * sag)
 
@@ -124,7 +120,7 @@ def test_ends_tilted_opposite_ways_bend_the_strip_to_the_cubic(model: str, withi
     found = solve(
         scene(Clamped(edge="x0", tilt=SMALL), Clamped(edge="x1", tilt=-SMALL), *CUTS), model, (16, 2)
     )
-    x = np.linspace(0.0, SHEET.length_x, 17)
+    x = np.linspace(0.0, OBLONG.length_x, 17)
     w = found.displacement(np.column_stack([x, np.full(17, 0.05)]))[:, 2]
     exact = bent_beam(SMALL, -SMALL, x, SHEAR)
     assert w == pytest.approx(exact, abs=within * np.abs(exact).max())
@@ -138,7 +134,7 @@ def test_turned_ends_stretch_the_strip_to_second_order_only(model: str) -> None:
     """½ ∫ w'² dx = τ² L/6 more arc, so that N = E h/(1 − ν²) τ²/6 a width; the linear plate has none."""
     tilt = 1e-3
     asked = scene(Clamped(edge="x0", tilt=tilt), Clamped(edge="x1", tilt=tilt), *CUTS)
-    pull = MATERIAL.young * SHEET.thickness / (1.0 - 0.3**2) * tilt**2 / 6.0 * SHEET.length_y
+    pull = SILICONE.young * OBLONG.thickness / (1.0 - 0.3**2) * tilt**2 / 6.0 * OBLONG.length_y
     assert solve(asked, model, (16, 2)).reactions["x1"][0] == pytest.approx(pull, rel=0.01)
     assert abs(solve(asked, "plate").reactions["x1"][0]) < 1e-9 * pull
 
@@ -149,17 +145,13 @@ def tilted_seed(tilt: float, **material: float) -> Scene:
     return SEED.model_copy(update=changed | {"material": SEED.material.model_copy(update=material)})
 
 
-def off(u: np.ndarray, reference: np.ndarray) -> float:
-    return float(np.abs(u - reference).max() / np.abs(reference).max())
-
-
 def test_models_agree_on_a_tilted_sheet_under_its_weight() -> None:
     asked = tilted_seed(0.05)
     points = asked.probe_points()
     shell = solve(asked, "shell", (12, 12)).displacement(points)
-    assert off(solve(asked, "lumped", (8, 8)).displacement(points), shell) < 0.007
-    assert off(solve(asked, "solid", (8, 8)).displacement(points), shell) < 0.005
-    assert off(solve(SEED, "shell", (12, 12)).displacement(points), shell) > 0.05  # the tilt counts
+    assert relative(solve(asked, "lumped", (8, 8)).displacement(points), shell) < 0.007
+    assert relative(solve(asked, "solid", (8, 8)).displacement(points), shell) < 0.005
+    assert relative(solve(SEED, "shell", (12, 12)).displacement(points), shell) > 0.05  # the tilt counts
 
 
 def test_the_linear_models_agree_on_a_stiff_tilted_sheet() -> None:
@@ -168,7 +160,7 @@ def test_the_linear_models_agree_on_a_stiff_tilted_sheet() -> None:
     points = asked.probe_points()
     shell = solve(asked, "shell", (12, 12)).displacement(points)[:, 2]
     for model, size in (("plate", (12, 12)), ("lumped, linear", (8, 8))):
-        assert off(solve(asked, model, size).displacement(points)[:, 2], shell) < 0.007
+        assert relative(solve(asked, model, size).displacement(points)[:, 2], shell) < 0.007
 
 
 @pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
@@ -177,16 +169,16 @@ def test_a_tilt_is_the_edge_moved_by_that_rotation(model: str, edge: str, axis: 
     """Two ways of saying the same, which share no code."""
     turned = tuple(0.3 * a for a in axis)
     motion = EdgeMotion(kind="motion", edge=edge, time=(0.0,), rotation=(turned,))
-    points = points_of(SHEET)
-    moved = solve(scene(gravity=DOWN, actuator=(motion,)), model).displacement(points)
-    tilted = solve(scene(Clamped(edge=edge, tilt=0.3), gravity=DOWN), model).displacement(points)
-    assert off(tilted, moved) < 1e-7
+    points = points_of(OBLONG)
+    moved = solve(scene(gravity=GRAVITY, actuator=(motion,)), model).displacement(points)
+    tilted = solve(scene(Clamped(edge=edge, tilt=0.3), gravity=GRAVITY), model).displacement(points)
+    assert relative(tilted, moved) < 1e-7
 
 
 @pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
 def test_supports_carry_the_weight(model: str) -> None:
-    asked = scene(Clamped(edge="x0", tilt=0.2), Held(edge="x1", components=("z",)), gravity=DOWN)
-    weight = 9.81 * MATERIAL.density * SHEET.thickness * SHEET.length_x * SHEET.length_y
+    asked = scene(Clamped(edge="x0", tilt=0.2), Held(edge="x1", components=("z",)), gravity=GRAVITY)
+    weight = 9.81 * SILICONE.density * OBLONG.thickness * OBLONG.length_x * OBLONG.length_y
     found = solve(asked, model)
     assert sum(found.reactions.values()) == pytest.approx([0.0, 0.0, weight], abs=1e-6 * weight)
     assert found.reactions["x1"][2] > 0.4 * weight  # what sags at x0 leans on x1
@@ -194,35 +186,35 @@ def test_supports_carry_the_weight(model: str) -> None:
 
 @pytest.mark.parametrize("other", [Hinged(edge="y0"), Held(edge="y0", components=("z",))])
 def test_a_corner_shared_with_a_hinge_obeys_both(other: Hinged | Held) -> None:
-    asked = scene(Clamped(edge="x0", tilt=0.2), other, gravity=DOWN)
-    points = points_of(SHEET)
+    asked = scene(Clamped(edge="x0", tilt=0.2), other, gravity=GRAVITY)
+    points = points_of(OBLONG)
     shell = solve(asked, "shell", (16, 8)).displacement(points)
-    assert off(solve(asked, "solid", (16, 8)).displacement(points), shell) < 0.02
-    assert off(solve(asked, "lumped", (32, 16)).displacement(points), shell) < 0.02
+    assert relative(solve(asked, "solid", (16, 8)).displacement(points), shell) < 0.02
+    assert relative(solve(asked, "lumped", (32, 16)).displacement(points), shell) < 0.02
 
 
 def test_motion_starts_in_the_tilted_shape_and_stays_there() -> None:
     asked = scene(Clamped(edge="x0", tilt=0.3))
-    run = lumped.simulate(asked, lumped.calibrate(SHEET, MATERIAL, (5, 3)), 0.02)
+    run = lumped.simulate(asked, lumped.calibrate(OBLONG, SILICONE, (5, 3)), 0.02)
     still = rigid("x0", 0.3, asked.probe_points())
     for place, values in zip(still, run.probes.values(), strict=True):
-        assert np.abs(values - place).max() < 1e-9 * SHEET.length_x
+        assert np.abs(values - place).max() < 1e-9 * OBLONG.length_x
     assert np.abs(run.energies["kinetic"]).max() < 1e-15
 
 
 def test_a_path_is_traced_to_the_full_tilt() -> None:
-    springs = lumped.calibrate(SHEET, MATERIAL, (5, 3))
-    for gravity in (None, DOWN):
+    springs = lumped.calibrate(OBLONG, SILICONE, (5, 3))
+    for gravity in (None, GRAVITY):
         asked = scene(Clamped(edge="x0", tilt=0.3), gravity=gravity)
         path = lumped.trace(asked, springs)
         assert path.status is Status.CONVERGED and path.load_factors[-1] == 1.0
         place = lumped.solve(asked, springs).displacement([asked.probes["P4"]])[0]
-        assert path.displacements["P4"][-1] == pytest.approx(place, abs=1e-9 * SHEET.length_x)
+        assert path.displacements["P4"][-1] == pytest.approx(place, abs=1e-9 * OBLONG.length_x)
 
 
 def test_frequencies_are_those_of_the_flat_sheet() -> None:
     upright, tilted = scene(Clamped(edge="x0")), scene(Clamped(edge="x0", tilt=0.5))
-    springs = lumped.calibrate(SHEET, MATERIAL, (5, 3))
+    springs = lumped.calibrate(OBLONG, SILICONE, (5, 3))
     assert np.array_equal(
         lumped.modes(tilted, springs, 3).frequencies, lumped.modes(upright, springs, 3).frequencies
     )

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_campaign import rows_in
-from test_cli import one_line, run
+from campaigns import rows_in
+from commands import one_line, run
 
 from comparisons.models import candidate as candidates
 from comparisons.models.candidate import Candidate, lattices, parse_model, series

@@ -1,0 +1,27 @@
+"""Sheets, materials and shorthands that the tests share; the first sheet is that of the seed's scenes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
+
+SHEET = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
+RUBBER = Material(young=54.5e6, poisson=0.48, density=1678.0)
+GRAVITY = Gravity(acceleration=(0.0, 0.0, -9.81))
+WEIGHT = 1678.0 * 0.003 * 0.188**2 * 9.81  # N, of the sheet
+SIDE = np.linspace(0.188 / 8, 0.188, 8)
+POINTS = np.array([[x, y] for x in SIDE for y in SIDE])  # (64, 2) [m], of a 9 × 9 grid but for two edges
+OBLONG = Sheet(length_x=0.2, length_y=0.1, thickness=0.005)
+SILICONE = Material(young=2.0e7, poisson=0.3, density=1200.0)
+CLAMP = Clamped(edge="x0")
+
+
+def with_material(scene: Scene, **changes: float) -> Scene:
+    """The scene with E, ν or ρ changed."""
+    return scene.model_copy(update={"material": scene.material.model_copy(update=changes)})
+
+
+def relative(u: np.ndarray, reference: np.ndarray) -> float:
+    """The design's error: largest difference over the largest component."""
+    return float(np.abs(u - reference).max() / np.abs(reference).max())

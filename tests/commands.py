@@ -1,0 +1,22 @@
+"""The command line in this process, as the tests call it."""
+
+from __future__ import annotations
+
+import pytest
+
+from comparisons.cli import main
+
+
+def run(*arguments: str) -> int:
+    with pytest.raises(SystemExit) as caught:
+        main(list(arguments))
+    return int(caught.value.code or 0)
+
+
+def one_line(capsys: pytest.CaptureFixture[str]) -> str:
+    """What was said on standard error: one line and no traceback, and nothing on standard output."""
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.count("\n") == 1 and printed.err.endswith("\n")
+    assert "Traceback" not in printed.err
+    return printed.err

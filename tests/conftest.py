@@ -1,0 +1,34 @@
+"""What tests of several files stand on: answers without a solver, a campaign's store."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import fake_solutions
+import pytest
+
+from comparisons.comparison import comparison as displacement
+from comparisons.models.candidate import Candidate
+from comparisons.runs.campaign import campaign
+from comparisons.runs.store import Store
+from sheetbench.scenes import Scene, Solution
+
+
+@pytest.fixture
+def quick(monkeypatch: pytest.MonkeyPatch) -> dict[str, Solution]:
+    """Answers without a solver; a test may put its own in."""
+    answers: dict[str, Solution] = {}
+
+    def answer(scene: Scene, candidate: Candidate, name: str = "") -> Solution:
+        size = -0.01 if candidate.model == "lumped" else -0.0101
+        return answers.get(candidate.model) or fake_solutions.solution(scene, name or candidate.model, size)
+
+    monkeypatch.setattr(displacement, "answer", answer)
+    return answers
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Iterator[Store]:
+    with campaign(tmp_path) as opened:
+        yield opened

@@ -1,0 +1,43 @@
+"""Scenes as files: one that is good, those with a fault and what is said of it, those that float."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from sheetbench import scenes
+
+GOOD = scenes.catalogue()["one-edge-clamped"].read_text(encoding="utf-8")
+
+BAD = {
+    "unknown key": (GOOD.replace("thickness", "thicknes"), ["sheet.thicknes", "0.003", "unknown key"]),
+    "unknown table": (GOOD + "[wind]\nspeed = 3.0\n", ["wind", "unknown key"]),
+    "missing key": (GOOD.replace("young = 54.5e6", ""), ["material.young", "missing"]),
+    "negative thickness": (GOOD.replace("0.003", "-0.003"), ["sheet.thickness", "-0.003", "greater than 0"]),
+    "millimetres": (GOOD.replace("0.003", "3.0"), ["thickness", "metres"]),
+    "incompressible": (GOOD.replace("0.48", "0.5"), ["material.poisson", "0.5", "less than 0.5"]),
+    "text for a number": (GOOD.replace("0.003", '"3 mm"'), ["sheet.thickness", "3 mm", "number"]),
+    "infinite": (GOOD.replace("54.5e6", "inf"), ["material.young", "inf", "finite"]),
+    "probe off the sheet": (GOOD.replace("P4 = [0.188, 0.188]", "P4 = [0.188, 0.2]"), ["probes.P4", "0.2"]),
+    "load off the sheet": (
+        GOOD.replace(
+            "[probes]", '[[load]]\nkind = "point"\nat = [0.3, 0.0]\nforce = [0.0, 0.0, 1.0]\n[probes]'
+        ),
+        ["load 1.at", "0.3"],
+    ),
+    "unknown support": (GOOD.replace('"clamped"', '"glued"'), ["support 1", "glued", "clamped"]),
+    "two supports on an edge": (
+        GOOD.replace("[probes]", '[[support]]\nedge = "x0"\nkind = "hinged"\n[probes]'),
+        ["x0", "two supports"],
+    ),
+    "not TOML": ("thickness: 3", ["not a TOML file"]),
+}
+LOOSE = {
+    "no support": GOOD.replace('[[support]]\nedge = "x0"\nkind = "clamped"', ""),
+    "a hinge": GOOD.replace('"clamped"', '"hinged"'),
+}
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "scene.toml"
+    path.write_text(text, encoding="utf-8")
+    return path

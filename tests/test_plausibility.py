@@ -43,7 +43,7 @@ IN_MILLIMETRES = GOOD.replace("0.188", "188.0").replace("0.003", "3.0").replace(
 def test_a_slip_is_said_with_file_key_value_and_unit(tmp_path: Path, slip: str) -> None:
     instead_of, stands, said = SLIPS[slip]
     assert instead_of in GOOD
-    path = written(tmp_path, GOOD.replace(instead_of, stands))
+    path = str(written(tmp_path, GOOD.replace(instead_of, stands)))
     with pytest.warns(Implausible) as caught:
         scenes.load(path)
     (warning,) = caught
@@ -67,7 +67,7 @@ def test_what_is_plausible_is_not_remarked_on() -> None:
 def test_every_verb_says_it_once_on_standard_error(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    path = written(tmp_path, GOOD.replace("54.5e6", "54.5"))
+    path = str(written(tmp_path, GOOD.replace("54.5e6", "54.5")))
     assert run("calibrate", path, "--grid", "5", "--method", "fit-modal", "--json") == 0  # loads it twice
     printed = capsys.readouterr()
     assert printed.err.count("young = 54.5 Pa") == 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,6 +14,11 @@ from comparisons.models.candidate import Candidate
 from comparisons.runs.campaign import campaign
 from comparisons.runs.store import Store
 from sheetbench.scenes import Scene, Solution
+
+
+def pytest_configure() -> None:
+    """Ctrl-C is heard in the background too, where a shell ignores it; what the tests start inherits it."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture

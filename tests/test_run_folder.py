@@ -1,0 +1,230 @@
+"""The folder of a run in time: resuming after a kill, damage, one writer, a full disk, memory."""
+
+import contextlib
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tracemalloc
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import run
+from dynamic_cases import scene, springs
+from limits import at_most
+
+import lumped
+from sheetbench.files import only_writer
+from sheetbench.scenes import BadInput
+
+HERE = Path(__file__).parent
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+sys.path.insert(0, {here!r})
+import lumped
+from dynamic_cases import scene, springs
+from limits import at_most
+store, after = Path(sys.argv[1]), []
+def kill(time):
+    after.extend([time] if (store / "checkpoint.npz").exists() else [])
+    if len(after) > 3:  # samples after the checkpoint, to be dropped
+        os.kill(os.getpid(), signal.SIGKILL)
+asked = scene("one-edge-clamped", {actuators}, damping_time=1e-3)
+options = dict(integrator={name!r}, every=0.002, frames=20)
+lumped.simulate(asked, springs(asked, 4), {duration}, store=store, progress=kill, **options)
+"""
+DURATION = 0.25  # s, two checkpoints
+RUNS = {"generalised-alpha": [], "verlet": [], "midpoint": [{"segments": 2, "curvature": 3.0}]}
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_a_killed_run_resumes_to_the_last_digit(tmp_path, name):
+    actuators, duration = RUNS[name], DURATION
+    code = KILLED.format(here=str(HERE), actuators=actuators, duration=duration, name=name)
+    killed = subprocess.run([sys.executable, "-c", code, str(tmp_path / "killed")])
+    assert killed.returncode == -signal.SIGKILL
+    samples = tmp_path / "killed" / "samples.bin"
+    asked = scene("one-edge-clamped", actuators, damping_time=1e-3)
+    options = {"integrator": name, "every": 0.002, "frames": 20}
+    whole = lumped.simulate(asked, springs(asked, 4), duration, store=tmp_path / "whole", **options)
+    killed_at = samples.stat().st_size
+    resumed = lumped.simulate(asked, springs(asked, 4), duration, store=tmp_path / "killed", **options)
+    for file in ("samples.bin", "frames.bin"):
+        assert (tmp_path / "killed" / file).read_bytes() == (tmp_path / "whole" / file).read_bytes()
+    assert killed_at < samples.stat().st_size
+    assert resumed.steps == whole.steps and np.array_equal(resumed.time, whole.time)
+    assert 0.0 < resumed.resumed_from < duration and whole.resumed_from == 0.0
+
+
+STILL = {"integrator": "verlet", "every": 0.002, "frames": 5}
+LENGTH = 0.11  # s, one checkpoint
+
+
+@pytest.fixture(scope="module")
+def run_kept(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("kept") / "run"
+    asked = scene(damping_time=1e-3)
+    return folder, lumped.simulate(asked, springs(asked, 3), LENGTH, store=folder, **STILL)
+
+
+@pytest.fixture
+def kept(run_kept, tmp_path):
+    """A folder with a finished run, and how to run it again."""
+    folder, history = tmp_path / "run", run_kept[1]
+    shutil.copytree(run_kept[0], folder)
+    asked = scene(damping_time=1e-3)
+
+    def again(duration=LENGTH, **other):
+        return lumped.simulate(asked, springs(asked, 3), duration, store=folder, **{**STILL, **other})
+
+    return folder, history, again
+
+
+def test_a_longer_duration_goes_on_with_the_run(kept, tmp_path):
+    """To the last bit what a run of that length gives; frames go on at their distance."""
+    folder, _, again = kept
+    longer = again(2.0 * LENGTH)
+    asked = scene(damping_time=1e-3)
+    at_once = lumped.simulate(asked, springs(asked, 3), 2.0 * LENGTH, store=tmp_path / "at once", **STILL)
+    assert longer.resumed_from == pytest.approx(50 * 0.002)
+    assert (folder / "samples.bin").read_bytes() == (tmp_path / "at once" / "samples.bin").read_bytes()
+    assert longer.time[-1] == pytest.approx(2.0 * LENGTH) and longer.steps == at_once.steps
+    assert np.allclose(longer.extra["frame_times"], 0.002 * np.array([0, 14, 28, 41, 55, 69, 82, 96, 110]))
+    assert len(longer.extra["frames"]) == 9
+    with pytest.raises(BadInput, match=r"duration = 0.11 s: the run that is kept there is one of 0.22 s"):
+        again()
+
+
+def test_another_run_in_the_folder_is_refused_by_what_differs(kept):
+    folder, _, again = kept
+    before = (folder / "run.json").read_bytes()
+    with pytest.raises(BadInput, match=r"holds another run \(of another every, step\)"):
+        again(step=1e-5, every=0.001)
+    assert (folder / "run.json").read_bytes() == before
+
+
+@pytest.mark.parametrize("name", ["samples.bin", "frames.bin"])
+@pytest.mark.parametrize("left", [0, 0.5, None])
+def test_files_shorter_than_the_checkpoint_says_are_refused(kept, name, left):
+    """They were filled up with zeros, and the run was said to be converged."""
+    folder, _, again = kept
+    path = folder / name
+    if left is None:
+        path.unlink()
+    else:
+        os.truncate(path, int(left * path.stat().st_size) - 3 * (left > 0))
+    before = {file.name: file.read_bytes() for file in folder.iterdir()}
+    with pytest.raises(BadInput, match=rf"{name}: holds .* that the checkpoint counts; remove the folder"):
+        again()
+    assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
+
+
+@pytest.mark.parametrize("name", ["samples.bin", "frames.bin"])
+def test_files_of_the_right_length_that_were_changed_are_refused(kept, name):
+    """They went unnoticed into the history."""
+    folder, _, again = kept
+    path = folder / name
+    content = bytearray(path.read_bytes())
+    content[len(content) // 3] ^= 1
+    path.write_bytes(content)
+    before = {file.name: file.read_bytes() for file in folder.iterdir()}
+    with pytest.raises(BadInput, match=rf"{name}: is not what the run wrote: .*; remove the folder"):
+        again()
+    assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
+
+
+@pytest.mark.parametrize(
+    "name, content, said",
+    [
+        ("run.json", b"", "run.json: is damaged"),
+        ("run.json", b"{}", "run.json: is damaged"),
+        ("run.json", b"[1]", "run.json: is damaged"),
+        ("run.json", b"\xff\xfe", "run.json: is damaged"),
+        ("run.json", None, "run.json: is missing beside a checkpoint"),
+        ("checkpoint.npz", b"not a checkpoint", "checkpoint.npz: is damaged"),
+        ("checkpoint.npz", b"", "checkpoint.npz: is damaged"),
+        ("checkpoint.npz", 0.5, "checkpoint.npz: is damaged"),
+    ],
+)
+def test_damaged_files_are_refused_in_a_line_with_the_remedy(kept, name, content, said):
+    folder, history, again = kept
+    path = folder / name
+    if content is None:
+        path.unlink()
+    else:
+        path.write_bytes(path.read_bytes()[: path.stat().st_size // 2] if content == 0.5 else content)
+    with pytest.raises(BadInput, match=rf"{said}.*; remove the folder {folder}"):
+        again()
+    shutil.rmtree(folder)
+    assert np.array_equal(again().probes["P4"], history.probes["P4"])
+
+
+def test_a_run_has_one_writer(kept):
+    """Two at once left rows of both in one file, which no command could read again."""
+    folder, history, again = kept
+    with (
+        only_writer(folder),
+        pytest.raises(BadInput, match=f"{folder}: another process writes here; wait until it has ended"),
+    ):
+        again()
+    assert np.array_equal(again().probes["P4"], history.probes["P4"])
+
+
+def test_a_second_writer_is_refused_before_it_touches_the_folder(tmp_path, capsys):
+    """It rewrote the manifest of the first."""
+    manifest = tmp_path / "manifest.json"
+    asked = ["simulate", "two-edges-settling", "--lumped", "4", "--duration", "0.1", "--every", "0.02"]
+    assert run(*asked, "--out", str(tmp_path)) == 0
+    before = manifest.read_bytes()
+    with only_writer(tmp_path):
+        assert run(*asked, "--out", str(tmp_path)) == 2
+    assert "another process writes here" in capsys.readouterr().err
+    assert manifest.read_bytes() == before
+
+
+@pytest.mark.parametrize("name", ["run.json", "samples.bin", "frames.bin", "checkpoint.npz", ".lock"])
+def test_a_planted_link_is_never_written_through(tmp_path, name):
+    victim, folder = tmp_path / "victim", tmp_path / "run"
+    victim.write_text("mine")
+    folder.mkdir()
+    (folder / name).symlink_to(victim)
+    asked = scene(damping_time=1e-3)
+    with contextlib.suppress(BadInput):
+        lumped.simulate(asked, springs(asked, 3), LENGTH, store=folder, **STILL)
+    assert victim.read_text() == "mine"
+
+
+def test_a_full_disk_is_said_and_the_run_goes_on_when_there_is_room(tmp_path, run_kept):
+    """A limit on file sizes stands for the disk: frames.bin fits, then samples.bin is full, at any place."""
+    folder, history = tmp_path / "run", run_kept[1]
+    asked = scene(damping_time=1e-3)
+
+    def start():
+        return lumped.simulate(asked, springs(asked, 3), LENGTH, store=folder, **STILL)
+
+    full = (run_kept[0] / "samples.bin").stat().st_size
+    for most in (10, full // 2, full - 10):
+        with at_most(most), pytest.raises(BadInput, match=r"run\S*: cannot be written, file too large: "):
+            start()
+    assert np.array_equal(start().probes["P4"], history.probes["P4"])
+
+
+def test_memory_does_not_grow_with_the_duration(tmp_path):
+    asked = scene(damping_time=1e-3)
+
+    def peak(duration):
+        tracemalloc.start()
+        options = {"integrator": "midpoint", "step": 1e-3, "every": 1e-3}
+        lumped.simulate(asked, springs(asked, 4), duration, store=tmp_path / str(duration), **options)
+        found = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        return found
+
+    peak(0.1)
+    assert peak(1.6) < peak(0.2) + 20_000  # bytes; 1400 more samples are 370 kB
+    assert (tmp_path / "1.6" / "samples.bin").stat().st_size > 300_000

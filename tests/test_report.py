@@ -63,6 +63,14 @@ def test_a_narrow_table_is_stacked_in_blocks_that_name_their_rows() -> None:
     assert headings.count("factorisations") == 1 and headings.count("status") == 1
 
 
+def test_blocks_repeat_the_figures_that_tell_rows_apart() -> None:
+    figures = [Column(name, form="d") for name in ("masses", "ratio", "limit_of_the_step", "iterations_used")]
+    table = Table("Cells", tuple(figures), ((5, 1, 10, 20), (5, 100, 30, 40)))
+    first, second = blocks(table, 36)
+    assert [row.split() for row in first.rows] == [["5", "1", "10"], ["5", "100", "30"]]
+    assert [row.split() for row in second.rows] == [["5", "1", "20"], ["5", "100", "40"]]
+
+
 @given(
     st.lists(st.tuples(st.text(max_size=30), st.floats(), st.text(max_size=60)), max_size=4),
     st.integers(4, 100),

@@ -120,6 +120,12 @@ def screens(tmp_path_factory: pytest.TempPathFactory) -> Screens:
     return {tuple(name): (status, CONTROL.sub("", out), err) for name, status, out, err in found}
 
 
+@pytest.mark.parametrize("verb", ["check", "advise"])
+def test_a_command_to_copy_is_one_line(screens: Screens, verb: str) -> None:
+    command = screens[verb, "50"][1].partition("Solve it with:")[2].strip()
+    assert command.startswith(f"sheetbench compare {SMALL[verb][1]}") and "\n" not in command
+
+
 def numbers(text: str) -> list[str]:
     """The numbers of a text as they are printed."""
     return re.findall(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?", text.replace("−", "-"))

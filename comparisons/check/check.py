@@ -5,6 +5,8 @@ Nothing is solved. What is hardly meant is warned of where the scene is read (`s
 
 from __future__ import annotations
 
+import shlex
+
 from comparisons.models.grids import scene_grid
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
@@ -15,8 +17,9 @@ from sheetbench.scenes.words import in_words
 ELEMENTS = 16  # of the shell, along the shorter side
 
 
-def check(scene: AnyScene) -> Report:
-    """The report of `sheetbench check`."""
+def check(scene: AnyScene, called: str | None = None) -> Report:
+    """The report of `sheetbench check`; called: the catalogue name or path that commands shall have."""
+    called = called or (scene.name if isinstance(scene, Scene) else str(scene))
     scene = scene_of(scene)
     parts = [*in_words(scene), ("lattice", _lattice(scene)), ("shell", _shell(scene))]
     free = free_rigid_motions(scene)
@@ -25,7 +28,7 @@ def check(scene: AnyScene) -> Report:
         title=scene.name,
         subtitle=scene.title,
         tables=(Table("What will be solved", (Column("part"), Column("what", prose=True)), tuple(parts)),),
-        notes=() if free else ("Solve it with:  sheetbench compare SCENE",),
+        notes=() if free else (f"Solve it with:\nsheetbench compare {shlex.quote(called)}",),
         complaints=("nothing holds the sheet: only `modes` and `simulate` can answer",) if free else (),
         document={
             "scene": scene.document(),

@@ -13,4 +13,4 @@ def command(scene: Scene, json: Json = False, out: Out = None, overwrite: Overwr
 
     asked = load(scene)
     with finish("check", json, out, overwrite, scene=asked) as end:
-        end(check(asked))
+        end(check(asked, called=scene))

@@ -78,8 +78,11 @@ def document(content: Mapping[str, Any]) -> None:
 
 def heading(title: str, subtitle: str = "") -> None:
     """What the output is about."""
-    said = Text.assemble((_said(title), "bold"), f"  {_said(subtitle)}" if subtitle else "")
-    out.print(said, soft_wrap=True)
+    said, bold = _said(title), len(_said(title))
+    for i, line in enumerate(_fitted(f"{said}  {_said(subtitle)}" if subtitle else said)):
+        text = Text(line)
+        text.stylize("bold", 0, bold if i == 0 else 0)
+        out.print(text, soft_wrap=True)
 
 
 def show(table: Table) -> None:
@@ -100,19 +103,21 @@ def show(table: Table) -> None:
 
 
 def note(text: str) -> None:
-    """A remark under the tables; its lines are broken between words."""
+    """A remark under the tables; its lines are broken between words, but a command to copy is not."""
     for line in _said(text, keep="\n").split("\n"):
-        for part in _fitted(line):
+        for part in [line] if line.startswith("sheetbench ") else _fitted(line):
             out.print(Text(part, style="dim"), soft_wrap=True)
 
 
-def _fitted(line: str) -> list[str]:
+def _fitted(line: str, console: Console = out) -> list[str]:
     """The line broken between words; a long path stays whole."""
     import textwrap
 
-    return textwrap.wrap(line, out.width, break_long_words=False, break_on_hyphens=False) or [""]
+    return textwrap.wrap(line, console.width, break_long_words=False, break_on_hyphens=False) or [""]
 
 
 def warn(text: str) -> None:
-    """A warning in one line, on standard error."""
-    err.print(Text(terminal(text), style="yellow"), soft_wrap=True)
+    """A warning on standard error: one line, on a terminal broken between words."""
+    said = spelled(terminal(text), err.encoding)
+    for line in _fitted(said, err) if err.is_terminal else [said]:
+        err.print(Text(line, style="yellow"), soft_wrap=True)

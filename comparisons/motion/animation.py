@@ -61,15 +61,16 @@ def _images(scene: Scene, shown: list[tuple[float, Frame]]) -> list[Image.Image]
 
 def _page(scene: Scene, pixels: np.ndarray, said: str, limits: tuple[float, float]) -> Image.Image:
     """A frame under its title and time, over its colour bar."""
-    top, bottom = 0.34, 0.42
+    title = plain(scene.title or scene.name, width=72)
+    top, bottom = 0.19 + 0.15 * len(title.splitlines()), 0.42
     height = WIDTH * pixels.shape[0] / pixels.shape[1] + top + bottom
     with matplotlib.rc_context(STYLE):
         figure = Figure(figsize=(WIDTH, height), dpi=PER_INCH, facecolor="white")
         panel = figure.add_axes((0.0, bottom / height, 1.0, 1.0 - (top + bottom) / height))
         panel.imshow(pixels, interpolation="lanczos")
         panel.set_axis_off()
-        figure.text(0.02, 1.0 - 0.04 / height, plain(scene.title or scene.name, longest=70), va="top")
-        figure.text(0.02, 1.0 - 0.19 / height, said, va="top", fontsize=6.5)
+        figure.text(0.02, 1.0 - 0.04 / height, title, va="top")
+        figure.text(0.02, 1.0 - (top - 0.15) / height, said, va="top", fontsize=6.5)
         bar = figure.add_axes((0.25, 0.28 / height, 0.5, 0.07 / height))
         colour_bar(figure, bar, HEIGHTS, limits, "$u_z$  [mm]")
         canvas = FigureCanvasAgg(figure)

@@ -7,7 +7,7 @@ the width itself is broken, and goes on in the next line: nothing is ever cut of
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import chain
 
@@ -63,6 +63,7 @@ def blocks(table: Table, width: int | None, say: Callable[[str], str] = terminal
     """
     brief = table.brief()
     shown = [[say(text) for text in row] for row in brief.shown_rows()]
+    naming = _naming(brief.columns, shown)
     starts = [i == 0 or not table.grouped or shown[i][0] != shown[i - 1][0] for i in range(len(shown))]
     for row, start in zip(shown, starts, strict=True):
         if not start:
@@ -77,17 +78,24 @@ def blocks(table: Table, width: int | None, say: Callable[[str], str] = terminal
         for i, column in enumerate(brief.columns)
     ]
     ruled = [table.grouped and start and i > 0 for i, start in enumerate(starts)]
-    return [_block(part, _widths(part, width), ruled) for part in _stacked(strips, width)]
+    return [_block(part, _widths(part, width), ruled) for part in _stacked(strips, naming, width)]
 
 
-def _stacked(strips: list[_Strip], width: int | None) -> list[list[_Strip]]:
-    """The columns in as few blocks as the width allows, the naming columns in front of each."""
+def _naming(columns: Sequence[Column], rows: list[list[str]]) -> int:
+    """How many columns name a row: those before the first figure, and more until no two rows are alike."""
+    count = next((i for i, column in enumerate(columns) if column.numeric or column.prose), 1)
+    while count < len(columns) - 1 and len({tuple(row[:count]) for row in rows}) < len(rows):
+        count += 1
+    return max(count, 1)
+
+
+def _stacked(strips: list[_Strip], count: int, width: int | None) -> list[list[_Strip]]:
+    """The columns in as few blocks as the width allows, the `count` naming columns in front of each."""
     if width is None or _total(s.pleasant for s in strips) <= width:
         return [strips]
-    count = next((i for i, s in enumerate(strips) if s.column.numeric or s.column.prose), 1)
     while count > 1 and _total(s.wide for s in strips[:count]) > width // 2:
         count -= 1
-    keys, rest = strips[: max(count, 1)], strips[max(count, 1) :]
+    keys, rest = strips[:count], strips[count:]
     parts: list[list[_Strip]] = []
     for strip in rest:
         if parts and _total(s.pleasant for s in [*parts[-1], strip]) <= width:

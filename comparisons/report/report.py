@@ -101,9 +101,12 @@ class Report:
         parts = [f"# {markdown(self.title)}\n"]
         parts += [f"{markdown(said)}\n" for said in (self.subtitle, self.lead) if said]
         for table in self.tables:
+            section = table.text and table.name in drawn
+            if section:
+                parts.append(f"## {markdown(table.name)}\n")
             if table.text:
                 parts.append(f"{html(table.text).rstrip()}\n")
-            if table.text and table.name in drawn:
+            if section:
                 parts.append(f"![{markdown(table.caption)}]({drawn[table.name]})\n")
             parts.append(table.to_markdown())
         parts += [f"{markdown(said)}\n" for said in self.notes]

@@ -63,7 +63,7 @@ def text(study: Study, rows: list[Row]) -> str:
     by more than 5 %, with the mechanism."""
     ended = Counter(row["status"] for row in rows)
     counted = ", ".join(f"{count} {status}" for status, count in ended.most_common())
-    parts = [f"## {study.name}\n\n{study.says}\n", f"{len(rows)} cells: {counted}.\n"]
+    parts = [f"{study.says}\n", f"{len(rows)} cells: {counted}.\n"]
     ended_early = [row for row in rows if row["status"] not in ("converged", "strain-outside-model")]
     if ended_early:
         parts.append("Not converged:\n")

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import matplotlib
 import numpy as np
@@ -17,13 +17,15 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from comparisons.comparison.comparison import Comparison
 from comparisons.report import acting
 from comparisons.report.labels import place_labels
 from comparisons.report.stage import Stage
 from comparisons.report.style import GREY, STYLE, plain, save
 from comparisons.report.vtk import plan_mesh
 from sheetbench.scenes import Scene, Solution
+
+if TYPE_CHECKING:
+    from comparisons.comparison.comparison import Comparison
 
 WIDTH = 7.2  # inches: the text width of a two-column paper
 LINE = 105  # characters of a title in full size

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.identification.identification import Identification
 from comparisons.identification.measurements import Displacements
 from comparisons.report.style import DARK, GREY, STYLE, plain, save
 from comparisons.report.table import quantity
@@ -18,6 +18,10 @@ from comparisons.report.table import quantity
 WIDTH, HEIGHT = 7.2, 3.0  # inches
 COLOURS = {"ux": "#1b6ca8", "uy": "#3a9d6e", "uz": "#b5453c"}
 SHADES = "magma_r"
+
+
+if TYPE_CHECKING:
+    from comparisons.identification.identification import Identification
 
 
 def picture(paths: Sequence[Path], found: Identification) -> None:

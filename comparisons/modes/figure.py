@@ -4,19 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 from scipy.ndimage import maximum_filter
 
-from comparisons.modes.spectra import Spectra
 from comparisons.report.style import DARK, GREY, STYLE, plain, save
 from comparisons.report.vtk import plan_mesh
 
 MOST, CELLS, WIDTH = 6, 24, 7.2  # modes; cells along the shorter side; inches
 SHADES = "RdBu_r"
 STILL = 0.02  # of the largest displacement: where less moves, as along a clamp, there is no nodal line
+
+
+if TYPE_CHECKING:
+    from comparisons.modes.spectra import Spectra
 
 
 def picture(paths: Sequence[Path], found: Spectra) -> None:

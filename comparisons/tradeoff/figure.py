@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import matplotlib
 import numpy as np
@@ -13,13 +13,16 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from comparisons.report.style import GREY, STYLE, plain, save
 from comparisons.tradeoff.pareto import grouped
-from comparisons.tradeoff.statics import Tradeoff
 
 WIDTH, HEIGHT = 7.2, 3.9  # inches: the text width of a two-column paper
 MARKERS = {"lumped": "o", "plate": "v", "shell": "s", "solid": "D"}
 # Okabe and Ito's colours, which everyone tells apart; lattices take the first ones in turn.
 REFERENCE_COLOURS = {"plate": "#8a8a8a", "shell": "#222222", "solid": "#a0522d"}
 COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999933", "#882255")
+
+
+if TYPE_CHECKING:
+    from comparisons.tradeoff.statics import Tradeoff
 
 
 def draw(tradeoff: Tradeoff, paths: list[Path]) -> None:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from decimal import Decimal
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import tomlkit
 from tomlkit.items import AoT, InlineTable, Table
 
-from sheetbench.scenes.scene import Scene
+if TYPE_CHECKING:
+    from sheetbench.scenes.scene import Scene
 
 LARGE = 1e5  # written with an exponent, as 54.5e6
 

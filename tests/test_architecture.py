@@ -109,6 +109,28 @@ def test_no_file_imports_itself_by_way_of_others(package):
     assert not graph, f"import circles among {', '.join(sorted(graph))}"
 
 
+# imported where they are used, as they decide how soon a command answers: the solvers (compiled kernels) and
+# what draws, reads or writes by a large library; the command line and the face import nothing before its use
+SLOW = ("lumped", "fem_reference", "scipy", "matplotlib", "vtkmodules", "pyvista", "meshio", "pandas")
+SLOW += ("mujoco", "distributed", "comparisons.models.training")
+DRAWS = ("figure", "animation", "offscreen", "locking", "vtk", "toml")
+AT_ONCE = ("comparisons/cli/", "sheetbench/face.py", "sheetbench/__init__.py", "sheetbench/__main__.py")
+
+
+def test_imports_within_functions_are_for_a_quick_start_alone():
+    for path in sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py")):
+        place = path.relative_to(ROOT).as_posix()
+        if place.startswith(AT_ONCE):
+            continue
+        for function in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(function, ast.FunctionDef):
+                for node in ast.walk(function):
+                    if isinstance(node, ast.ImportFrom | ast.Import):
+                        module = node.module if isinstance(node, ast.ImportFrom) else node.names[0].name
+                        slow = str(module).startswith(SLOW) or str(module).split(".")[-1] in DRAWS
+                        assert slow, f"{place}:{node.lineno} imports {module} within a function"
+
+
 def names_from(path: Path) -> list[tuple[str, str]]:
     """(module, name) of every name that a file imports from a module of ours, and its own module's name."""
     tree = ast.walk(ast.parse(path.read_text(encoding="utf-8")))

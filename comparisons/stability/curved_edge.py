@@ -20,6 +20,7 @@ from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import SIDE, compare, sheet
 from comparisons.stability.study import Cell, Row, Study, percent
+from sheetbench.scenes import Curved
 
 SLENDERNESS, GRID, ELEMENTS = 0.008, (17, 17), 12
 
@@ -34,8 +35,6 @@ def cells(full: bool) -> list[Cell]:
 
 def measure(turn: float, load_number: float) -> Row:
     """The row of a cell: a rod bent to `turn` of a full circle."""
-    from sheetbench.scenes import Curved
-
     curvature = 2.0 * np.pi * turn / SIDE
     supports = (Curved(edge="x0", curvature=float(curvature)),)
     return compare(sheet(SLENDERNESS, load_number, supports=supports), GRID, elements=ELEMENTS)

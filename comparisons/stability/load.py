@@ -23,6 +23,7 @@ from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import SIDE, compare, lattice, loaded, outcome, sheet
 from comparisons.stability.study import Cell, Row, Study, percent
+from sheetbench.scenes import EdgeLoad, PointLoad
 from sheetbench.scenes.strains import WEIGHT_LIMIT
 
 SLENDERNESS, POISSON, ONE_G = 0.016, 0.48, 2.0
@@ -44,8 +45,6 @@ def cells(full: bool) -> list[Cell]:
 
 def measure(kind: str, size: float) -> Row:
     """The row of a cell."""
-    from sheetbench.scenes import EdgeLoad, PointLoad
-
     if kind == "weight":
         return compare(sheet(SLENDERNESS, ONE_G * size), GRID)
     if kind == "reversed":

@@ -28,6 +28,7 @@ from comparisons.stability.vibrating import (
     system,
     weightless,
 )
+from sheetbench.scenes import Gravity
 
 IMPLICIT = ("generalised-alpha", "midpoint", "projective")
 AMPLITUDE = 1e-3  # of the thickness
@@ -82,7 +83,7 @@ def _explicit(
     equations = system(scene, springs, precision)
     limit = step_limit(equations, flat)
     found = measured_limit(equations, limit.step)
-    heavy = scene.replace(gravity=_gravity())
+    heavy = scene.replace(gravity=Gravity(acceleration=(0.0, 0.0, -9.81)))
     step = limit.advised
     run = lumped.simulate(
         heavy,
@@ -103,12 +104,6 @@ def _explicit(
         "measured": found,
         "measured_over_computed": found / limit.step,
     }
-
-
-def _gravity() -> Any:
-    from sheetbench.scenes import Gravity
-
-    return Gravity(acceleration=(0.0, 0.0, -9.81))
 
 
 def _implicit(integrator: str, step: float) -> Row:

@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.models.grids import Asked, scene_grid
+from comparisons.models.registry import simulate
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
 from comparisons.runs import manifest
@@ -137,8 +138,6 @@ def measure(
     scene: dict[str, Any], grid: list[int], integrator: str, step: float, duration: float, every: float
 ) -> dict[str, Any]:
     """Task: one run and what it cost; the history of the probes included."""
-    from comparisons.models.registry import simulate
-
     asked = Scene.model_validate(scene)
     common: dict[str, Any] = {"grid": (grid[0], grid[1], grid[2]), "integrator": integrator, "every": every}
     simulate(asked, 2.0 * every, **common, step=step)  # warm

@@ -21,7 +21,8 @@ from comparisons.report.files import to_json
 from comparisons.runs.campaign import campaign
 from comparisons.runs.store import FILE
 from comparisons.tradeoff import timing
-from comparisons.tradeoff.motion import dynamic_tradeoff, oscillation
+from comparisons.tradeoff.motion import dynamic_tradeoff
+from comparisons.tradeoff.motion_row import oscillation
 from comparisons.tradeoff.pareto import front, grouped, order
 from sheetbench import scenes
 from sheetbench.scenes import Scene, Sheet
@@ -185,13 +186,13 @@ def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path: Path
             reference=1600,
             workers=2,
         )
-    assert len(found.rows) == 6 and all(row["status"] == "converged" for row in found.rows)
+    assert len(found.rows) == 6 and all(row.status == "converged" for row in found.rows)
     assert found.uncertainty is not None and found.uncertainty < 1e-4
-    for entry in found.orders:
-        assert entry["error_order"] == pytest.approx(2.0, abs=0.15)
-    assert all(row["error"] < 1e-3 for row in found.rows if row["step"] < found.lowest_period / 150)
-    assert found.reference["damping"] == pytest.approx(found.rows[-1]["damping"], rel=1e-2)
-    assert all(row["seconds_per_second"] > 0.0 for row in found.rows)
+    for slope in found.orders.values():
+        assert slope == pytest.approx(2.0, abs=0.15)
+    assert all(row.error < 1e-3 for row in found.rows if row.step < found.lowest_period / 150)
+    assert found.reference.damping == pytest.approx(found.rows[-1].damping, rel=1e-2)
+    assert all(row.seconds_per_second > 0.0 for row in found.rows)
     assert found.front and json.loads(to_json(found.as_dict()))["rows"]
 
 

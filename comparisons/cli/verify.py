@@ -30,13 +30,14 @@ def command(
     from comparisons.cli.finish import finish
     from comparisons.verification import tables
     from fem_reference.verification import CASES, run
+    from fem_reference.verification.locking import MODELS
     from sheetbench.scenes.errors import BadInput, require_choice
 
     for name in case or ():
         require_choice("case", name, CASES)
     if locking and case:
         raise BadInput("--locking and --case: choose one")
-    chosen = [name for name in CASES if name.startswith("locking-")] if locking else case
+    chosen = list(MODELS) if locking else case
     with finish("verify", json, out, overwrite, apart={"--locking": locking}) as end:
         rows = list(run(chosen, starting=lambda name: end.progress(f"verifying {name} …")))
         end(tables.report(rows, locking))

@@ -48,7 +48,7 @@ def _along(row: Row) -> float:
 
 def _said(row: Row) -> str:
     """The error, and `s` for each snap on the way."""
-    snaps = "s" * row["message"].count("snapped")
+    snaps = "s" * len(row["snaps"])
     return "\n".join(filter(None, [percent(row["error"]), snaps]))
 
 

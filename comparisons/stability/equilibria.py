@@ -12,7 +12,6 @@ A converged lattice that is off by more than 5 % is tested, until one test tells
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 from typing import Any
 
@@ -98,6 +97,7 @@ def outcome(solution: Solution) -> Row:
         "iterations": solution.iterations,
         "seconds": solution.solve_seconds,
         "message": solution.message,
+        "snaps": list(solution.snaps),
     }
 
 
@@ -136,8 +136,8 @@ def mechanism(
     if moved is not None and moved > LARGE:
         said = f"back from {BACK_FROM:g} times the load it stands {percent(moved)} % away"
         return {"mechanism": "branch", "evidence": said}
-    if (snaps := _snaps(ours)) or _snaps(truth):
-        said = f"snapped at load factors {snaps or 'none'}, the reference at {_snaps(truth) or 'none'}"
+    if ours.snaps or truth.snaps:
+        said = f"snapped at load factors {_listed(ours.snaps)}, the reference at {_listed(truth.snaps)}"
         return {"mechanism": "branch", "evidence": said}
     kept, left = distance(scene, finer, truth), distance(scene, finer, sharper)
     if kept is not None and left is not None and moved is not None:
@@ -146,9 +146,8 @@ def mechanism(
     return {"mechanism": "unknown", "evidence": f"{fine[0]}×{fine[1]} masses: {finer.status}"}
 
 
-def _snaps(solution: Solution) -> str:
-    """Where it snapped on the way: load factors as its message has them."""
-    return ", ".join(re.findall(r"snapped at load factor ([\d.e+-]+\d)", solution.message))
+def _listed(snaps: tuple[float, ...]) -> str:
+    return ", ".join(f"{load_factor:.4g}" for load_factor in snaps) or "none"
 
 
 def _refined(springs: Any, grid: tuple[int, int]) -> Any:

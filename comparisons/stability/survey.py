@@ -33,7 +33,7 @@ def survey(
 
 def row(study: Study, cell: dict, outcome: Finished) -> Row:
     """A cell's row: what was found, with the keys that every row has."""
-    every = {"error": None, "iterations": None, "seconds": outcome.seconds}
+    every: Row = {"error": None, "iterations": None, "seconds": outcome.seconds, "snaps": []}
     fixed = {"study": study.name, "cell": cell, "status": outcome.status, "message": outcome.message}
     return {**every, **outcome.row, **fixed}
 

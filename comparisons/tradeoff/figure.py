@@ -13,16 +13,16 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from comparisons.report.style import GREY, STYLE, plain, save
 from comparisons.tradeoff.pareto import grouped
+from comparisons.tradeoff.row import TradeoffRow
+
+if TYPE_CHECKING:
+    from comparisons.tradeoff.statics import Tradeoff
 
 WIDTH, HEIGHT = 7.2, 3.9  # inches: the text width of a two-column paper
 MARKERS = {"lumped": "o", "plate": "v", "shell": "s", "solid": "D"}
 # Okabe and Ito's colours, which everyone tells apart; lattices take the first ones in turn.
 REFERENCE_COLOURS = {"plate": "#8a8a8a", "shell": "#222222", "solid": "#a0522d"}
 COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999933", "#882255")
-
-
-if TYPE_CHECKING:
-    from comparisons.tradeoff.statics import Tradeoff
 
 
 def draw(tradeoff: Tradeoff, paths: list[Path]) -> None:
@@ -35,16 +35,16 @@ def compose(tradeoff: Tradeoff) -> Figure:
     """The figure: error against time at the left, against the size of a cell at the right."""
     figure = Figure(figsize=(WIDTH, HEIGHT))
     left, right = figure.subplots(1, 2, sharey=True, width_ratios=(1.35, 1.0))
-    families = grouped([row["series"] for row in tradeoff.rows])
+    families = grouped([row.series for row in tradeoff.rows])
     colours = iter(COLOURS * (1 + len(families) // len(COLOURS)))
-    orders = {entry["series"]: entry["error_order"] for entry in tradeoff.orders}
+    orders = {family.series: family.error_order for family in tradeoff.orders}
     on_front = set(tradeoff.front)
     for name, numbers in families.items():
-        known = [i for i in numbers if tradeoff.rows[i]["error"]]  # logarithmic axes have no zero
+        known = [i for i in numbers if tradeoff.rows[i].error]  # logarithmic axes have no zero
         if not known:
             continue
         rows = [tradeoff.rows[i] for i in known]
-        model = rows[0]["model"]
+        model = rows[0].model
         colour = REFERENCE_COLOURS.get(model) or next(colours)
         style: dict[str, Any] = {"color": colour, "marker": MARKERS.get(model, "P"), "lw": 0.9, "ms": 3.6}
         if model in REFERENCE_COLOURS:
@@ -53,8 +53,8 @@ def compose(tradeoff: Tradeoff) -> Figure:
         if orders[name] is not None:
             label = f"{label}  ($h^{{{orders[name]:z.1f}}}$)"
         _against_time(left, rows, [i in on_front for i in known], style, label)
-        sized = [row for row in rows if row["cell_size"]]
-        right.plot([1e3 * r["cell_size"] for r in sized], [100 * r["error"] for r in sized], **style)
+        sized = [(1e3 * row.cell_size, 100 * (row.error or 0.0)) for row in rows if row.cell_size]
+        right.plot([h for h, _ in sized], [e for _, e in sized], **style)
     _front(left, tradeoff)
     for axis, said in ((left, "uncertainty of the reference"), (right, "")):
         _logarithmic(axis)
@@ -83,14 +83,14 @@ def compose(tradeoff: Tradeoff) -> Figure:
 
 
 def _against_time(
-    axis: Axes, rows: list[dict[str, Any]], on_front: list[bool], style: dict[str, Any], label: str
+    axis: Axes, rows: list[TradeoffRow], on_front: list[bool], style: dict[str, Any], label: str
 ) -> None:
     """A family: its medians as markers (filled on the front), its spread as bars, sizes written beside."""
-    median = np.array([1e3 * r["solve_seconds"]["median"] for r in rows])
-    error = [100 * r["error"] for r in rows]
+    median = np.array([1e3 * (row.seconds or 0.0) for row in rows])
+    error = [100 * (row.error or 0.0) for row in rows]
     axis.plot(median, error, label=label, markerfacecolor="white", **style)
     for row, t, e, kept in zip(rows, median, error, on_front, strict=True):
-        samples = [1e3 * s for s in row["solve_seconds"]["samples"]]
+        samples = [1e3 * s for s in row.solve_seconds]
         axis.plot([min(samples), max(samples)], [e, e], color=style["color"], lw=0.6, alpha=0.6, zorder=1)
         if kept:
             axis.plot([t], [e], color=style["color"], marker=style["marker"], ms=4.6, zorder=4)
@@ -100,8 +100,8 @@ def _against_time(
             )  # fmt: skip
 
 
-def _size(row: dict[str, Any]) -> str:
-    size = row["settings"].get("grid") or row["settings"].get("elements") or ""
+def _size(row: TradeoffRow) -> str:
+    size = row.size or ""
     if isinstance(size, list | tuple):
         return str(size[0]) if size[0] == size[1] else f"{size[0]}×{size[1]}"
     return str(size)
@@ -112,9 +112,9 @@ def _front(axis: Axes, tradeoff: Tradeoff) -> None:
     rows = [tradeoff.rows[i] for i in tradeoff.front]
     if not rows:
         return
-    times = [1e3 * row["solve_seconds"]["median"] for row in rows]
-    errors = [100 * max(row["error"], tradeoff.uncertainty or 0.0) for row in rows]
-    latest = max(1e3 * (row["solve_seconds"]["median"] or 0.0) for row in tradeoff.rows)
+    times = [1e3 * (row.seconds or 0.0) for row in rows]
+    errors = [100 * max(row.error or 0.0, tradeoff.uncertainty or 0.0) for row in rows]
+    latest = max(1e3 * (row.seconds or 0.0) for row in tradeoff.rows)
     band: dict[str, Any] = {"color": "#d4a017", "lw": 4.5, "alpha": 0.35, "solid_joinstyle": "round"}
     times, errors = [*times, max(latest, times[-1])], [*errors, errors[-1]]
     axis.step(times, errors, where="post", zorder=0, label="front: the best in that time", **band)
@@ -125,7 +125,7 @@ def _floor(axis: Axes, tradeoff: Tradeoff, said: str) -> None:
     if not tradeoff.uncertainty:
         return
     floor = 100 * tradeoff.uncertainty
-    shown = [100 * row["error"] for row in tradeoff.rows if row["error"]]
+    shown = [100 * row.error for row in tradeoff.rows if row.error]
     bottom = min([floor / 2.5, *(0.6 * e for e in shown)])
     axis.set_ylim(bottom, 1.6 * max(floor, *shown))
     axis.axhspan(bottom, floor, color=GREY, alpha=0.18, lw=0)

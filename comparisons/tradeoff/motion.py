@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -28,8 +28,9 @@ from comparisons.report.table import Column, Table
 from comparisons.runs import manifest
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
-from comparisons.runs.store import Finished, Store
-from comparisons.tradeoff.pareto import front, grouped, order
+from comparisons.runs.store import Store
+from comparisons.tradeoff.motion_row import MotionRow, measured_row
+from comparisons.tradeoff.pareto import error_order, front, grouped
 from sheetbench.scenes import Scene, Status
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import Grid
@@ -42,31 +43,28 @@ SAMPLES = 20  # in the lowest period; no step is longer than the time between sa
 
 @dataclass(frozen=True)
 class DynamicTradeoff:
-    """rows: a dictionary per integrator and step, as `measure` leaves it, with errors; lowest period [s]."""
+    """A row per integrator and step, the reference that they are measured against; lowest period [s]."""
 
     scene: Scene
     duration: float
     lowest_period: float
-    rows: tuple[dict[str, Any], ...]
-    reference: dict[str, Any]
+    rows: tuple[MotionRow, ...]
+    reference: MotionRow
     uncertainty: float | None
 
     @property
     def front(self) -> list[int]:
         """Rows on the Pareto front of error and time per simulated second."""
-        seconds = [row["seconds_per_second"] or float("inf") for row in self.rows]
-        return front([row["error"] for row in self.rows], seconds, self.uncertainty or 0.0)
+        seconds = [row.seconds_per_second or inf for row in self.rows]
+        return front([row.error for row in self.rows], seconds, self.uncertainty or 0.0)
 
     @property
-    def orders(self) -> list[dict[str, Any]]:
-        """Observed order of the error in the step, per integrator."""
-        found = []
-        for name, numbers in grouped([row["integrator"] for row in self.rows]).items():
-            rows = [
-                self.rows[i] for i in numbers if (self.rows[i]["error"] or 0.0) > 3 * (self.uncertainty or 0)
-            ]
-            slope = order([r["step"] for r in rows], [r["error"] for r in rows])
-            found.append({"series": name, "error_order": slope})
+    def orders(self) -> dict[str, float | None]:
+        """Observed order of the error in the step, by integrator."""
+        found = {}
+        for name, numbers in grouped([row.integrator for row in self.rows]).items():
+            rows = [self.rows[i] for i in numbers]
+            found[name] = error_order([r.step for r in rows], [r.error for r in rows], self.uncertainty)
         return found
 
     def as_dict(self) -> dict[str, Any]:
@@ -75,10 +73,10 @@ class DynamicTradeoff:
             "scene": self.scene.document(),
             "duration": self.duration,
             "lowest_period": self.lowest_period,
-            "rows": list(self.rows),
+            "rows": [row.as_dict() for row in self.rows],
             "front": self.front,
-            "orders": self.orders,
-            "reference": {**self.reference, "uncertainty": self.uncertainty},
+            "orders": [{"series": name, "error_order": slope} for name, slope in self.orders.items()],
+            "reference": {**self.reference.as_dict(), "uncertainty": self.uncertainty},
         }
 
     def report(self) -> Report:
@@ -92,9 +90,9 @@ class DynamicTradeoff:
             tables=(self.table(),),
             notes=(f"lowest period {self.lowest_period:.4g} s; uncertainty of the reference {known}",),
             complaints=tuple(
-                f"{row['integrator']}, step {row['step']:.3g} s: {row['status']}: {row['message']}"
+                f"{row.integrator}, step {row.step:.3g} s: {row.status}: {row.message}"
                 for row in self.rows
-                if row["status"] != "converged"
+                if row.status != Status.CONVERGED
             ),
             scene=self.scene,
             settings={"duration": self.duration},
@@ -105,15 +103,15 @@ class DynamicTradeoff:
         chosen = set(self.front)
         found = tuple(
             (
-                row["integrator"],
-                row["step"],
-                row["steps"],
-                row["seconds_per_second"],
-                row["error"],
-                row["period_error"],
-                row["damping"],
+                row.integrator,
+                row.step,
+                row.steps,
+                row.seconds_per_second,
+                row.error,
+                row.period_error,
+                row.damping,
                 "yes" if i in chosen else "",
-                row["status"],
+                row.status,
             )
             for i, row in enumerate(self.rows)
         )
@@ -204,10 +202,12 @@ def dynamic_tradeoff(
             asked += [run(name, period / n, True) for n in divisions]
     found = carry_out([*judges, *asked], store, workers=workers, pool=pool, retry=retry, progress=progress)
     truth = found[0]
-    rows = tuple(_row(r, outcome, truth, duration) for r, outcome in zip(asked, found[2:], strict=True))
-    uncertainty = _row(judges[1], found[1], truth, duration)["error"]
+    rows = tuple(
+        measured_row(r, outcome, truth, duration) for r, outcome in zip(asked, found[2:], strict=True)
+    )
+    uncertainty = measured_row(judges[1], found[1], truth, duration).error
     return DynamicTradeoff(
-        scene, duration, period, rows, _row(judges[0], truth, truth, duration), uncertainty
+        scene, duration, period, rows, measured_row(judges[0], truth, truth, duration), uncertainty
     )
 
 
@@ -217,57 +217,3 @@ def explicit_limit(scene: Scene, grid: Grid) -> float:
 
     problem = lumped.pose(scene, lumped.calibrate(scene.sheet, scene.material, grid=grid))
     return lumped.step_limit(lumped.System(scene, problem), np.zeros_like(problem.loads.dead)).step
-
-
-def _row(run: Run, outcome: Finished, truth: Finished, duration: float) -> dict[str, Any]:
-    """The row of a run: what was asked, cost, and errors against the reference's history."""
-    found: dict[str, Any] = {
-        "integrator": run.arguments["integrator"],
-        "step": run.arguments["step"],
-        "steps": outcome.row.get("steps"),
-        "status": outcome.status,
-        "message": outcome.message,
-        "seconds_per_second": None,
-        **dict.fromkeys(("error", "period", "period_error", "damping", "damping_error")),
-    }
-    if outcome.status != Status.CONVERGED or truth.status != Status.CONVERGED:
-        return found
-    u, reference = (_history(o) for o in (outcome, truth))
-    time = np.array(truth.row["time"])
-    axis = int(np.argmax(np.abs(reference).max(axis=0)))
-    period, damping = oscillation(time, u[:, axis])
-    true_period, true_damping = oscillation(time, reference[:, axis])
-    found |= {
-        "seconds_per_second": outcome.row["solve_seconds"] / duration,
-        "error": float(np.abs(u - reference).max() / np.abs(reference).max()),
-        "period": period,
-        "damping": damping,
-        "machine": outcome.row["machine"],
-        "versions": outcome.row["versions"],
-    }
-    if period is not None and true_period is not None:
-        found["period_error"] = period / true_period - 1.0
-    if damping is not None and true_damping is not None:
-        found["damping_error"] = damping - true_damping
-    return found
-
-
-def _history(outcome: Finished) -> np.ndarray:
-    """Displacement (n, 3) [m] of P4, or of the last probe where there is none of that name."""
-    probes = outcome.row["probes"]
-    return np.array(probes.get("P4") or list(probes.values())[-1], dtype=float)
-
-
-def oscillation(time: np.ndarray, u: np.ndarray) -> tuple[float | None, float | None]:
-    """Period [s] and damping ratio of u(t) (n,), None where it does not swing often enough to tell."""
-    about = u - u[len(u) // 2 :].mean()
-    up = np.flatnonzero((about[:-1] < 0.0) & (about[1:] >= 0.0))
-    if len(up) < 2:
-        return None, None
-    share = about[up] / (about[up] - about[up + 1])
-    passes = time[up] + share * (time[up + 1] - time[up])
-    period = float(np.mean(np.diff(passes)))
-    peaks = np.array([about[a:b].max() for a, b in pairwise(up)])
-    if len(peaks) < 2 or peaks.min() <= 0.0:
-        return period, None
-    return period, float(np.log(peaks[0] / peaks[-1]) / (2.0 * np.pi * (len(peaks) - 1)))

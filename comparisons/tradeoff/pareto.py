@@ -38,6 +38,15 @@ def order(x: Sequence[float], y: Sequence[float]) -> float | None:
     return float(slope)
 
 
+def error_order(
+    sizes: Sequence[float | None], errors: Sequence[float | None], floor: float | None
+) -> float | None:
+    """Order of errors in a size, over those that are known and well above the reference's uncertainty."""
+    least = FLOOR_FACTOR * (floor or 0.0)
+    known = [(h, e) for h, e in zip(sizes, errors, strict=True) if h and e is not None and e > least]
+    return order([h for h, _ in known], [e for _, e in known])
+
+
 def grouped(names: Sequence[str]) -> dict[str, list[int]]:
     """Row numbers by name, in the order of first appearance."""
     numbered = sorted(range(len(names)), key=lambda i: (names.index(names[i]), i))

@@ -13,21 +13,22 @@ rows of a family whose errors are well above the uncertainty.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from math import inf
 from typing import Any
 
 import numpy as np
 
 from comparisons.comparison.comparison import error as probe_error
-from comparisons.models.candidate import Candidate, series
-from comparisons.models.plugins import shown_name
+from comparisons.models.candidate import Candidate
 from comparisons.models.registry import check
 from comparisons.report.report import Report
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff import tables, timing
-from comparisons.tradeoff.pareto import FLOOR_FACTOR, front, grouped, order
+from comparisons.tradeoff.pareto import error_order, front, grouped, order
+from comparisons.tradeoff.row import TradeoffRow, cell_size, measured_row
 from fem_reference.uncertainty import coarser, estimate
 from sheetbench.scenes import Scene, comparable, require_static
 
@@ -35,50 +36,62 @@ REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the
 
 
 @dataclass(frozen=True)
+class Orders:
+    """Of a family: the rows that have errors, the orders of both errors in h, of the time in the unknowns."""
+
+    series: str
+    rows: int
+    error_order: float | None
+    field_error_order: float | None
+    time_order: float | None
+
+
+@dataclass(frozen=True)
 class Tradeoff:
     """The rows of a scene with their errors, and the reference they are measured against.
 
-    rows: as `timing.measure` leaves them, with "error", "field_error" and "series" added and the field taken
-    out. reference: the same of the reference. uncertainty, field_uncertainty: fractions, None
-    where the reference did not converge on both meshes.
+    uncertainty, field_uncertainty: of the reference, fractions, None where it did not converge on both
+    meshes.
     """
 
     scene: Scene
-    rows: tuple[dict[str, Any], ...]
-    reference: dict[str, Any]
+    rows: tuple[TradeoffRow, ...]
+    reference: TradeoffRow
     uncertainty: float | None
     field_uncertainty: float | None
 
     @property
     def front(self) -> list[int]:
         """Numbers of the rows on the Pareto front of error and time, the quickest first."""
-        seconds = [_seconds(row) for row in self.rows]
-        return front([row["error"] for row in self.rows], seconds, self.uncertainty or 0.0)
+        seconds = [inf if row.seconds is None else row.seconds for row in self.rows]
+        return front([row.error for row in self.rows], seconds, self.uncertainty or 0.0)
 
     @property
-    def orders(self) -> list[dict[str, Any]]:
-        """A row per family: order of the error in h, of the field error in h, of the time in the unknowns."""
-        found = []
-        for name, numbers in grouped([row["series"] for row in self.rows]).items():
-            rows = [self.rows[i] for i in numbers if self.rows[i]["error"] is not None]
-            sized = [row for row in rows if row["cell_size"]]
-            entry: dict[str, Any] = {"series": name, "rows": len(rows)}
-            for key, floor in (("error", self.uncertainty), ("field_error", self.field_uncertainty)):
-                clear = [row for row in sized if row[key] > FLOOR_FACTOR * (floor or 0.0)]
-                entry[f"{key}_order"] = order([r["cell_size"] for r in clear], [r[key] for r in clear])
-            entry["time_order"] = order([r["unknowns"] for r in rows], [_seconds(r) for r in rows])
-            found.append(entry)
-        return found
+    def orders(self) -> list[Orders]:
+        """The orders of every family."""
+        families = grouped([row.series for row in self.rows])
+        return [self._orders(name, [self.rows[i] for i in numbers]) for name, numbers in families.items()]
+
+    def _orders(self, name: str, family: list[TradeoffRow]) -> Orders:
+        rows = [row for row in family if row.error is not None]
+        sizes = [row.cell_size for row in rows]
+        return Orders(
+            series=name,
+            rows=len(rows),
+            error_order=error_order(sizes, [row.error for row in rows], self.uncertainty),
+            field_error_order=error_order(sizes, [row.field_error for row in rows], self.field_uncertainty),
+            time_order=order([row.unknowns or 0 for row in rows], [row.seconds or 0.0 for row in rows]),
+        )
 
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench tradeoff`."""
         return {
             "scene": self.scene.document(),
-            "rows": list(self.rows),
+            "rows": [row.as_dict() for row in self.rows],
             "front": self.front,
-            "orders": self.orders,
+            "orders": [asdict(orders) for orders in self.orders],
             "reference": {
-                **self.reference,
+                **self.reference.as_dict(),
                 "uncertainty": self.uncertainty,
                 "field_uncertainty": self.field_uncertainty,
             },
@@ -130,13 +143,12 @@ def assemble(
 ) -> Tradeoff:
     """The trade-off of finished runs: the reference on meshes from fine to coarse, and the rows."""
     weights, truth = timing.field_points(scene.sheet)[1], judged[0]
-    rows = []
-    for run, outcome in zip(asked, outcomes, strict=True):
-        errors = _errors(outcome, truth, weights)
-        rows.append(_row(scene, run, outcome) | dict(zip(("error", "field_error"), errors, strict=True)))
+    rows = tuple(
+        measured_row(scene, run, outcome, *_errors(outcome, truth, weights))
+        for run, outcome in zip(asked, outcomes, strict=True)
+    )
     sizes = [cell_size(scene, run.arguments["settings"]) or 0.0 for run in judges]
-    uncertainty, field_uncertainty = _bars(judged, sizes, weights)
-    return Tradeoff(scene, tuple(rows), _row(scene, judges[0], truth), uncertainty, field_uncertainty)
+    return Tradeoff(scene, rows, measured_row(scene, judges[0], truth), *_bars(judged, sizes, weights))
 
 
 def _bars(
@@ -170,45 +182,3 @@ def _errors(outcome: Finished, truth: Finished, weights: np.ndarray) -> tuple[fl
 
 def _comparable(outcome: Finished) -> bool:
     return comparable(outcome.status, outcome.row.get("load_factor", 0.0))
-
-
-def _row(scene: Scene, run: Run, outcome: Finished) -> dict[str, Any]:
-    """The row of an outcome; a run that ended without an answer has what was asked and its status."""
-    model, settings = shown_name(run.arguments["model"]), run.arguments["settings"]
-    blank = {
-        "model": model,
-        "label": run.label,
-        "settings": settings,
-        "unknowns": None,
-        "iterations": None,
-        "solve_seconds": {"median": None, "samples": []},
-        "setup_seconds": None,
-        "peak_memory_bytes": None,
-    }
-    found = {key: value for key, value in outcome.row.items() if key != "field"}
-    return {
-        **blank,
-        **found,
-        "status": outcome.status,
-        "message": outcome.message,
-        "series": series(model, settings),
-        "cell_size": cell_size(scene, settings),
-        "started": outcome.started,
-        "finished": outcome.finished,
-    }
-
-
-def cell_size(scene: Scene, settings: dict[str, Any]) -> float | None:
-    """Size h [m] of a cell along the shorter side, where the settings tell."""
-    shorter = min(scene.sheet.lengths)
-    if (grid := settings.get("grid")) is not None:
-        masses = min(grid[:2]) if isinstance(grid, list | tuple) else grid
-        return shorter / (masses - 1)
-    if (elements := settings.get("elements")) is not None:
-        return shorter / (min(elements) if isinstance(elements, list | tuple) else elements)
-    return None
-
-
-def _seconds(row: dict[str, Any]) -> float:
-    median = row["solve_seconds"]["median"]
-    return float("inf") if median is None else float(median)

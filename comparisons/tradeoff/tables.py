@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import astuple
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
+from sheetbench.scenes import Status
 
 if TYPE_CHECKING:
+    from comparisons.tradeoff.row import TradeoffRow
     from comparisons.tradeoff.statics import Tradeoff
 
 
 def report(found: Tradeoff) -> Report:
     """What `sheetbench tradeoff` shows."""
-    failed = [row for row in found.rows if row["status"] != "converged"]
-    complaints = [f"{row['label']}: {row['status']}: {row['message']}" for row in failed]
+    failed = [row for row in found.rows if row.status != Status.CONVERGED]
+    complaints = [f"{row.label}: {row.status}: {row.message}" for row in failed]
     judged = found.uncertainty is not None
     if not judged:
-        said = f"the reference, {found.reference['label']}: {found.reference['status']}"
+        said = f"the reference, {found.reference.label}: {found.reference.status}"
         complaints.append(f"no errors: {said}")
     pictures = [Picture(("tradeoff.png", "tradeoff.pdf"), partial(_draw, found))]
     return Report(
@@ -31,9 +34,9 @@ def report(found: Tradeoff) -> Report:
         tables=(rows(found), orders(found)),
         notes=(explanation(found),),
         complaints=tuple(complaints),
-        pictures=tuple(pictures if any(row["error"] for row in found.rows) else ()),
+        pictures=tuple(pictures if any(row.error for row in found.rows) else ()),
         scene=found.scene,
-        settings={"reference": found.reference["settings"]},
+        settings={"reference": found.reference.settings},
         met=judged,
     )
 
@@ -68,33 +71,29 @@ def rows(tradeoff: Tradeoff) -> Table:
     return Table(caption, columns, found, "tradeoff")
 
 
-def _row(number: int, row: dict[str, Any], on_front: bool) -> tuple[Any, ...]:
-    samples = row["solve_seconds"]["samples"]
-    size = row["settings"].get("grid") or row["settings"].get("elements") or ""
+def _row(number: int, row: TradeoffRow, on_front: bool) -> tuple[Any, ...]:
+    size = row.size or ""
     return (
         number,
-        row["series"],
+        row.series,
         "×".join(str(n) for n in size) if isinstance(size, list | tuple) else str(size),
-        row["unknowns"],
-        row["iterations"],
-        row["setup_seconds"],
-        row["solve_seconds"]["median"],
-        min(samples, default=None),
-        max(samples, default=None),
-        row["peak_memory_bytes"],
-        row["error"],
-        row["field_error"],
+        row.unknowns,
+        row.iterations,
+        row.setup_seconds,
+        row.seconds,
+        min(row.solve_seconds, default=None),
+        max(row.solve_seconds, default=None),
+        row.peak_memory_bytes,
+        row.error,
+        row.field_error,
         "yes" if on_front else "",
-        row["status"],
+        row.status,
     )
 
 
 def orders(tradeoff: Tradeoff) -> Table:
     """A row per family: observed orders of the errors in h and of the time in the unknowns."""
-    found = tuple(
-        (o["series"], o["rows"], o["error_order"], o["field_error_order"], o["time_order"])
-        for o in tradeoff.orders
-    )
+    found = tuple(astuple(orders) for orders in tradeoff.orders)
     columns = (
         Column("model", prose=True),
         Column("rows", form="d"),
@@ -111,7 +110,7 @@ def explanation(tradeoff: Tradeoff) -> str:
     reference, uncertainty = tradeoff.reference, tradeoff.uncertainty
     known = "unknown" if uncertainty is None else f"{100 * uncertainty:.2g} %"
     return (
-        f"errors against {reference['label']} ({reference['unknowns']} unknowns), whose own uncertainty is "
+        f"errors against {reference.label} ({reference.unknowns} unknowns), whose own uncertainty is "
         f"{known}: the grid convergence index of n, ¾ n and ½ n elements. error: at the probes; field error: "
         "root mean square over the sheet. One thread; times on warm code; memory: growth of the process."
     )

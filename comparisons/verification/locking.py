@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from comparisons.report.style import STYLE, save
 from fem_reference.verification import Row
+from fem_reference.verification.locking import MODELS
 
 SIZE = (4.6, 2.9)  # inches
 MARKERS = {"plate": "s", "shell": "o", "solid": "^"}
@@ -53,4 +54,4 @@ def compose(rows: Sequence[Row]) -> Figure:
 
 def _series(row: Row) -> tuple[str, float]:
     """The model and Poisson's ratio of a row."""
-    return row.case.removeprefix("locking-"), row.at["ν"]
+    return MODELS[row.case], row.at["ν"]

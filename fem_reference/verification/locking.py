@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from fem_reference.verification.mindlin_plates import deflection
 from fem_reference.verification.rows import OURS, Row, relatively
 
+MODELS = {"locking-plate": "plate", "locking-shell": "shell", "locking-solid": "solid"}  # by case
 ELEMENTS = 8
 FINER = {"plate": 24, "shell": 24, "solid": 16}
 TOLERANCE = {"plate": 2e-2, "shell": 2e-2, "solid": 1e-2}
@@ -27,8 +28,8 @@ POISSON = {"plate": (0.3,), "shell": (0.3,), "solid": (0.3, 0.48, 0.499, 0.4999)
 
 
 def rows(case: str) -> Iterator[Row]:
-    """Rows of the case "locking-MODEL", thin to thick; what is expected is the finer mesh's answer."""
-    model = case.removeprefix("locking-")
+    """Rows of a case of `MODELS`, thin to thick; what is expected is the finer mesh's answer."""
+    model = MODELS[case]
     mesh = f"{model} {ELEMENTS} × {ELEMENTS}"
     for poisson in POISSON[model]:
         for ratio in RATIOS[model]:

@@ -1,6 +1,7 @@
 """Balance: every answer's reactions carry its loads, forces and moments, in every model; and what if not."""
 
 from dataclasses import replace
+from pkgutil import resolve_name
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from numpy.testing import assert_allclose
 
 import lumped
 from comparisons.models import registry as models
+from fem_reference.surface.mesh import rectangle
 from sheetbench.scenes import Balance, Status, dead_force, load
 
 SIDE = 0.188
@@ -34,6 +36,11 @@ def held(base, **more):
     return scene(supports=[], actuators=[chain])
 
 
+def sideways(asked):
+    """The scene under a gravity along x, y and z."""
+    return asked.model_copy(update={"gravity": asked.gravity.replace(acceleration=(3.0, -4.0, -8.0))})
+
+
 SCENES = {
     "clamped, all loads": scene(supports=[CLAMP], loads=LOADS),
     "tilted and held": scene(
@@ -53,23 +60,28 @@ SCENES = {
         supports=[{"edge": "y0", "kind": "clamped"}],
         actuators=[{"edge": "x1", "face": "top", "curvature": 4.0}],
     ),
-    "unequal chains": scene(
-        supports=[CLAMP],
-        actuators=[{"face": "top", "line_density": 0.02}, {"face": "bottom", "line_density": 0.07}],
+    "unequal chains": sideways(
+        scene(
+            supports=[CLAMP],
+            actuators=[{"face": "top", "line_density": 0.02}, {"face": "bottom", "line_density": 0.07}],
+        )
     ),
     "held at its start": held("start", face="top"),
     "held at a joint in the middle": held("middle", plane="spatial"),
     "held at a segment in the middle": held("middle", segments=7, face="bottom"),
     "weightless": scene(supports=[CLAMP, {"edge": "x1", "kind": "clamped"}], gravity=False),
 }
+REFERENCES = ("plate", "shell", "solid")
 MODELS = {
     "lattice": ("lumped", {"grid": (5, 5, 2)}),
     "linear lattice": ("lumped", {"grid": (5, 5, 2), "linear": True}),
+    **{name: (name, {"elements": 4}) for name in REFERENCES},
 }
+SHARP = 1e-5  # of all forces, above which no tolerance is: rods are 10⁵ times as stiff as sheets
 
 
 # the linear lattice refuses actuators
-CASES = [(m, n) for m in MODELS for n in SCENES if m == "lattice" or not SCENES[n].actuators]
+CASES = [(m, n) for m in MODELS for n in SCENES if m != "linear lattice" or not SCENES[n].actuators]
 
 
 @pytest.mark.parametrize(("model", "name"), CASES)
@@ -78,13 +90,14 @@ def test_forces_and_moments_are_in_balance(name, model):
     solution = models.solve(asked, MODELS[model][0], **MODELS[model][1])
     assert solution.status in (Status.CONVERGED, Status.UNSTABLE), solution.message
     balance = solution.balance
-    assert balance.holds and balance.relative < 1e-8
+    assert balance.holds and balance.allowed <= SHARP * balance.size
     if not any(load.kind == "pressure" for load in asked.loads):
-        assert_allclose(sum(solution.reactions.values()) + dead_force(asked), 0.0, atol=1e-8 * balance.size)
+        carried = sum(solution.reactions.values()) + dead_force(asked)
+        assert_allclose(carried, 0.0, atol=max(1e-8 * balance.size, balance.allowed))
     assert list(balance.document()) == ["force", "moment", "relative", "holds"]
 
 
-@pytest.mark.parametrize("model", [m for m in MODELS if m != "solid"])
+@pytest.mark.parametrize("model", [m for m in MODELS if m != "solid"])  # which is solved whole
 def test_a_part_is_in_balance_and_so_is_the_whole(model):
     asked = scene(
         supports=[{"edge": e, "kind": "hinged"} for e in ("x0", "x1", "y0", "y1")],
@@ -128,6 +141,69 @@ def test_a_reaction_left_out_and_a_wrong_weight_are_found(monkeypatch):
     monkeypatch.setattr("lumped.actuators.chain.Chain.weight", lambda self, g: 0.999 * weight(self, g))
     found = lumped.solve(asked, springs(asked))
     assert found.status is Status.DIVERGED and "out of balance" in found.message
+
+
+@pytest.mark.parametrize("model", REFERENCES)
+def test_a_mesh_of_any_outline_is_in_balance(model):
+    """Elements that are no parallelograms, on a sheet of another shape than the scene's, under every load."""
+    asked = scene(supports=[CLAMP], loads=[{**LOADS[0], "at": [0.05, 0.1]}, *LOADS[1:]])
+    flat = rectangle(asked.sheet, (3, 2))
+    x, y = flat.p
+    leaning = type(flat)(np.array([x * (1.0 - 2.0 * y), y + 0.2 * x]), flat.t).with_boundaries(
+        flat.boundaries
+    )
+    solve_on = resolve_name(f"fem_reference.{model}.statics").solve_on
+    found = solve_on(leaning, asked)
+    assert found.status is Status.CONVERGED and found.balance.allowed <= SHARP * found.balance.size
+
+
+def _times(factor):
+    """What makes of a function one whose answer is a multiple."""
+    return lambda function: lambda *asked: factor * function(*asked)
+
+
+def _without_couples(weight):
+    """A chain whose weight acts on the mid-line: forces are right, moments are not."""
+
+    def on_mid_line(*asked):
+        out = weight(*asked)
+        out[:, 3:6] = 0.0
+        return out
+
+    return on_mid_line
+
+
+OFF = _times(1.001)
+LOADED, HUNG = "clamped, all loads", "unequal chains"
+FAULTS = {
+    "weight": ("loads.area_force", OFF, LOADED),
+    "force on an edge": ("loads.line_force", OFF, LOADED),
+    "force at a point": ("loads.point_force", OFF, LOADED),
+    "pressure": ("loads.FollowerPressure.force", OFF, LOADED),
+    "moment on an edge": ("loads.FollowerMoment.force", OFF, LOADED),
+    "sense of a moment": ("loads.FollowerMoment.force", _times(-1.0), LOADED),
+    "weight of chains": ("rod._weight", OFF, HUNG),
+    "height of chains": ("rod._weight", _without_couples, HUNG),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("model", REFERENCES)
+def test_no_reference_answers_with_a_load_that_is_not_the_scenes(monkeypatch, model, fault):
+    where, wrong, asked = FAULTS[fault]
+    where = f"fem_reference.surface.{where}"
+    owner, name = where.rsplit(".", 1)
+    monkeypatch.setattr(where, wrong(getattr(resolve_name(owner), name)))
+    found = models.solve(SCENES[asked], model, elements=2)
+    assert found.status is Status.DIVERGED and "out of balance" in found.message
+
+
+@pytest.mark.parametrize("model", REFERENCES)
+def test_no_reference_leaves_a_reaction_out(monkeypatch, model):
+    owner = "solid.supports.ColumnSupports" if model == "solid" else "surface.supports.Supports"
+    found = models.solve(SCENES["a moved edge"], model, elements=2)
+    monkeypatch.setattr(f"fem_reference.{owner}.reactions", lambda *asked: {"x0": found.reactions["x0"]})
+    assert models.solve(SCENES["a moved edge"], model, elements=2).status is Status.DIVERGED
 
 
 @pytest.mark.parametrize("options", [{"weights": "full"}, {"precision": "single"}, {"branch": "stable"}])

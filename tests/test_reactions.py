@@ -46,6 +46,17 @@ def test_every_model_names_the_same_reactions_and_they_carry_the_weight(name, mo
     assert_allclose(sum(solution.reactions.values()), [0.0, 0.0, total], atol=1e-6 * total)
 
 
+@pytest.mark.parametrize("model", ["plate", "shell", "solid"])
+def test_a_reference_tells_the_energy_of_rods_wherever_there_are_actuators(model):
+    """None of a moved edge, some of a held base's chain; and no word of it where nothing is actuated."""
+    energies = {
+        name: fem_reference.solve(asked, model=model, elements=2).energies
+        for name, (asked, *_) in {**CASES, "nothing": (scene(supports=CLAMPED),)}.items()
+    }
+    assert energies["a moved edge"]["rod"] == 0.0 < energies["a held base"]["rod"]
+    assert "rod" not in energies["nothing"]
+
+
 def test_a_run_writes_down_what_a_motion_takes():
     asked = scene(supports=CLAMPED, actuators=[MOVED], damping_rate=50.0)
     history = lumped.simulate(asked, springs(asked), 2.0, step=5e-3, every=0.5)

@@ -28,6 +28,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from skfem import Basis, ElementQuad2, MeshQuad
 
+from fem_reference.plate.balance import Solved, balance
 from fem_reference.plate.element import TILT_X, PlateElements, W
 from fem_reference.plate.rods import PlateRods
 from fem_reference.solving.linear import SingularMatrix, solve_free
@@ -36,6 +37,7 @@ from fem_reference.solving.threads import one_blas_thread
 from fem_reference.surface import edge_motion, loads, rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import Held, exerted, on_edges
+from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import GAUSS, NODES, shape
 from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.edge_motion import moved
@@ -119,7 +121,7 @@ def solve(
 
 def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
     """The same on any flat mesh of straight-sided quadrilaterals [m] with boundaries of the edges' names."""
-    return _solved(mesh, scene, "plate", {"elements": mesh.nelements})
+    return _solved(mesh, scene, "plate", {"elements": mesh.nelements}, own=True)
 
 
 def _solved(
@@ -129,7 +131,9 @@ def _solved(
     settings: dict[str, Any],
     hard_edges: tuple[str, ...] = (),
     section: Section | None = None,
+    own: bool = False,
 ) -> Solution:
+    """own: whether the mesh has an outline of its own, in place of the scene's sheet."""
     begin = perf_counter()
     plate = Plate.on(mesh)
     sides = rod.sides(scene, mesh, plate.elements.nodes, plate.nodes)
@@ -149,19 +153,21 @@ def _solved(
             u = solve_free(stiffness, force, u, free)
         except SingularMatrix as error:
             status, notes = Status.SINGULAR, (str(error),)
-        unbalanced = stiffness @ u - force
     done = perf_counter()
+    solved = Solved(stiffness, force, u, free)
     outside = outside_model(scene, stretch(plate, u[: fields.size]))
     if outside and status is Status.CONVERGED:
         status, notes = Status.STRAIN_OUTSIDE_MODEL, (outside,)
 
-    size = np.linalg.norm(force) + np.linalg.norm(np.delete(unbalanced, free))
-    fields, nodal = u[: fields.size].reshape(-1, 5), unbalanced[: fields.size].reshape(-1, 5)
+    fields, nodal = u[: fields.size].reshape(-1, 5), solved.unbalanced[: fields.size].reshape(-1, 5)
     couple = np.column_stack([-nodal[:, 4], nodal[:, 3], np.zeros(len(nodal))])  # e_z × what holds the tilts
     flat, up = np.column_stack([plate.nodes, np.zeros(len(nodal))]), np.tile([0.0, 0.0, 1.0], (len(nodal), 1))
     holding = Held(np.concatenate([nodal[:, :3], couple], axis=1), flat)
     edges = on_edges(rods.bound, rods.strained(u).pull, holding, up)
     wrenches, line = exerted(scene, edges, moved(supports), holding)
+    reactions = supports.reactions(nodal[:, :3])
+    surface = Surface(mesh, plate.elements.nodes, plate.nodes, flat, up, own)
+    singular = status is Status.SINGULAR
     by_part = energies(scene, plate, u[: fields.size], section)
     return Solution(
         model="plate",
@@ -173,12 +179,13 @@ def _solved(
         setup_seconds=ready - begin,
         solve_seconds=done - ready,
         sample=lambda points: plate.sample(fields[:, :3], points),
-        reactions=supports.reactions(nodal[:, :3]),
-        energies={**by_part, "rod": rods.energy(u)} if along else by_part,
+        reactions=reactions,
+        energies={**by_part, "rod": rods.energy(u)} if scene.actuators else by_part,
         mesh=field_mesh(plate, fields, {"actuator_line_force": line} if scene.actuators else {}),
-        history=(Iteration(1.0, float(np.linalg.norm(unbalanced[free]) / (size or 1.0)), 1.0),),
-        load_factor=0.0 if status is Status.SINGULAR else 1.0,
+        history=(Iteration(1.0, solved.residual, 1.0),),
+        load_factor=0.0 if singular else 1.0,
         actuators=wrenches,
+        balance=None if singular else balance(scene, surface, rods, solved, reactions, edges),
         notes=notes,
     )
 

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from skfem import Basis, ElementQuad2, MeshQuad
 
+from fem_reference.shell.balance import balance
 from fem_reference.shell.element import Element
 from fem_reference.shell.structure import UP, ShellStructure, State
 from fem_reference.shell.validity import STRETCHED, inspector, judge
@@ -23,6 +24,7 @@ from fem_reference.solving.pseudo_transient import settler
 from fem_reference.surface import edge_motion, loads, rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import Held, exerted, on_edges
+from fem_reference.surface.balance import Surface
 from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.edge_motion import moved
 from fem_reference.surface.location import interpolate
@@ -62,7 +64,7 @@ def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
     Supports and loads act on the mesh's boundaries of their edges' names ("x0", …), which may lie
     anywhere; of the scene's sheet only the thickness is used, and the lengths of edges with actuators.
     """
-    return _solution(scene, _run(mesh, scene), "shell", {"elements": mesh.nelements})
+    return _solution(scene, _run(mesh, scene), "shell", {"elements": mesh.nelements}, own=True)
 
 
 class _Run(NamedTuple):
@@ -100,19 +102,24 @@ def _solution(
     settings: dict[str, Any],
     fallback: str = "",
     spent: _Run | None = None,
+    own: bool = False,
 ) -> Solution:
-    """The answer of a run; spent: one before it that led nowhere."""
+    """The answer of a run; spent: one before it that led nowhere; own: whether the mesh has an outline of its
+    own."""
     structure, path = run.structure, run.path
     status, notes = judge(scene, structure, path)
     displacement, turn = path.state.change
     forces = structure.forces(path.state, path.load_factor)
     director = turn + UP
     couple = np.cross(director, forces.residual[1])
-    held = Held(np.concatenate([forces.residual[0], couple], axis=1), structure.rest_positions + displacement)
+    position = structure.rest_positions + displacement
+    held = Held(np.concatenate([forces.residual[0], couple], axis=1), position)
     edges = on_edges(structure.rods, forces.rods.pull, held, director)
     wrenches, line_force = exerted(scene, edges, moved(structure.supports), held)
     fields = {"actuator_line_force": line_force} if scene.actuators else {}
+    surface = Surface(run.mesh, structure.element_nodes, run.nodes, position, director, own)
     runs = [run] if spent is None else [spent, run]
+    of_rods = {"rod": structure.rod_energy(path.state)} if scene.actuators else {}
     return Solution(
         model="shell",
         label=label,
@@ -124,11 +131,12 @@ def _solution(
         solve_seconds=sum(one.solve_seconds for one in runs),
         sample=lambda points: interpolate(run.mesh, structure.element_nodes, displacement, points),
         reactions=structure.supports.reactions(forces.residual[0]),
-        energies=structure.energies(path.state),
+        energies=structure.energies(path.state) | of_rods,
         mesh=field_mesh(run.nodes, structure.element_nodes, displacement, director, **fields),
         history=tuple(entry for one in runs for entry in one.path.history),
         load_factor=path.load_factor,
         actuators=wrenches,
+        balance=balance(scene, structure, path, forces, surface, edges),
         snaps=tuple(path.snaps),
         fallback=fallback,
         notes=tuple(notes),

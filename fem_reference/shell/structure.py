@@ -146,12 +146,15 @@ class ShellStructure:
         return replace(state, stress=None, rod_stress=None)
 
     def energies(self, state: State) -> dict[str, float]:
-        """Strain energy [J] by part; where there are rods, theirs from their intrinsic shape."""
+        """Strain energy [J] of the sheet by part."""
         strain = self.element.strain(self.gather(state.change))
         density = strain * self.element.stress(strain)
         parts = {"membrane": MEMBRANE, "bending": BENDING, "shear": SHEAR}
-        found = {name: 0.5 * float(density[:, part].sum()) for name, part in parts.items()}
-        return {**found, "rod": self.rods.elements.energy(self._on_rods(state))} if self.rods.rods else found
+        return {name: 0.5 * float(density[:, part].sum()) for name, part in parts.items()}
+
+    def rod_energy(self, state: State) -> float:
+        """That of the rods [J], from their intrinsic shape."""
+        return self.rods.elements.energy(self._on_rods(state))
 
     def potential(self, state: State, load_factor: float) -> tuple[float, float]:
         """Strain energy less the work of dead loads, and the sum of their magnitudes [J]."""
@@ -183,27 +186,27 @@ class ShellStructure:
         internal = self._scatter(forces_of(gradient, stress))
         external = load_factor * self._external(change)
         size = np.abs(external[0]).sum() + np.abs(internal[0][self.supports.position]).sum()
-        size += np.abs(external[1]).sum() / self._lever
+        size += np.abs(external[1]).sum() / self.lever
 
         elements = self.rods.elements
         rods = elements.strained(self._on_rods(state), load_factor)
         driving = load_factor * elements.driving(rods.gradient)
         size += load_factor * np.abs(elements.weight[:, :3]).sum()
-        size += np.abs(driving[:, :3]).sum() + np.abs(driving[:, 3:]).sum() / self._lever
+        size += np.abs(driving[:, :3]).sum() + np.abs(driving[:, 3:]).sum() / self.lever
         pull, aside = self._split(self.rods.scatter(rods.pull, self._vectors))
         return Forces(gradient, stress, rods, internal - external + pull, aside, float(size))
 
     def imbalance(self, state: State, forces: Forces) -> float:
         """Sum of the free unknowns' residuals [N], directors' moments over the sheet's size."""
         couple = np.concatenate([forces.residual[1], forces.aside])
-        moment = np.einsum("nc,nck->nk", couple, self.frames(state)) / self._lever
+        moment = np.einsum("nc,nck->nk", couple, self.frames(state)) / self.lever
         on_nodes = np.abs(forces.residual[0][self.number[:, :3] >= 0]).sum()
         return float(on_nodes + np.abs(moment[self.turns >= 0]).sum())
 
     def gap(self, state: State, load_factor: float) -> float:
         """Largest distance from the prescribed values and from |d| = 1, relative to the sheet's size."""
         step = np.abs(self._to_constraints(state, load_factor))
-        return float(max(step[: self.count].max() / self._lever, step[self.count :].max()))
+        return float(max(step[: self.count].max() / self.lever, step[self.count :].max()))
 
     def system(
         self, state: State, forces: Forces, load_factor: float, mixed: bool = True
@@ -259,7 +262,7 @@ class ShellStructure:
 
     def length(self, start: State, end: State) -> float:
         """Largest nodal displacement between two states, relative to the sheet's size."""
-        return float(np.abs(end.change[0] - start.change[0]).max() / self._lever)
+        return float(np.abs(end.change[0] - start.change[0]).max() / self.lever)
 
     def gather(self, nodal: np.ndarray) -> np.ndarray:
         """(2, n, 3) of nodes to (m, 18, 3) of elements."""
@@ -268,10 +271,10 @@ class ShellStructure:
     def frames(self, state: State) -> np.ndarray:
         """T (n + q, 3, 2) ⊥ d, and ⊥ m of the rods."""
         free = self.supports.tilt & ~self.supports.director[:, None]
-        return tangent_frames(self._directors(state), *np.nonzero(free))
+        return tangent_frames(self.directors(state), *np.nonzero(free))
 
     @property
-    def _lever(self) -> float:
+    def lever(self) -> float:
         return float(np.ptp(self.element.reference[:, :9, :2], axis=(0, 1)).max())
 
     @property
@@ -286,7 +289,7 @@ class ShellStructure:
         """The change of the rods' vectors (k, 9, 3)."""
         return self.rods.gather(np.concatenate([*state.change, state.aside]))
 
-    def _directors(self, state: State) -> np.ndarray:
+    def directors(self, state: State) -> np.ndarray:
         """d of the nodes, then m of the rods, (n + q, 3)."""
         return np.concatenate([state.change[1] + UP, state.aside + self.rods.own])
 
@@ -317,11 +320,11 @@ class ShellStructure:
         position = np.where(self.supports.position, target[0], 0.0)
         held = np.concatenate([self.supports.director, self.rods.held])
         turn = np.concatenate([target[1], -state.aside])
-        return np.concatenate([position, np.where(held[:, None], turn, to_unit(self._directors(state)))])
+        return np.concatenate([position, np.where(held[:, None], turn, to_unit(self.directors(state)))])
 
     def _multiplier(self, state: State, pressing: np.ndarray) -> np.ndarray:
         """What |d|² = 1 adds to the diagonal (unknowns,), of residuals (2n + q, 3)."""
-        along = multiplier(self._directors(state), pressing[self.count :])
+        along = multiplier(self.directors(state), pressing[self.count :])
         return self._of_unknowns(np.zeros((self.count, 3)), np.repeat(along[:, None], 2, axis=1))
 
     def _of_unknowns(self, positions: np.ndarray, turns: np.ndarray) -> np.ndarray:

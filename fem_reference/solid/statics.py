@@ -22,6 +22,7 @@ import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.solid import supports as column_supports
+from fem_reference.solid.balance import balance
 from fem_reference.solid.element import Bricks
 from fem_reference.solid.materials import LAWS, lame
 from fem_reference.solid.mesh import Columns
@@ -63,7 +64,7 @@ def solve(
 
 def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
     """The same on columns over any flat mesh of straight-sided quadrilaterals [m]."""
-    return _solved(mesh, scene, "solid", {"elements": mesh.nelements})
+    return _solved(mesh, scene, "solid", {"elements": mesh.nelements}, own=True)
 
 
 def _solved(
@@ -74,7 +75,9 @@ def _solved(
     layers: int = 1,
     law: str = "st-venant-kirchhoff",
     clamp: str = "shell-like",
+    own: bool = False,
 ) -> Solution:
+    """own: whether the mesh has an outline of its own, in place of the scene's sheet."""
     begin = perf_counter()
     structure = discretise(mesh, scene, layers, law, clamp)
     solver = DirectSolver(structure.symmetric)
@@ -93,9 +96,9 @@ def _solved(
     forces = structure.forces(path.state, path.load_factor)
     middle = (columns.positions + displacement)[:, columns.layers]
     held = Held(columns.about_middle(displacement, forces.residual), middle)
-    wrenches, _ = exerted(
-        scene, _on_edges(structure, path.state, forces, middle), structure.supports.moved, held
-    )
+    edges = _on_edges(structure, path.state, forces, middle)
+    wrenches, _ = exerted(scene, edges, structure.supports.moved, held)
+    of_rods = {"rod": structure.rod_energy(path.state)} if scene.actuators else {}
     return Solution(
         model="solid",
         label=label,
@@ -107,11 +110,12 @@ def _solved(
         solve_seconds=done - ready,
         sample=lambda points: columns.sample(displacement, points),
         reactions=structure.supports.reactions(forces.residual, path.load_factor),
-        energies=structure.energies(path.state),
+        energies=structure.energies(path.state) | of_rods,
         mesh=columns.field_mesh(displacement),
         history=tuple(path.history),
         load_factor=path.load_factor,
         actuators=wrenches,
+        balance=balance(scene, structure, path, forces, edges, own),
         notes=tuple(notes),
     )
 

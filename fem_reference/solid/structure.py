@@ -81,7 +81,7 @@ class SolidStructure:
         self.number = np.where(every, np.cumsum(every) - 1, -1).reshape(-1, 3)  # of all vectors
         kinds = (self.number[sites] for sites in (columns.stacks, rods.sites))
         self.pattern = Pattern(*(n.reshape(len(n), 3 * n.shape[1]) for n in kinds), size=int(every.sum()))
-        self._lever = float(np.ptp(columns.plan_nodes, axis=0).max())
+        self.lever = float(np.ptp(columns.plan_nodes, axis=0).max())
         self._turned = supports.turned[columns.plan_elements].any(axis=1)
 
     @property
@@ -99,10 +99,13 @@ class SolidStructure:
         return State(np.zeros_like(self.columns.positions), np.zeros_like(self.rods.own))
 
     def energies(self, state: State) -> dict[str, float]:
-        """Strain energy [J] by part of the law; where there are rods, theirs from their intrinsic shape."""
+        """Strain energy [J] of the sheet by part of the law."""
         distortion, volumetric = self.bricks.energies(self.bricks.strain(self._of_bricks(state.displacement)))
-        found = {"distortion": distortion, "volumetric": volumetric}
-        return {**found, "rod": self.rods.elements.energy(self._on_rods(state))} if self.rods.rods else found
+        return {"distortion": distortion, "volumetric": volumetric}
+
+    def rod_energy(self, state: State) -> float:
+        """That of the rods [J], from their intrinsic shape."""
+        return self.rods.elements.energy(self._on_rods(state))
 
     def forces(self, state: State, load_factor: float) -> Forces:
         """Internal less external forces, and what they are measured against."""
@@ -117,7 +120,7 @@ class SolidStructure:
         elements = self.rods.elements
         rods = elements.strained(self._on_rods(state), load_factor)
         driving = elements.driving(rods.gradient)[:, -DIRECTORS : -DIRECTORS + 3]  # on d
-        size += load_factor * (np.linalg.norm(elements.weight) + np.linalg.norm(driving) / self._lever)
+        size += load_factor * (np.linalg.norm(elements.weight) + np.linalg.norm(driving) / self.lever)
         pull, aside = self._split(self.rods.scatter(rods.pull, len(self.number)))
         residual = internal - external + pull
         return Forces(gradient, strain, stress, rods, residual, aside, float(size), bases)
@@ -126,13 +129,13 @@ class SolidStructure:
         """Norm of the residual of the free unknowns [N], of the rods' directors over the sheet's size."""
         on_sheet = into_forces(forces.bases, forces.residual)[self.free]
         return float(
-            np.hypot(np.linalg.norm(on_sheet), np.linalg.norm(forces.aside[~self.rods.held]) / self._lever)
+            np.hypot(np.linalg.norm(on_sheet), np.linalg.norm(forces.aside[~self.rods.held]) / self.lever)
         )
 
     def gap(self, state: State, load_factor: float) -> float:
         """Largest distance from the prescribed values, relative to the sheet's size."""
         step = self._to_supports(state.displacement, load_factor, self.supports.bases(load_factor))
-        return float(np.abs(step).max() / self._lever)
+        return float(np.abs(step).max() / self.lever)
 
     def system(
         self, state: State, forces: Forces, load_factor: float, mixed: bool = True
@@ -185,7 +188,7 @@ class SolidStructure:
 
     def length(self, start: State, end: State) -> float:
         """Largest nodal displacement between two states, relative to the sheet's size."""
-        return float(np.abs(end.displacement - start.displacement).max() / self._lever)
+        return float(np.abs(end.displacement - start.displacement).max() / self.lever)
 
     def inside_out(self, state: State) -> bool:
         """Whether a brick has turned inside out at a Gauss point."""

@@ -109,6 +109,12 @@ def into_forces(bases: np.ndarray, nodal: np.ndarray) -> np.ndarray:
     return (bases.swapaxes(1, 2) @ nodal.reshape(*bases.shape[:2], 1)).reshape(nodal.shape)
 
 
+def from_forces(bases: np.ndarray, on_components: np.ndarray) -> np.ndarray:
+    """Nodal forces r (n, levels, 3) of forces on the components, Z⁻ᵀ f."""
+    flat = on_components.reshape(*bases.shape[:2], 1)
+    return np.linalg.solve(bases.swapaxes(1, 2), flat).reshape(on_components.shape)
+
+
 def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = ()) -> ColumnSupports:
     """The supports of a scene; rods: of its actuators. Raises BadInput for an unknown clamp."""
     if clamp not in CLAMPS:

@@ -63,4 +63,5 @@ def jacobians(nodes: np.ndarray, slope: np.ndarray) -> np.ndarray:
 
 def areas(nodes: np.ndarray) -> np.ndarray:
     """w |det J| (m, 9) [m²] at the Gauss points of elements with nodes at (m, 9, 2) [m]."""
-    return GAUSS_WEIGHTS * np.abs(np.linalg.det(jacobians(nodes, shape(*GAUSS)[1])))
+    along, across = np.moveaxis(jacobians(nodes, shape(*GAUSS)[1]), -1, 0)  # ∂x/∂ξ, ∂x/∂η
+    return GAUSS_WEIGHTS * np.abs(along[..., 0] * across[..., 1] - along[..., 1] * across[..., 0])

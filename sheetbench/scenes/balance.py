@@ -4,8 +4,8 @@
 
 Reactions are those that the answer lists: what it leaves out is missing here. The force of the dead loads is
 the scene's own, from density, sides and what is asked, and not what a model has made of it; followers'
-forces, which depend on the shape, and moments are the model's, on the sheet as it lies then (a linear model's
-on the flat one). What is left over is compared with what the model's own tolerance and rounding may leave.
+forces, and all moments, depend on the shape and are those on the sheet as it lies (a linear model's on the
+flat one). What is left over is compared with what the model's own tolerance and rounding may leave.
 """
 
 from __future__ import annotations

@@ -1,0 +1,61 @@
+"""What a shell's forces leave over, those of the loads being the scene's own (see `surface.balance`).
+
+Strains are made of scalar products of the vectors φ, d and m, so that internal forces on all of them cancel,
+Σ f_φ = 0, and so do their moments, Σ φ × f_φ + d × f_d + m × f_m = 0, whatever the shape: what is left over
+is the residual of the free unknowns, which the solver has brought below its tolerance or to where rounding
+stops it, and the rounding of the sums.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fem_reference.shell.structure import Forces, ShellStructure, State
+from fem_reference.solving.equilibrium import TOLERANCE, Path
+from fem_reference.surface.actuator_forces import OnEdge
+from fem_reference.surface.balance import Surface, applied
+from sheetbench.scenes import Balance, Scene
+
+
+def balance(
+    scene: Scene,
+    structure: ShellStructure,
+    path: Path[State],
+    forces: Forces,
+    surface: Surface,
+    edges: Sequence[OnEdge],
+) -> Balance:
+    """The balance at the end of a path, where the sheet lies as `surface` and the rods on its edges exert
+    `edges`."""
+    state, share = path.state, path.load_factor
+    force, moment = applied(scene, surface, edges)
+    reactions = structure.supports.reactions(forces.residual[0])
+    on_nodes, on_directors = _held(structure, state, forces)
+    moment = share * moment + np.cross(surface.position, on_nodes).sum(axis=0)
+    moment += np.cross(structure.directors(state), on_directors).sum(axis=0)
+    left = max(TOLERANCE * forces.size, structure.imbalance(state, forces))
+    return Balance(
+        force=share * force + np.sum(list(reactions.values()), axis=0),
+        moment=moment,
+        size=forces.size,
+        allowed=left + float(np.finfo(float).eps) * _summed(structure, forces),
+        arm=max(structure.lever, float(np.linalg.norm(surface.position, axis=1).max())),
+    )
+
+
+def _held(structure: ShellStructure, state: State, forces: Forces) -> tuple[np.ndarray, np.ndarray]:
+    """What holds the nodes (n, 3) [N], and the directors (n + q, 3) [N·m], across themselves."""
+    frames = structure.frames(state)
+    couple = np.einsum("nc,nck->nk", np.concatenate([forces.residual[1], forces.aside]), frames)
+    on_directors = np.einsum("nck,nk->nc", frames, np.where(structure.turns < 0, couple, 0.0))
+    return np.where(structure.supports.position, forces.residual[0], 0.0), on_directors
+
+
+def _summed(structure: ShellStructure, forces: Forces) -> float:
+    """Σ |B| |s| [N], what forces are sums of, those on directors over the sheet's size."""
+    of_sheet = np.einsum("ekic,ek->i", np.abs(forces.gradient), np.abs(forces.stress))
+    of_rods = np.einsum("ekic,ek->i", np.abs(forces.rods.gradient), np.abs(forces.rods.stress))
+    on_nodes, on_directors = of_sheet[:9].sum() + of_rods[:3].sum(), of_sheet[9:].sum() + of_rods[3:].sum()
+    return float(on_nodes + on_directors / structure.lever)

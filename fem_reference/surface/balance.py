@@ -1,0 +1,132 @@
+"""What a surface has to carry, from the scene's words and the shape alone, to check what a model has solved.
+
+    force     dead loads  as the scene has them (`dead_force`)
+              pressure    ½ p ∮ φ × dφ
+    moment    weight      ρ h ∫ φ dA × g              chain      ρ_l ∫ (φ + c d) dL × g
+              point       φ(x) × F                    edge       ∫ φ dL × q + m ∫ (|d|² t̂ − (d · t̂) d) dL
+              pressure    −½ p ∮ |φ|² dφ
+
+about the origin of the flat sheet's frame, with the position φ, the director d and the unit tangent t̂ of the
+edge on the sheet as it lies; A and L are the flat sheet's, ∮ runs counter-clockwise around it: by Stokes'
+theorem a pressure's force and moment depend on the rim alone. Of `loads`, for whose nodal forces the model
+has been solved, only the sides of edges are used. Being of fifth degree at most, everything is integrated
+exactly but t̂, which is taken at the points where `loads` has the moment act.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from skfem import MeshQuad
+
+from fem_reference.surface.actuator_forces import OnEdge
+from fem_reference.surface.biquadratic import GAUSS, THREE, THREE_WEIGHTS, areas, shape, side_shape
+from fem_reference.surface.loads import Line
+from fem_reference.surface.location import interpolate
+from sheetbench.scenes import Chain, EdgeLoad, PointLoad, Pressure, Scene, dead_force
+
+_VALUE, _SLOPE = side_shape(THREE)  # (3 points, 3 nodes)
+_AT_GAUSS, _ = shape(*GAUSS)  # (9 points, 9 nodes)
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A sheet as it lies: nine-node elements (m, 9) of a mesh, plan positions (n, 2) [m], φ [m] and d (n, 3).
+
+    own: whether the mesh has an outline of its own, in place of the scene's sheet.
+    """
+
+    mesh: MeshQuad
+    element_nodes: np.ndarray
+    plan: np.ndarray
+    position: np.ndarray
+    director: np.ndarray
+    own: bool = False
+
+    @property
+    def corners(self) -> np.ndarray:
+        """Plan positions of the elements' nodes (m, 9, 2) [m]."""
+        return self.plan[self.element_nodes]
+
+    def sides(self, facets: np.ndarray) -> np.ndarray:
+        """Nodes (k, 3) of the sides that are facets of the mesh, the sheet to their right."""
+        line = Line.along(self.mesh, facets, self.corners)
+        return self.element_nodes[line.elements[:, None], line.sides]
+
+    def lengths(self, sides: np.ndarray) -> np.ndarray:
+        """w |X,ξ| (k, 3) [m] at the points of sides (k, 3)."""
+        return THREE_WEIGHTS * np.linalg.norm(_SLOPE @ self.plan[sides], axis=-1)
+
+
+def applied(scene: Scene, surface: Surface, edges: Sequence[OnEdge]) -> tuple[np.ndarray, np.ndarray]:
+    """Force [N] and moment [N·m] (3,) of the whole load, and of the chains on edges."""
+    force = _dead_force(scene, surface)
+    moment = sum((_weight_moment(scene, surface, edge) for edge in edges), np.zeros(3))
+    if scene.gravity is not None:
+        at = _AT_GAUSS @ surface.position[surface.element_nodes]
+        centre = np.einsum("eg,egc->c", areas(surface.corners), at)
+        per_area = scene.material.density * scene.sheet.thickness * np.array(scene.gravity.last_acceleration)
+        moment = moment + np.cross(centre, per_area)
+    for load in scene.loads:
+        factor = load.last_factor
+        match load:
+            case PointLoad():
+                at = interpolate(surface.mesh, surface.element_nodes, surface.position, np.array([load.at]))
+                moment = moment + factor * np.cross(at[0], load.force)
+            case EdgeLoad():
+                moment = moment + factor * _edge_moment(load, surface)
+            case Pressure():
+                pushed, turned = _pressure(surface)
+                force, moment = force + factor * load.value * pushed, moment + factor * load.value * turned
+    return force, moment
+
+
+def _dead_force(scene: Scene, surface: Surface) -> np.ndarray:
+    if not surface.own:
+        return dead_force(scene)
+    sides = {name: surface.sides(facets) for name, facets in (surface.mesh.boundaries or {}).items()}
+    lengths = {name: float(surface.lengths(on).sum()) for name, on in sides.items()}
+    return dead_force(scene, float(areas(surface.corners).sum()), lengths)
+
+
+def _weight_moment(scene: Scene, surface: Surface, edge: OnEdge) -> np.ndarray:
+    """Of the chains of a rod, each at its own height; the rod has positions and directors of its own."""
+    if scene.gravity is None:
+        return np.zeros(3)
+    weights = surface.lengths(edge.rod.nodes)
+    line, director = (
+        np.einsum("kg,gi,kic->c", weights, _VALUE, values[edge.rod.places])
+        for values in (edge.position, edge.director)
+    )
+    chains = [c for name, c in scene.named_actuators().items() if name in edge.rod.names]
+    axes = [
+        c.line_density * (line + c.axis_height(scene.sheet.thickness) * director)
+        for c in chains
+        if isinstance(c, Chain)
+    ]
+    return np.cross(np.sum(axes, axis=0), scene.gravity.last_acceleration)
+
+
+def _edge_moment(load: EdgeLoad, surface: Surface) -> np.ndarray:
+    sides = surface.sides(surface.mesh.boundaries[load.edge])
+    weights = surface.lengths(sides)
+    position, director = (_VALUE @ values[sides] for values in (surface.position, surface.director))
+    slope = _SLOPE @ surface.position[sides]
+    tangent = slope / np.linalg.norm(slope, axis=-1, keepdims=True)
+    square, along = ((director * other).sum(axis=-1, keepdims=True) for other in (director, tangent))
+    couple = np.einsum("kg,kgc->c", weights, square * tangent - along * director)
+    middle = np.einsum("kg,kgc->c", weights, position)
+    return np.cross(middle, load.force_per_length) + load.moment_per_length * couple
+
+
+def _pressure(surface: Surface) -> tuple[np.ndarray, np.ndarray]:
+    """Force [m²] and moment [m³] of a unit pressure; with the sheet to its right, the rim runs clockwise."""
+    rim = surface.position[surface.sides(surface.mesh.boundary_facets())]
+    at, slope = _VALUE @ rim, _SLOPE @ rim
+    square = (at * at).sum(axis=-1, keepdims=True)
+    force, moment = (
+        np.einsum("g,kgc->c", THREE_WEIGHTS, part) for part in (np.cross(slope, at), square * slope)
+    )
+    return 0.5 * force, 0.5 * moment

@@ -78,7 +78,7 @@ def coarser(elements: Elements) -> list[Elements]:
 
 def mesh_size(scene: Scene, elements: Elements) -> float:
     """Mean size of an element [m]."""
-    along_x, along_y = divisions(scene.sheet.lengths, elements)
+    along_x, along_y = divisions(scene.sheet, elements)
     return float(np.sqrt(np.prod(scene.sheet.lengths) / (along_x * along_y)))
 
 

@@ -120,7 +120,7 @@ def modes(
             raise BadInput("--about = deformed: of the references the shell alone, and without actuators")
     scene = scene.replace(actuators=())
     at_rest = _shell_deformed if about == "deformed" else REST_STATES[model]
-    along_x, along_y = divisions(scene.sheet.lengths, elements)
+    along_x, along_y = divisions(scene.sheet, elements)
     with one_blas_thread():
         rest = at_rest(scene, (along_x, along_y), **options)
         ready = perf_counter()

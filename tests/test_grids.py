@@ -13,6 +13,7 @@ from commands import one_line, run
 import lumped
 from comparisons.models.grids import parse_grid, scene_grid
 from comparisons.models.registry import solve
+from fem_reference.surface.mesh import divisions
 from sheetbench.scenes import BadInput, Clamped, Scene, Sheet, SpringTable, load
 from sheetbench.scenes.grid import grid_of, near_square
 
@@ -25,6 +26,14 @@ SCENE = Scene(
     support=(Clamped(edge="x0"),),
 )
 END = np.array([[0.2, 0.05]])
+
+
+def test_elements_and_cells_are_divided_by_one_rule() -> None:
+    """Also where the longer side is as near to one number as to the next."""
+    for length, count, along in ((0.19, 5, 9), (0.27, 15, 41), (0.35, 25, 88)):
+        sheet = Sheet(length_x=length, length_y=0.1, thickness=0.003)
+        assert divisions(sheet, count) == near_square(sheet, count) == (along, count)
+    assert divisions(LONG, (3, 2)) == (3, 2)
 
 
 def test_a_number_counts_along_the_shorter_side() -> None:

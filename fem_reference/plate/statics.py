@@ -107,7 +107,7 @@ def solve(
     thickness unless given. Raises SceneError if the supports leave a rigid motion free.
     """
     require_static(scene)
-    along_x, along_y = divisions(scene.sheet.lengths, elements)
+    along_x, along_y = divisions(scene.sheet, elements)
     if graded is None:
         graded = not scene.twisting_edges() <= set(hard_edges)
     settings: dict[str, Any] = {"elements": [along_x, along_y], "graded": graded}

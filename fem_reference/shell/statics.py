@@ -46,7 +46,7 @@ def solve(
     Raises scenes.SceneError if the supports leave a rigid motion free.
     """
     require_static(scene)
-    counts = divisions(scene.sheet.lengths, elements)
+    counts = divisions(scene.sheet, elements)
     run = _run(mesh_of(scene, counts, graded), scene, section, graded)
     fallback, spent = "", None
     if run.path.fault is STRETCHED:

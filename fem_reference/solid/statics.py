@@ -56,7 +56,7 @@ def solve(
     Raises scenes.SceneError if the supports leave a rigid motion free, BadInput for an unknown option.
     """
     require_static(scene)
-    along_x, along_y = divisions(scene.sheet.lengths, elements)
+    along_x, along_y = divisions(scene.sheet, elements)
     mesh = plan_mesh(scene, (along_x, along_y), grading)
     asked = {"elements": [along_x, along_y], "grading": grading}
     return _solved(mesh, scene, f"solid {along_x} × {along_y} × {layers}", asked, layers, law, clamp)

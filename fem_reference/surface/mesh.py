@@ -14,6 +14,7 @@ from skfem import MeshQuad
 
 from sheetbench.scenes import EDGES, Scene, Sheet, Symmetric
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grid import near_square
 
 Elements = int | tuple[int, int]
 
@@ -21,19 +22,15 @@ Elements = int | tuple[int, int]
 _QUARTERS = np.array([[0, 4, 8, 7], [4, 1, 5, 8], [8, 5, 2, 6], [7, 8, 6, 3]])
 
 
-def divisions(lengths: tuple[float, float], elements: Elements) -> tuple[int, int]:
+def divisions(sheet: Sheet, elements: Elements) -> tuple[int, int]:
     """Elements along x and y: a pair as given, or that many along the shorter side and near-square ones.
 
     Raises BadInput for fewer than one element.
     """
-    if isinstance(elements, tuple):
-        along_x, along_y = elements
-    else:
-        size = min(lengths) / max(elements, 1)
-        along_x, along_y = (max(elements, round(length / size)) for length in lengths)
-    if along_x < 1 or along_y < 1 or (isinstance(elements, int) and elements < 1):
+    counts = elements if isinstance(elements, tuple) else near_square(sheet, elements)
+    if min(counts) < 1:
         raise BadInput(f"elements = {elements}: at least one element along each side")
-    return along_x, along_y
+    return counts
 
 
 def spacing(count: int, layer: int) -> np.ndarray:
@@ -62,7 +59,7 @@ def rectangle(
     Uniform; or graded towards all edges, where a clamp that ends at a free edge has a singularity and
     a thick sheet has boundary layers: the same number of elements, a far smaller error.
     """
-    counts = divisions(sheet.lengths, elements)
+    counts = divisions(sheet, elements)
     cut = [[name for name in cuts if EDGES[name].normal_axis == axis] for axis in (0, 1)]
     across = min(n << len(at) for n, at in zip(counts, cut, strict=True))
     layer = max(1, round(reach * across)) if graded else 1

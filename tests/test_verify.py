@@ -99,6 +99,23 @@ def test_the_simply_supported_plate_s_values_are_navier_s_series() -> None:
         assert term.sum() == pytest.approx(printed, abs=5.1e-6)
 
 
+def test_the_thin_clamped_plate_s_value_is_that_of_a_series() -> None:
+    """Ritz with w = (1 − x²)² (1 − y²)² P_2i(x) P_2j(y) on [−1, 1]², minimising ∫ ½ (Δw)² − w: w(0, 0)/2⁴."""
+    x, weight = np.polynomial.legendre.leggauss(40)
+    ends = np.polynomial.Polynomial([1.0, 0.0, -1.0]) ** 2
+    along = [
+        ends * np.polynomial.Legendre.basis(2 * i).convert(kind=np.polynomial.Polynomial) for i in range(8)
+    ]
+    value, bent = (np.array([f.deriv(order)(x) for f in along]) for order in (0, 2))
+    mass, mixed, bending = ((a * weight) @ b.T for a, b in ((value, value), (value, bent), (bent, bent)))
+    stiffness = (
+        np.kron(bending, mass) + np.kron(mixed, mixed.T) + np.kron(mixed.T, mixed) + np.kron(mass, bending)
+    )
+    load, middle = (np.kron(at, at) for at in (value @ weight, np.array([f(0.0) for f in along])))
+    deflection = middle @ np.linalg.solve(stiffness, load) / 2.0**4
+    assert deflection == pytest.approx(mindlin_plates.CLAMPED[0.001], abs=5e-8)
+
+
 def test_relative_is_to_the_published_value_or_to_a_length() -> None:
     assert relatively("c", "q", "m", -2.0, "A 1900", -2.1, 0.1).relative == pytest.approx(0.05)
     at_zero = relatively("c", "q", "m", 0.0, "A 1900", 0.3, 0.1, scale=12.0)

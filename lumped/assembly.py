@@ -40,7 +40,15 @@ class Assembly:
         precision: Precision = "double",
         twisting: frozenset[str] = frozenset(),
     ):
-        self.lattice: Lattice = build(sheet, calibration.grid, calibration.layer_distance, weights, twisting)
+        self.lattice: Lattice = build(
+            sheet,
+            calibration.grid,
+            calibration.layer_distance,
+            weights,
+            twisting,
+            calibration.grading,
+            calibration.half,
+        )
         self.distribution = calibration.masses
         pairs = neighbours(self.lattice.columns())
         self.coupling = couple(self.lattice) if couple is not None else None

@@ -1,7 +1,8 @@
-"""The spring lattice: masses on a regular grid of layers, links to the 3×3×2 neighbourhood, area cells.
+"""The spring lattice: masses on a grid of layers, links to the 3×3×2 neighbourhood, area cells.
 
-A grid (nx, ny, layers) has nx masses along x, ny along y, `layers` through the thickness, spaced
-(lx, ly, lz) [m]; the layers lie symmetrically about the mid-surface z = 0. Mass (i, j, k) has number
+A grid (nx, ny, layers) has nx masses along x, ny along y, on lines evenly spaced or graded to the edges
+(`lumped.grid_lines`), `layers` through the thickness, lz apart; the layers lie symmetrically about the
+mid-surface z = 0. Mass (i, j, k) has number
 (j nx + i) layers + k. Every mass is linked to every neighbour in its layer (8) and in each adjacent
 layer (9): 17 links inside a two-layer lattice, 11 on an edge, 7 in a corner. Five families (the seed's
 symbols): axial ka, diagonal kd, vertical kz, cross kdT, cross_diagonal kddT; axial and cross links
@@ -9,8 +10,9 @@ belong to the direction, x or y, in which they run. Area springs act on every ce
 with the layers averaged, on every cell of the mid-surface.
 
 Source: the seed's lattice (Habibi et al.), with the tributary weights and area springs of
-docs/theory.md: links lying in a boundary line of the sheet carry half, vertical links and masses their
-tributary share (½ on edges, ¼ at corners).
+docs/theory.md: a link between two cells has half of each one's stiffness, so that links lying in a boundary
+line of the sheet carry half; vertical links have a quarter of each of four cells; masses take the sheet
+around them (of equal cells ½ on edges, ¼ at corners).
 """
 
 from __future__ import annotations
@@ -20,6 +22,7 @@ from typing import Literal
 
 import numpy as np
 
+from lumped.grid_lines import Lines, grid_lines
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import Grid
@@ -31,15 +34,22 @@ Weights = Literal["tributary", "full"]
 class LinkFamily:
     """The links of one family and direction.
 
-    nodes: (m, 2) mass numbers; offset: (m, 3) [m] rest vector from the first to the second;
-    weight: (m,) share of the family's stiffness that each link carries.
+    nodes: (m, 2) mass numbers; offset: (m, 3) [m] rest vector from the first to the second; cells: (m, q)
+    numbers of the plan cells that each link lies in or between; shares: (m, q) of their stiffness.
     """
 
     name: str
     direction: str
     nodes: np.ndarray
     offset: np.ndarray
-    weight: np.ndarray
+    cells: np.ndarray
+    shares: np.ndarray
+
+    @property
+    def weight(self) -> np.ndarray:
+        """Share of the family's stiffness that each link carries where all cells are alike, (m,)."""
+        weight: np.ndarray = self.shares.sum(axis=1)
+        return weight
 
     @property
     def rest_length(self) -> np.ndarray:
@@ -60,11 +70,13 @@ class CellFamily:
 
 @dataclass(frozen=True)
 class Lattice:
-    """Topology and rest geometry. positions: (n, 3) [m]; share: (n,) tributary share of each mass;
-    twisting: the edges along which nothing holds the director."""
+    """Topology and rest geometry. lines: across x and across y; layer_distance: lz [m]; positions: (n, 3)
+    [m]; share: (n,) of each mass in the plan area, in mean cells; twisting: the edges along which nothing
+    holds the director."""
 
     grid: Grid
-    spacing: tuple[float, float, float]
+    lines: tuple[Lines, Lines]
+    layer_distance: float
     positions: np.ndarray
     links: tuple[LinkFamily, ...]
     cells: tuple[CellFamily, ...]
@@ -74,6 +86,18 @@ class Lattice:
     @property
     def mass_count(self) -> int:
         return len(self.positions)
+
+    @property
+    def spacing(self) -> tuple[float, float, float]:
+        """Mean distances of neighbouring masses along x and y, and of the layers [m]."""
+        x, y = self.lines
+        return x.mean, y.mean, self.layer_distance
+
+    @property
+    def cell_areas(self) -> np.ndarray:
+        """Plan areas of the cells, (ny − 1, nx − 1) [m²]."""
+        x, y = self.lines
+        return np.outer(y.widths, x.widths)
 
     def number(self, i: np.ndarray, j: np.ndarray, k: np.ndarray) -> np.ndarray:
         """Mass numbers of grid indices (broadcast)."""
@@ -115,50 +139,71 @@ def build(
     layer_distance: float,
     weights: Weights = "tributary",
     twisting: frozenset[str] = frozenset(),
+    grading: float = 0.0,
+    half: tuple[bool, bool] = (False, False),
 ) -> Lattice:
     """The lattice of a sheet. `weights="full"` gives every link its family's full stiffness and every
-    mass the same share, as the seed has them.
+    mass the same share, as the seed has them. grading, half: of the grid's lines (`lumped.grid_lines`).
 
-    Raises BadInput for fewer than two masses a side or two layers.
+    Raises BadInput for fewer than two masses a side or two layers, a grading outside 0 to 1, and full weights
+    on a graded grid.
     """
     nx, ny, layers = grid
     if min(grid) < 2:
         raise BadInput(f"grid = {nx}x{ny}x{layers}: a lattice has at least 2 masses a side and 2 layers")
-    lx, ly, lz = sheet.length_x / (nx - 1), sheet.length_y / (ny - 1), layer_distance
+    if weights == "full" and grading:
+        raise BadInput(f"weights = 'full': equal masses are for equal cells, not for grading = {grading:g}")
+    lines = across_x, across_y = grid_lines(sheet, grid, grading, half)
     j, i, k = (a.ravel() for a in np.meshgrid(np.arange(ny), np.arange(nx), np.arange(layers), indexing="ij"))
-    positions = np.stack([i * lx, j * ly, (k - (layers - 1) / 2) * lz], axis=1)
-    on_x_line = (j == 0) | (j == ny - 1)  # boundary lines running along x
-    on_y_line = (i == 0) | (i == nx - 1)
-    share = np.where(on_x_line, 0.5, 1.0) * np.where(on_y_line, 0.5, 1.0)
+    heights = (k - (layers - 1) / 2) * layer_distance
+    positions = np.stack([across_x.at[i], across_y.at[j], heights], axis=1)
 
     families = []
     for name, direction, (di, dj, dk) in STEPS:
         inside = (i + di >= 0) & (i + di < nx) & (j + dj >= 0) & (j + dj < ny) & (k + dk < layers)
         first = np.flatnonzero(inside)
         second = first + (dj * nx + di) * layers + dk
-        weight = np.ones(len(first))
-        if weights == "tributary":
-            if direction == "x":
-                weight = np.where(on_x_line[first], 0.5, 1.0)
-            elif direction == "y":
-                weight = np.where(on_y_line[first], 0.5, 1.0)
-            elif name == "vertical":
-                weight = share[first]
-        offset = np.tile(np.array([di * lx, dj * ly, dk * lz]), (len(first), 1))
-        families.append(LinkFamily(name, direction, np.stack([first, second], axis=1), offset, weight))
+        cells, shares = _cells_of_links(i[first], j[first], (di, dj), (nx, ny))
+        if weights == "full":
+            shares = shares / shares.sum(axis=1, keepdims=True)
+        offset = np.empty((len(first), 3))
+        offset[:, 0] = di * across_x.widths[np.minimum(i[first], i[second]).clip(max=nx - 2)]
+        offset[:, 1] = dj * across_y.widths[np.minimum(j[first], j[second]).clip(max=ny - 2)]
+        offset[:, 2] = dk * layer_distance
+        families.append(LinkFamily(name, direction, np.stack([first, second], axis=1), offset, cells, shares))
 
     columns = np.arange(nx * ny * layers).reshape(ny, nx, layers)
     corners = np.stack([columns[:-1, :-1], columns[:-1, 1:], columns[1:, 1:], columns[1:, :-1]], axis=2)
     corners = corners.reshape(-1, 4, layers)
     layer_cells = np.moveaxis(corners, 2, 0).reshape(-1, 4, 1)
+    x_share, y_share = (side.tributary / side.mean for side in lines)
+    share = np.repeat(np.outer(y_share, x_share).ravel(), layers)
     if weights == "full":
         share = np.full(len(positions), (nx - 1) * (ny - 1) / (nx * ny))
     return Lattice(
         grid=grid,
-        spacing=(lx, ly, lz),
+        lines=lines,
+        layer_distance=layer_distance,
         positions=positions,
         links=tuple(families),
         cells=(CellFamily("area", layer_cells), CellFamily("mid_area", corners)),
         share=share,
         twisting=twisting,
     )
+
+
+def _cells_of_links(
+    i: np.ndarray, j: np.ndarray, step: tuple[int, int], masses: tuple[int, int]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers (m, q) of the plan cells that links from masses (i, j) on by a step lie in or between, and
+    their shares; a cell beyond the sheet has none."""
+    sides = []  # along x and along y: the cell that the link crosses, or the two beside its line
+    for start, by in zip((i, j), step, strict=True):
+        sides.append([np.minimum(start, start + by)] if by else [start - 1, start])
+    cells, shares = [], []
+    for column in sides[0]:
+        for row in sides[1]:
+            inside = (column >= 0) & (column < masses[0] - 1) & (row >= 0) & (row < masses[1] - 1)
+            cells.append(np.where(inside, row * (masses[0] - 1) + column, 0))
+            shares.append(inside / (len(sides[0]) * len(sides[1])))
+    return np.stack(cells, axis=1), np.stack(shares, axis=1)

@@ -69,8 +69,7 @@ class Loads:
                 )
             elif isinstance(load, EdgeLoad):
                 edge = lattice.edge_columns(load.edge)
-                length = np.full(len(edge), lattice.spacing[EDGES[load.edge].along_axis])
-                length[[0, -1]] /= 2.0
+                length = lattice.lines[EDGES[load.edge].along_axis].tributary
                 force = length[:, None] * np.array(load.force_per_length) / lattice.grid[2]
                 part.dead[edge] += force[:, None, :]
                 if load.moment_per_length:

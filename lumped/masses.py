@@ -25,7 +25,8 @@ from sheetbench.scenes.springs import Distribution
 def masses(scene: Scene, lattice: Lattice, distribution: Distribution = "tributary") -> np.ndarray:
     """Mass of every lumped mass, (n,) [kg]; they add up to the sheet's.
 
-    Raises BadInput for an unknown distribution or, with "gregory", fewer than four masses a side.
+    Raises BadInput for an unknown distribution or, with "gregory", fewer than four masses a side or unequal
+    cells.
     """
     lx, ly, _ = lattice.spacing
     nx, ny, layers = lattice.grid
@@ -34,6 +35,8 @@ def masses(scene: Scene, lattice: Lattice, distribution: Distribution = "tributa
         return per_cell * lattice.share
     if distribution != "gregory":
         raise BadInput(f"masses = {distribution!r}: choose from tributary, gregory")
+    if any(np.ptp(side.widths) for side in lattice.lines):
+        raise BadInput("masses = 'gregory' is for cells of one size: take tributary masses on a graded grid")
     plan = np.outer(_gregory(ny), _gregory(nx)).ravel()
     return per_cell * np.repeat(plan, layers)
 

@@ -15,19 +15,17 @@ class MidSurface:
     """The mid-surface of a lattice at plan points (n, 2) [m]. Raises BadInput for points off the sheet."""
 
     def __init__(self, lattice: Lattice, points: np.ndarray):
-        nx, ny, layers = lattice.grid
         points = np.asarray(points, dtype=float).reshape(-1, 2)
-        grid = points / lattice.spacing[:2]
-        outside = ((grid < -1e-9) | (grid > np.array([nx - 1, ny - 1]) + 1e-9)).any(axis=1)
+        i, x = lattice.lines[0].index(points[:, 0])
+        j, y = lattice.lines[1].index(points[:, 1])
+        outside = np.maximum(np.abs(x - 0.5), np.abs(y - 0.5)) > 0.5 + 1e-9
         if outside.any():
             raise BadInput(f"point {points[outside][0].tolist()} m is off the sheet")
-        i, j = np.clip(np.floor(grid).astype(int), 0, [nx - 2, ny - 2]).T
-        x, y = grid.T - (i, j)
         weights = np.stack([(1 - x) * (1 - y), x * (1 - y), x * y, (1 - x) * y], axis=1)
         columns = lattice.columns()
         corners = ((j, i), (j, i + 1), (j + 1, i + 1), (j + 1, i))
         self._nodes = np.stack([columns[at] for at in corners], axis=1)
-        self._share = weights / layers
+        self._share = weights / lattice.grid[2]
 
     def of(self, field: np.ndarray) -> np.ndarray:
         """Values (n, 3) at the points of a field over the masses, (masses and more, 3)."""

@@ -85,7 +85,7 @@ def shear_gaps(layers: int) -> float:
 
 
 def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: int) -> Moduli:
-    """Moduli of an interior patch of the lattice with these springs."""
+    """Moduli of an interior patch of the lattice with these springs, alike in all cells."""
     layer, gap = np.zeros((6, 6)), np.zeros((6, 6))
     for (family, direction), form in link_forms(spacing).items():
         k = np.mean(constants.along(springs, family, direction))
@@ -96,8 +96,8 @@ def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: 
     dilation = np.zeros((3, 3))
     dilation[:2, :2] = 1.0
     in_layer = layer[:3, :3] + springs.area * dilation
-    in_layer += np.diag(constants.of_strains(springs, "area")[1])
-    mid_surface = springs.mid_area * dilation + np.diag(constants.of_strains(springs, "mid_area")[1])
+    in_layer += np.diag(constants.of_strains(springs, "area")[1][0])
+    mid_surface = springs.mid_area * dilation + np.diag(constants.of_strains(springs, "mid_area")[1][0])
     in_gap = gap[:3, :3].copy()
     if gap[3, 3] > 0.0:
         in_gap -= np.outer(gap[:3, 3], gap[:3, 3]) / gap[3, 3]

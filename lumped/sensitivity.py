@@ -141,4 +141,6 @@ def _recalibrated(scene: Scene, calibration: Calibration) -> tuple[Scene, Calibr
         raise BadInput(
             f"springs of calibration '{calibration.method}' do not follow from the sheet and its material"
         )
-    return scene, CLOSED[calibration.method].make(scene.sheet, scene.material, calibration.grid)
+    graded = {"grading": calibration.grading} if calibration.grading else {}
+    method = CLOSED[calibration.method]
+    return scene, method.make(scene.sheet, scene.material, calibration.grid, **graded)

@@ -4,7 +4,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from lumped.assembly import Assembly
-from lumped.calibration.calibration import report
+from lumped.calibration.report import report
 from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
 
 SHEET = Sheet(length_x=0.2, length_y=0.3, thickness=0.01)

@@ -7,7 +7,7 @@ import lumped
 from comparisons.calibration import tables
 from lumped import moduli
 from lumped.assembly import Assembly
-from lumped.calibration.calibration import report
+from lumped.calibration.report import report
 from sheetbench import scenes
 from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
 

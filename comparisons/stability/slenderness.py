@@ -52,8 +52,8 @@ def measure(clamped: int, slenderness: float, load_number: float, poisson: float
     scene = sheet(slenderness, load_number, EDGES[clamped], poisson=poisson)
     n = MASSES[clamped] if slenderness != SEED else 17
     row = compare(scene, (n, n), single=load_number == 1.0)
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=(n, n)).springs
-    axial: Any = springs.axial
+    springs: Any = lumped.calibrate(scene.sheet, scene.material, grid=(n, n)).springs
+    axial = springs.axial
     area = springs.area / (axial if isinstance(axial, float) else axial.x)
     return {**row, "masses": n, "area_over_axial": area}
 

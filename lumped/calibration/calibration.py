@@ -1,4 +1,4 @@
-"""What a calibration returns: springs for a grid, and the report of which moduli they meet."""
+"""What a calibration returns: springs for a grid, and which moduli they meet."""
 
 from __future__ import annotations
 
@@ -7,11 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from lumped import moduli
-from lumped.lattice import Grid
-from lumped.springs import constants
-from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet, summary
-from sheetbench.scenes.errors import BadInput
+from lumped.springs import by_cell, constants
+from sheetbench.scenes import PerDirection, Sheet, SpringSet, summary
+from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.springs import Distribution, Either
 
 
@@ -20,8 +18,10 @@ class Calibration(summary.Summarised):
     """Springs of a lattice: method, grid (nx, ny, layers), spring constants [N/m] and layer distance [m].
 
     moduli: one row per plate modulus with what the sheet asks and what the lattice's interior gives
-    (A, S [N/m], D [N·m]; S is asked as MacNeal's S* of the grid); notes: what the method could not meet;
-    masses: how the sheet's mass is shared out (`lumped.masses`) when it vibrates or moves.
+    (A, S [N/m], D [N·m]; S is asked as MacNeal's S* of the grid), of unequal cells that of the one that
+    misses it most; notes: what the method could not meet; masses: how the sheet's mass is shared out
+    (`lumped.masses`) when it vibrates or moves; grading: of the grid's lines (`lumped.grid_lines`); half:
+    the axes along which they end at a plane of symmetry.
     """
 
     method: str
@@ -30,23 +30,34 @@ class Calibration(summary.Summarised):
     moduli: tuple[dict[str, Any], ...]
     notes: tuple[str, ...] = ()
     masses: Distribution = "tributary"
+    grading: float = 0.0
+    half: tuple[bool, bool] = (False, False)
 
     @property
     def layer_distance(self) -> float:
         """Distance of neighbouring layers [m]."""
         return self.springs.layer_distance
 
+    @property
+    def title(self) -> str:
+        """Grid, method and grading in a few words."""
+        grid = "×".join(map(str, self.grid))
+        return f"{grid} {self.method}" + (f", grading {self.grading:g}" if self.grading else "")
+
     def halved(self, axis: int) -> Calibration:
         """These springs on the half of the grid up to a plane of symmetry across the axis, 0 or 1.
 
         A free edge opposite that plane stands for two opposite ones.
         """
-        grid = [*self.grid]
-        grid[axis] = grid[axis] // 2 + 1
+        counts = [*self.grid]
+        counts[axis] = counts[axis] // 2 + 1
+        grid = counts[0], counts[1], counts[2]
         edge, strip = (_both(value) for value in (self.springs.edge_shear, self.springs.strip_shear))
         edge[axis] = strip[axis]
         springs = self.springs.model_copy(update={"edge_shear": either(*edge)})
-        return replace(self, grid=(grid[0], grid[1], grid[2]), springs=springs)
+        springs = by_cell.cut(springs, grid[1] - 1, grid[0] - 1)
+        half = (self.half[0] or axis == 0, self.half[1] or axis == 1)
+        return replace(self, grid=grid, springs=springs, half=half)
 
     def with_constant(self, name: str, value: float) -> Calibration:
         """The same with one spring constant changed, by its name (`lumped.springs.constants`)."""
@@ -58,6 +69,7 @@ class Calibration(summary.Summarised):
         for name in ("shear", "mid_shear", "mid_stretch", "edge_shear", "strip_shear"):
             if not springs[name]:
                 del springs[name]
+        springs = {name: _listed(value) for name, value in springs.items()}
         distance = springs.pop("layer_distance")
         return {
             "method": self.method,
@@ -66,21 +78,22 @@ class Calibration(summary.Summarised):
             "layer_distance": distance,
             "moduli": [dict(row) for row in self.moduli],
             "masses": self.masses,
+            "grading": self.grading,
             "notes": list(self.notes),
         }
 
     def _summary(self) -> tuple[str, summary.Facts]:
-        springs = self.as_dict()["springs"]
-        numbers = [f"{name} {k:.4g}" for name, k in springs.items() if isinstance(k, float) and k]
+        own = {name: value for name, value in self.springs if name != "layer_distance"}
+        pairs = {name: value for name, value in own.items() if isinstance(value, PerDirection | Either)}
+        numbers = [f"{name} {shown(k)}" for name, k in own.items() if name not in pairs and np.any(k)]
         along = [
-            f"{name} {' × '.join(f'{k:.4g}' for k in each.values())}"
-            for name, each in springs.items()
-            if isinstance(each, dict)
+            f"{name} {' × '.join(shown(k) for _, k in pair if k is not None)}" for name, pair in pairs.items()
         ]
         missed = [row for row in self.moduli if abs(row["miss"]) > 0.01]
         return f"Calibration {self.method} of {' × '.join(map(str, self.grid))} masses", [
             ("springs [N/m]", ", ".join(numbers)),
             ("x × y [N/m]", ", ".join(along)),
+            ("grading", f"{self.grading:g}" if self.grading else ""),
             ("layers", f"{1e3 * self.layer_distance:.5g} mm apart"),
             ("moduli", ", ".join(f"{row['name']} off by {row['miss']:+.2%}" for row in missed) or "all met"),
             ("notes", "; ".join(self.notes)),
@@ -98,53 +111,25 @@ def by_direction(x: float, y: float, alike: float = 1e-12) -> float | PerDirecti
     return x if abs(x - y) <= alike * max(x, y) else PerDirection(x=x, y=y)
 
 
-def either(x: float, y: float) -> float | Either:
-    """Values along x and y of either sign, one number where they are alike."""
+def either(x: Any, y: Any) -> float | Either:
+    """Values along x and y of either sign, one number where they are alike; or a list of edge cells each."""
+    if isinstance(x, tuple) or isinstance(y, tuple):
+        return Either(x=x, y=y) if np.any(x) or np.any(y) else 0.0
     return x if abs(x - y) <= 1e-12 * max(abs(x), abs(y)) else Either(x=x, y=y)
 
 
-def _both(value: float | Either) -> list[float]:
+def shown(value: float | tuple[Any, ...]) -> str:
+    """A number, or the least and the largest of the cells' own."""
+    least, most = np.min(value), np.max(value)
+    return f"{least:.4g}" if least == most else f"{least:.4g} … {most:.4g}"
+
+
+def _both(value: float | Either) -> list[Any]:
     return [value.x, value.y] if isinstance(value, Either) else [value, value]
 
 
-def homogenised(sheet: Sheet, grid: Grid, springs: SpringSet) -> moduli.Moduli:
-    """Moduli of the interior of a sheet's lattice with these springs."""
-    return moduli.of_springs(springs, (*plan_spacing(sheet, grid), springs.layer_distance), grid[2])
-
-
-def report(method: str, sheet: Sheet, material: Material, grid: Grid, springs: SpringSet) -> Calibration:
-    """The calibration with its moduli report, and notes on what it misses and why.
-
-    Raises BadInput where area springs leave a cell without positive energy.
-    """
-    spacing = plan_spacing(sheet, grid)
-    square = abs(spacing[0] - spacing[1]) < 1e-9 * spacing[0]
-    whole = homogenised(sheet, grid, springs)
-    asked = moduli.of_sheet(sheet, material, spacing).named(square)
-    got = whole.named(square)
-    scale = {name: abs(asked[name.replace("12", "11")]) for name in asked}
-    rows: list[dict[str, Any]] = []
-    for name, value in asked.items():
-        row = {"name": name, "asked": float(value), "got": float(got[name])}
-        row["miss"] = float((got[name] - value) / (value or scale[name]))
-        if name.startswith("S"):
-            row["kappa_G_h"] = moduli.shear_without_grid(sheet, material)
-        rows.append(row)
-    notes = [
-        f"{row['name']} is missed by {row['miss']:+.1%}"
-        for row in rows
-        if abs(row["got"] - row["asked"]) > 0.01 * scale[row["name"]]
-    ]
-    if notes and not springs.area and not springs.shear:
-        notes.append("central links alone obey Cauchy's relation C12 = C66: no k meets D12 and D66 both")
-    return Calibration(method, grid, springs, tuple(rows), (*notes, *_admissible(springs, whole)))
-
-
-def _admissible(springs: SpringSet, whole: moduli.Moduli) -> tuple[str, ...]:
-    """A note where area springs are negative (ν < 1/3): admissible while the cell's energy stays positive."""
-    if springs.area >= 0.0 and springs.mid_area >= 0.0:
-        return ()
-    areas = f"area = {springs.area:.4g}, mid_area = {springs.mid_area:.4g} N/m"
-    if min(np.linalg.eigvalsh(form)[0] for form in (whole.membrane, whole.bending)) <= 0.0:
-        raise BadInput(f"{areas}: the cell's energy is not positive")
-    return (f"{areas}: negative area springs are admissible here, the cell's energy is positive",)
+def _listed(value: Any) -> Any:
+    """Tables as lists, as JSON and TOML have them."""
+    if isinstance(value, dict):
+        return {key: _listed(entry) for key, entry in value.items()}
+    return [_listed(entry) for entry in value] if isinstance(value, tuple) else value

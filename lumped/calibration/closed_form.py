@@ -17,7 +17,7 @@ of which diagonals take the share f = min(1, 1/(r² − 1)) of C66 (r ≥ 1; mor
 along the cell, see `lumped.springs.strains`), shear springs the rest, area springs C12 − f C66, axial links
 what is left of C11 and C22. What the sheet's A has beyond L C + (L − 1)(G − δ) goes to the mid-surface: m to
 A12, the rest to strain springs, with lz the least for which none is negative. On square cells all of those
-vanish.
+vanish. A cell of a graded grid has its layers as far apart as its neighbours: lz is then given, and larger.
 """
 
 from __future__ import annotations
@@ -31,9 +31,12 @@ from lumped.moduli import Moduli, shear_gaps
 from sheetbench.scenes import SpringSet
 
 
-def closed_form(asked: Moduli, spacing: tuple[float, float], layers: int) -> SpringSet | None:
+def closed_form(
+    asked: Moduli, spacing: tuple[float, float], layers: int, layer_distance: float | None = None
+) -> SpringSet | None:
     """The springs that have the moduli asked; None where a link would be negative (many layers on coarse
-    grids: there the cross-layer links alone bend too stiffly)."""
+    grids: there the cross-layer links alone bend too stiffly), and where a layer distance [m] that is given
+    is less than the cell needs."""
     lx, ly = spacing
     heights = np.arange(layers) - (layers - 1) / 2
     sigma = float((heights**2).sum())
@@ -42,7 +45,8 @@ def closed_form(asked: Moduli, spacing: tuple[float, float], layers: int) -> Spr
     p = float(min(gap.max(), gap[0] * ly**2 / lx**2 * 1.5, gap[1] * lx**2 / ly**2 * 1.5)) / 3.0
     gap_form = np.array([[gap[0], p, 0.0], [p, gap[1], 0.0], [0.0, 0.0, p]])
 
-    relaxation, lz2 = np.zeros((3, 3)), 0.0
+    lz2 = 0.0 if layer_distance is None else layer_distance**2
+    relaxation = _relaxation(asked, gap, p, spacing, lz2) if lz2 else np.zeros((3, 3))
     for _ in range(50):  # δ is small and depends little on lz: a fixed point
         relaxed = gap_form - relaxation
         layer = (asked.bending - sigma_gap * relaxed) / sigma
@@ -52,6 +56,10 @@ def closed_form(asked: Moduli, spacing: tuple[float, float], layers: int) -> Spr
             (lattice[1, 1] - lattice[0, 1]) / (asked.membrane[1, 1] - asked.membrane[0, 1]),
             lattice[2, 2] / asked.membrane[2, 2],
         )
+        if layer_distance is not None:
+            if needed > lz2 * (1.0 + 1e-9):
+                return None
+            break
         if needed <= 0.0 or abs(needed - lz2) < 1e-15 * needed:
             break
         lz2 = needed

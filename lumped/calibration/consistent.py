@@ -1,43 +1,77 @@
-"""Every modulus met: the closed form where its links are nonnegative, bounded least squares elsewhere."""
+"""Every modulus met: the closed form where its links are nonnegative, bounded least squares elsewhere.
+
+Of a graded grid every cell has its closed form (`lumped.calibration.cell_by_cell`).
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 from lumped import moduli
-from lumped.calibration.calibration import Calibration, plan_spacing, report
+from lumped.calibration.calibration import Calibration, plan_spacing
+from lumped.calibration.cell_by_cell import cell_by_cell
 from lumped.calibration.closed_form import closed_form
 from lumped.calibration.edge_twist import with_edges
 from lumped.calibration.least_squares import bounded_least_squares
+from lumped.calibration.report import report
 from lumped.lattice import Grid
-from sheetbench.scenes import Material, Sheet
+from sheetbench.scenes import Material, Sheet, SpringSet
+from sheetbench.scenes.errors import BadInput
 
 
 def consistent(
-    sheet: Sheet, material: Material, grid: Grid, layer_distance: float | None = None
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    layer_distance: float | None = None,
+    grading: float = 0.0,
 ) -> Calibration:
     """The closed form; with a given layer distance, or where it would need a negative link, bounded least
-    squares on the same moduli.
+    squares on the same moduli. grading: of the grid (`lumped.grid_lines`), in closed form only.
 
-    Raises BadInput where area springs would leave a cell without positive energy.
+    Raises BadInput where area springs would leave a cell without positive energy, and for a graded grid whose
+    cells have no closed form.
     """
-    springs = None
-    if layer_distance is None:
+    if grading:
+        springs: SpringSet | None = _graded(sheet, material, grid, layer_distance, grading)
+    elif layer_distance is None:
         spacing = plan_spacing(sheet, grid)
         springs = closed_form(moduli.of_sheet(sheet, material, spacing), spacing, grid[2])
+    else:
+        springs = None
     if springs is None:
         springs = bounded_least_squares(sheet, material, grid, layer_distance)
-    return report("consistent", sheet, material, grid, springs)
+    return report("consistent", sheet, material, grid, springs, grading)
+
+
+def _graded(
+    sheet: Sheet, material: Material, grid: Grid, layer_distance: float | None, grading: float
+) -> SpringSet:
+    def of_cell(cell: Sheet, distance: float | None) -> SpringSet:
+        springs = closed_form(moduli.of_sheet(cell, material, cell.lengths), cell.lengths, grid[2], distance)
+        if springs is None:
+            asked = f"{grid[2]} layers" if distance is None else f"layer_distance = {distance:g} m"
+            raise BadInput(
+                f"grading = {grading:g}: with {asked} a cell of {cell.length_x:.4g} × {cell.length_y:.4g} m "
+                "has no closed form; take two layers, no layer distance of your own, or grading 0"
+            )
+        return springs
+
+    return cell_by_cell(of_cell, sheet, grid, grading, layer_distance)
 
 
 def consistent_edges(
-    sheet: Sheet, material: Material, grid: Grid, layer_distance: float | None = None
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    layer_distance: float | None = None,
+    grading: float = 0.0,
 ) -> Calibration:
     """The springs of `consistent`, and the twist of the cells along free, hinged and held edges as a plate
     has it (`lumped.calibration.edge_twist`): of second order in the size of the cells.
 
-    Raises BadInput where area springs would leave a cell without positive energy.
+    Raises BadInput as `consistent`.
     """
-    found = consistent(sheet, material, grid, layer_distance)
-    springs, notes = with_edges(sheet, grid, found.springs)
+    found = consistent(sheet, material, grid, layer_distance, grading)
+    springs, notes = with_edges(sheet, grid, found.springs, grading)
     return replace(found, method="consistent-edges", springs=springs, notes=(*found.notes, *notes))

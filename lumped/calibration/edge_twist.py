@@ -5,10 +5,13 @@ of width λ = √(D66/κGh) = h/√10: a strip twists as if it were that much na
 0.63 h/b of the torsion constant b h³/3 (1 − 0.63 h/b). A lattice has such a layer too, but one of the width
 of its cells and with the grid's S*, so it loses another width, and refining it by halves does not converge
 at second order. In the cells along such an edge D66 is therefore multiplied by a factor f that makes the
-width lost λ.
+width lost λ. In a corner cell between two such edges what they take adds; cells much narrower than the layer
+is wide ask for f below ½, and two of those would leave the corner without twisting stiffness, so that the
+sheet is unstable there: such corners have f = 0.55.
 
-A long strip of n cells of width b across, with shear links along it (stiffness S, a share s of it by the
-cells' diagonals), rate of twist 2θ = 1 and ψ_j the shear of row j, minimises
+A long strip of n cells of width b across, on a graded grid each with its own, with shear links along it
+(stiffness S, a share s of it by the cells' diagonals), rate of twist 2θ = 1 and ψ_j the shear of row j,
+minimises
 
     Σ_c ½ f_c D66 b ((ψ_{c+1} − ψ_c)/b − 1)² + Σ_c ½ S b [(1 − s)(ψ_c² + ψ_{c+1}²)/2 + s ((ψ_c + ψ_{c+1})/2)²]
 
@@ -20,6 +23,7 @@ both reductions add) and 2 λ is lost; else ψ_n = 0 at the far edge and λ is l
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from scipy.linalg import solveh_banded
@@ -27,10 +31,13 @@ from scipy.optimize import brentq
 
 from lumped import moduli
 from lumped.calibration.calibration import either
-from lumped.lattice import Grid
-from lumped.springs import constants
+from lumped.grid_lines import Lines, grid_lines
+from lumped.springs import by_cell, constants
 from sheetbench.scenes import Sheet, SpringSet
+from sheetbench.scenes.grid import Grid
 
+Each = float | np.ndarray
+AT_CORNERS = 0.55  # f is at least this where two reductions may add, 1 − 2 (1 − f) > 0
 MOST = 3.0  # f is sought up to this, and from where the cell's own twisting stiffness is positive
 
 
@@ -39,36 +46,55 @@ def layer_width(thickness: float) -> float:
     return thickness / math.sqrt(10.0)
 
 
-def with_edges(sheet: Sheet, grid: Grid, springs: SpringSet) -> tuple[SpringSet, list[str]]:
+def with_edges(
+    sheet: Sheet, grid: Grid, springs: SpringSet, grading: float = 0.0
+) -> tuple[SpringSet, list[str]]:
     """The springs with `edge_shear` and `strip_shear`, and a note for edges where no factor will do.
 
-    A layer's cell takes −(1 − f) D66/Σ z_k², z_k [m] the heights of the layers.
+    A layer's cell takes −(1 − f) D66/Σ z_k², z_k [m] the heights of the layers. On a graded grid every cell
+    along an edge has the f of the strip of cells that begins with it, or the largest there is.
     """
-    spacing = sheet.length_x / (grid[0] - 1), sheet.length_y / (grid[1] - 1)
+    lines = grid_lines(sheet, grid, grading)
     distance, layers = springs.layer_distance, grid[2]
-    whole = moduli.of_springs(springs, (*spacing, distance), layers)
-    twisting = float(whole.bending[2, 2])
-    heights = (np.arange(layers) - (layers - 1) / 2) * distance
-    shares = _shares(springs, (*spacing, distance))
-    found: dict[bool, list[float]] = {False: [], True: []}
+    square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * distance**2
+    unequal = by_cell.varies(springs)
+    found: dict[bool, list[Any]] = {False: [], True: []}
     notes = []
     for axis in range(2):
-        along = 1 - axis
+        across, along = lines[axis], lines[1 - axis]
+        name = "xy"[axis]
+        places = range(len(along.widths)) if unequal else range(1)
+        cells = [_strip(springs, lines, axis, place, layers) for place in places]
         for both, values in found.items():
-            factor = edge_factor(
-                grid[axis] - 1,
-                spacing[axis],
-                twisting,
-                float(whole.shear[along]),
-                shares[along],
-                layer_width(sheet.thickness),
-                both,
-            )
-            if factor is None:
-                notes.append(f"no twisting stiffness of the cells along {'xy'[axis]}0 makes their edge right")
-            values.append(0.0 if factor is None else -(1.0 - factor) * twisting / float((heights**2).sum()))
+            taken = []
+            for place, (twisting, shear, shares) in zip(places, cells, strict=True):
+                lost = layer_width(sheet.thickness)
+                factor = edge_factor(len(twisting), across.widths, twisting, shear, shares, lost, both)
+                if factor is None:
+                    notes.append(f"no twisting stiffness of the cells along {name}0 makes their edge right")
+                    factor = MOST if unequal else 1.0
+                if place in (0, len(along.widths) - 1) or not unequal:
+                    factor = max(factor, AT_CORNERS)
+                taken.append(-(1.0 - factor) * float(twisting[0]) / square)
+            values.append(tuple(taken) if unequal else taken[0])
     edges = {"edge_shear": either(*found[False]), "strip_shear": either(*found[True])}
-    return springs.model_copy(update=edges), notes
+    return springs.model_copy(update=edges), list(dict.fromkeys(notes))
+
+
+def _strip(
+    springs: SpringSet, lines: tuple[Lines, Lines], axis: int, place: int, layers: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of the cells across the sheet along `axis`, at a place along its edge: D66 [N·m], S along the edge
+    [N/m] and the share of it in the furthest diagonals, (n,) each."""
+    rows = []
+    for cell in range(len(lines[axis].widths)):
+        column, row = (cell, place) if axis == 0 else (place, cell)
+        own = by_cell.of_cell(springs, row, column)
+        sides = (float(lines[0].widths[column]), float(lines[1].widths[row]), springs.layer_distance)
+        whole = moduli.of_springs(own, sides, layers)
+        rows.append((whole.bending[2, 2], whole.shear[1 - axis], _shares(own, sides)[1 - axis]))
+    twisting, shear, shares = np.array(rows).T
+    return twisting, shear, shares
 
 
 def _shares(springs: SpringSet, spacing: tuple[float, float, float]) -> list[float]:
@@ -80,12 +106,12 @@ def _shares(springs: SpringSet, spacing: tuple[float, float, float]) -> list[flo
 
 
 def edge_factor(
-    cells: int, width: float, twisting: float, shear: float, by_diagonals: float, lost: float, both: bool
+    cells: int, width: Each, twisting: Each, shear: Each, by_diagonals: Each, lost: float, both: bool
 ) -> float | None:
     """f of the cells along one edge, or along both; None where no factor makes the strip lose that width.
 
     cells: of `width` [m] across the strip; twisting: D66 [N·m]; shear: S along the edge [N/m], by_diagonals:
-    the share of it in the cells' diagonals; lost: λ [m].
+    the share of it in the cells' diagonals, each of all cells or (n,); lost: λ [m].
     """
 
     def excess(factor: float) -> float:
@@ -107,11 +133,12 @@ def _factors(cells: int, factor: float, both: bool) -> np.ndarray:
 
 
 def width_lost(
-    factors: np.ndarray, width: float, twisting: float, shear: float, by_diagonals: float, both: bool
+    factors: np.ndarray, width: Each, twisting: Each, shear: Each, by_diagonals: Each, both: bool
 ) -> float:
     """The width [m] by which the strip of `edge_factor` twists as if it were narrower; factors: (n,)."""
     twist = factors * twisting / width
-    trapezoid, middle = 0.5 * (1.0 - by_diagonals) * shear * width, 0.25 * by_diagonals * shear * width
+    trapezoid = 0.5 * (1.0 - by_diagonals) * shear * width
+    middle = 0.25 * by_diagonals * shear * width
     diagonal, beside = np.zeros(len(factors) + 1), middle - twist
     for end in (slice(None, -1), slice(1, None)):
         diagonal[end] += twist + trapezoid + middle

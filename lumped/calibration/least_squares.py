@@ -16,7 +16,8 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from lumped import moduli
-from lumped.calibration.calibration import Calibration, by_direction, plan_spacing, report
+from lumped.calibration.calibration import Calibration, by_direction, plan_spacing
+from lumped.calibration.report import report
 from lumped.lattice import Grid
 from sheetbench.scenes import Material, Sheet, SpringSet
 

@@ -25,8 +25,9 @@ import math
 import numpy as np
 
 from lumped import moduli
-from lumped.calibration.calibration import Calibration, by_direction, plan_spacing, report
+from lumped.calibration.calibration import Calibration, by_direction, plan_spacing
 from lumped.calibration.closed_form import closed_form
+from lumped.calibration.report import report
 from lumped.lattice import Grid
 from sheetbench.scenes import Material, Sheet, SpringSet
 from sheetbench.scenes.errors import BadInput

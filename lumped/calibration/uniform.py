@@ -8,7 +8,8 @@ then what the uniform lattice has (½ and D66/D11 = ½), not the sheet's.
 from __future__ import annotations
 
 from lumped import moduli
-from lumped.calibration.calibration import Calibration, plan_spacing, report
+from lumped.calibration.calibration import Calibration, plan_spacing
+from lumped.calibration.report import report
 from lumped.lattice import Grid
 from sheetbench.scenes import Material, Sheet, SpringSet
 

@@ -88,6 +88,7 @@ def simulate(
         "grid": [nx, ny, layers],
         "calibration": calibration.method,
         "layer_distance": calibration.layer_distance,
+        "grading": calibration.grading,
         **options,
     }
     if precision != "double":
@@ -130,7 +131,7 @@ def simulate(
     settings["step"] = "adaptive" if plan.adapts else plan.every / plan.steps
     settings["every"] = plan.every
     return History(
-        label=f"lumped {nx}×{ny}×{layers} {calibration.method}",
+        label=f"lumped {calibration.title}",
         integrator=integrator,
         settings=settings,
         status=status,

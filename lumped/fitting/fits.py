@@ -1,7 +1,8 @@
 """Springs fitted to data: fit-static to displacement fields, fit-modal to natural frequencies.
 
 Both start from the springs of `consistent` and vary the logarithms of the spring constants (positive links)
-and the area springs as shares of the axial ones, layer distance and kz kept. Gauss–Newton with exact
+and the area springs as shares of the axial ones, layer distance and kz kept; on a graded grid the cells'
+springs of a family grow alike. Gauss–Newton with exact
 Jacobians: of displacements from `lumped.sensitivity`; of frequencies from Rayleigh's quotient,
 dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M φ). Residuals are relative: displacements to the largest of their field,
 frequencies to themselves. A pull towards the start (PRIOR, in units of the residuals) keeps what the data do
@@ -20,8 +21,9 @@ from typing import Any
 import numpy as np
 from scipy.optimize import least_squares
 
-from lumped.calibration.calibration import Calibration, report
+from lumped.calibration.calibration import Calibration
 from lumped.calibration.consistent import consistent
+from lumped.calibration.report import report
 from lumped.fitting.identifiability import Identifiability, identifiability
 from lumped.fitting.targets import ModalTarget, StaticTarget, Target
 from lumped.lattice import Grid
@@ -50,6 +52,7 @@ def fit_static(
     grid: Grid,
     layer_distance: float | None = None,
     targets: Sequence[Target] = (),
+    grading: float = 0.0,
 ) -> FittedCalibration:
     """Springs whose displacements come nearest to those of the targets (StaticTarget).
 
@@ -62,7 +65,7 @@ def fit_static(
         slopes = {name: (found.derivatives[name] / scale).ravel() for name in names}
         return ((found.displacement - target.displacement) / scale).ravel(), slopes
 
-    first = consistent(sheet, material, grid, layer_distance)
+    first = consistent(sheet, material, grid, layer_distance, grading)
     return _fit("fit-static", sheet, material, first, _of_kind("fit-static", targets, StaticTarget), compare)
 
 
@@ -130,7 +133,7 @@ def _fit(
 
     best = least_squares(residuals, np.zeros(len(names)), jac=slopes_of, xtol=1e-10, ftol=1e-10, max_nfev=60)
     misses, slopes = at(tuple(best.x))
-    plain = report(method, sheet, material, first.grid, fitted(best.x).springs)
+    plain = report(method, sheet, material, first.grid, fitted(best.x).springs, first.grading)
     known = identifiability(names, slopes, misses) if len(misses) > len(names) else None
     return FittedCalibration(
         method,
@@ -139,8 +142,9 @@ def _fit(
         plain.moduli,
         (*plain.notes, *(known.warnings if known else ("too few data for intervals of the springs",))),
         first.masses,
-        float(np.abs(misses).max()),
-        known,
+        grading=first.grading,
+        residual=float(np.abs(misses).max()),
+        identifiability=known,
     )
 
 

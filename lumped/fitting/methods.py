@@ -15,7 +15,7 @@ from sheetbench.scenes.grid import MASSES, grid_of
 
 CALIBRATIONS: dict[str, Method] = {
     **CLOSED,
-    "fit-static": Method(fit_static, "fitted to displacements", ("layer_distance", "targets")),
+    "fit-static": Method(fit_static, "fitted to displacements", ("layer_distance", "grading", "targets")),
     "fit-modal": Method(fit_modal, "fitted to natural frequencies", ("layer_distance", "targets")),
 }
 UNITS = {"k": "N/m", "layer_distance": "m"}
@@ -29,23 +29,26 @@ def calibrate(
     k: float | None = None,
     layer_distance: float | None = None,
     targets: Sequence[Target] = (),
+    grading: float = 0.0,
 ) -> Calibration:
     """Springs of a grid for a sheet of this material, by a named method.
 
     grid: masses along the shorter side, (nx, ny) or (nx, ny, layers), see `sheetbench.scenes.grid`.
     k [N/m] and layer_distance [m] are for the methods that take them; the fitted methods need targets.
-    Raises BadInput for an unknown method, a grid too small, an option that the method does not take or that
-    is not above zero.
+    grading: how much smaller the cells are at the edges, 0 to 1 (`lumped.grid_lines`). Raises BadInput for an
+    unknown method, a grid too small, an option that the method does not take or that is out of its bounds.
     """
     if method not in CALIBRATIONS:
         raise BadInput(f"calibration = {method!r}: unknown; choose from {', '.join(CALIBRATIONS)}")
     chosen = CALIBRATIONS[method]
     asked: dict[str, Any] = {"k": k, "layer_distance": layer_distance, "targets": tuple(targets) or None}
+    asked["grading"] = grading or None
     options = {name: value for name, value in asked.items() if value is not None}
     for name, value in options.items():
         if name not in chosen.takes:
             others = " and ".join(f"'{other}'" for other, one in CALIBRATIONS.items() if name in one.takes)
-            given = f"{name} = {value:g} {UNITS[name]}: " if name in UNITS else ""
+            unit = f" {UNITS[name]}" if name in UNITS else ""
+            given = "" if name == "targets" else f"{name} = {value:g}{unit}: "
             raise BadInput(f"{given}calibration '{method}' takes no {name}; {name} goes with {others}")
         if name in UNITS and not value > 0.0:
             raise BadInput(f"{name} = {value:g} {UNITS[name]}: must be greater than 0")

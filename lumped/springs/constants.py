@@ -1,38 +1,51 @@
-"""The constants of a spring or damper set by family and direction, and by name."""
+"""The constants of a spring or damper set by family and direction, and by name.
+
+A constant that every cell has its own of goes by its mean over the cells. Given another mean, all its values
+scale; those that may have either sign shift.
+"""
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
+from lumped.springs.by_cell import of_cells
 from sheetbench.scenes import EDGES, PerDirection, SpringSet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.springs import DamperSet, Either
 
+SIGNED = ("area", "mid_area", "mid_shear", "edge_shear", "strip_shear")
 
-def along(table: SpringSet | DamperSet, family: str, direction: str) -> tuple[float, float, float]:
+
+def along(table: SpringSet | DamperSet, family: str, direction: str) -> np.ndarray:
     """Stiffness [N/m] (or damping [N·s/m]) of the links of a family that run in a direction, by components x,
-    y, z: three equal ones but for the seed's per-direction law, where the scene gives x, y and z."""
-    value = getattr(table, family)
-    if not isinstance(value, PerDirection):
-        return (value, value, value)
-    if value.z is not None:
-        return (value.x, value.y, value.z)
-    if direction not in ("x", "y"):
-        raise BadInput(
-            f"springs.{family} = {{x, y}}: only axial and cross links run along x or y; give one number"
-        )
-    one = value.x if direction == "x" else value.y
-    return (one, one, one)
+    y, z, (3,): three equal ones but for the seed's per-direction law, where the scene gives x, y and z. Where
+    every cell has its own, (cells, 1)."""
+    value: Any = getattr(table, family)
+    if isinstance(value, PerDirection):
+        if value.z is not None:
+            return np.array([value.x, value.y, value.z], dtype=float)
+        if direction not in ("x", "y"):
+            raise BadInput(
+                f"springs.{family} = {{x, y}}: only axial and cross links run along x or y; give one number"
+            )
+        value = value.x if direction == "x" else value.y
+    return of_cells(value, 0)[:, None] if isinstance(value, tuple) else np.full(3, float(value))
 
 
-def of_strains(springs: SpringSet, cells: str) -> tuple[str, tuple[float, float, float]]:
-    """Name and stiffness [N/m], of ε1, ε2 and γ, of the strain springs on the cells called "area"
-    (each layer) or "mid_area" (the mid-surface)."""
+def of_strains(springs: SpringSet, cells: str, count: int = 1) -> tuple[str, np.ndarray]:
+    """Name and stiffness (count, 3) [N/m], of ε1, ε2 and γ, of the strain springs on the `count` plan cells
+    called "area" (each layer) or "mid_area" (the mid-surface)."""
+    stiffness = np.zeros((count, 3))
     if cells == "area":
-        return "shear", (0.0, 0.0, springs.shear)
+        stiffness[:, 2] = of_cells(springs.shear, count)
+        return "shear", stiffness
     stretch = springs.mid_stretch
     x, y = (stretch.x, stretch.y) if isinstance(stretch, PerDirection) else (stretch, stretch)
-    return "mid_strain", (x, y, springs.mid_shear)
+    for column, value in enumerate((x, y, springs.mid_shear)):
+        stiffness[:, column] = of_cells(value, count)
+    return "mid_strain", stiffness
 
 
 def of_edge_cells(springs: SpringSet, grid: tuple[int, int, int], twisting: frozenset[str]) -> np.ndarray:
@@ -42,11 +55,11 @@ def of_edge_cells(springs: SpringSet, grid: tuple[int, int, int], twisting: froz
     for edge in twisting:
         axis = EDGES[edge].normal_axis
         opposite = next(e for e in EDGES if e != edge and EDGES[e].normal_axis == axis)
-        value = springs.strip_shear if opposite in twisting else springs.edge_shear
+        value: Any = springs.strip_shear if opposite in twisting else springs.edge_shear
         if isinstance(value, Either):
             value = (value.x, value.y)[axis]
         row = -1 if EDGES[edge].far_end else 0
-        cells[(slice(None), row) if axis == 0 else (row, slice(None))] += value
+        cells[(slice(None), row) if axis == 0 else (row, slice(None))] += np.asarray(value)
     return cells.ravel()
 
 
@@ -55,8 +68,8 @@ def names(springs: SpringSet) -> list[str]:
     found: list[str] = []
     for name, value in springs:
         if isinstance(value, PerDirection | Either):
-            found.extend(f"{name}_{direction}" for direction in "xy" if getattr(value, direction))
-        elif value and name != "layer_distance":
+            found.extend(f"{name}_{direction}" for direction in "xy" if np.any(getattr(value, direction)))
+        elif np.any(value) and name != "layer_distance":
             found.append(name)
     return found
 
@@ -64,17 +77,28 @@ def names(springs: SpringSet) -> list[str]:
 def changed(springs: SpringSet, name: str, value: float) -> SpringSet:
     """The spring set with one constant (or layer_distance) changed. Raises BadInput for an unknown name."""
     if name in SpringSet.model_fields:
-        return springs.model_copy(update={name: value})
+        return springs.model_copy(update={name: _with_mean(name, getattr(springs, name), value)})
     family, _, direction = name.rpartition("_")
     pair = getattr(springs, family, None)
     if not isinstance(pair, PerDirection | Either) or direction not in ("x", "y"):
         raise BadInput(f"parameter {name!r}: unknown, or without a value of its own in these springs")
-    return springs.model_copy(update={family: pair.model_copy(update={direction: value})})
+    moved = _with_mean(family, getattr(pair, direction), value)
+    return springs.model_copy(update={family: pair.model_copy(update={direction: moved})})
 
 
 def value_of(springs: SpringSet, name: str) -> float:
     """The value of one spring constant (or layer_distance) by name."""
     if name in SpringSet.model_fields:
-        return float(getattr(springs, name))
+        return float(np.mean(getattr(springs, name)))
     family, _, direction = name.rpartition("_")
-    return float(getattr(getattr(springs, family), direction))
+    return float(np.mean(getattr(getattr(springs, family), direction)))
+
+
+def _with_mean(name: str, old: Any, value: float) -> Any:
+    """The number, or the cells' values with this mean, as they were given."""
+    if not isinstance(old, tuple):
+        return value
+    was = np.array(old)
+    mean = was.mean()
+    cells = was + (value - mean) if name in SIGNED else was * (value / mean)
+    return tuple(map(tuple, cells.tolist())) if cells.ndim == 2 else tuple(cells.tolist())

@@ -17,6 +17,7 @@ from lumped.pattern import Pattern
 from lumped.springs import (
     area_dampers,
     areas,
+    by_cell,
     constants,
     directional,
     link_dampers,
@@ -169,7 +170,12 @@ def link_springs(lattice: Lattice, pattern: Pattern, table: SpringSet | DamperSe
     names = tuple(dict.fromkeys(family.name for family in lattice.links))
     stiffness, kind = [], []
     for family in lattice.links:
-        stiffness.append(family.weight[:, None] * constants.along(table, family.name, family.direction))
+        k = constants.along(table, family.name, family.direction)
+        if k.ndim == 2:  # every cell its own
+            of_links = np.repeat((family.shares * k[family.cells, 0]).sum(axis=1)[:, None], 3, axis=1)
+        else:
+            of_links = family.weight[:, None] * k
+        stiffness.append(of_links)
         kind.append(np.full(len(family.nodes), names.index(family.name)))
     k, number = np.concatenate(stiffness), np.concatenate(kind)
     nodes, offset, rest = (
@@ -189,10 +195,11 @@ def link_springs(lattice: Lattice, pattern: Pattern, table: SpringSet | DamperSe
 
 def area_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[AreaSprings]:
     """On the cells of the layers and of the mid-surface."""
+    count = lattice.cell_areas.size
     for cells in lattice.cells:
-        k = getattr(springs, cells.name)
-        if k != 0.0:
-            stiffness = np.full(len(cells.nodes), k)
+        stiffness = by_cell.of_cells(getattr(springs, cells.name), count)
+        if stiffness.any():
+            stiffness = np.tile(stiffness, len(cells.nodes) // count)
             yield AreaSprings(cells.nodes, stiffness, *_on_cells(lattice, pattern, cells), cells.name)
 
 
@@ -200,10 +207,13 @@ def strain_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> It
     """On the cells of the layers and of the mid-surface, with what the edges take off the twist."""
     twist = constants.of_edge_cells(springs, lattice.grid, lattice.twisting)
     for cells in lattice.cells:
-        name, three = constants.of_strains(springs, cells.name)
-        stiffness = np.tile(three, (len(cells.nodes), 1))
+        name, stiffness = constants.of_strains(springs, cells.name, len(twist))
         layers = lattice.grid[2]
-        stiffness[:, 2] += np.tile(twist, layers) if cells.name == "area" else -layers * twist
+        if cells.name == "area":
+            stiffness[:, 2] += twist
+            stiffness = np.tile(stiffness, (layers, 1))
+        else:
+            stiffness[:, 2] -= layers * twist
         if stiffness.any():
             yield StrainSprings(cells.nodes, stiffness, *_on_cells(lattice, pattern, cells), name)
 

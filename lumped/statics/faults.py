@@ -79,5 +79,5 @@ def _facing(lattice: Lattice, u: np.ndarray) -> np.ndarray:
     a, b, c, d = cell_corners(middle)
     normal = 0.5 * np.cross(c - a, d - b)
     mean = sum(cell_corners(director)) / 4.0
-    facing: np.ndarray = np.einsum("jiq,jiq->ji", normal, mean) / (lattice.spacing[0] * lattice.spacing[1])
+    facing: np.ndarray = np.einsum("jiq,jiq->ji", normal, mean) / lattice.cell_areas
     return facing

@@ -61,11 +61,12 @@ def field_mesh(
 def _links_by_cell(lattice: Lattice, nodes: np.ndarray, energy: np.ndarray) -> np.ndarray:
     """Energy of links (m, 2) summed over the plan cells that hold them, ((nx − 1)(ny − 1),) [J]."""
     nx, ny, _ = lattice.grid
-    middle = lattice.positions[nodes].mean(axis=1)[:, :2] / np.array(lattice.spacing[:2])
+    middle = lattice.positions[nodes].mean(axis=1)
+    (i, x), (j, y) = (lines.index(middle[:, axis]) for axis, lines in enumerate(lattice.lines))
     stored = np.zeros((ny - 1, nx - 1))
     for side_x in (-1e-6, 1e-6):
         for side_y in (-1e-6, 1e-6):
-            i = np.clip(np.floor(middle[:, 0] + side_x).astype(int), 0, nx - 2)
-            j = np.clip(np.floor(middle[:, 1] + side_y).astype(int), 0, ny - 2)
-            np.add.at(stored, (j, i), energy / 4.0)
+            column = np.clip(i + np.floor(x + side_x).astype(int), 0, nx - 2)
+            row = np.clip(j + np.floor(y + side_y).astype(int), 0, ny - 2)
+            np.add.at(stored, (row, column), energy / 4.0)
     return stored.ravel()

@@ -244,10 +244,10 @@ def _solution(
         reactions |= coupling.reactions(exerted)
     nx, ny, layers = lattice.grid
     settings: dict[str, Any] = {"grid": [nx, ny, layers], "calibration": calibration.method}
-    settings["layer_distance"] = calibration.layer_distance
+    settings |= {"layer_distance": calibration.layer_distance, "grading": calibration.grading}
     return Solution(
         model="lumped",
-        label=f"lumped {nx}×{ny}×{layers} {calibration.method}" + (", linear" if linear else ""),
+        label=f"lumped {calibration.title}" + (", linear" if linear else ""),
         settings=settings | asked,
         status=outcome.status,
         unknowns=problem.system.unknowns,

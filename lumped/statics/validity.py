@@ -66,12 +66,14 @@ def layers(scene: Scene, assembly: Assembly, u: np.ndarray) -> str:
     if stretched < FREE_OF_STRETCH:
         return ""
     kappa = _double_curvature(lattice, u[: lattice.mass_count])
-    j, i = np.unravel_index(np.argmax(kappa), kappa.shape)
+    x, y = lattice.lines
+    longest = np.maximum(x.widths[None, :], y.widths[:, None])
+    j, i = np.unravel_index(np.argmax(longest**2 * kappa), kappa.shape)
     if kappa[j, i] == 0.0:
         return ""
     h, nu = scene.sheet.thickness, scene.material.poisson
     width = np.sqrt(h / kappa[j, i]) / (12.0 * (1.0 - nu**2)) ** 0.25
-    ratio = max(lattice.spacing[:2]) / width
+    ratio = longest[j, i] / width
     if ratio < RESOLVED:
         return ""
     where = place(lattice, int(lattice.columns()[j, i, 0]))
@@ -87,7 +89,7 @@ def _double_curvature(lattice: Lattice, u: np.ndarray) -> np.ndarray:
     (a, b, c, d), (p, q, r, s) = cell_corners(middle), cell_corners(director)
     along, across = 0.5 * (b + c - a - d), 0.5 * (c + d - a - b)
     bent_along, bent_across = 0.5 * (q + r - p - s), 0.5 * (r + s - p - q)
-    lx, ly, _ = lattice.spacing
+    lx, ly = lattice.lines[0].widths[None, :], lattice.lines[1].widths[:, None]
     kxx = np.einsum("jiq,jiq->ji", along, bent_along) / lx**2
     kyy = np.einsum("jiq,jiq->ji", across, bent_across) / ly**2
     kxy = 0.5 * np.einsum("jiq,jiq->ji", along, bent_across) / (lx * ly)

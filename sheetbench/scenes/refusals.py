@@ -158,7 +158,7 @@ def _place(
     return where, nodes
 
 
-_FORMS = {"constant", "each joint", "over time", "one number", "per direction"}
+_FORMS = {"constant", "each joint", "over time", "one number", "per direction", "by cell"}
 
 
 def _inside(node: dict[str, Any], part: int | str, schema: dict[str, Any]) -> list[dict[str, Any]]:

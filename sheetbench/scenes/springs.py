@@ -8,6 +8,10 @@ of a layer's and of the mid-surface's cells, mid_stretch against the stretching 
 edge_shear and strip_shear change the twisting stiffness of the cells along an edge whose director nothing
 holds and leave their membrane stiffness alone: as much as shear on every layer's cell, and of the other sign
 for all layers together on the mid-surface's.
+
+On a graded grid every cell has springs of its own: a constant is then a table of cells, a list of rows from
+y0 to y1, each from x0 to x1. A link takes half the value of each cell beside it, a vertical one a quarter of
+each around it. edge_shear and strip_shear are a list along the edges.
 """
 
 from __future__ import annotations
@@ -19,12 +23,28 @@ from pydantic import Discriminator, Field, Strict, Tag, model_validator
 from sheetbench.scenes.quantities import Frozen, NonNegative, Number, Positive, Unit
 
 
+def _form(value: Any) -> str:
+    if isinstance(value, dict | PerDirection | Either):
+        return "per direction"
+    return "by cell" if isinstance(value, list | tuple) else "one number"
+
+
+Form = Discriminator(_form)
+ByCell = tuple[tuple[Number, ...], ...]
+PositiveByCell = tuple[tuple[NonNegative, ...], ...]
+AnySign = Annotated[Annotated[Number, Tag("one number")] | Annotated[ByCell, Tag("by cell")], Form]
+Links = Annotated[Annotated[NonNegative, Tag("one number")] | Annotated[PositiveByCell, Tag("by cell")], Form]
+AlongEdge = Annotated[
+    Annotated[Number, Tag("one number")] | Annotated[tuple[Number, ...], Tag("by cell")], Form
+]
+
+
 class PerDirection(Frozen):
     """One value per direction: along x, y and (where it has a meaning) z."""
 
-    x: NonNegative
+    x: Links
     """For springs along x."""
-    y: NonNegative
+    y: Links
     """For springs along y."""
     z: NonNegative | None = None
     """For springs along z."""
@@ -33,28 +53,27 @@ class PerDirection(Frozen):
 class Either(Frozen):
     """One value a direction, of either sign."""
 
-    x: Number
+    x: AlongEdge
     """Along the edges x0 and x1."""
-    y: Number
+    y: AlongEdge
     """Along the edges y0 and y1."""
 
 
-def _form(value: Any) -> str:
-    return "per direction" if isinstance(value, dict | PerDirection | Either) else "one number"
-
-
-PerFamily = Annotated[
-    Annotated[NonNegative, Tag("one number")] | Annotated[PerDirection, Tag("per direction")],
-    Discriminator(_form),
-]
-Stiffness = Annotated[PerFamily, Unit("N/m")]
-EdgeStiffness = Annotated[
-    Annotated[
-        Annotated[Number, Tag("one number")] | Annotated[Either, Tag("per direction")], Discriminator(_form)
-    ],
+Stiffness = Annotated[
+    Annotated[NonNegative, Tag("one number")]
+    | Annotated[PositiveByCell, Tag("by cell")]
+    | Annotated[PerDirection, Tag("per direction")],
+    Form,
     Unit("N/m"),
 ]
-Damping = Annotated[PerFamily, Unit("N·s/m")]
+EdgeStiffness = Annotated[
+    Annotated[Number, Tag("one number")] | Annotated[Either, Tag("per direction")], Form, Unit("N/m")
+]
+Damping = Annotated[
+    Annotated[NonNegative, Tag("one number")] | Annotated[PerDirection, Tag("per direction")],
+    Form,
+    Unit("N·s/m"),
+]
 
 Masses = Annotated[int, Strict(), Field(ge=2)]
 Distribution = Literal["tributary", "gregory"]
@@ -73,13 +92,13 @@ class SpringSet(Frozen):
     """Links between the layers along x and y: diagonals of the upright faces."""
     cross_diagonal: Stiffness
     """Space diagonals of the cells."""
-    area: Annotated[Number, Unit("N/m")] = 0.0
+    area: Annotated[AnySign, Unit("N/m")] = 0.0
     """Area springs of a layer's cells, energy ½ k (a/a0 − 1)² a0; < 0 is allowed while the cell is stable."""
-    mid_area: Annotated[Number, Unit("N/m")] = 0.0
+    mid_area: Annotated[AnySign, Unit("N/m")] = 0.0
     """Area springs of the mid-surface's cells."""
-    shear: Annotated[NonNegative, Unit("N/m")] = 0.0
+    shear: Annotated[Links, Unit("N/m")] = 0.0
     """Strain springs against the in-plane shear of a layer's cells, energy ½ k γ² a0."""
-    mid_shear: Annotated[Number, Unit("N/m")] = 0.0
+    mid_shear: Annotated[AnySign, Unit("N/m")] = 0.0
     """Strain springs against the in-plane shear of the mid-surface's cells."""
     mid_stretch: Stiffness = 0.0
     """Strain springs against the stretching of the mid-surface along x and y."""
@@ -98,7 +117,7 @@ class SpringTable(SpringSet):
     """Masses along x and y, and layers, of the lattice that these springs belong to: what is solved unless a
     grid is asked for; another grid is refused."""
     grading: Annotated[Number, Field(ge=0, le=1)] = 0.0
-    """How much smaller that lattice's cells are at the edges: 0, all alike, to 1."""
+    """How much smaller that lattice's cells are at the edges: 0, all alike, to 1; another one is refused."""
     masses: Distribution = "tributary"
     """How its mass is shared out: tributary, or as the fit to frequencies found it best (gregory)."""
 

@@ -1,0 +1,94 @@
+"""Which moduli of the sheet a lattice meets, cell by cell, and what is said of those that it misses."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lumped import moduli
+from lumped.calibration.calibration import Calibration, shown
+from lumped.grid_lines import grid_lines
+from lumped.springs import by_cell, constants
+from sheetbench.scenes import Material, Sheet, SpringSet
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grid import Grid
+
+Cell = tuple[tuple[float, float], SpringSet]  # sides along x and y [m], springs
+
+
+def report(
+    method: str, sheet: Sheet, material: Material, grid: Grid, springs: SpringSet, grading: float = 0.0
+) -> Calibration:
+    """The calibration with its moduli report, and notes on what it misses and why. Of unequal cells each
+    modulus is reported of the cell that misses it most.
+
+    Raises BadInput where area springs leave a cell without positive energy.
+    """
+    cells = _cells(sheet, grid, springs, grading)
+    square = all(abs(lx - ly) < 1e-9 * lx for (lx, ly), _ in cells)
+    worst: dict[str, dict[str, Any]] = {}
+    for sides, own in cells:
+        whole = moduli.of_springs(own, (*sides, own.layer_distance), grid[2])
+        for row in _rows(moduli.of_sheet(sheet, material, sides).named(square), whole.named(square)):
+            if row["name"] not in worst or abs(row["miss"]) > abs(worst[row["name"]]["miss"]):
+                worst[row["name"]] = row
+        if constants.value_of(own, "area") < 0.0 or constants.value_of(own, "mid_area") < 0.0:
+            _require_positive(own, whole)
+    for name, row in worst.items():
+        if name.startswith("S"):
+            row["kappa_G_h"] = moduli.shear_without_grid(sheet, material)
+    missed = [
+        f"{row['name']} is missed by {row['miss']:+.1%}"
+        for row in worst.values()
+        if abs(row["got"] - row["asked"]) > 0.01 * abs(worst[row["name"].replace("12", "11")]["asked"])
+    ]
+    if missed and not np.any(springs.area) and not np.any(springs.shear):
+        missed.append("central links alone obey Cauchy's relation C12 = C66: no k meets D12 and D66 both")
+    rows = tuple(worst.values())
+    return Calibration(method, grid, springs, rows, (*missed, *_admissible(springs)), grading=grading)
+
+
+def homogenised(sheet: Sheet, grid: Grid, springs: SpringSet) -> moduli.Moduli:
+    """Moduli of the interior of a sheet's lattice with these springs, alike in all its cells."""
+    x, y = grid_lines(sheet, grid)
+    return moduli.of_springs(springs, (x.mean, y.mean, springs.layer_distance), grid[2])
+
+
+def _cells(sheet: Sheet, grid: Grid, springs: SpringSet, grading: float) -> list[Cell]:
+    """The kinds of cells: one where all are alike, else each that differs from the others."""
+    x, y = grid_lines(sheet, grid, grading)
+    if not grading and not by_cell.varies(springs):
+        return [((x.mean, y.mean), springs)]
+    kinds: dict[Any, Cell] = {}
+    for row, ly in enumerate(y.widths.tolist()):
+        for column, lx in enumerate(x.widths.tolist()):
+            own = by_cell.of_cell(springs, row, column)
+            kinds.setdefault((f"{lx:.9g}", f"{ly:.9g}", own), ((lx, ly), own))
+    return list(kinds.values())
+
+
+def _rows(asked: dict[str, float], got: dict[str, float]) -> list[dict[str, Any]]:
+    """Each modulus with its miss, relative to what is asked or, where that is zero, to its like along x."""
+    rows = []
+    for name, value in asked.items():
+        scale = value or abs(asked[name.replace("12", "11")])
+        miss = float((got[name] - value) / scale)
+        rows.append({"name": name, "asked": float(value), "got": float(got[name]), "miss": miss})
+    return rows
+
+
+def _areas(springs: SpringSet) -> str:
+    return f"area = {shown(springs.area)}, mid_area = {shown(springs.mid_area)} N/m"
+
+
+def _require_positive(springs: SpringSet, whole: moduli.Moduli) -> None:
+    if min(np.linalg.eigvalsh(form)[0] for form in (whole.membrane, whole.bending)) <= 0.0:
+        raise BadInput(f"{_areas(springs)}: the cell's energy is not positive")
+
+
+def _admissible(springs: SpringSet) -> tuple[str, ...]:
+    """A note where area springs are negative (ν < 1/3): admissible while the cells' energy stays positive."""
+    if np.min(springs.area) >= 0.0 and np.min(springs.mid_area) >= 0.0:
+        return ()
+    return (f"{_areas(springs)}: negative area springs are admissible here, the cell's energy is positive",)

@@ -1,0 +1,66 @@
+"""The lines of a plan grid across one side of the sheet: where they are, and what length each stands for.
+
+Of n lines on a side a, graded by γ from 0 (all cells alike) to 1 (Chebyshev's points), line i is at
+
+    x(t) = a [(1 − γ) t + ½ γ (1 − cos πt)],    t = i/(n − 1),
+
+so that of many the cells at both ends have 1 − γ of the mean width, and those in the middle 1 + (½ π − 1) γ.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sheetbench.scenes import Sheet
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grid import Grid
+
+
+@dataclass(frozen=True, eq=False)
+class Lines:
+    """at: (n,) [m] places of the lines from 0 on; widths: (n − 1,) [m] of the cells between; mean: [m]."""
+
+    at: np.ndarray
+    widths: np.ndarray
+    mean: float
+
+    @property
+    def tributary(self) -> np.ndarray:
+        """Length that each line stands for, half of the cells beside it, (n,) [m]."""
+        padded = np.concatenate([[0.0], self.widths, [0.0]])
+        return 0.5 * (padded[:-1] + padded[1:])
+
+    def index(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The cell (…,) in which places x [m] lie, the first or last for those beyond, and how far into it
+        they are as a share of its width."""
+        cell = np.clip(np.searchsorted(self.at, x, side="right") - 1, 0, len(self.widths) - 1)
+        return cell, (x - self.at[cell]) / self.widths[cell]
+
+
+def grid_lines(
+    sheet: Sheet, grid: Grid, grading: float = 0.0, half: tuple[bool, bool] = (False, False)
+) -> tuple[Lines, Lines]:
+    """The lines across x and across y. half: along which axes the sheet is the lower half of the one that was
+    graded, up to a plane of symmetry.
+
+    Raises BadInput for a grading outside 0 to 1.
+    """
+    if not 0.0 <= grading <= 1.0:
+        raise BadInput(f"grading = {grading:g}: 0 (all cells alike) to 1 (finest at the edges)")
+    x, y = (_lines(sheet.lengths[axis], grid[axis], grading, half[axis]) for axis in (0, 1))
+    return x, y
+
+
+def _lines(length: float, count: int, grading: float, half: bool) -> Lines:
+    mean = length / (count - 1)
+    if not grading:
+        return Lines(np.arange(count) * mean, np.full(count - 1, mean), mean)
+    if half:
+        whole = _lines(2.0 * length, 2 * count - 1, grading, False)
+        return Lines(whole.at[:count], whole.widths[: count - 1], mean)
+    t = np.linspace(0.0, 1.0, count)
+    at = length * ((1.0 - grading) * t + 0.5 * grading * (1.0 - np.cos(np.pi * t)))
+    widths = np.diff(at)
+    return Lines(at, 0.5 * (widths + widths[::-1]), mean)  # mirror images to the last digit

@@ -74,6 +74,7 @@ SCENES = {
 REFERENCES = ("plate", "shell", "solid")
 MODELS = {
     "lattice": ("lumped", {"grid": (5, 5, 2)}),
+    "graded lattice": ("lumped", {"grid": (5, 5, 2), "grading": 0.6}),
     "linear lattice": ("lumped", {"grid": (5, 5, 2), "linear": True}),
     **{name: (name, {"elements": 4}) for name in REFERENCES},
 }

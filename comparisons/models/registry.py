@@ -39,19 +39,21 @@ def calibrate(
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,
+    grading: float = 0.0,
     training: Sequence[Scene] | None = None,
 ) -> Calibration:
     """Springs of a lattice; by default consistent ones for nine masses along the shorter side.
 
     grid: a number is along the shorter side, with near-square cells; or (nx, ny), (nx, ny, layers).
 
-    k [N/m] and layer_distance [m] are the calibration's own options; training: the scenes that a fitted
-    one is fitted to, see `comparisons.models.training`. Raises BadInput for a name that is not a calibration
+    k [N/m] and layer_distance [m] are the calibration's own options; grading: from 0, cells of one size,
+    to 1, cells finest at the edges (`lumped.grid_lines`); training: the scenes that a fitted one is fitted
+    to, see `comparisons.models.training`. Raises BadInput for a name that is not a calibration
     or lengths that are not above zero, and for options it does not take; warns of a layer distance that is
     hardly meant.
     """
-    check_lattice(calibration, k, layer_distance)
-    return _calibrate(sheet, material, grid, calibration, k, layer_distance, training)
+    check_lattice(calibration, k, layer_distance, grading)
+    return _calibrate(sheet, material, grid, calibration, k, layer_distance, grading, training)
 
 
 def _calibrate(
@@ -61,6 +63,7 @@ def _calibrate(
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,
+    grading: float = 0.0,
     training: Sequence[Scene] | None = None,
 ) -> Calibration:
     import lumped
@@ -72,13 +75,20 @@ def _calibrate(
     if lumped.CALIBRATIONS[method].fitted and k is None:
         from comparisons.models.training import fitted
 
-        return fitted(sheet, material, grid_of(sheet, grid), method, layer_distance, training)
-    return lumped.calibrate(sheet, material, grid=grid, method=method, k=k, layer_distance=layer_distance)
+        return fitted(sheet, material, grid_of(sheet, grid), method, layer_distance, grading, training)
+    own: dict[str, Any] = {"k": k, "layer_distance": layer_distance, "grading": grading}
+    return lumped.calibrate(sheet, material, grid=grid, method=method, **own)
 
 
-def check_lattice(calibration: str | None, k: float | None, layer_distance: float | None) -> None:
-    """Raise BadInput for a calibration that does not exist, or k or layer_distance not above zero."""
+def check_lattice(
+    calibration: str | None, k: float | None, layer_distance: float | None, grading: float | None = None
+) -> None:
+    """Raise BadInput for a calibration that does not exist, k or layer_distance not above zero, or a grading
+    that is not from 0 to 1."""
     import lumped
+
+    if grading is not None and not (isinstance(grading, int | float) and 0.0 <= grading <= 1.0):
+        raise BadInput(f"grading = {grading}: a number from 0 (cells of one size) to 1 (finest at the edges)")
 
     if calibration is not None:
         require_choice("calibration", calibration, lumped.CALIBRATIONS)
@@ -112,16 +122,18 @@ def has_own_springs(scene: Scene, **settings: Any) -> bool:
     return scene.springs is not None and all(choice is None for choice in chosen)
 
 
-def scene_springs(scene: Scene, *, grid: Asked = None, **settings: Any) -> Calibration:
+def scene_springs(
+    scene: Scene, *, grid: Asked = None, grading: float | None = None, **settings: Any
+) -> Calibration:
     """Springs of a lattice for a scene, with settings of `calibrate` that `check` has seen: its own [springs]
-    if it has them and no calibration, k or layer distance is given. grid: as `comparisons.models.grids`
-    reads it."""
+    if it has them and no calibration, k or layer distance is given, on their own grid and grading. grid: as
+    `comparisons.models.grids` reads it; grading: 0 unless given."""
     import lumped
 
     masses = scene_grid(scene, grid)
     if has_own_springs(scene, **settings):
-        return lumped.given(scene, masses)
-    return _calibrate(scene.sheet, scene.material, masses, **settings)
+        return lumped.given(scene, masses, grading)
+    return _calibrate(scene.sheet, scene.material, masses, grading=grading or 0.0, **settings)
 
 
 Solve = Callable[[], Solution]
@@ -148,13 +160,15 @@ def simulate(
     duration: float,
     *,
     grid: Asked = None,
+    grading: float | None = None,
     calibration: str | None = None,
     **settings: Any,
 ) -> History:
     """The lattice's motion over `duration` [s]; settings are those of `lumped.simulate`."""
     import lumped
 
-    springs = scene_springs(scene, grid=grid, calibration=calibration)
+    check_lattice(calibration, None, None, grading)
+    springs = scene_springs(scene, grid=grid, grading=grading, calibration=calibration)
     return lumped.simulate(scene, springs, duration, **settings)
 
 
@@ -262,12 +276,12 @@ def check(scene: Scene, candidate: Candidate) -> None:
         unknown = [name for name in settings if name not in known]
         if unknown:
             raise BadInput(f"lumped: no setting '{unknown[0]}'; it has {', '.join(known)}")
-        check_lattice(settings.get("calibration"), settings.get("k"), settings.get("layer_distance"))
+        check_lattice(*(settings.get(name) for name in ("calibration", "k", "layer_distance", "grading")))
         grid = scene_grid(scene, settings.get("grid"))
         if has_own_springs(scene, **settings):
             import lumped
 
-            lumped.given(scene, grid)
+            lumped.given(scene, grid, settings.get("grading"))
     elif model in MODELS:
         own = {name: value for name, value in settings.items() if name not in ("elements", "symmetry")}
         check_reference(model, settings.get("elements", 16), own)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -42,17 +43,20 @@ def fitted(
     grid: Grid,
     method: str,
     layer_distance: float | None = None,
+    grading: float = 0.0,
     training: Sequence[Scene] | None = None,
 ) -> Calibration:
     """Springs fitted to the shell on the training scenes, which have this sheet and material; computed once a
     process. Raises BadInput for a training scene without a static answer that the method could use."""
     chosen = training_scenes(sheet, material) if training is None else training
     texts = tuple(scene.model_dump_json(by_alias=True) for scene in chosen)
-    return _fitted(texts, grid, method, layer_distance)
+    return _fitted(texts, grid, method, layer_distance, grading)
 
 
 @lru_cache(maxsize=64)
-def _fitted(texts: tuple[str, ...], grid: Grid, method: str, layer_distance: float | None) -> Calibration:
+def _fitted(
+    texts: tuple[str, ...], grid: Grid, method: str, layer_distance: float | None, grading: float
+) -> Calibration:
     import lumped
 
     chosen = [Scene.model_validate_json(text) for text in texts]
@@ -64,9 +68,8 @@ def _fitted(texts: tuple[str, ...], grid: Grid, method: str, layer_distance: flo
             StaticTarget(scene, training_points(scene), _displacements(text))
             for scene, text in zip(chosen, texts, strict=True)
         ]
-    return lumped.calibrate(
-        chosen[0].sheet, chosen[0].material, grid, method, layer_distance=layer_distance, targets=targets
-    )
+    own: dict[str, Any] = {"layer_distance": layer_distance, "grading": grading}
+    return lumped.calibrate(chosen[0].sheet, chosen[0].material, grid, method, targets=targets, **own)
 
 
 def training_points(scene: Scene) -> np.ndarray:

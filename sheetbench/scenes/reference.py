@@ -97,7 +97,8 @@ def _one(node: dict[str, Any], schema: dict[str, Any]) -> str:
         if "prefixItems" in node:
             return f"list of {len(node['prefixItems'])} numbers"
         entries = value(node["items"], schema)
-        return f"list of {entries.replace('list', 'lists', 1) if 'list' in entries else f'{entries}s'}"
+        noun = next((noun for noun in ("list", "number") if noun in entries), entries)
+        return f"list of {entries.replace(noun, f'{noun}s', 1)}"
     words = {"number": "number", "integer": "whole number", "string": "text"}[node["type"]]
     return " ".join([words, ", ".join(_bounds(node))]).strip()
 

@@ -1,0 +1,275 @@
+"""Graded grids: lines, springs cell by cell, patch tests, and what must not change."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+
+import numpy as np
+import pytest
+from cases import OBLONG, RUBBER, SHEET, SILICONE, relative
+from lattice_cases import dense
+from scipy.spatial.transform import Rotation
+
+import fem_reference
+import lumped
+from comparisons.models.registry import solve
+from lumped.assembly import Assembly
+from lumped.calibration import edge_twist
+from lumped.grid_lines import grid_lines
+from lumped.masses import masses
+from sheetbench.scenes import BadInput, Clamped, PointLoad, Scene, Sheet, SpringTable, Status, load
+
+GRADINGS = (0.5, 0.8)
+CENTRE, CORNER = -3.7224e-3, -19.835e-3  # of the seed's linear sheet: `test_edge_twist`
+
+
+def assembly_of(grading, grid=(6, 5), method="consistent"):
+    return Assembly(OBLONG, lumped.calibrate(OBLONG, SILICONE, grid, method, grading=grading))
+
+
+def test_lines_are_even_at_0_and_chebyshevs_at_1() -> None:
+    x, y = grid_lines(OBLONG, (6, 5, 2), 0.0)
+    assert np.allclose(x.at, np.linspace(0.0, 0.2, 6)) and np.allclose(y.widths, 0.025)
+    x, y = grid_lines(OBLONG, (6, 5, 2), 1.0)
+    assert np.allclose(x.at, 0.1 * (1.0 - np.cos(np.pi * np.arange(6) / 5)))
+    x, _ = grid_lines(OBLONG, (6, 5, 2), 0.5)
+    assert np.array_equal(x.widths, x.widths[::-1]) and x.tributary.sum() == pytest.approx(0.2)
+    half, _ = grid_lines(Sheet(length_x=0.1, length_y=0.1, thickness=0.005), (4, 5, 2), 0.5, (True, False))
+    whole, _ = grid_lines(OBLONG, (7, 5, 2), 0.5)
+    assert np.allclose(half.at, whole.at[:4])
+    for wrong in (-0.1, 1.1):
+        with pytest.raises(BadInput, match="grading"):
+            grid_lines(OBLONG, (6, 5, 2), wrong)
+
+
+@pytest.mark.parametrize("grading", GRADINGS)
+@pytest.mark.parametrize("method", ["consistent", "consistent-edges"])
+def test_every_cell_meets_every_modulus(grading: float, method: str) -> None:
+    springs = lumped.calibrate(SHEET, RUBBER, (7, 6), method, grading=grading)
+    assert all(abs(row["miss"]) < 1e-9 for row in springs.moduli) and len(springs.moduli) == 10
+    assert springs.as_dict()["grading"] == grading
+
+
+@pytest.mark.parametrize("grading", GRADINGS)
+@pytest.mark.parametrize(
+    "field",
+    [
+        lambda x, y, z: (x * z, 0 * y, -0.5 * x**2),
+        lambda x, y, z: (0 * x, y * z, -0.5 * y**2),
+        lambda x, y, z: (y * z, x * z, -x * y),
+    ],
+    ids=["bending along x", "bending along y", "twisting"],
+)
+def test_pure_bending_and_twisting_are_in_equilibrium(grading: float, field) -> None:
+    """No inner mass of the flat sheet is left with a force, to the rounding of the stiffness."""
+    assembly = assembly_of(grading)
+    lattice = assembly.lattice
+    u = np.column_stack(field(*lattice.positions.T))
+    force = (dense(assembly, assembly.tangent(np.zeros_like(u))) @ u.ravel()).reshape(-1, 3)
+    inner = lattice.columns()[1:-1, 1:-1].ravel()
+    assert np.abs(force[inner]).max() < 1e-10 * np.abs(force).max()
+
+
+@pytest.mark.parametrize("strain", [(1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (1.0, -0.3, 0.0), (0.0, 0.0, 1.0)])
+def test_stretching_and_shearing_store_the_sheets_energy_but_for_its_thickness(strain) -> None:
+    """Edges moved as a uniform strain has it. Each cell would have its own change of thickness, and masses
+    that four of them share have one: the energy is the sheet's within two thousandths."""
+    assembly = assembly_of(0.5, (9, 5))
+    lattice = assembly.lattice
+    (first, second, shear), (x, y, _) = 1e-4 * np.array(strain), lattice.positions.T
+    u = np.column_stack([first * x + 0.5 * shear * y, second * y + 0.5 * shear * x, 0.0 * x])
+    stiffness = dense(assembly, assembly.tangent(np.zeros_like(u)))
+    free = np.zeros(u.shape, dtype=bool)
+    free[lattice.columns()[1:-1, 1:-1]] = True
+    free[:, 2] = True
+    free = free.ravel()
+    moved = u.ravel().copy()
+    load_ = stiffness[np.ix_(free, ~free)] @ moved[~free]
+    moved[free] = np.linalg.lstsq(stiffness[np.ix_(free, free)], -load_, rcond=None)[0]
+    energy = 0.5 * moved @ stiffness @ moved
+    form = lumped.moduli.of_sheet(OBLONG, SILICONE, (0.1, 0.1)).membrane
+    strains = 1e-4 * np.array(strain)
+    exact = 0.5 * strains @ form @ strains * OBLONG.length_x * OBLONG.length_y
+    assert energy == pytest.approx(exact, rel=2e-3)
+    assert np.abs(moved.reshape(-1, 3)[:, :2] - u[:, :2]).max() < 1e-3 * np.abs(u).max()
+
+
+@pytest.mark.parametrize("method", ["consistent", "consistent-edges"])
+def test_rigid_motions_cost_nothing(method: str) -> None:
+    assembly = assembly_of(0.7, method=method)
+    x = assembly.lattice.positions
+    scale, _ = assembly.force(0.01 * x)
+    u = Rotation.from_rotvec([0.3, -2.0, 0.7]).apply(x) - x + np.array([0.1, 0.2, 0.3])
+    energy, force = assembly.force(u)
+    assert abs(energy) < 1e-12 * scale and np.abs(force).max() < 1e-9 * scale / 0.005
+
+
+def test_mass_is_the_sheets_around_each_mass_and_free_fall_is_rigid() -> None:
+    scene = Scene(name="free", sheet=OBLONG, material=SILICONE, gravity={"acceleration": (0.0, 0.0, -9.81)})
+    problem = lumped.pose(scene, lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=0.6))
+    share = masses(scene, problem.assembly.lattice)
+    assert share.sum() == pytest.approx(1200.0 * 0.005 * 0.02, rel=1e-14)
+    assert np.allclose(problem.loads.dead[:, 2] / share, -9.81, rtol=1e-14)
+    with pytest.raises(BadInput, match="gregory"):
+        masses(scene, problem.assembly.lattice, "gregory")
+
+
+@cache
+def shell_of(young: float, name: str) -> tuple[Scene, np.ndarray]:
+    """A scene of the catalogue on another material, and the shell's answer at its probes."""
+    scene = load(name)
+    scene = scene.replace(material=scene.material.replace(young=young))
+    return scene, fem_reference.solve(scene, model="shell", elements=16).displacement(scene.probe_points())
+
+
+@pytest.mark.parametrize(
+    "young, name, masses_, held",
+    [
+        (54.5e6, "curved-edge", 9, 0.0092),
+        (54.5e6, "curved-edge", 17, 0.0042),
+        (5.45e6, "two-edges-clamped", 9, 0.0119),
+        (5.45e6, "two-edges-clamped", 17, 0.0006),
+    ],
+)
+def test_narrow_layers_at_the_edges(young: float, name: str, masses_: int, held: float) -> None:
+    """Error at the probes of the largest displacement, against the shell: as a prototype of this construction
+    had it (0.91, 0.39, 1.18, 0.04 %). Even grids have 6.5, 1.8, 3.4 and 0.86 %."""
+    scene, reference = shell_of(young, name)
+    springs = lumped.calibrate(scene.sheet, scene.material, masses_, grading=0.5)
+    points = scene.probe_points()
+    answer = lumped.solve(scene, springs)
+    assert answer.status is Status.CONVERGED and answer.settings["grading"] == 0.5
+    assert relative(answer.displacement(points), reference) < held
+
+
+@pytest.mark.parametrize(
+    "method, held", [("consistent", (6e-3, 1.3e-3)), ("consistent-edges", (1.4e-3, 4e-4))]
+)
+def test_the_order_of_convergence(method: str, held: tuple[float, float]) -> None:
+    """Linear, two edges clamped, 17 and 33 masses, cells halved at one grading: second order."""
+    scene, errors = load("two-edges-clamped"), []
+    for n in (17, 33):
+        springs = lumped.calibrate(scene.sheet, scene.material, n, method, grading=0.5)
+        found = lumped.solve(scene, springs, linear=True).displacement(scene.probe_points())[:, 2]
+        errors.append(max(abs(found[0] - CENTRE), abs(found[3] - CORNER)) / abs(CORNER))
+    assert errors[0] < held[0] and errors[1] < held[1]
+    assert np.log2(errors[0] / errors[1]) > 1.7
+
+
+@pytest.mark.parametrize("method", ["consistent", "consistent-edges"])
+def test_springs_of_a_scene_file_are_the_calibrations(method: str) -> None:
+    """Through JSON and back, every digit; another grading is refused, and other counts of cells."""
+    scene = load("one-edge-clamped")
+    springs = lumped.calibrate(scene.sheet, scene.material, (5, 6), method, grading=0.7)
+    written = json.loads(json.dumps(springs.as_dict()))
+    kept = {name: written[name] for name in ("grid", "grading", "masses", "layer_distance")}
+    table = SpringTable.model_validate(written["springs"] | kept)
+    pasted = scene.model_copy(update={"springs": table})
+    again = lumped.given(pasted)
+    assert (again.grid, again.grading, again.springs) == (springs.grid, 0.7, springs.springs)
+    points = scene.probe_points()
+    found = [lumped.solve(pasted, own).displacement(points) for own in (again, springs)]
+    assert np.array_equal(*found)
+    for grading in (0.0, 0.5):
+        with pytest.raises(BadInput, match=r"springs.grading = 0.7.*--grading"):
+            lumped.given(pasted, grading=grading)
+    cells = table.model_copy(update={"grid": None})
+    with pytest.raises(BadInput, match=r"springs.axial.x: 4 rows of 6 cells are wanted on 7x5 masses"):
+        lumped.given(scene.model_copy(update={"springs": cells}), (7, 5))
+
+
+def test_a_half_is_the_whole() -> None:
+    scene = load("one-edge-clamped")
+    asked = {"grid": (5, 9, 2), "calibration": "consistent-edges", "grading": 0.6}
+    whole, half = (solve(scene, "lumped", symmetry=cut, **asked) for cut in (False, True))
+    points = scene.probe_points()
+    assert half.settings["symmetry"] == ["y"] and half.settings["grading"] == 0.6
+    assert np.allclose(half.displacement(points), whole.displacement(points), rtol=0.0, atol=1e-10)
+
+
+def test_a_force_between_masses_and_an_edges_load_keep_their_moments() -> None:
+    """A point load's work on a bilinear displacement, an edge's load on a linear one, of unequal cells."""
+    scene = Scene(
+        name="loads",
+        sheet=OBLONG,
+        material=SILICONE,
+        support=(Clamped(edge="x0"),),
+        load=(
+            PointLoad(at=(0.13, 0.031), force=(0.0, 0.0, 1.0)),
+            {"kind": "edge", "edge": "x1", "force_per_length": (0.0, 0.0, 2.0)},
+        ),
+    )
+    problem = lumped.pose(scene, lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=0.5))
+    x, y, _ = problem.assembly.lattice.positions.T
+    force = problem.loads.dead[:, 2]
+    assert force.sum() == pytest.approx(1.2)
+    assert (force * x).sum() == pytest.approx(0.13 + 0.2 * 0.2)
+    assert (force * y).sum() == pytest.approx(0.031 + 0.2 * 0.05)
+    mid = lumped.MidSurface(problem.assembly.lattice, [[0.13, 0.031], [0.2, 0.1], [0.0, 0.0]])
+    assert np.allclose(mid.of(problem.assembly.lattice.positions)[:, :2], [[0.13, 0.031], [0.2, 0.1], [0, 0]])
+
+
+@pytest.mark.parametrize("grading, share", [(0.5, 0.70), (1.0, 0.35)])
+def test_an_explicit_step_shrinks_nearly_as_the_smallest_cell(grading: float, share: float) -> None:
+    """9 × 9 of the seed's sheet: its smallest cells are 0.65 and 0.30 times as wide as even ones."""
+    scene = load("two-edges-clamped")
+    steps, widths = [], []
+    for graded in (0.0, grading):
+        springs = lumped.calibrate(scene.sheet, scene.material, 9, grading=graded)
+        system = lumped.System(scene, lumped.pose(scene, springs))
+        steps.append(lumped.step_limit(system, np.zeros_like(system.problem.loads.dead)).step)
+        widths.append(system.assembly.lattice.lines[0].widths.min())
+    assert steps[1] / steps[0] == pytest.approx(share, abs=0.01)
+    assert 1.0 < (steps[1] / steps[0]) / (widths[1] / widths[0]) < 1.2
+
+
+def test_two_free_edges_leave_their_corner_its_twisting_stiffness(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Cells much narrower than the layer in which a free edge lets its twist go keep little of their twisting
+    stiffness; what two edges take from their corner's cell adds, and with less than nothing left there the
+    sheet has an unstable equilibrium. Here h/10: 33 × 33 of the seed's sheet at grading 1, and even grids."""
+    sheet = Sheet(length_x=0.02, length_y=0.02, thickness=0.01)
+    scene = load("two-edges-clamped").replace(sheet=sheet.model_dump(), probes={})
+
+    def verdict() -> Status:
+        springs = lumped.calibrate(sheet, scene.material, 9, "consistent-edges", grading=1.0)
+        return lumped.solve(scene, springs).status
+
+    assert verdict() is Status.CONVERGED
+    monkeypatch.setattr(edge_twist, "AT_CORNERS", 0.0)
+    assert verdict() is Status.UNSTABLE
+
+
+def test_what_has_no_cell_by_cell_form_is_refused() -> None:
+    for method in ("uniform", "moduli", "cauchy", "axial", "van-gelder", "lloyd"):
+        with pytest.raises(
+            BadInput, match=r"grading = 0.5: .*takes no grading; grading goes with 'consistent'"
+        ):
+            lumped.calibrate(SHEET, RUBBER, 5, method, grading=0.5)
+    with pytest.raises(BadInput, match=r"3 layers .* no closed form"):
+        lumped.calibrate(SHEET, RUBBER, (9, 9, 3), grading=0.5)
+    with pytest.raises(BadInput, match=r"layer_distance = 0.001 m .* no closed form"):
+        lumped.calibrate(SHEET, RUBBER, 5, layer_distance=1e-3, grading=0.5)
+    springs = lumped.calibrate(SHEET, RUBBER, 5, grading=0.5)
+    with pytest.raises(BadInput, match="weights = 'full'"):
+        lumped.solve(load("one-edge-clamped"), springs, weights="full")
+
+
+def test_sensitivities_scale_the_cells_alike() -> None:
+    """Of E, through a new calibration, and of a spring by its mean over the cells: against differences."""
+    scene = load("one-edge-clamped")
+    springs = lumped.calibrate(scene.sheet, scene.material, 5, grading=0.5)
+    found = lumped.sensitivity(scene, springs, ["young", "diagonal", "area"])
+    points = scene.probe_points()
+
+    def displaced(name: str, value: float) -> np.ndarray:
+        if name != "young":
+            return lumped.solve(scene, springs.with_constant(name, value)).displacement(points)
+        changed = scene.replace(material=scene.material.replace(young=value))
+        own = lumped.calibrate(changed.sheet, changed.material, 5, grading=0.5)
+        return lumped.solve(changed, own).displacement(points)
+
+    for name, value in found.values.items():
+        ends = [displaced(name, value * (1 + side)) for side in (1e-4, -1e-4)]
+        slope = (ends[0] - ends[1]) / (2e-4 * value)
+        assert relative(found.derivatives[name], slope) < 1e-4

@@ -46,8 +46,8 @@ class Scene(Frozen):
     """What moves edges that have no support."""
     springs: SpringTable | None = None
     """The lattice's own spring constants, as `sheetbench calibrate --toml` writes them; no other model reads
-    them. Where cells differ, on a graded grid, a constant is a list of rows of cells from y0 to y1, each from x0
-    to x1."""
+    them. Where cells differ, on a graded grid, a constant is a list of rows of cells from y0 to y1, each from
+    x0 to x1."""
     dampers: DamperSet | None = None
     """The lattice's own dampers along its links in `simulate`, in place of the material's damping_time, which
     area and strain springs keep."""

@@ -19,28 +19,27 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from lumped.actuators import Drive
 from lumped.assembly import Assembly
 from lumped.masses import masses
 from lumped.mid_surface import MidSurface
-from sheetbench.scenes import EDGES, EdgeLoad, FactorTable, PointLoad, Pressure, Scene
+from sheetbench.scenes import EDGES, EdgeLoad, FactorTable, PiecewiseLinear, PointLoad, Pressure, Scene
 
 
 @dataclass
 class _Part:
-    """Loads that share a history, if they have one, as times [s] and factors.
+    """Loads that share a history, if they have one.
 
     dead: (n, 3) [N]; moments: masses of an edge, [N·m] by column, turn; pressure: [Pa].
     """
 
-    history: tuple[np.ndarray, np.ndarray] | None
+    history: PiecewiseLinear | None
     dead: np.ndarray
     moments: list[tuple[np.ndarray, np.ndarray, float]] = field(default_factory=list)
     pressure: float = 0.0
 
     def factor(self, time: float | None) -> float:
         """The history's factor at a time [s]; the last one without a time."""
-        return 1.0 if self.history is None else float(Drive(1.0, time).value(*self.history))
+        return 1.0 if self.history is None else float(self.history.at(time))
 
 
 class Loads:
@@ -84,8 +83,8 @@ class Loads:
     def _part(self, history: FactorTable | None) -> _Part:
         """The part with this history, made when it is first asked for."""
         if history not in self._parts:
-            table = None if history is None else (np.array(history.time), np.array(history.factor))
-            self._parts[history] = _Part(table, np.zeros((self._assembly.pattern.size, 3)))
+            course = None if history is None else PiecewiseLinear(history.time, history.factor)
+            self._parts[history] = _Part(course, np.zeros((self._assembly.pattern.size, 3)))
         return self._parts[history]
 
     def _followers(self, time: float | None) -> tuple[list[tuple[np.ndarray, np.ndarray, float]], float]:

@@ -1,14 +1,12 @@
 """Supports as linear constraints on the masses: u = T q + g(λ), q the free unknowns.
 
-clamped  every layer of the edge's row held, on a director turned about the mid-line by λτ (λ the load factor)
+clamped  every layer of the edge's row held, on the director of the clamp
 hinged   the mean of the layers held: the last layer is minus the sum of the others
 held     the mean of the layers held in the named components
-curved   every layer held on the director of an arc of curvature λκ
+curved   every layer held on the director of the rod
 symmetric  the component across the edge held, in every layer
 
-With s the arc length from the rod's middle, an arc of curvature κ in the plane of the edge's direction e
-and z has mid-line (sin κs/κ) e + ((1 − cos κs)/κ) z and normal cos κs z − sin κs e. A clamp of tilt τ on an
-edge with outward normal n has the director cos τ z − sin τ n.
+Where bent and tilted edges are at a load factor λ is the scene's to say (`sheetbench.scenes.kinematics`).
 """
 
 from __future__ import annotations
@@ -21,7 +19,8 @@ import scipy.sparse as sp
 
 from lumped.actuators import Coupling
 from lumped.lattice import Lattice
-from sheetbench.scenes import EDGES, Clamped, Curved, Scene, held_axes, holds_tilt, rod_middle
+from sheetbench.scenes import Scene, held_axes, holds_tilt
+from sheetbench.scenes.kinematics import bent_or_tilted
 
 
 @dataclass(frozen=True)
@@ -108,44 +107,16 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
             values.append(binding[at[moved], row[moved]])
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
     transform = sp.csr_array(sp.coo_array(entries, shape=(3 * n, int(free.sum()))))
-    bent = [s for s in scene.supports if isinstance(s, Curved)]
-    tilted = [s for s in scene.supports if isinstance(s, Clamped) and s.tilt != 0.0]
+    driven = bent_or_tilted(scene.supports, scene.sheet)
 
     def prescribed(load_factor: float) -> np.ndarray:
         g = np.zeros((n, 3))
-        for support in bent:
-            masses, _ = holders[support.edge]
-            middle = rod_middle(support, scene.supports, scene.sheet)
-            g[masses] = _arc(lattice, support.edge, masses, load_factor * support.curvature, middle)
-        for clamp in tilted:
-            masses, _ = holders[clamp.edge]
-            g[masses] = _turned(lattice, clamp.edge, masses, load_factor * clamp.tilt)
+        for edge in driven:
+            masses = holders[edge.edge][0].ravel()
+            rest = lattice.positions[masses]
+            g[masses] = edge.placed(rest[:, :2], load_factor).lifted(rest[:, 2])
         if coupling is not None:
             coupling.follow(g)
         return g
 
     return Constraints(transform, prescribed, holders, held, fixed, coupling)
-
-
-def _arc(lattice: Lattice, edge: str, masses: np.ndarray, curvature: float, middle: float) -> np.ndarray:
-    """Displacement (m, layers, 3) [m] that puts an edge's masses on the arc with its middle at `middle`."""
-    along = EDGES[edge].along_axis
-    rest = lattice.positions[masses]
-    s = rest[..., along] - middle
-    height = rest[..., 2]
-    angle = curvature * s
-    # sin κs/κ and (1 − cos κs)/κ by sinc, which have no trouble at κ = 0
-    across = s * np.sinc(angle / np.pi)
-    rise = 0.5 * curvature * s**2 * np.sinc(angle / (2.0 * np.pi)) ** 2
-    u = np.zeros_like(rest)
-    u[..., along] = across - s - height * np.sin(angle)
-    u[..., 2] = rise + height * (np.cos(angle) - 1.0)
-    return u
-
-
-def _turned(lattice: Lattice, edge: str, masses: np.ndarray, angle: float) -> np.ndarray:
-    """Displacement (m, layers, 3) [m] that puts an edge's layers on a director turned by an angle [rad]."""
-    height = lattice.positions[masses][..., 2, None]
-    return height * (
-        np.array([0.0, 0.0, np.cos(angle) - 1.0]) - np.sin(angle) * np.array(EDGES[edge].outward)
-    )

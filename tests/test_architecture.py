@@ -1,6 +1,8 @@
 """Imports run one way: sheetbench.scenes → lumped, fem_reference → comparisons.
 
-The two solvers share the question (what a scene's words mean), never the mechanics.
+The two solvers share the question, never the mechanics: what a scene's words mean (values over time, where
+bent, tilted and moved edges are, which strains are outside the model) is the scene's to say, once; how
+springs or elements carry it each solver derives for itself, for a shared derivation would be a shared bug.
 """
 
 import ast
@@ -17,6 +19,16 @@ ALLOWED = {
     "fem_reference": {"sheetbench.scenes", "fem_reference"},
     "comparisons": {"sheetbench.scenes", "sheetbench.files", "lumped", "fem_reference", "comparisons"},
 }
+
+
+WORDS = {"interp", "sinc", "from_rotvec"}  # of values over time and of the kinematics of edges
+
+
+@pytest.mark.parametrize("package", ["lumped", "fem_reference"])
+def test_what_a_scenes_words_mean_is_left_to_the_scenes(package):
+    for path in sorted((ROOT / package).rglob("*.py")):
+        named = {n.attr for n in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(n, ast.Attribute)}
+        assert not named & WORDS or path.parent.name == "verification", f"{path} has {named & WORDS}"
 
 
 PACKAGES = ("sheetbench", "lumped", "fem_reference", "comparisons")

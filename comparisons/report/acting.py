@@ -26,7 +26,7 @@ def draw(stage: Stage, solution: Solution) -> np.ndarray:
     for actuator in scene.actuators:
         if isinstance(actuator, Chain):
             plan = _edge_plan(scene.sheet, actuator.edge, np.linspace(0.0, 1.0, actuator.segments + 1))
-            side = {"top": 1.0, "mid": 0.0, "bottom": -1.0}[actuator.face]
+            side = np.sign(actuator.axis_height(scene.sheet.thickness))
             aside = side * ASIDE * stage.size * _normals(stage, solution, plan)
             stage.chain(stage.deformed(solution, plan) + aside)
         else:

@@ -5,9 +5,8 @@
 with plane-stress C (see `materials`) and the strains of `element`. Bending and membrane do not know of
 each other: no stiffening by stretching, no shortening by bending. Loads act on the flat sheet: pressure
 along +z, an edge moment m as −m on the tilt towards the outward normal. Actuators are linearised about the
-flat sheet (`rods`, `edge_motion`), and their forces' moments taken there. So is a curved support: with
-s from the edge's middle w = κ s²/2 and the tilt along the edge is −κ s, none across it; the mid-line's
-shortening is of second order. A clamp tilted by τ holds a director's tilt of −τ towards the outward normal.
+flat sheet (`rods`), and their forces' moments taken there. So are bent, tilted and moved edges (the first
+orders of `sheetbench.scenes.kinematics`): the shortening of a bent edge's mid-line is of second order.
 
 Along an edge whose director nothing holds (free, hinged, held) the twisting moment fades within a layer of
 width √(D66/κGh) = h/√10, far less than an element. On equal elements the answer then converges like the width
@@ -34,13 +33,12 @@ from fem_reference.plate.rods import PlateRods
 from fem_reference.solving.linear import SingularMatrix, solve_free
 from fem_reference.solving.sparsity import Pattern
 from fem_reference.solving.threads import one_blas_thread
-from fem_reference.surface import edge_motion, loads, rod
+from fem_reference.surface import loads, rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import Held, exerted, on_edges
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import GAUSS, NODES, shape
 from fem_reference.surface.bound_rods import on_surface
-from fem_reference.surface.edge_motion import moved
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, quarters, require_upright
@@ -48,15 +46,12 @@ from fem_reference.surface.rod import Rod
 from fem_reference.surface.supports import Supports
 from sheetbench.scenes import (
     EDGES,
-    Clamped,
-    Curved,
     FieldMesh,
     Iteration,
     Scene,
     Solution,
     Status,
     outside_model,
-    rod_middle,
 )
 from sheetbench.scenes.scene import require_static
 
@@ -164,7 +159,7 @@ def _solved(
     flat, up = np.column_stack([plate.nodes, np.zeros(len(nodal))]), np.tile([0.0, 0.0, 1.0], (len(nodal), 1))
     holding = Held(np.concatenate([nodal[:, :3], couple], axis=1), flat)
     edges = on_edges(rods.bound, rods.strained(u).pull, holding, up)
-    wrenches, line = exerted(scene, edges, moved(supports), holding)
+    wrenches, line = exerted(scene, edges, supports.moved, holding)
     reactions = supports.reactions(nodal[:, :3])
     surface = Surface(mesh, plate.elements.nodes, plate.nodes, flat, up, own)
     singular = status is Status.SINGULAR
@@ -244,26 +239,14 @@ def constrain(
     rods: of the scene, whose bases hold a node.
     """
     on_edge = {str(on.edge): edge_nodes(plate, on.edge) for on in (*scene.supports, *scene.actuators)}
-    supports = surface_supports.of_scene(scene, plate.nodes, on_edge)
-    supports = edge_motion.hold(rod.hold_bases(supports, rods), scene, plate.nodes, on_edge)
+    supports = rod.hold_bases(surface_supports.of_scene(scene, plate.nodes, on_edge), rods)
     held = np.column_stack([supports.position, supports.director[:, None] | supports.tilt])
     for name in hard_edges:
         held[edge_nodes(plate, name), TILT_X + EDGES[name].along_axis] = True
     values = np.zeros(held.shape)
-    for support in scene.supports:
-        if isinstance(support, Curved):
-            on, along = on_edge[support.edge], EDGES[support.edge].along_axis
-            s = plate.nodes[on, along] - rod_middle(support, scene.supports, scene.sheet)
-            values[on, W] = support.curvature * s**2 / 2.0
-            values[on, TILT_X + along] = -support.curvature * s
-        elif isinstance(support, Clamped) and support.tilt != 0.0:
-            edge = EDGES[support.edge]
-            values[on_edge[support.edge], TILT_X + edge.normal_axis] = (
-                -support.tilt * edge.outward[edge.normal_axis]
-            )
-    for motion in edge_motion.of_scene(scene, plate.nodes, on_edge):
-        displacement, turn = motion.small_change()
-        values[motion.nodes] = np.column_stack([displacement, np.tile(turn[:2], (len(motion.nodes), 1))])
+    for driven in supports.driven:
+        displacement, director = driven.edge.linear(driven.points)
+        values[driven.nodes, : W + 1], values[driven.nodes, TILT_X:] = displacement, director[..., :2]
     return supports, held, values
 
 

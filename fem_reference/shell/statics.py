@@ -21,12 +21,11 @@ from fem_reference.shell.validity import STRETCHED, inspector, judge
 from fem_reference.solving.equilibrium import Path, trace
 from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.pseudo_transient import settler
-from fem_reference.surface import edge_motion, loads, rod
+from fem_reference.surface import loads, rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import Held, exerted, on_edges
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.bound_rods import on_surface
-from fem_reference.surface.edge_motion import moved
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, quarters
@@ -115,7 +114,7 @@ def _solution(
     position = structure.rest_positions + displacement
     held = Held(np.concatenate([forces.residual[0], couple], axis=1), position)
     edges = on_edges(structure.rods, forces.rods.pull, held, director)
-    wrenches, line_force = exerted(scene, edges, moved(structure.supports), held)
+    wrenches, line_force = exerted(scene, edges, structure.supports.moved, held)
     fields = {"actuator_line_force": line_force} if scene.actuators else {}
     surface = Surface(run.mesh, structure.element_nodes, run.nodes, position, director, own)
     runs = [run] if spent is None else [spent, run]
@@ -158,7 +157,7 @@ def discretise(
     dead, followers = loads.of_scene(scene, mesh, element_nodes, nodes)
     sides = rod.sides(scene, mesh, element_nodes, nodes)
     rods = rod.of_scene(scene, nodes, sides)
-    supports = rod.hold_bases(edge_motion.hold(supports, scene, nodes, on_edge), rods)
+    supports = rod.hold_bases(supports, rods)
     bound = on_surface(rods, len(nodes))
     return ShellStructure.build(element, element_nodes, supports, dead, followers, bound), nodes
 

@@ -97,7 +97,7 @@ def _solved(
     middle = (columns.positions + displacement)[:, columns.layers]
     held = Held(columns.about_middle(displacement, forces.residual), middle)
     edges = _on_edges(structure, path.state, forces, middle)
-    wrenches, _ = exerted(scene, edges, structure.supports.moved, held)
+    wrenches, _ = exerted(scene, edges, structure.supports.line.moved, held)
     of_rods = {"rod": structure.rod_energy(path.state)} if scene.actuators else {}
     return Solution(
         model="solid",

@@ -26,11 +26,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem_reference.solid.mesh import Columns
-from fem_reference.surface import edge_motion, supports
-from fem_reference.surface.edge_motion import MovedEdge
+from fem_reference.surface import supports
 from fem_reference.surface.rod import Rod
 from fem_reference.surface.supports import Supports
-from sheetbench.scenes import EdgeMotion, Scene, Symmetric, holds_director
+from sheetbench.scenes import Scene, Symmetric, holds_director
 from sheetbench.scenes.errors import BadInput
 
 CLAMPS = ("shell-like", "full")
@@ -38,15 +37,13 @@ CLAMPS = ("shell-like", "full")
 
 @dataclass(frozen=True)
 class ColumnSupports:
-    """held: (n, levels, 3) of the components q; edges: name → held components of its own; hinged: (n,);
-    moved: the edges moved rigidly."""
+    """held: (n, levels, 3) of the components q; edges: name → held components of its own; hinged: (n,)."""
 
     line: Supports
     columns: Columns
     held: np.ndarray
     edges: dict[str, np.ndarray]
     hinged: np.ndarray
-    moved: tuple[MovedEdge, ...] = ()
 
     def target(self, load_factor: float) -> np.ndarray:
         """Prescribed displacement (n, levels, 3) [m]; zero where nothing moves."""
@@ -57,13 +54,8 @@ class ColumnSupports:
         """Z (n, 3 levels, 3 levels) of every column."""
         levels, middle = self.columns.levels, self.columns.layers
         axes = np.tile(np.eye(3), (len(self.held), 1, 1))
-        for face in self.line.turning:
-            _, turn = face.change(load_factor)
-            sine, cosine = -turn[:, face.axis], 1.0 + turn[:, 2]
-            axes[face.nodes, face.axis, face.axis], axes[face.nodes, 2, face.axis] = cosine, sine
-            axes[face.nodes, face.axis, 2], axes[face.nodes, 2, 2] = -sine, cosine
-        for moved in self.moved:
-            axes[moved.nodes] = moved.turn(load_factor).as_matrix()
+        for driven in self.line.driven:
+            axes[driven.nodes] = np.eye(3) + driven.placed(load_factor).turn
         with_mean = np.eye(levels)
         with_mean[middle] = self.columns.averages[0]
         spread = np.where(self.hinged[:, None, None], np.linalg.inv(with_mean), np.eye(levels))
@@ -74,10 +66,8 @@ class ColumnSupports:
     def turned(self) -> np.ndarray:
         """Plan nodes (n,) whose Z is not the identity."""
         on = self.hinged.copy()
-        for face in self.line.turning:
-            on[face.nodes] = True
-        for moved in self.moved:
-            on[moved.nodes] = True
+        for driven in self.line.driven:
+            on[driven.nodes] = True
         return on
 
     def reactions(self, nodal: np.ndarray, load_factor: float) -> dict[str, np.ndarray]:
@@ -121,8 +111,6 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
         raise BadInput(f"clamp = {clamp!r}: known are {', '.join(CLAMPS)}")
     on_edge = {str(on.edge): columns.edge(on.edge) for on in (*scene.supports, *scene.actuators)}
     line = supports.of_scene(scene, columns.plan_nodes, on_edge)
-    line = edge_motion.hold(line, scene, columns.plan_nodes, on_edge)
-    moved = tuple(edge_motion.of_scene(scene, columns.plan_nodes, on_edge))
     edges, hinged = {}, np.zeros(len(columns.plan_nodes), dtype=bool)
 
     def face(nodes: np.ndarray, axes: np.ndarray | list[int], turns: bool) -> np.ndarray:
@@ -141,11 +129,10 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
         elif not holds_director(support):
             hinged[nodes] = True
         edges[str(support.edge)] = held
-    for actuator in scene.actuators:
-        if isinstance(actuator, EdgeMotion):
-            edges[actuator.held_as] = face(on_edge[actuator.edge], [0, 1, 2], False)
+    for motion in scene.motions().values():
+        edges[motion.held_as] = face(on_edge[motion.edge], [0, 1, 2], False)
     for rod in rods:
         if rod.base is not None:
             edges[rod.held_as] = face(rod.line[[rod.base]], [0, 1, 2], False)
     none = np.zeros((len(columns.plan_nodes), columns.levels, 3), dtype=bool)
-    return ColumnSupports(line, columns, np.logical_or.reduce([none, *edges.values()]), edges, hinged, moved)
+    return ColumnSupports(line, columns, np.logical_or.reduce([none, *edges.values()]), edges, hinged)

@@ -16,9 +16,9 @@ import numpy as np
 
 from fem_reference.surface.biquadratic import THREE, THREE_WEIGHTS, side_shape
 from fem_reference.surface.bound_rods import BoundRods
-from fem_reference.surface.edge_motion import MovedEdge
 from fem_reference.surface.rod import Rod
-from sheetbench.scenes import EdgeMotion, Scene
+from fem_reference.surface.supports import Driven
+from sheetbench.scenes import Scene
 
 _MASS = np.array([[4.0, 2.0, -1.0], [2.0, 16.0, 2.0], [-1.0, 2.0, 4.0]]) / 15.0  # ∫ N N dξ
 
@@ -53,7 +53,7 @@ def on_edges(rods: BoundRods, pull: np.ndarray, held: Held, director: np.ndarray
 
 
 def exerted(
-    scene: Scene, edges: Iterable[OnEdge], moved: Iterable[MovedEdge], held: Held
+    scene: Scene, edges: Iterable[OnEdge], moved: dict[str, Driven], held: Held
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Name of an actuator → force and moment (segments, 6) [N, N·m] of its segments on the sheet; the rods'
     line force (n, 3) [N/m], zero off their edges."""
@@ -64,13 +64,11 @@ def exerted(
         share = by_segment(rod, nodal, position, director) / len(rod.names)
         found.update({name: share for name in rod.names})
         line[rod.line] += line_force(rod, nodal)[0]
-    motions = [n for n, a in scene.named_actuators().items() if isinstance(a, EdgeMotion)]
-    for name, motion in zip(motions, moved, strict=True):
-        found[name] = _of_motion(motion, held)
+    found |= {name: _of_motion(motion, held) for name, motion in moved.items()}
     return {name: found[name] for name in scene.named_actuators()}, line
 
 
-def _of_motion(moved: MovedEdge, held: Held) -> np.ndarray:
+def _of_motion(moved: Driven, held: Held) -> np.ndarray:
     """Force and moment about the edge's middle, (1, 6)."""
     nodal, position = moved.part[:, None] * held.nodal[moved.nodes], held.position[moved.nodes]
     arm = position - 0.5 * (position.min(axis=0) + position.max(axis=0))

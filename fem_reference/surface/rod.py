@@ -35,7 +35,7 @@ from fem_reference.surface.biquadratic import TWO, lagrange, side_shape
 from fem_reference.surface.loads import Line
 from fem_reference.surface.rod_elements import RodElements
 from fem_reference.surface.supports import Supports
-from sheetbench.scenes import EDGES, Chain, CurvatureTable, Scene
+from sheetbench.scenes import EDGES, Chain, Scene
 from sheetbench.scenes.errors import BadInput
 
 FIRM, SLENDER = 1e3, 1e5  # firm stiffnesses over the sheet's and over the rod's own
@@ -74,7 +74,7 @@ def sides(
 ) -> dict[str, np.ndarray]:
     """Nodes (k, 3) of the sides along every edge with a chain; element_nodes: (m, 9); nodes: (n, 2) [m]."""
     found = {}
-    for edge in {str(actuator.edge) for actuator in scene.actuators if isinstance(actuator, Chain)}:
+    for edge in scene.chains():
         line = Line.along(mesh, mesh.boundaries[edge], nodes[element_nodes])
         found[edge] = element_nodes[line.elements[:, None], line.sides]
     return found
@@ -86,17 +86,11 @@ def of_scene(scene: Scene, nodes: np.ndarray, sides: dict[str, np.ndarray]) -> l
     nodes: plan positions (n, 2) [m] of the shell's nodes; sides: edge → its sides' nodes (k, 3). Raises
     BadInput for an edge that is not straight or has no node where a base is held.
     """
-    found: dict[str, list[tuple[str, Chain]]] = {}
-    for name, actuator in scene.named_actuators().items():
-        if isinstance(actuator, Chain):
-            found.setdefault(str(actuator.edge), []).append((name, actuator))
-    return [_rod(scene, edge, here, nodes, sides[edge]) for edge, here in found.items()]
+    return [_rod(scene, edge, here, nodes, sides[edge]) for edge, here in scene.chains().items()]
 
 
-def _rod(
-    scene: Scene, edge_name: str, here: list[tuple[str, Chain]], nodes: np.ndarray, sides: np.ndarray
-) -> Rod:
-    edge, chains = EDGES[edge_name], [chain for _, chain in here]
+def _rod(scene: Scene, edge_name: str, here: dict[str, Chain], nodes: np.ndarray, sides: np.ndarray) -> Rod:
+    edge, chains = EDGES[edge_name], list(here.values())
     along = nodes[sides, edge.along_axis]
     if np.ptp(nodes[sides, edge.normal_axis]) > 1e-9 * np.ptp(along):
         raise BadInput(f"actuator: edge {edge_name} of the mesh is not straight")
@@ -120,7 +114,7 @@ def _rod(
         np.einsum("c,ceg->eg", rigidity / rigidity.sum(), np.array(own)) * half[:, None] ** 2
     )
     return Rod(
-        names=tuple(name for name, _ in here),
+        names=tuple(here),
         edge=edge_name,
         nodes=sides,
         places=places,
@@ -141,10 +135,6 @@ def _rod(
 
 def pieces(chain: Chain, length: float) -> tuple[np.ndarray, np.ndarray]:
     """Bounds (n + 1,) [m] and curvatures (n,) [1/m] of the pieces of constant intrinsic curvature."""
-    if isinstance(chain.curvature, CurvatureTable):
-        return np.array([0.0, length]), np.array(chain.curvature.value[-1:])
-    if not isinstance(chain.curvature, tuple):
-        return np.array([0.0, length]), np.array([chain.curvature])
     share = length / chain.segments
     inner = (np.arange(1, chain.segments - 1) + 0.5) * share  # between the joints of whole length
     if chain.base == "middle" and chain.segments % 2 == 0:
@@ -153,7 +143,7 @@ def pieces(chain: Chain, length: float) -> tuple[np.ndarray, np.ndarray]:
         inner = np.append(0.5 * share, inner)
     if chain.base == "end":
         inner = np.append(inner, length - 0.5 * share)
-    return np.concatenate([[0.0], inner, [length]]), np.array(chain.curvature)
+    return np.concatenate([[0.0], inner, [length]]), chain.curvatures().at()
 
 
 def _mean_curvature(chain: Chain, length: float, along: np.ndarray) -> np.ndarray:

@@ -22,15 +22,6 @@ class Drive:
     load_factor: float = 1.0
     time: float | None = None
 
-    def value(self, time: np.ndarray, values: np.ndarray) -> np.ndarray:
-        """A table's value: time (n,), values (n, …); linear between samples, constant outside."""
-        if self.time is None:
-            last: np.ndarray = self.load_factor * values[-1]
-            return last
-        flat = values.reshape(len(values), -1)
-        columns = [np.interp(self.time, time, column) for column in flat.T]
-        return self.load_factor * np.array(columns).reshape(values.shape[1:])
-
 
 class Actuator(Protocol):
     """One actuator model on one edge.

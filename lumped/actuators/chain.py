@@ -32,7 +32,6 @@ from lumped.actuators.frames import B, Frames, N
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Sheet
 from sheetbench.scenes import Chain as ChainData
-from sheetbench.scenes.actuators import CurvatureTable
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -53,6 +52,7 @@ class Chain:
     ):
         first = chains[0]
         self.edge: str = first.edge
+        self._curvatures = [chain.curvatures() for chain in chains]
         self.names, self._chains, self._scale = names, tuple(chains), scale
         edge = EDGES[first.edge]
         along = np.eye(3)[edge.along_axis]
@@ -240,15 +240,8 @@ class Chain:
 
     def curvature(self, member: int, drive: Drive) -> np.ndarray:
         """Commanded intrinsic curvature at every joint of one chain, (j,) [1/m]."""
-        command = self._chains[member].curvature
-        if isinstance(command, CurvatureTable):
-            value = drive.value(np.array(command.time), np.array(command.value))
-            return np.full(len(self.frames.share), float(value))
-        if not isinstance(command, tuple):
-            return drive.load_factor * np.full(len(self.frames.share), float(command))
-        if not command:
-            return np.zeros(len(self.frames.share))  # one segment: no joint to have a value
-        return drive.load_factor * np.array(command, float)[self.frames.command]
+        values = self._curvatures[member].at(drive.time)
+        return drive.load_factor * values[self.frames.command]
 
     def _bind(self, along: np.ndarray, height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Binding of masses at arc length and height (m,), and their share in each segment."""

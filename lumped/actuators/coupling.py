@@ -114,6 +114,14 @@ class Coupling:
             moved[actuator.masses] = actuator.driven(drive)
         return moved
 
+    def driven_velocity(self, time: float) -> np.ndarray:
+        """The velocity (size, 3) [m/s] of what is prescribed, from a time [s] on."""
+        velocity = np.zeros((self.size, 3))
+        for actuator in self.actuators:
+            if isinstance(actuator, RigidMotion):
+                velocity[actuator.masses] = actuator.velocity(time)
+        return velocity
+
     def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray) -> float:
         """Add the actuators' internal force to `force` (size, 3) [N]; their energy [J]."""
         energy = 0.0

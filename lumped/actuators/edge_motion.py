@@ -1,18 +1,17 @@
 """A prescribed motion of an edge as an actuator: every bound mass moves as on a rigid bar.
 
-The bar's middle is displaced by d(t) and the bar turned about it by the rotation vector θ(t):
-u = d + (R(θ) − I) X, with X from the edge's middle to the mass and Rodrigues' formula for R. It has no rows
-of its own, hence no energy, mass or constraint; what it exerts on the sheet is what holding the motion takes.
+Where the bar is the scene says (`sheetbench.scenes.kinematics`). It has no rows of its own, hence no energy,
+mass or constraint; what it exerts on the sheet is what holding the motion takes.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from lumped.actuators.actuator import Drive
 from lumped.lattice import Lattice
 from sheetbench.scenes import EdgeMotion, Sheet
+from sheetbench.scenes.kinematics import MovedEdge
 
 
 class RigidMotion:
@@ -35,12 +34,7 @@ class RigidMotion:
         self.edge: str = motion.edge
         self._held_as = motion.held_as
         self.masses = masses
-        ends = np.array(sheet.edge_ends(motion.edge))
-        self._arms = lattice.positions[masses] - np.append(ends.mean(axis=0), 0.0)
-        self._time = np.array(motion.time)
-        still = np.zeros((len(motion.time), 3))
-        self._displacement = np.array(motion.displacement) if motion.displacement else still
-        self._rotation = np.array(motion.rotation) if motion.rotation else still
+        self._edge, self._rest = MovedEdge(motion, sheet), lattice.positions[masses]
         self.free, self.pairs, self.mass = np.ones((0, 3), bool), np.ones((0, 0), bool), np.zeros((0, 0))
         self.binding, self.share = np.zeros((len(masses), 0)), part[None]
 
@@ -50,9 +44,12 @@ class RigidMotion:
 
     def driven(self, drive: Drive) -> np.ndarray:
         """The rigid motion at the drive's moment."""
-        turn = Rotation.from_rotvec(drive.value(self._time, self._rotation))
-        moved: np.ndarray = drive.value(self._time, self._displacement) + turn.apply(self._arms) - self._arms
-        return moved
+        plan, height = self._rest[:, :2], self._rest[:, 2]
+        return self._edge.placed(plan, drive.load_factor, drive.time).lifted(height)
+
+    def velocity(self, time: float) -> np.ndarray:
+        """Its velocity (m, 3) [m/s] from a time [s] on."""
+        return self._edge.velocity(self._rest[:, :2], self._rest[:, 2], time)
 
     def force(self, y: np.ndarray, drive: Drive) -> tuple[float, np.ndarray]:
         """None."""

@@ -9,7 +9,8 @@ from lumped.dynamics.constraints import Projection
 from lumped.dynamics.system import State, System
 from lumped.lattice import Weights
 from lumped.statics.solver import pose, settle
-from sheetbench.scenes import Chain, Clamped, Curved
+from sheetbench.scenes import Chain
+from sheetbench.scenes.kinematics import bent_or_tilted
 
 
 def initial_state(system: System, calibration: Calibration, weights: Weights) -> State:
@@ -17,9 +18,7 @@ def initial_state(system: System, calibration: Calibration, weights: Weights) ->
     acceleration that loads and commands give it at once."""
     u = system.place(0.0)
     scene = system.scene
-    if any(
-        (isinstance(s, Curved) and s.curvature) or (isinstance(s, Clamped) and s.tilt) for s in scene.supports
-    ):
+    if bent_or_tilted(scene.supports, scene.sheet):
         slack = tuple(a.replace(curvature=0.0) if isinstance(a, Chain) else a for a in scene.actuators)
         unloaded = scene.replace(gravity=None, loads=(), actuators=slack)
         u = settle(unloaded, pose(unloaded, calibration, weights), "path").state.u

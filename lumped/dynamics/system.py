@@ -20,9 +20,7 @@ from lumped.actuators import Drive
 from lumped.dynamics.damping import Damping
 from lumped.masses import masses
 from lumped.statics.problem import Problem
-from sheetbench.scenes import Scene, held_axes, holds_director
-
-INSTANT = 1e-7  # s, over which velocities of prescribed motions are taken
+from sheetbench.scenes import PiecewiseLinear, Scene, held_axes, holds_director
 
 
 @dataclass(frozen=True)
@@ -68,9 +66,8 @@ class System:
         self._own[entries.col[identity]] = entries.row[identity]
         self.reduced_mass = sp.csc_array(self.moving_part.T @ self.mass @ self.moving_part)
         self.solve_mass = _mass_solver(self.reduced_mass)
-        motions = any(support.motion is not None for support in scene.supports)
-        driven = self.coupling is not None and any(a.rows == 0 for a in self.coupling.actuators)
-        self.moving = motions or driven
+        self._motions = self._support_motions()
+        self.moving = bool(self._motions or (self.coupling is not None and self.coupling.moved.any()))
         self._still = problem.constraints.prescribed(1.0)
 
     @property
@@ -92,24 +89,34 @@ class System:
         if not self.moving:
             return self._still
         g = self._still.copy()
-        fixed = self.problem.constraints.fixed
-        for support in self.scene.supports:
-            if support.motion is None:
-                continue
-            now = Drive(1.0, time).value(np.array(support.motion.time), np.array(support.motion.displacement))
-            columns = self.problem.constraints.holders[support.edge][0].ravel()
-            for axis in held_axes(support):
-                mine = columns if holds_director(support) else columns[~fixed[columns, axis]]
-                g[mine, axis] += now[axis]
+        for moved, axis, course in self._motions:
+            g[moved, axis] += course.at(time)[axis]
         if self.coupling is not None:
             g += self.coupling.driven(self.drive(time))
         return g
 
     def place_rate(self, time: float) -> np.ndarray:
         """Velocity of g from this moment on, (size, 3) [m/s]."""
+        g = np.zeros_like(self._still)
         if not self.moving:
-            return np.zeros_like(self._still)
-        return (self.place(time + INSTANT) - self.place(time)) / INSTANT
+            return g
+        for moved, axis, course in self._motions:
+            g[moved, axis] += course.slope(time)[axis]
+        if self.coupling is not None:
+            g += self.coupling.driven_velocity(time)
+        return g
+
+    def _support_motions(self) -> list[tuple[np.ndarray, int, PiecewiseLinear]]:
+        """Masses, axis and displacement (3,) [m] of what supports move, an axis at a time."""
+        found = []
+        for support in self.scene.supports:
+            if support.motion is not None:
+                course = PiecewiseLinear(support.motion.time, support.motion.displacement)
+                row = self.problem.constraints.holders[support.edge][0].ravel()
+                for axis in held_axes(support):
+                    free = ~self.problem.constraints.fixed[row, axis]
+                    found.append((row if holds_director(support) else row[free], axis, course))
+        return found
 
     def elastic(self, u: np.ndarray, time: float) -> tuple[float, np.ndarray]:
         """Elastic energy and internal force, actuators with their multipliers included."""

@@ -22,9 +22,8 @@ from sheetbench.scenes.supports import (
     held_axes,
     holds_director,
     holds_tilt,
-    rod_middle,
 )
-from sheetbench.scenes.tables import FactorTable
+from sheetbench.scenes.tables import FactorTable, PiecewiseLinear
 
 __all__ = [
     "EDGES",
@@ -53,6 +52,7 @@ __all__ = [
     "Material",
     "Motion",
     "PerDirection",
+    "PiecewiseLinear",
     "PointLoad",
     "Pressure",
     "Scene",
@@ -74,7 +74,6 @@ __all__ = [
     "load",
     "outside_model",
     "require_static",
-    "rod_middle",
     "scene_of",
     "weight_strain",
 ]

@@ -27,7 +27,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from sheetbench.scenes.quantities import Frozen, NonNegative, Number, Positive, Unit, Vector3
 from sheetbench.scenes.sheet import EdgeName
-from sheetbench.scenes.tables import OverTime
+from sheetbench.scenes.tables import OverTime, PiecewiseLinear
 
 Plane = Literal["normal", "inplane", "spatial"]
 Base = Literal["free", "start", "middle", "end"]
@@ -100,6 +100,14 @@ class Chain(Frozen):
         """Height [m] of its axis along the director of a sheet of a thickness [m]."""
         side = {"mid": 0.0, "top": 1.0, "bottom": -1.0}[self.face]
         return side * (thickness / 2.0 + self.radius)
+
+    def curvatures(self) -> PiecewiseLinear:
+        """Intrinsic curvature (joints,) [1/m] of every joint over time; (1,), if it has none."""
+        count = max(self.joints, 1)
+        if isinstance(self.curvature, CurvatureTable):
+            return PiecewiseLinear(self.curvature.time, [(value,) * count for value in self.curvature.value])
+        each = self.curvature if isinstance(self.curvature, tuple) else (self.curvature,) * count
+        return PiecewiseLinear((0.0,), [each or (0.0,)])
 
     @property
     def joints(self) -> int:

@@ -1,9 +1,6 @@
 """Corners that a moved edge shares with a neighbour: what both demand there, and whether both can be obeyed.
 
-A motion holds position and director of its whole edge, corners included: at X from the edge's middle
-
-    u = d + (R(θ) − I) X,    director R(θ) e_z.
-
+A motion holds position and director of its whole edge, corners included (`sheetbench.scenes.kinematics`).
 A support beside it holds what its kind says, another motion all of it; a chain goes where the corner goes,
 unless its base stands there. Where they agree the corner belongs to the motion. They must agree at every
 moment, for what is left out is not the same in every model: at the samples of both tables, and between them
@@ -18,12 +15,13 @@ from itertools import pairwise, product
 import numpy as np
 
 from sheetbench.scenes.actuators import Chain, EdgeMotion
+from sheetbench.scenes.kinematics import UP, MovedEdge, TiltedEdge
 from sheetbench.scenes.sheet import EDGES, Sheet
 from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Symmetric, held_axes, holds_director
+from sheetbench.scenes.tables import PiecewiseLinear
 
 EXACT = 1e-6  # m per metre of the longer side, and in a director: what numbers written in decimals leave
 BETWEEN = (0.381966, 0.618034)
-UP = np.array([0.0, 0.0, 1.0])
 
 Neighbour = AnySupport | EdgeMotion
 
@@ -108,39 +106,17 @@ def _place(other: Neighbour, corner: tuple, sheet: Sheet, time: float) -> tuple[
     """Displacement [m] and director (3,) that a neighbour gives the corner."""
     if isinstance(other, EdgeMotion):
         return _pose(other, corner, sheet, time)
-    displacement, director = np.zeros(3), UP
-    if isinstance(other, Clamped):
-        outward = np.array(EDGES[other.edge].outward)
-        director = UP * np.cos(other.tilt) - outward * np.sin(other.tilt)
+    displacement = np.zeros(3)
     if other.motion is not None:
-        displacement = _value(other.motion.time, other.motion.displacement, time)
-    return displacement, director
+        displacement = PiecewiseLinear(other.motion.time, other.motion.displacement).at(time)
+    tilted = TiltedEdge(other).placed(np.zeros((1, 2))).director if isinstance(other, Clamped) else 0.0
+    return displacement, UP + tilted
 
 
 def _pose(motion: EdgeMotion, corner: tuple, sheet: Sheet, time: float) -> tuple[np.ndarray, np.ndarray]:
     """Displacement [m] and director (3,) that a motion gives the corner."""
-    arm = np.array([*corner, 0.0])
-    arm[:2] -= np.mean(sheet.edge_ends(motion.edge), axis=0)
-    rotation = _value(motion.time, motion.rotation, time)
-    displacement = _value(motion.time, motion.displacement, time) + _turned(rotation, arm) - arm
-    return displacement, _turned(rotation, UP)
-
-
-def _value(time: tuple[float, ...], values: tuple, at: float) -> np.ndarray:
-    """A table of vectors at a time, zero if it is empty."""
-    if not values:
-        return np.zeros(3)
-    return np.array([np.interp(at, time, column) for column in np.array(values).T])
-
-
-def _turned(rotation: np.ndarray, vector: np.ndarray) -> np.ndarray:
-    """R(θ) v by Rodrigues' formula."""
-    angle = float(np.linalg.norm(rotation))
-    if angle == 0.0:
-        return vector
-    axis = rotation / angle
-    along: np.ndarray = axis * (axis @ vector) * (1.0 - np.cos(angle))
-    return vector * np.cos(angle) + np.cross(axis, vector) * np.sin(angle) + along
+    placed = MovedEdge(motion, sheet).placed(np.array([corner]), time=time)
+    return placed.displacement[0], UP + placed.director
 
 
 def _named(other: Neighbour) -> str:

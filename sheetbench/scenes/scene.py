@@ -13,7 +13,7 @@ import numpy as np
 from pydantic import Field, ValidationError, model_validator
 
 from sheetbench.scenes import corners
-from sheetbench.scenes.actuators import Actuator, Chain, disagreement
+from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion, disagreement
 from sheetbench.scenes.errors import SceneError
 from sheetbench.scenes.loads import Load, PointLoad
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
@@ -104,6 +104,18 @@ class Scene(Frozen):
         if len(set(names)) < len(names):
             names = [f"{edge}.{i + 1}" for i, edge in enumerate(names)]
         return dict(zip(names, self.actuators, strict=True))
+
+    def motions(self) -> dict[str, EdgeMotion]:
+        """The edge motions by their names."""
+        return {name: a for name, a in self.named_actuators().items() if isinstance(a, EdgeMotion)}
+
+    def chains(self) -> dict[str, dict[str, Chain]]:
+        """The chains by their names, of every edge with some."""
+        found: dict[str, dict[str, Chain]] = {}
+        for name, actuator in self.named_actuators().items():
+            if isinstance(actuator, Chain):
+                found.setdefault(str(actuator.edge), {})[name] = actuator
+        return found
 
     def twisting_edges(self) -> frozenset[str]:
         """The edges along which nothing holds the director: free, hinged and held ones."""

@@ -22,7 +22,7 @@ from typing import Annotated, Literal
 from pydantic import Field, field_validator
 
 from sheetbench.scenes.quantities import Frozen, Number, Unit, Vector3
-from sheetbench.scenes.sheet import EDGES, EdgeName, Sheet
+from sheetbench.scenes.sheet import EDGES, EdgeName
 from sheetbench.scenes.tables import OverTime
 
 Component = Literal["x", "y", "z"]
@@ -131,16 +131,6 @@ def holds_tilt(support: AnySupport) -> bool:
 def lets_twist_go(edge: str, supports: tuple[AnySupport, ...]) -> bool:
     """Whether no support holds the director along an edge, so that a twisting moment fades towards it."""
     return not any(support.edge == edge and holds_tilt(support) for support in supports)
-
-
-def rod_middle(rod: Curved, supports: tuple[AnySupport, ...], sheet: Sheet) -> float:
-    """Where the middle of a bent rod lies along its edge [m]: on the plane of symmetry it meets, if any."""
-    along = EDGES[rod.edge].along_axis
-    length = sheet.lengths[along]
-    for support in supports:
-        if isinstance(support, Symmetric) and EDGES[support.edge].normal_axis == along:
-            return length if EDGES[support.edge].far_end else 0.0
-    return length / 2.0
 
 
 def contradiction(supports: tuple[AnySupport, ...]) -> str | None:

@@ -1,4 +1,4 @@
-"""Tables over time: samples at increasing times [s], linear between them, constant before and after.
+"""Values over time: samples at increasing times [s], linear between them, constant before and after.
 
 history   a factor [-] on a load or on gravity; without one it acts in full from t = 0 on. Statics take the
           last factor.
@@ -6,12 +6,39 @@ history   a factor [-] on a load or on gravity; without one it acts in full from
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Annotated
 
+import numpy as np
 from pydantic import Field, model_validator
 
 from sheetbench.scenes.quantities import Frozen, Number, Unit
+
+INSTANT = 1e-9  # s, that a sum of time steps may lack of the moment it stands for
+
+
+class PiecewiseLinear:
+    """Values (n, …) at increasing times (n,) [s], linear between them and constant outside."""
+
+    def __init__(self, time: Sequence[float], values: Sequence[float] | Sequence[Sequence[float]]):
+        self._time, self._values = np.array(time, dtype=float), np.array(values, dtype=float)
+        apart = np.diff(self._time).reshape(-1, *(1,) * (self._values.ndim - 1))
+        outside = np.zeros_like(self._values[:1])
+        self._slopes = np.concatenate([outside, np.diff(self._values, axis=0) / apart, outside])
+
+    def at(self, time: float | None = None) -> np.ndarray:
+        """The value at a time [s]; without one the last, as statics take it."""
+        if time is None:
+            return np.asarray(self._values[-1])
+        passed = int(np.searchsorted(self._time, time, side="right"))
+        before = max(passed - 1, 0)
+        value: np.ndarray = self._values[before] + (time - self._time[before]) * self._slopes[passed]
+        return value
+
+    def slope(self, time: float) -> np.ndarray:
+        """Its derivative [1/s] from a time [s] on."""
+        return np.asarray(self._slopes[np.searchsorted(self._time, time + INSTANT, side="right")])
 
 
 class OverTime(Frozen):

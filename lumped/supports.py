@@ -42,9 +42,9 @@ class Constraints:
         masses carry what holds the end of a chain there."""
         if self.coupling is not None and self.coupling.corners():
             residual = residual.copy()
-            for chain, place, end, column in self.coupling.corners():
-                exerted = residual[place] + chain.binding.T @ residual[chain.masses]
-                residual[column] += chain.corner_force(end, exerted) / len(column)
+            for body, place, end, column in self.coupling.corners():
+                exerted = residual[place] + body.binding.T @ residual[body.masses]
+                residual[column] += body.corner_force(end, exerted) / len(column)
         on_masses = np.where(self.held, residual, 0.0)
         holders = np.zeros_like(residual)
         for masses, axes in self.holders.values():
@@ -83,6 +83,7 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
         dependent[last, axis] = True
         held[column, axis] = True
 
+    dependent[: lattice.mass_count][moved] = True
     bindings = coupling.bindings() if coupling is not None else []
     for masses, _, _ in bindings:
         dependent[masses] = True
@@ -101,10 +102,10 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
     for masses, binding, first in bindings:
         at, row = np.nonzero(binding)
         for axis in range(3):
-            moved = number[first + row, axis] >= 0
-            rows.append(3 * masses[at[moved]] + axis)
-            columns.append(number[first + row[moved], axis])
-            values.append(binding[at[moved], row[moved]])
+            can = number[first + row, axis] >= 0
+            rows.append(3 * masses[at[can]] + axis)
+            columns.append(number[first + row[can], axis])
+            values.append(binding[at[can], row[can]])
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
     transform = sp.csr_array(sp.coo_array(entries, shape=(3 * n, int(free.sum()))))
     driven = bent_or_tilted(scene.supports, scene.sheet)

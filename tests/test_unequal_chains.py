@@ -74,7 +74,7 @@ def test_the_clamp_carries_sheet_and_both_chains(segments, direction):
 @pytest.mark.parametrize("name", ["verlet", "generalised-alpha", "midpoint"])
 def test_a_free_sheet_with_the_pair_falls_without_bending(name):
     equations, rest = system(scene(supports=[], actuators=PAIR), n=4)
-    chain = equations.coupling.actuators[0]
+    chain = equations.coupling.bodies[0]
     masses, points = equations.assembly.lattice.mass_count, chain.frames.points
     step = 2e-5 if name == "verlet" else 1e-3
     states, _ = run(INTEGRATORS[name](equations, step), rest, step, 50)
@@ -88,7 +88,7 @@ def test_a_free_sheet_with_the_pair_falls_without_bending(name):
 
 def test_the_pair_keeps_momentum():
     equations, rest = system(scene(gravity=False, supports=[], actuators=PAIR), n=4)
-    chain = equations.coupling.actuators[0]
+    chain = equations.coupling.bodies[0]
     masses, points, count = (
         equations.assembly.lattice.mass_count,
         chain.frames.points,

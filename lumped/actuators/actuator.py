@@ -1,10 +1,11 @@
-"""What an actuator model must offer to be bound to an edge: the interface between it and the sheet.
+"""What an actuator is to the sheet: what it exerts on its edge, and, if it is a body, how it moves with it.
 
-An actuator brings rows of its own to the displacement, (rows, 3) [m], which only it understands, and binds
-masses of the edge to them: the displacement of bound mass i is binding[i] @ rows + driven[i]. The sheet's
-equations never see more; equal and opposite forces follow, because one transpose of `binding` carries the
-masses' forces to the actuator. Its forces derive from a Lagrangian: multiplier rows, if it has constraints,
-enter like any other row, with the constraint's residual as their force.
+A prescribed motion is no more than an `Actuator`: it puts masses where they have to be, and what holds them
+there is found from the sheet. A `Body` has a state of its own. It brings rows of displacement, (rows, 3) [m],
+which only it understands, and binds masses of the edge to them: the displacement of bound mass i is
+binding[i] @ rows. The sheet's equations never see more; equal and opposite forces follow, because one
+transpose of `binding` carries the masses' forces to the body. Its forces derive from a Lagrangian: multiplier
+rows, if it has constraints, enter like any other row, with the constraint's residual as their force.
 """
 
 from __future__ import annotations
@@ -23,39 +24,66 @@ class Drive:
     time: float | None = None
 
 
+@dataclass(frozen=True)
+class Acting:
+    """What acts between an actuator and the sheet: where its masses are (m, 3) [m], what holds them (m, 3)
+    and its rows (rows, 3) [N], and its rows' displacement y (rows, 3) [m]."""
+
+    positions: np.ndarray
+    on_masses: np.ndarray
+    on_rows: np.ndarray
+    y: np.ndarray
+
+
 class Actuator(Protocol):
     """One actuator model on one edge.
 
-    names: of the scene's actuators that it stands for, one or several; edge: where.
-    rows: number of its own rows; free: (rows, 3) bool, those that can move; multipliers: number of
-    constraints; pairs: (rows, rows) bool, rows that appear together in tangent, damping or mass.
-    masses: (m,) bound masses; binding: (m, rows); share: (segments, m) part of each mass's force that
-    counts to each segment; mass: (rows, rows) [kg], for each of the three axes; carried: force [N] whose
-    rounding the residual cannot fall below; rest: value at rest (k, 3) [m] of what its
-    first rows change, points and then directors, which turn as arms do; axis: the points (p, 3) among them,
-    where its segments end.
+    names: of the scene's actuators that it stands for, one or several; edge: where; masses: (m,) whose
+    displacement it gives.
     """
 
     names: tuple[str, ...]
     edge: str
+    masses: np.ndarray
+
+    def reactions(self, acting: Acting) -> dict[str, np.ndarray]:
+        """Force (3,) [N] of what holds the actuator, by its name among a solution's reactions; empty where
+        nothing holds it."""
+        ...
+
+    def held_moment(self, acting: Acting, drive: Drive) -> np.ndarray:
+        """Moment (3,) [N·m] about the origin of what holds the actuator, a corner's among it."""
+        ...
+
+    def wrenches(self, acting: Acting) -> np.ndarray:
+        """Force and moment (names, segments, 6) [N, N·m] on the sheet, and on corners that hold it."""
+        ...
+
+
+class Body(Actuator, Protocol):
+    """An actuator that moves by laws of its own.
+
+    rows: number of its own rows; free: (rows, 3) bool, those that can move; multipliers: number of
+    constraints; pairs: (rows, rows) bool, rows that appear together in tangent, damping or mass.
+    binding: (m, rows) of its masses; mass: (rows, rows) [kg], for each of the three axes; carried: force [N]
+    whose rounding the residual cannot fall below; rest: value at rest (k, 3) [m] of what its first rows
+    change, points and then directors, which turn as arms do; axis: the points (p, 3) among them, where its
+    segments end; corners: its ends (0, 1) at which a corner of the sheet holds it.
+    """
+
     rows: int
     free: np.ndarray
     multipliers: int
     pairs: np.ndarray
-    masses: np.ndarray
     binding: np.ndarray
-    share: np.ndarray
     mass: np.ndarray
     carried: float
     rest: np.ndarray
     axis: np.ndarray
+    corners: tuple[int, ...]
 
     def weight(self, acceleration: np.ndarray) -> np.ndarray:
         """Dead force (rows, 3) [N] of a uniform acceleration on the rows."""
-        ...
-
-    def driven(self, drive: Drive) -> np.ndarray:
-        """Prescribed displacement (m, 3) [m] of the bound masses."""
         ...
 
     def force(self, y: np.ndarray, drive: Drive) -> tuple[float, np.ndarray]:
@@ -90,18 +118,10 @@ class Actuator(Protocol):
         """Derivative of the damping force by the velocity, (rows, 3, rows, 3) [N·s/m]."""
         ...
 
-    def reactions(self, on_masses: np.ndarray, on_rows: np.ndarray) -> dict[str, np.ndarray]:
-        """Force (3,) [N] of what holds the actuator, by its name among a solution's reactions, from what is
-        exerted on its masses (m, 3) and its rows (rows, 3); empty where nothing holds it."""
+    def place_corner(self, end: int, layers: np.ndarray, moved: np.ndarray) -> np.ndarray:
+        """Displacement (rows, 3) [m] that follows a corner's layers at the heights (l,), moved by (l, 3)."""
         ...
 
-    def held_moment(
-        self, positions: np.ndarray, on_masses: np.ndarray, on_rows: np.ndarray, y: np.ndarray, drive: Drive
-    ) -> np.ndarray:
-        """Moment (3,) [N·m] about the origin of what holds the actuator, from what is exerted on its masses,
-        which are at `positions` (m, 3), and on its rows; a corner's among it."""
-        ...
-
-    def wrenches(self, positions: np.ndarray, on_masses: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Force and moment (names, segments, 6) [N, N·m] on the sheet from the forces `on_masses` (m, 3)."""
+    def corner_force(self, end: int, exerted: np.ndarray) -> np.ndarray:
+        """Force (3,) [N] that holds the end at a corner, from what is exerted on the rows."""
         ...

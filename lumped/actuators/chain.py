@@ -4,20 +4,14 @@ Lagrangian of the rows y (see `lumped.actuators.frames`), with multipliers λ [m
 
     L = ½ ẏ·M ẏ − Σ_joints ½ k |φ(y) − κ ds|² + g·M y − σ ds Σ λ Φ(y),     k = EI/ds  (2 EI/ds at a held base)
 
-A segment is a cylinder of the given radius: M holds its mass as that of a uniform rod, and its rotary inertia
-about the axis as m a²/4 of each director. Joints are damped with damping_time × k.
+Joints are damped with damping_time × k.
 
-Masses of the edge lie on the segment whose share of the edge holds their plan position, at a fixed place
-along it, and at their height along the rod's normal: linear between the middles of segments, where it is
-n_i, and beyond the outermost. (The nearest n_i alone would tilt masses at ends by half a joint's angle, an
-error of first order.) A mass at a joint belongs to both neighbours, a segment without masses is bound to
-nothing. Chains of a pair are one kinematic chain on the mean of their axes, each with its own joints, mass
-and offset.
+Chains of a pair are one kinematic chain on the mean of their axes, each with its own joints, mass and offset.
+What binds masses of the edge to them is in `lumped.actuators.binding`.
 
 Where an end is a corner whose position and director another edge holds, so are the chain's end point and, by
 a joint of half length, the bending and the twist of its end segment, which may turn about the director. The
-joint has the curvature of the one beside it. Masses before the middle of that segment are at their height
-along what lies between the corner's director and n_i.
+joint has the curvature of the one beside it.
 """
 
 from __future__ import annotations
@@ -27,8 +21,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from lumped.actuators import joints
-from lumped.actuators.actuator import Drive
-from lumped.actuators.frames import B, Frames, N
+from lumped.actuators.actuator import Acting, Drive
+from lumped.actuators.binding import bind, mass_matrix
+from lumped.actuators.frames import Frames
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Sheet
 from sheetbench.scenes import Chain as ChainData
@@ -37,7 +32,7 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 class Chain:
-    """One or several chains on one edge, as an `Actuator`. scale: σ [N/m], like the sheet's E h; corners: its
+    """One or several chains on one edge, as a `Body`. scale: σ [N/m], like the sheet's E h; corners: its
     ends (0 the start, 1 the end) where another edge holds position and director."""
 
     def __init__(
@@ -58,11 +53,10 @@ class Chain:
         along = np.eye(3)[edge.along_axis]
         offsets = np.array([chain.axis_height(sheet.thickness) for chain in chains])
         self.offset = float(offsets.mean())
-        self._beside = offsets - self.offset
         start = np.append(np.array(sheet.edge_ends(first.edge)[0]), self.offset)
         axes = np.array([along, UP, edge.outward])
         self.frames = frames = Frames(first, start, sheet.lengths[edge.along_axis], axes, corners)
-        self.rest, self.axis = frames.rest, frames.rest[: frames.points]
+        self.rest, self.axis, self.corners = frames.rest, frames.rest[: frames.points], frames.corners
         self.multipliers = frames.constraints
         self.rows = frames.coordinates + frames.multiplier_rows
         multipliers = np.arange(3 * frames.multiplier_rows).reshape(-1, 3) < self.multipliers
@@ -70,8 +64,9 @@ class Chain:
         self.pairs = frames.pairs()
         self.masses = masses
         rest = lattice.positions[masses]
-        self.binding, self.share = self._bind(rest @ along - start @ along, rest[:, 2])
-        self.mass = self._mass()
+        inside = rest @ along - start @ along
+        self.binding, self.share = bind(frames, self.rows, inside, rest[:, 2] - self.offset)
+        self.mass = mass_matrix(frames, self.rows, chains, offsets - self.offset)
         self._stiffness = np.array([c.bending_stiffness / frames.length / frames.share for c in chains])
         self.carried = float(self._stiffness.sum(axis=0).max(initial=0.0) / frames.length)
         self._damping = np.array([c.damping_time for c in chains]) @ self._stiffness
@@ -81,10 +76,6 @@ class Chain:
         translation the directors stand still. Chains beside the mean axis weigh on the directors too."""
         weight: np.ndarray = self.mass[:, : self.frames.points].sum(axis=1)[:, None] * acceleration
         return weight
-
-    def driven(self, drive: Drive) -> np.ndarray:
-        """A chain prescribes nothing."""
-        return np.zeros((len(self.masses), 3))
 
     def force(self, y: np.ndarray, drive: Drive) -> tuple[float, np.ndarray]:
         """Joint energy and the gradient of energy + σ ds λ·Φ."""
@@ -178,20 +169,19 @@ class Chain:
         out[:count, :, :count, :] = damped.reshape(count, 3, count, 3)
         return out
 
-    def reactions(self, on_masses: np.ndarray, on_rows: np.ndarray) -> dict[str, np.ndarray]:
+    def reactions(self, acting: Acting) -> dict[str, np.ndarray]:
         """Force on the points that the base holds."""
         if self.frames.base == "free":
             return {}
-        whole = on_rows + self.binding.T @ on_masses
+        whole = acting.on_rows + self.binding.T @ acting.on_masses
         return {self._chains[0].held_as: whole[self.frames.base_points].sum(axis=0)}
 
-    def held_moment(
-        self, positions: np.ndarray, on_masses: np.ndarray, on_rows: np.ndarray, y: np.ndarray, drive: Drive
-    ) -> np.ndarray:
+    def held_moment(self, acting: Acting, drive: Drive) -> np.ndarray:
         """Moment on the points and directors that are held, and on the frame that a base is."""
         count = self.frames.coordinates
-        whole = np.where(self.free, 0.0, on_rows + self.binding.T @ on_masses)[:count]
-        return np.cross(self.frames.rest + y[:count], whole).sum(axis=0) + self._on_ground(y, drive)
+        whole = np.where(self.free, 0.0, acting.on_rows + self.binding.T @ acting.on_masses)[:count]
+        moment = np.cross(self.frames.rest + acting.y[:count], whole).sum(axis=0)
+        return moment + self._on_ground(acting.y, drive)
 
     def _on_ground(self, y: np.ndarray, drive: Drive) -> np.ndarray:
         """Moment (3,) [N·m] of the base on the chain through its joints and constraints."""
@@ -215,78 +205,27 @@ class Chain:
         force: np.ndarray = np.where(self.free, 0.0, exerted)[self.frames.end_point(end)]
         return force
 
-    def corner_wrenches(self, exerted: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """As `wrenches`, what the chain passes on to the corners that hold it, (segments, 6) a member."""
-        frames = self.frames
-        total = np.zeros((frames.segments, 6))
-        place = frames.rest + y[: frames.coordinates]
-        for end in frames.corners:
-            segment, row = frames.end_segment(end), frames.corner_row[end]
-            force, couple = self.corner_force(end, exerted), np.cross(place[row], exerted[row])
-            arm = place[frames.end_point(end)] - 0.5 * (place[segment] + place[segment + 1])
-            total[segment] -= np.concatenate([force, np.cross(arm, force) + couple])
-        return np.tile(total / len(self.names), (len(self.names), 1, 1))
-
-    def wrenches(self, positions: np.ndarray, on_masses: np.ndarray, y: np.ndarray) -> np.ndarray:
+    def wrenches(self, acting: Acting) -> np.ndarray:
         """Force and moment about the middle of each segment's axis; chains of a pair share them evenly."""
         frames = self.frames
-        points = frames.rest[: frames.points] + y[: frames.points]
-        middle = 0.5 * (points[1:] + points[:-1])
-        arm = positions[None, :, :] - middle[:, None, :]
-        force = self.share @ on_masses
-        moment = np.einsum("sm,smq->sq", self.share, np.cross(arm, on_masses[None, :, :]))
+        place = frames.rest + acting.y[: frames.coordinates]
+        middle = 0.5 * (place[1 : frames.points] + place[: frames.segments])
+        arm = acting.positions[None, :, :] - middle[:, None, :]
+        force = self.share @ acting.on_masses
+        moment = np.einsum("sm,smq->sq", self.share, np.cross(arm, acting.on_masses[None, :, :]))
         total = np.concatenate([force, moment], axis=1)
+        exerted = acting.on_rows + self.binding.T @ acting.on_masses
+        for end in self.corners:
+            segment, row = frames.end_segment(end), frames.corner_row[end]
+            push, couple = self.corner_force(end, exerted), np.cross(place[row], exerted[row])
+            lever = place[frames.end_point(end)] - middle[segment]
+            total[segment] -= np.concatenate([push, np.cross(lever, push) + couple])
         return np.tile(total / len(self.names), (len(self.names), 1, 1))
 
     def curvature(self, member: int, drive: Drive) -> np.ndarray:
         """Commanded intrinsic curvature at every joint of one chain, (j,) [1/m]."""
         values = self._curvatures[member].at(drive.time)
         return drive.load_factor * values[self.frames.command]
-
-    def _bind(self, along: np.ndarray, height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Binding of masses at arc length and height (m,), and their share in each segment."""
-        frames = self.frames
-        binding = np.zeros((len(along), self.rows))
-        share = np.zeros((frames.segments, len(along)))
-        place = along / frames.length
-        for i, (p, z) in enumerate(zip(place, height, strict=True)):
-            nearest = round(p)
-            tie = abs(p - nearest) < 1e-9 and 0 < nearest < frames.segments
-            owners = (nearest - 1, nearest) if tie else (min(max(int(p), 0), frames.segments - 1),)
-            for segment in owners:
-                weight = 1.0 / len(owners)
-                share[segment, i] = weight
-                binding[i, segment] += weight * (1.0 - (p - segment))
-                binding[i, segment + 1] += weight * (p - segment)
-            before = min(max(int(np.floor(p - 0.5)), 0), max(frames.segments - 2, 0))
-            after = min(before + 1, frames.segments - 1)
-            lever = (z - self.offset) / frames.length
-            end = 0 if p < 0.5 * frames.segments else 1
-            inside = p if end == 0 else frames.segments - p  # from the nearer end, in ds
-            if end in frames.corners and inside < 0.5:
-                director = frames.points + frames.end_segment(end)
-                binding[i, director] += lever * 2.0 * inside
-                binding[i, frames.corner_row[end]] += lever * (1.0 - 2.0 * inside)
-                continue
-            binding[i, frames.points + before] += lever * (1.5 - (p - before))
-            binding[i, frames.points + after] += lever * (p - before - 0.5)
-        return binding, share
-
-    def _mass(self) -> np.ndarray:
-        """Mass matrix of the rows."""
-        frames = self.frames
-        mass = np.zeros((self.rows, self.rows))
-        for chain, beside in zip(self._chains, self._beside, strict=True):
-            m = chain.line_density * frames.length
-            for i in range(frames.segments):
-                axis = np.zeros((2, self.rows))  # the ends of this chain's axis from the common rows
-                axis[0, i] = axis[1, i + 1] = 1.0
-                axis[:, frames.points + i] = beside / frames.length
-                mass += axis.T @ (m / 6.0 * np.array([[2.0, 1.0], [1.0, 2.0]])) @ axis
-                for kind in (N, B):
-                    row = frames.points + (kind - 1) * frames.segments + i
-                    mass[row, row] += m * chain.radius**2 / 4.0 / frames.length**2
-        return mass
 
     def _joint_springs(self, drive: Drive) -> tuple[np.ndarray, np.ndarray, float]:
         """Stiffness (j,), rest angles (j, 2) of all chains together, and the energy that their rest angles

@@ -5,13 +5,18 @@ from __future__ import annotations
 import signal
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import fake_solutions
 import pytest
+from campaigns import Here
+from matplotlib.figure import Figure
 
 from comparisons.comparison import comparison as displacement
 from comparisons.models.candidate import Candidate
-from comparisons.runs.campaign import campaign
+from comparisons.report import offscreen
+from comparisons.runs import executors
+from comparisons.runs.campaign import campaign, carry_out
 from comparisons.runs.store import Store
 from sheetbench.scenes import Scene, Solution
 
@@ -35,6 +40,24 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> dict[str, Solution]:
 
 
 @pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures are empty files, for tests of what else a run says and leaves."""
+
+    def touch(self: Figure, place: Any, *_: object, **__: object) -> None:
+        Path(place).touch()
+
+    monkeypatch.setattr(Figure, "savefig", touch)
+    monkeypatch.setattr(offscreen, "why_not", lambda: "not drawn")
+
+
+@pytest.fixture
 def store(tmp_path: Path) -> Iterator[Store]:
     with campaign(tmp_path) as opened:
         yield opened
+
+
+@pytest.fixture
+def in_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Campaigns run in this process: no worker has to start."""
+    monkeypatch.setattr(executors, "processes", Here)
+    monkeypatch.setitem(carry_out.__kwdefaults__, "pool", Here)

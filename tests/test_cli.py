@@ -169,6 +169,7 @@ def test_printed_table_has_units_error_time_and_status(capsys: pytest.CaptureFix
     assert max(len(line.rstrip()) for line in printed.splitlines()) <= 80
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_solver_that_does_not_converge_leaves_with_3_and_keeps_its_answer(
     quick: dict[str, Solution], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -30,7 +30,7 @@ def test_settles_on_the_static_answer():
 
 def test_the_conserving_integrator_holds_the_energy_for_ten_seconds():
     asked = scene()
-    history = lumped.simulate(asked, springs(asked), 10.0, integrator="midpoint", step=2e-3, every=0.02)
+    history = lumped.simulate(asked, springs(asked, 4), 10.0, integrator="midpoint", step=4e-3, every=0.02)
     assert history.status is Status.CONVERGED
     drift = largest(history.balance - history.balance[0])
     assert drift < 1e-6 * largest(history.energies["potential"])
@@ -67,8 +67,8 @@ def reference():
             [y[count:], equations.contract(equations.accelerate(equations.unbalanced(u, v, time)))]
         )
 
-    times = np.linspace(0.0, 0.2, 101)
-    found = solve_ivp(rate, (0.0, 0.2), np.zeros(2 * count), "DOP853", times, rtol=1e-8, atol=1e-10)
+    times = np.linspace(0.0, 0.1, 51)
+    found = solve_ivp(rate, (0.0, 0.1), np.zeros(2 * count), "DOP853", times, rtol=1e-8, atol=1e-10)
     corner = equations.assembly.lattice.columns()[-1, -1]
     return asked, times, np.array([equations.expand(y[:count])[corner].mean(axis=0) for y in found.y.T])
 
@@ -76,7 +76,7 @@ def reference():
 @pytest.mark.parametrize("name, step", [("verlet", None), ("generalised-alpha", None), ("midpoint", 2e-4)])
 def test_integrators_agree_with_solve_ivp(reference, name, step):
     asked, times, truth = reference
-    history = lumped.simulate(asked, springs(asked), 0.2, integrator=name, step=step, every=0.002)
+    history = lumped.simulate(asked, springs(asked), 0.1, integrator=name, step=step, every=0.002)
     assert history.time == pytest.approx(times)
     assert largest(history.probes["P4"] - truth) < 1e-3 * largest(truth)
 
@@ -97,15 +97,15 @@ def test_observed_order_is_the_declared_one(name, damping):
     step = ORDER_STEPS[name] * (0.1 if name == "verlet" and damping else 1.0)
     ends = []
     options = {"tolerance": 1e-4} if name == "projective" else {}
-    for h in (step, step / 2, step / 4, step / 8):
+    for h in (step / 2, step / 4, step / 8):
         history = lumped.simulate(
-            asked, springs(asked, 4), 0.008, integrator=name, step=h, every=0.008, **options
+            asked, springs(asked, 4), 0.004, integrator=name, step=h, every=0.004, **options
         )
         ends.append(history.probes["P4"][-1])
     changes = [largest(a - b) for a, b in pairwise(ends)]
-    slope = np.log2(changes[1] / changes[2])
+    slope = np.log2(changes[0] / changes[1])
     assert slope == pytest.approx(INTEGRATORS[name].order, abs=0.15)
-    assert changes[2] < (0.1 if name == "projective" else 2e-3) * largest(ends[-1])
+    assert changes[1] < (0.1 if name == "projective" else 2e-3) * largest(ends[-1])
 
 
 def grows(equations, rest, h, steps=400):

@@ -43,13 +43,15 @@ def test_exact_data_give_the_value_back(truth):
     assert np.abs(found.residuals).max() < 1e-9
 
 
-def test_the_interval_holds_the_true_value_in_90_of_100_draws(truth):
+def test_the_interval_holds_the_true_value_in_90_of_100_draws():
     """1 % of the largest displacement as noise in every component; the search starts up to 65 % away."""
     rng = np.random.default_rng(11)
+    truth = lattice(with_material(SCENE, young=TRUE), (5, 5)).displacement(POINTS)
     hits, widths = 0, []
     for _ in range(100):
         start = with_material(SCENE, young=TRUE * float(np.exp(rng.uniform(-0.5, 0.5))))
-        found = identify(start, Displacements(POINTS, noisy(truth, rng)), ["young"], refine=False)
+        measured = Displacements(POINTS, noisy(truth, rng))
+        found = identify(start, measured, ["young"], grid=(5, 5, 2), refine=False)
         low, high = found.unknowns["young"].interval
         hits += low <= TRUE <= high
         widths.append((high - low) / TRUE)
@@ -230,12 +232,12 @@ def test_a_scanned_surface(tmp_path):
 
 def test_damping_from_a_measured_motion():
     true = with_material(SCENE, damping_time=4e-3)
-    springs = lumped.calibrate(true.sheet, true.material, (4, 4))
-    run = lumped.simulate(true, springs, 0.15)
+    springs = lumped.calibrate(true.sheet, true.material, (3, 3))
+    run = lumped.simulate(true, springs, 0.1)
     place = np.tile(SCENE.probes["P4"], (len(run.time[::4]), 1))
     measured = Displacements(place, run.probes["P4"][::4], run.time[::4])
     first_guess = with_material(SCENE, damping_time=3e-3)
-    found = identify(first_guess, measured, ["damping_time"], grid=(4, 4, 2))
+    found = identify(first_guess, measured, ["damping_time"], grid=(3, 3, 2))
     assert found.unknowns["damping_time"].value == pytest.approx(4e-3, rel=0.01)
 
 

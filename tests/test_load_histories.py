@@ -225,11 +225,11 @@ def test_a_ramped_force_moves_the_cantilever_as_solve_ivp_says(reference, name, 
 
 
 def test_the_sheet_follows_slow_ramps_through_the_static_solutions():
-    pressure = {"kind": "pressure", "value": 6.0, "history": {"time": [0.0, 8.0], "factor": [0.0, 1.0]}}
+    pressure = {"kind": "pressure", "value": 6.0, "history": {"time": [0.0, 4.0], "factor": [0.0, 1.0]}}
     asked = scene("one-edge-clamped", gravity=False, loads=[pressure], damping_time=1e-2)
-    history = lumped.simulate(asked, springs(asked, 4), 8.0, step=0.02, every=1.0)
+    history = lumped.simulate(asked, springs(asked, 4), 4.0, step=0.02, every=1.0)
     assert history.status is Status.CONVERGED
-    for i, factor in enumerate(history.time[1:] / 8.0, start=1):
+    for i, factor in enumerate(history.time[1:] / 4.0, start=1):
         there = asked.model_copy(update={"loads": (Pressure(value=6.0 * factor),)})
         static = lumped.solve(there, springs(asked, 4)).displacement(asked.probe_points())
         found = np.array([history.probes[name][i] for name in asked.probes])
@@ -256,7 +256,7 @@ def shaken(damping_time=0.0):
 def test_the_energy_balance_holds_with_loads_that_change(name, tolerance, damping):
     asked = shaken(damping)
     step = {"midpoint": 5e-4, "generalised-alpha": 2e-4, "verlet": None}[name]
-    history = lumped.simulate(asked, springs(asked, 4), 0.2, integrator=name, step=step, every=0.002)
+    history = lumped.simulate(asked, springs(asked, 4), 0.1, integrator=name, step=step, every=0.002)
     assert history.status is Status.CONVERGED
     scale = max(largest(energy) for energy in history.energies.values())
     assert largest(history.energies["work"]) > 0.2 * scale
@@ -289,15 +289,15 @@ def test_orders_are_as_declared_under_a_smooth_load(name):
     ]
     asked = scene("one-edge-clamped", gravity=False, loads=loads)
     ends, options = [], {"tolerance": 1e-4} if name == "projective" else {}
-    for halvings in range(4):
+    for halvings in (1, 2, 3):
         step = ORDER_STEPS[name] / 2**halvings
         found = lumped.simulate(
             asked, springs(asked, 4), 0.008, integrator=name, step=step, every=0.008, **options
         )
         ends.append(found.probes["P4"][-1])
     changes = [largest(a - b) for a, b in pairwise(ends)]
-    assert np.log2(changes[1] / changes[2]) == pytest.approx(INTEGRATORS[name].order, abs=0.15)
-    assert changes[2] < (0.1 if name == "projective" else 2e-3) * largest(ends[-1])
+    assert np.log2(changes[0] / changes[1]) == pytest.approx(INTEGRATORS[name].order, abs=0.15)
+    assert changes[1] < (0.1 if name == "projective" else 2e-3) * largest(ends[-1])
 
 
 class Stopped(Exception):
@@ -306,7 +306,7 @@ class Stopped(Exception):
 
 @pytest.mark.parametrize("name", list(INTEGRATORS))
 def test_a_stopped_run_resumes_to_the_last_digit(tmp_path, name):
-    asked, every = shaken(), 0.001
+    asked, every = shaken(), 2e-4
     duration = 1.6 * SAMPLES_PER_CHECKPOINT * every
 
     def to(folder, progress=None):
@@ -334,7 +334,7 @@ def test_a_stopped_run_resumes_to_the_last_digit(tmp_path, name):
 def test_projective_reaches_the_statics_of_the_last_factor():
     asked = pull_on_a_cantilever({"time": [0.0, 0.1], "factor": [0.0, 0.5]}, damping_time=2e-2)
     equations, rest = system(asked, 3)
-    states, _ = run(INTEGRATORS["projective"](equations, 5e-3, tolerance=1e-4), rest, 5e-3, 600)
+    states, _ = run(INTEGRATORS["projective"](equations, 5e-2, tolerance=1e-4), rest, 5e-2, 24)
     static = lumped.solve(asked, springs(asked, 3)).displacement(np.array([TIP]))[0]
     tip = states[-1].u[equations.assembly.lattice.columns()[1, -1]].mean(axis=0)
     assert largest(tip - static) < 1e-3 * largest(static)

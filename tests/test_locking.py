@@ -40,7 +40,7 @@ def test_solid_within_1_percent_as_it_becomes_incompressible() -> None:
     assert all(row.passed for row in rows)
 
 
-@pytest.mark.parametrize("elements", [16, 24, 32])
+@pytest.mark.parametrize("elements", [16, 24])
 def test_stretched_elements_that_bend_stay_stable(elements: int) -> None:
     """The soft sheet, whose lowest ω² on all meshes is 110 s⁻²; with the twist k_rs projected on bilinear
     functions too, elements of sides 10 to 20 : 1 gave its tangent a negative eigenvalue from 22 on."""

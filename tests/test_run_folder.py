@@ -35,10 +35,10 @@ def kill(time):
     if len(after) > 3:  # samples after the checkpoint, to be dropped
         os.kill(os.getpid(), signal.SIGKILL)
 asked = scene("one-edge-clamped", {actuators}, damping_time=1e-3)
-options = dict(integrator={name!r}, every=0.002, frames=20)
+options = dict(integrator={name!r}, every=2e-4, frames=20)
 lumped.simulate(asked, springs(asked, 4), {duration}, store=store, progress=kill, **options)
 """
-DURATION = 0.25  # s, two checkpoints
+DURATION = 0.025  # s, two checkpoints
 RUNS = {"generalised-alpha": [], "verlet": [], "midpoint": [{"segments": 2, "curvature": 3.0}]}
 
 
@@ -50,7 +50,7 @@ def test_a_killed_run_resumes_to_the_last_digit(tmp_path, name):
     assert killed.returncode == -signal.SIGKILL
     samples = tmp_path / "killed" / "samples.bin"
     asked = scene("one-edge-clamped", actuators, damping_time=1e-3)
-    options = {"integrator": name, "every": 0.002, "frames": 20}
+    options = {"integrator": name, "every": 2e-4, "frames": 20}
     whole = lumped.simulate(asked, springs(asked, 4), duration, store=tmp_path / "whole", **options)
     killed_at = samples.stat().st_size
     resumed = lumped.simulate(asked, springs(asked, 4), duration, store=tmp_path / "killed", **options)
@@ -61,8 +61,8 @@ def test_a_killed_run_resumes_to_the_last_digit(tmp_path, name):
     assert 0.0 < resumed.resumed_from < duration and whole.resumed_from == 0.0
 
 
-STILL = {"integrator": "verlet", "every": 0.002, "frames": 5}
-LENGTH = 0.11  # s, one checkpoint
+STILL = {"integrator": "verlet", "every": 2e-4, "frames": 5}
+LENGTH = 0.011  # s, one checkpoint
 
 
 @pytest.fixture(scope="module")
@@ -91,12 +91,12 @@ def test_a_longer_duration_goes_on_with_the_run(kept, tmp_path):
     longer = again(2.0 * LENGTH)
     asked = scene(damping_time=1e-3)
     at_once = lumped.simulate(asked, springs(asked, 3), 2.0 * LENGTH, store=tmp_path / "at once", **STILL)
-    assert longer.resumed_from == pytest.approx(50 * 0.002)
+    assert longer.resumed_from == pytest.approx(50 * 2e-4)
     assert (folder / "samples.bin").read_bytes() == (tmp_path / "at once" / "samples.bin").read_bytes()
     assert longer.time[-1] == pytest.approx(2.0 * LENGTH) and longer.steps == at_once.steps
-    assert np.allclose(longer.extra["frame_times"], 0.002 * np.array([0, 14, 28, 41, 55, 69, 82, 96, 110]))
+    assert np.allclose(longer.extra["frame_times"], 2e-4 * np.array([0, 14, 28, 41, 55, 69, 82, 96, 110]))
     assert len(longer.extra["frames"]) == 9
-    with pytest.raises(BadInput, match=r"duration = 0.11 s: the run that is kept there is one of 0.22 s"):
+    with pytest.raises(BadInput, match=r"duration = 0.011 s: the run that is kept there is one of 0.022 s"):
         again()
 
 
@@ -104,7 +104,7 @@ def test_another_run_in_the_folder_is_refused_by_what_differs(kept):
     folder, _, again = kept
     before = (folder / "run.json").read_bytes()
     with pytest.raises(BadInput, match=r"holds another run \(of another every, step\)"):
-        again(step=1e-5, every=0.001)
+        again(step=1e-5, every=1e-4)
     assert (folder / "run.json").read_bytes() == before
 
 
@@ -175,6 +175,7 @@ def test_a_run_has_one_writer(kept):
     assert np.array_equal(again().probes["P4"], history.probes["P4"])
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_second_writer_is_refused_before_it_touches_the_folder(tmp_path, capsys):
     """It rewrote the manifest of the first."""
     manifest = tmp_path / "manifest.json"
@@ -225,6 +226,6 @@ def test_memory_does_not_grow_with_the_duration(tmp_path):
         tracemalloc.stop()
         return found
 
-    peak(0.1)
-    assert peak(1.6) < peak(0.2) + 20_000  # bytes; 1400 more samples are 370 kB
-    assert (tmp_path / "1.6" / "samples.bin").stat().st_size > 300_000
+    peak(0.05)
+    assert peak(0.8) < peak(0.1) + 20_000  # bytes; 700 more samples are 185 kB
+    assert (tmp_path / "0.8" / "samples.bin").stat().st_size > 150_000

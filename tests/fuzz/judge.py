@@ -1,0 +1,124 @@
+"""What every run must keep to, whatever was asked: its exit status, its words, its numbers, its folder."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import math
+import os
+import sys
+import traceback
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from comparisons.cli import main
+
+DONE, BAD_INPUT, NOT_CONVERGED = 0, 2, 3
+LONGEST = 3000  # characters of a refusal
+
+
+@dataclass(frozen=True)
+class Outcome:
+    status: object
+    out: str
+    err: str
+
+
+def outcome(arguments: Sequence[str], folder: Path) -> Outcome:
+    """A command carried out in this process, in a folder of its own; terminal and pipe as for a program."""
+    out, err = io.StringIO(), io.StringIO()
+    before, status = Path.cwd(), 0
+    os.chdir(folder)
+    try:
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err), warnings.catch_warnings():
+            warnings.simplefilter("default")
+            try:
+                main(list(arguments))
+            except SystemExit as leaving:
+                status = leaving.code or 0
+            except BaseException:
+                traceback.print_exc(file=sys.stderr)
+                status = 1
+    finally:
+        os.chdir(before)
+    return Outcome(status, out.getvalue(), err.getvalue())
+
+
+def held(found: Outcome, about: object) -> None:
+    """The documented statuses, no traceback; a refusal in one line at the end; no raw control characters."""
+    said = f"{about!r} → {found.status}\n{found.out[-2000:]}\n{found.err[-6000:]}"
+    assert found.status in (DONE, BAD_INPUT, NOT_CONVERGED), said
+    assert "Traceback" not in found.out + found.err, said
+    if found.status == BAD_INPUT:
+        last = found.err.rstrip("\n").rpartition("\n")[2]
+        assert last.strip() and len(last) <= LONGEST, said
+        assert not found.out, said
+    for text in (found.out, found.err):
+        assert not any((c < " " and c not in "\n\t\r") or "\x7f" <= c < "\xa0" for c in text), said
+
+
+def document(found: Outcome) -> Any:
+    """The JSON document of a run that has one; every number in it is finite."""
+
+    def refuse(word: str) -> None:
+        raise AssertionError(f"{word} in {found.out[:2000]}")
+
+    return json.loads(found.out, parse_constant=refuse)
+
+
+def in_balance(answer: dict[str, Any]) -> None:
+    """What is called converged is in balance, by its own word and by the sum of its reactions and loads.
+
+    The sum is taken from the document alone: weight of the sheet and of its chains, points, edges; where a
+    pressure follows the sheet its own word must do.
+    """
+    asked = answer["scene"]
+    for solution in answer["solutions"]:
+        if solution["status"] != "converged":
+            continue
+        about = json.dumps({"scene": asked, "solution": solution})
+        assert solution["balance"] is None or solution["balance"]["holds"], about
+        assert solution["probes"] and None not in np.ravel(list(solution["probes"].values())).tolist(), about
+        if any(load["kind"] == "pressure" for load in asked["load"]):
+            continue
+        carried = [np.array(force, float) for force in solution["reactions"].values()]
+        loads = applied(asked)
+        left = sum(carried, np.zeros(3)) + sum(loads, np.zeros(3))
+        size = sum(np.abs(force).sum() for force in [*carried, *loads])
+        assert np.abs(left).max() <= 1e-6 * max(size, 1e-9), (left, about)
+
+
+def applied(asked: dict[str, Any]) -> list[np.ndarray]:
+    """Dead forces [N] on the sheet of a scene's document, histories at their last factor."""
+    sheet, gravity = asked["sheet"], asked.get("gravity")
+    length = {axis: sheet[f"length_{'y' if axis == 'x' else 'x'}"] for axis in "xy"}  # of the edge x0, y0, …
+    forces = []
+    if gravity:
+        mass = asked["material"]["density"] * math.prod(
+            sheet[f"{key}"] for key in ("length_x", "length_y", "thickness")
+        )
+        for rod in asked["actuator"]:
+            if "line_density" in rod:
+                mass += rod["line_density"] * length[rod["edge"][0]]
+        forces.append(mass * last(gravity) * np.array(gravity["acceleration"]))
+    for load in asked["load"]:
+        if load["kind"] == "point":
+            forces.append(last(load) * np.array(load["force"]))
+        elif load["kind"] == "edge":
+            forces.append(last(load) * length[load["edge"][0]] * np.array(load["force_per_length"]))
+    return forces
+
+
+def last(loading: dict[str, Any]) -> float:
+    history = loading.get("history")
+    return float(history["factor"][-1]) if history else 1.0
+
+
+def files(folder: Path) -> set[str]:
+    return {str(path.relative_to(folder)) for path in folder.rglob("*") if not path.is_dir()}

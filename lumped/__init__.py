@@ -24,6 +24,7 @@ from lumped.fitting import (
     calibrate,
     identifiability,
 )
+from lumped.footprint import footprint
 from lumped.lattice import Lattice
 from lumped.mid_surface import MidSurface
 from lumped.sensitivity import Sensitivity, gradient, sensitivity
@@ -56,6 +57,7 @@ __all__ = [
     "buckling_loads",
     "calibrate",
     "follow",
+    "footprint",
     "given",
     "gradient",
     "homogenised",

@@ -29,12 +29,14 @@ def calibrate(
     method: str = "consistent",
     k: float | None = None,
     layer_distance: float | None = None,
+    large: bool = False,
 ) -> Calibration:
     """Spring constants of a lattice for the scene's sheet and material, with the moduli that they meet.
 
     grid: 9 along the shorter side with near-square cells unless given; (nx, ny), (nx, ny, layers). method: a
     name of `lumped.CALIBRATIONS`; the fitted ones train on the scene. k [N/m] and layer_distance [m] are for
-    the methods that take them. Raises BadInput for what does not exist or go together.
+    the methods that take them. Raises BadInput for what does not exist or go together, and unless `large` for
+    a fit that takes more memory than there is.
     """
     asked = scene_of(scene)
     return registry.calibrate(
@@ -45,6 +47,7 @@ def calibrate(
         k=k,
         layer_distance=layer_distance,
         training=[asked],
+        large=large,
     )
 
 
@@ -52,8 +55,8 @@ def solve(scene: AnyScene, model: str = "lumped", **settings: Any) -> Solution:
     """The static answer of one model: "lumped", "plate", "shell", "solid", or a plug-in's name.
 
     settings: of the lattice `grid`, `calibration`, `k`, `layer_distance`; of the references `elements`.
-    Raises SceneError for a scene that could float away, BadInput for a model or setting that does not exist;
-    a solve that fails is a status.
+    Raises SceneError for a scene that could float away, BadInput for a model or setting that does not exist
+    and for one that takes more memory than there is, unless `large = True`; a solve that fails is a status.
     """
     return registry.solve(scene_of(scene), model, **settings)
 
@@ -85,12 +88,14 @@ def tradeoff(
     repeats: int = 5,
     workers: int = 1,
     out: Path | str | None = None,
+    large: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> Tradeoff:
     """Error against time over lattices (grids), references (elements along the shorter side) and others.
 
     models: further ones, plug-ins too. repeats: timed solves of every row, at least. out: a folder that
-    keeps the rows, so that the same call goes on where an earlier one was stopped. Rows are computed in
+    keeps the rows, so that the same call goes on where an earlier one was stopped. large: even where a model
+    takes more memory than there is. Rows are computed in
     processes of their own: a script calls this under `if __name__ == "__main__":`.
     """
     from comparisons.runs.campaign import campaign
@@ -109,5 +114,11 @@ def tradeoff(
         folder.mkdir(parents=True, exist_ok=True)
         store = stack.enter_context(campaign(folder))
         return tradeoff(
-            asked, [*candidates, *models], store, repeats=repeats, workers=workers, progress=progress
+            asked,
+            [*candidates, *models],
+            store,
+            repeats=repeats,
+            workers=workers,
+            large=large,
+            progress=progress,
         )

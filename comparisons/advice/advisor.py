@@ -90,15 +90,18 @@ class Advice:
         return tables.report(self, named)
 
 
-def advise(scene: AnyScene, tolerance: float | None = 0.01, budget: float | None = None) -> Advice:
+def advise(
+    scene: AnyScene, tolerance: float | None = 0.01, budget: float | None = None, *, large: bool = False
+) -> Advice:
     """The cheapest model predicted to meet `tolerance` (a fraction), or the most accurate in `budget` [s].
 
     With both, the cheapest that meets the tolerance; where that takes longer, the most accurate in time, and
-    `met` is false. Raises SceneError for a scene without a static answer.
+    `met` is false. Models that take more memory than there is are left out unless `large`. Raises SceneError
+    for a scene without a static answer, BadInput where not even the coarsest judges fit.
     """
     scene = scene_of(scene)
     require_static(scene)
-    probing = Probing(scene)
+    probing = Probing(scene, large)
     sizes = scales(scene)
     resolution = tolerance or 0.01
     for _ in range(3):

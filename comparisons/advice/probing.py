@@ -18,6 +18,7 @@ from threadpoolctl import threadpool_limits
 from comparisons.comparison.comparison import error
 from comparisons.models import registry as models
 from comparisons.models.candidate import Candidate
+from comparisons.models.sizes import has_room, require_room
 from comparisons.models.symmetry import planes
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.grid import near_square
@@ -47,13 +48,18 @@ class Trial:
 class Probing:
     """The solves of a scene so far."""
 
-    def __init__(self, scene: Scene) -> None:
-        self.scene = scene
+    def __init__(self, scene: Scene, large: bool = False) -> None:
+        """large: whether to try what takes more memory than there is. Raises BadInput where the first judges
+        do, otherwise the larger models are left out."""
+        self.scene, self.large = scene, large
         self.points = scene.probe_points()
         self.planes = planes(scene)
         self.trials: dict[str, Trial] = {}
         self.judges: list[int] = []
         self.seconds = 0.0
+        if not large:
+            instead = "advise has no coarser one"
+            require_room(scene, self._judge(JUDGES[FIRST - 1]), instead=instead)
 
     def candidate(self, model: str, cells: int, **settings: Any) -> Candidate:
         """A model with that many cells along the shorter side, cut where the scene is symmetric."""
@@ -75,7 +81,7 @@ class Probing:
         if linear:
             found += [self.candidate("lumped", n, linear=True) for n in CELLS["lumped"]]
             found += [self.candidate("plate", n) for n in CELLS["plate"]]
-        return found
+        return [one for one in found if self.large or has_room(self.scene, one)]
 
     def trial(self, candidate: Candidate, repeats: int = REPEATS) -> Trial:
         """The candidate's answer and time; solved once, whoever asks."""
@@ -83,20 +89,22 @@ class Probing:
         if key not in self.trials:
             began = perf_counter()
             with threadpool_limits(1):  # as campaigns measure
-                solution = models.solve(self.scene, candidate.model, **candidate.settings)
+                solution = models.solve(self.scene, candidate.model, large=True, **candidate.settings)
                 times = [solution.solve_seconds]
                 while solution.solve_seconds < 0.2 and len(times) < repeats:
-                    again = models.solve(self.scene, candidate.model, **candidate.settings)
+                    again = models.solve(self.scene, candidate.model, large=True, **candidate.settings)
                     times.append(again.solve_seconds)
             self.trials[key] = Trial(candidate, solution, median(times))
             self.seconds += perf_counter() - began
         return self.trials[key]
 
     def refine(self) -> bool:
-        """Solve the judge on its next mesh. False where there is none left, or it does not converge."""
+        """Solve the judge on its next mesh. False where none is left or has room, or it does not converge."""
         if len(self.judges) == len(JUDGES):
             return False
         cells = JUDGES[len(self.judges)]
+        if not (self.large or has_room(self.scene, self._judge(cells))):
+            return False
         self.judges.append(cells)
         return self.trial(self._judge(cells), repeats=1).usable
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, Overwrite, Scene
+from comparisons.cli.options import Json, Large, Out, Overwrite, Scene
 
 
 def command(
@@ -18,6 +18,7 @@ def command(
     budget: Annotated[
         float | None, typer.Option(metavar="SECONDS", help="Time that a solve may take; setting up apart.")
     ] = None,
+    large: Large = False,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -40,4 +41,4 @@ def command(
         checked_tolerance(tolerance)
     with finish("advise", json, out, overwrite, scene=asked) as end:
         end.progress("probing …")
-        end(advise(asked, tolerance, budget).report(scene))
+        end(advise(asked, tolerance, budget, large=large).report(scene))

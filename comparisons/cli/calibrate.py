@@ -7,7 +7,7 @@ from warnings import warn
 
 import typer
 
-from comparisons.cli.options import Grid, Json, Out, Overwrite
+from comparisons.cli.options import Grid, Json, Large, Out, Overwrite
 from comparisons.cli.quantities import checked, sides
 
 if TYPE_CHECKING:
@@ -40,6 +40,7 @@ def command(
     toml: Annotated[
         bool, typer.Option("--toml", help="Print the \\[springs] table for a scene file.")
     ] = False,
+    large: Large = False,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -74,6 +75,7 @@ def command(
             k=k,
             layer_distance=layer_distance,
             training=_training(scene, sheet, material) if scene is not None else None,
+            large=large,
         )
         end(tables.report(found, sheet, material), instead=tables.to_toml(found.as_dict()) if toml else None)
 

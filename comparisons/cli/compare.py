@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Elements, Grid, Json, Models, Out, Overwrite, Scene, Symmetry
+from comparisons.cli.options import Elements, Grid, Json, Large, Models, Out, Overwrite, Scene, Symmetry
 
 
 def command(
@@ -46,6 +46,7 @@ def command(
         float | None,
         typer.Option(metavar="FRACTION", help="Error that --auto may make; 0.01 unless given."),
     ] = None,
+    large: Large = False,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -69,7 +70,7 @@ def command(
         advice = None
         if auto:
             end.progress("asking the advisor …")
-            advice = advise(asked, 0.01 if tolerance is None else tolerance)
+            advice = advise(asked, 0.01 if tolerance is None else tolerance, large=large)
             if advice.choice is None:
                 end.stop(f"--auto: {advice.message}")
         found = compare(
@@ -84,6 +85,7 @@ def command(
             symmetry=symmetry,
             choice=advice.choice if advice is not None else None,
             others=others,
+            large=large,
             starting=lambda model: end.progress(f"solving {model} …"),
             finished=lambda s: end.keep(f"{s.model}.vtu", lambda path: write_solution(path, s)),
         )

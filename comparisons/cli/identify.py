@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Grid, Json, Out, Overwrite, Scene
+from comparisons.cli.options import Grid, Json, Large, Out, Overwrite, Scene
 
 
 def command(
@@ -44,6 +44,7 @@ def command(
             help="Where a point cloud was taken, along the surface's normal: half the thickness for its top.",
         ),
     ] = 0.0,
+    large: Large = False,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -72,6 +73,7 @@ def command(
                 calibration=calibration,
                 elements=elements,
                 offset=offset,
+                large=large,
                 progress=end.progress,
             )
         except NotReached as error:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Grid, Json, Out, Overwrite, Scene
+from comparisons.cli.options import Grid, Json, Large, Out, Overwrite, Scene
 
 
 def command(
@@ -30,6 +30,7 @@ def command(
             help="About the flat, stress-free sheet, or its equilibrium under its loads (lattice and shell).",
         ),
     ] = "flat",
+    large: Large = False,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -51,6 +52,7 @@ def command(
                 references=reference or ["shell"],
                 elements=elements,
                 about=about,
+                large=large,
                 starting=lambda model: end.progress(f"modes of {model} …"),
             )
         except NoEquilibrium as error:

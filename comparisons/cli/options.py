@@ -49,6 +49,14 @@ Wait = Annotated[
         show_default=False,
     ),
 ]
+Large = Annotated[
+    bool,
+    typer.Option(
+        "--large",
+        help="Go on where a model takes more memory than is free, instead of refusing it.",
+        show_default=False,
+    ),
+]
 Retry = Annotated[
     bool, typer.Option("--retry", help="Run again what failed in an earlier run.", show_default=False)
 ]

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Grid, Json, Out, Overwrite, Scene
+from comparisons.cli.options import Grid, Json, Large, Out, Overwrite, Scene
 
 FRAMES = 100
 
@@ -37,6 +37,7 @@ def command(
         typer.Option(metavar="FILE", help="Measured histories, CSV: time,probe,ux,uy,uz in s and m."),
     ] = None,
     animate: Annotated[bool, typer.Option("--animate", help="Also draw an animation (with --out).")] = False,
+    large: Large = False,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -57,7 +58,7 @@ def command(
     if measured is not None:
         truth = read_measured(measured, list(asked.probes))
         require_within(truth, duration, measured)
-    check(asked, Candidate("lumped", {"grid": lumped, "calibration": calibration}))
+    check(asked, Candidate("lumped", {"grid": lumped, "calibration": calibration}), large)
     run = {
         "--integrator": integrator,
         "--lumped": lumped,
@@ -80,6 +81,7 @@ def command(
             duration,
             grid=lumped,
             calibration=calibration,
+            large=large,
             step=step,
             integrator=integrator,
             every=every,

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, Overwrite, Retry, Scheduler, Wait
+from comparisons.cli.options import Json, Large, Out, Overwrite, Retry, Scheduler, Wait
 
 
 def command(
@@ -27,6 +27,7 @@ def command(
     scheduler: Scheduler = None,
     wait: Wait = False,
     retry: Retry = False,
+    large: Large = False,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -55,6 +56,7 @@ def command(
                 workers=workers or os.cpu_count() or 1,
                 pool=pool,
                 retry=retry,
+                large=large,
                 progress=progress,
             )
         end(report(chosen, rows))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from comparisons.cli import options
-from comparisons.cli.options import Json, Models, Out, Overwrite, Retry, Scheduler, Symmetry, Wait
+from comparisons.cli.options import Json, Large, Models, Out, Overwrite, Retry, Scheduler, Symmetry, Wait
 
 if TYPE_CHECKING:
     from comparisons.tradeoff.motion import DynamicTradeoff
@@ -72,6 +72,7 @@ def command(
         str, typer.Option(metavar="NAMES", help="With --duration: the integrators.")
     ] = "generalised-alpha,midpoint,projective,verlet",
     retry: Retry = False,
+    large: Large = False,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -112,7 +113,12 @@ def command(
     with finish("tradeoff", json, out, overwrite, scene=asked) as end:
         with end.campaign(scheduler, wait) as (store, pool, progress):
             found = measure(
-                store=store, workers=workers or os.cpu_count() or 1, pool=pool, retry=retry, progress=progress
+                store=store,
+                workers=workers or os.cpu_count() or 1,
+                pool=pool,
+                retry=retry,
+                large=large,
+                progress=progress,
             )
         end(found.report())
 

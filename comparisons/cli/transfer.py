@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, Overwrite, Retry
+from comparisons.cli.options import Json, Large, Out, Overwrite, Retry
 
 
 def command(
@@ -45,6 +45,7 @@ def command(
         int | None, typer.Option(min=1, metavar="N", help="Processes; one a core unless given.")
     ] = None,
     retry: Retry = False,
+    large: Large = False,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -82,6 +83,7 @@ def command(
                 workers=workers or os.cpu_count() or 1,
                 pool=pool,
                 retry=retry,
+                large=large,
                 progress=progress,
             )
         end(found.report())

@@ -197,6 +197,7 @@ def compare(
     symmetry: bool = False,
     choice: Candidate | None = None,
     others: Sequence[Candidate] = (),
+    large: bool = False,
     starting: Callable[[str], None] = lambda model: None,
     finished: Callable[[Solution], None] = lambda solution: None,
 ) -> Comparison:
@@ -210,8 +211,9 @@ def compare(
     and shell it is unless False, for others if True. symmetry: solve a half or a quarter where scene and grid
     mirror themselves; solids are solved whole. choice: a model that takes the lattice's place
     (`comparisons.advice.advisor`); others: models that stand in the table too, plug-ins or our own. A name
-    that is taken is changed. `starting` and `finished` are called before and after each model, so that a
-    caller can show progress and keep what is done.
+    that is taken is changed. large: even where a model takes more memory than there is. `starting` and
+    `finished` are called before and after each model, so that a caller can show progress and keep what is
+    done.
 
     Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
     solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.
@@ -225,8 +227,8 @@ def compare(
     method = "uniform" if calibration is None and k is not None else calibration
     springs = {"calibration": method, "k": k, "layer_distance": layer_distance}
     first = Candidate("lumped", {"grid": grid, **springs, **mirrored}) if choice is None else choice
-    for candidate in (first, *others):
-        check(scene, candidate)
+    for candidate in (first, judge, *others):
+        check(scene, candidate, large)
     named = {first.model if first.model != reference else f"{first.model}-advised": first, reference: judge}
     if choice is None and method is None and not has_own_springs(scene, **springs):
         named[COMPANION] = first.but(calibration="uniform")

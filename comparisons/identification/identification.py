@@ -37,14 +37,16 @@ from comparisons.identification.prediction import (
     reference,
 )
 from comparisons.identification.unknowns import DAMPING, Unknown, unknown
+from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked, scene_grid
-from comparisons.models.registry import check_lattice, check_reference
+from comparisons.models.registry import check, check_lattice, check_reference
+from comparisons.models.sizes import has_room
 from comparisons.report.report import Report
 from comparisons.report.table import quantity
 from lumped import CALIBRATIONS, Identifiability, identifiability
 from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
 from sheetbench.scenes.errors import BadInput
-from sheetbench.scenes.grid import near_square
+from sheetbench.scenes.grid import Grid, near_square
 
 MODELS = ("lumped", "shell", "solid")
 REFUSED = 1e3  # residual, in units of the data, where the model has no answer: the step is shortened
@@ -125,13 +127,14 @@ def identify(
     elements: int = 16,
     offset: float = 0.0,
     refine: bool = True,
+    large: bool = False,
     progress: Callable[[str], None] = lambda text: None,
 ) -> Identification:
     """The unknowns of these names, from measurements or a file of them (`measurements.read`).
 
     grid (as `comparisons.models.grids` reads it), calibration: of the lattice; elements: of a reference;
     offset [m]: where a cloud was taken along the surface's normal, 0 on the mid-surface. refine: whether to
-    look at a finer lattice too (not for motions).
+    look at a finer lattice too (not for motions). large: even where a model takes more memory than there is.
     progress: told of every evaluation.
 
     Raises BadInput for names, models and data that do not go together, and NotReached where the model has no
@@ -143,6 +146,8 @@ def identify(
     names = [names] if isinstance(names, str) else names
     unknowns = tuple(unknown(scene, name) for name in names)
     _check(measured, unknowns, model, calibration, elements)
+    size = {"grid": grid} if model == "lumped" else {"elements": elements}
+    check(scene, Candidate(model, size), large)
     if offset and not isinstance(measured, Surface):
         raise BadInput(
             f"offset = {offset:g} m: of the points of a cloud from the mid-surface; displacements are its own"
@@ -190,9 +195,15 @@ def identify(
     final, slopes = at(best.x)
     known = identifiability([u.name for u in unknowns], slopes, final)
     steps: Sequence[float | None] = [None] * len(unknowns)
+    unseen = []
     if refine and model == "lumped" and not _moving(measured):
-        progress("looking at cells half as large")
-        steps = _refinement(scene, measured, unknowns, best.x, settings, calibration, offset)
+        nx, ny, layers = settings["grid"]
+        finer = (2 * nx - 1, 2 * ny - 1, layers)
+        if large or has_room(scene, Candidate(model, {"grid": finer})):
+            progress("looking at cells half as large")
+            steps = _refinement(scene, measured, unknowns, best.x, finer, calibration, offset)
+        else:
+            unseen = ["cells half as large take more memory than is free: the grid's error is not known"]
     found = {
         u.name: Found(
             u.value(x),
@@ -206,6 +217,7 @@ def identify(
     noise = float(np.sqrt(final @ final / (len(final) - len(unknowns))))
     warnings = [
         *known.warnings,
+        *unseen,
         *(
             f"{u.name} ended at {quantity(u.value(x), u.unit)}, as far from the scene's own value as the "
             "search goes: the data pull it further"
@@ -249,14 +261,12 @@ def _refinement(
     measured: Measured,
     unknowns: tuple[Unknown, ...],
     x: np.ndarray,
-    settings: dict[str, Any],
+    finer: Grid,
     calibration: str | None,
     offset: float,
 ) -> list[float | None]:
-    """The Gauss–Newton step of x on a lattice with cells half as large, of what the data see; None where that
-    lattice has no answer."""
-    nx, ny, layers = settings["grid"]
-    finer = (2 * nx - 1, 2 * ny - 1, layers)
+    """The Gauss–Newton step of x on a finer lattice, of what the data see; None where that lattice has no
+    answer."""
     predict, _, axes = _predictor(scene, measured, "lumped", finer, calibration, 0)
     misfit = Misfit(measured, axes, offset)
     try:

@@ -70,7 +70,7 @@ def reference(scene: Scene, model: str, elements: int) -> Predictor:
     """Statics through a finite-element reference."""
 
     def displacement(here: Scene, points: np.ndarray) -> np.ndarray:
-        solution = solve_reference(here, model=model, elements=elements)
+        solution = solve_reference(here, model=model, elements=elements, large=True)  # looked at before
         if solution.status is not Status.CONVERGED:
             raise NotReached(f"{solution.label}: {solution.status}: {solution.status.advice}")
         return solution.displacement(points)

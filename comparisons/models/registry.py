@@ -19,7 +19,8 @@ from warnings import warn
 from comparisons.models import plugins
 from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked, scene_grid
-from comparisons.models.symmetry import half, planes, whole
+from comparisons.models.sizes import require_room
+from comparisons.models.symmetry import cut_axes, half, whole
 from sheetbench.scenes import History, Material, Scene, Sheet, Solution, load
 from sheetbench.scenes.errors import BadInput, Implausible, require_choice
 from sheetbench.scenes.grid import MASSES, grid_of, near_square
@@ -41,6 +42,7 @@ def calibrate(
     layer_distance: float | None = None,
     grading: float = 0.0,
     training: Sequence[Scene] | None = None,
+    large: bool = False,
 ) -> Calibration:
     """Springs of a lattice; by default consistent ones for nine masses along the shorter side.
 
@@ -48,11 +50,16 @@ def calibrate(
 
     k [N/m] and layer_distance [m] are the calibration's own options; grading: from 0, cells of one size,
     to 1, cells finest at the edges (`lumped.grid_lines`); training: the scenes that a fitted one is fitted
-    to, see `comparisons.models.training`. Raises BadInput for a name that is not a calibration
-    or lengths that are not above zero, and for options it does not take; warns of a layer distance that is
-    hardly meant.
+    to, see `comparisons.models.training`. Raises BadInput for a name that is not a calibration or lengths
+    that are not above zero, for options it does not take, and unless `large` for a fit that takes more memory
+    than there is; warns of a layer distance that is hardly meant.
     """
     check_lattice(calibration, k, layer_distance, grading)
+    if not large and k is None and _is_fitted(calibration):
+        from comparisons.models.training import training_scenes
+
+        for scene in training_scenes(sheet, material) if training is None else training:
+            _require_room_to_fit(scene, grid)
     return _calibrate(sheet, material, grid, calibration, k, layer_distance, grading, training)
 
 
@@ -68,16 +75,31 @@ def _calibrate(
 ) -> Calibration:
     import lumped
 
-    method = calibration or "consistent"
     if layer_distance is not None:
         for said in layer_slips(sheet, layer_distance, "layer-distance"):
             warn(Implausible(said), stacklevel=2)
-    if lumped.CALIBRATIONS[method].fitted and k is None:
+    method = calibration or "consistent"
+    if k is None and _is_fitted(calibration):
         from comparisons.models.training import fitted
 
         return fitted(sheet, material, grid_of(sheet, grid), method, layer_distance, grading, training)
     own: dict[str, Any] = {"k": k, "layer_distance": layer_distance, "grading": grading}
     return lumped.calibrate(sheet, material, grid=grid, method=method, **own)
+
+
+def _is_fitted(calibration: str | None) -> bool:
+    import lumped
+
+    return lumped.CALIBRATIONS[calibration or "consistent"].fitted
+
+
+def _require_room_to_fit(scene: Scene, grid: int | Sequence[int]) -> None:
+    """Raise BadInput where there is too little memory for a lattice or for the shell that it is fitted to."""
+    from comparisons.models.training import ELEMENTS
+
+    require_room(scene, Candidate("lumped", {"grid": grid}))
+    instead = "take a calibration that is not fitted"
+    require_room(scene, Candidate("shell", {"elements": ELEMENTS}), instead=instead)
 
 
 def check_lattice(
@@ -148,8 +170,7 @@ def lattice(scene: Scene, *, linear: bool = False, symmetry: bool = False, **set
     import lumped
 
     springs = scene_springs(scene, **settings)
-    grid = springs.grid
-    axes = [axis for axis in planes(scene) if grid[axis] % 2 and grid[axis] > 3] if symmetry else []
+    axes = cut_axes(scene, springs.grid, masses=True) if symmetry else []
     for axis in axes:
         springs = springs.halved(axis)
     return lambda: _by_parts(scene, axes, lambda part: lumped.solve(part, springs, linear=linear))
@@ -162,24 +183,36 @@ def simulate(
     grid: Asked = None,
     grading: float | None = None,
     calibration: str | None = None,
+    large: bool = False,
     **settings: Any,
 ) -> History:
-    """The lattice's motion over `duration` [s]; settings are those of `lumped.simulate`."""
+    """The lattice's motion over `duration` [s]; settings are those of `lumped.simulate`.
+
+    Raises BadInput for a calibration that does not exist, and as `check` does.
+    """
     import lumped
 
-    check_lattice(calibration, None, None, grading)
+    check(scene, Candidate("lumped", {"grid": grid, "calibration": calibration, "grading": grading}), large)
     springs = scene_springs(scene, grid=grid, grading=grading, calibration=calibration)
     return lumped.simulate(scene, springs, duration, **settings)
 
 
 def solve_reference(
-    scene: Scene, *, model: str = "shell", elements: int | Sequence[int] = 16, **options: Any
+    scene: Scene,
+    *,
+    model: str = "shell",
+    elements: int | Sequence[int] = 16,
+    large: bool = False,
+    **options: Any,
 ) -> Solution:
     """A finite-element reference's static answer; `elements` along the shorter side, or along x and y.
 
-    Raises BadInput for a model, a number of elements or an option that does not exist.
+    Raises BadInput for a model, a number of elements or an option that does not exist, and unless `large` for
+    a mesh that takes more memory than there is.
     """
     check_reference(model, elements, options)
+    if not large:
+        require_room(scene, Candidate(model, {"elements": elements, **options}))
     return reference(scene, model=model, elements=elements, **options)()
 
 
@@ -200,7 +233,7 @@ def reference(
 
     asked = [elements] if isinstance(elements, int) else list(elements)
     along = list(near_square(scene.sheet, asked[0])) if len(asked) == 1 else asked
-    axes = [axis for axis in planes(scene) if along[axis] % 2 == 0] if symmetry else []
+    axes = cut_axes(scene, along, masses=False) if symmetry else []
     if axes and model == "solid":
         raise BadInput("solid: is always solved whole; leave symmetry out")
     for axis in axes:
@@ -239,14 +272,14 @@ MODELS: dict[str, Callable[..., Solve]] = {
 }
 
 
-def solve(scene: Scene, model: str, **settings: Any) -> Solution:
+def solve(scene: Scene, model: str, *, large: bool = False, **settings: Any) -> Solution:
     """The answer of any model by its name, with that model's settings, on warm code.
 
     The name is one of `MODELS` or of an installed plug-in (`comparisons.models.plugins`). Settings are plain
     data. Raises BadInput as `check` does.
     """
     candidate = Candidate(model, settings)
-    check(scene, candidate)
+    check(scene, candidate, large)
     return answer(scene, candidate)
 
 
@@ -268,8 +301,21 @@ def _ready(scene: Scene, candidate: Candidate) -> Solve:
     return partial(outside.solve, scene, plugins.settings_of(outside, candidate.settings))
 
 
-def check(scene: Scene, candidate: Candidate) -> None:
-    """Raise BadInput for a model that does not exist, or settings that it cannot use on this scene."""
+def check(scene: Scene, candidate: Candidate, large: bool = False, option: str = "") -> None:
+    """Raise BadInput for a model that does not exist, settings that it cannot use on this scene, and unless
+    `large` for one that takes more memory than there is.
+
+    option: by which its size is asked for, see `comparisons.models.sizes.require_room`.
+    """
+    _check_settings(scene, candidate)
+    if not large:
+        require_room(scene, candidate, option)
+        fitted = candidate.model == "lumped" and _is_fitted(candidate.settings.get("calibration"))
+        if fitted and candidate.settings.get("k") is None:
+            _require_room_to_fit(scene, scene_grid(scene, candidate.settings.get("grid")))
+
+
+def _check_settings(scene: Scene, candidate: Candidate) -> None:
     model, settings = candidate.model, candidate.settings
     if model == "lumped":
         known = [*_keywords(calibrate), *_keywords(lattice)]

@@ -10,6 +10,7 @@ and the part cannot tell.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from math import isclose
 from typing import Any
@@ -44,6 +45,14 @@ def planes(scene: Scene) -> tuple[int, ...]:
     if scene.actuators or any(isinstance(s, Symmetric) or s.motion for s in scene.supports):
         return ()
     return tuple(axis for axis in (0, 1) if _mirrors(scene, axis))
+
+
+def cut_axes(scene: Scene, counts: Sequence[int], masses: bool) -> list[int]:
+    """Axes across which a grid of (nx, ny) masses, or else elements, can be cut too: where a line of masses,
+    or of nodes between elements, lies on the plane of symmetry."""
+    if masses:
+        return [axis for axis in planes(scene) if counts[axis] % 2 and counts[axis] > 3]
+    return [axis for axis in planes(scene) if counts[axis] % 2 == 0]
 
 
 def half(scene: Scene, axis: int) -> Scene:

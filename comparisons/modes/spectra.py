@@ -107,9 +107,11 @@ def spectra(
     references: Sequence[str] = ("shell",),
     elements: int = 16,
     about: str = "flat",
+    large: bool = False,
     starting: Callable[[str], None] = lambda model: None,
 ) -> Spectra:
-    """The spectra of the lattice and of each reference; about: "flat", or "deformed" under the scene's loads.
+    """The spectra of the lattice and of each reference; about: "flat", or "deformed" under the scene's loads;
+    large: even where one takes more memory than there is.
 
     Raises SceneError for a scene that cannot be read, BadInput for choices that do not exist and a count
     that a mesh cannot give, NoEquilibrium for deformed where a model has no stable equilibrium.
@@ -119,9 +121,10 @@ def spectra(
     scene = scene if isinstance(scene, Scene) else load(scene)
     if count < 1:
         raise BadInput(f"--count = {count}: at least 1")
-    check(scene, Candidate("lumped", {"grid": grid, "calibration": calibration}))
+    check(scene, Candidate("lumped", {"grid": grid, "calibration": calibration}), large)
     for reference in references:
         check_reference(reference, elements)
+        check(scene, Candidate(reference, {"elements": elements}), large)
     starting("lumped")
     springs = scene_springs(scene, grid=grid, calibration=calibration)
     found = [_lattice(scene, count, springs, around)]

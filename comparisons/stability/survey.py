@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
+from comparisons.models.candidate import Candidate
+from comparisons.models.sizes import require_room
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
 from comparisons.stability.study import Row, Study
+from sheetbench.scenes import load
 
 
 def survey(
@@ -18,17 +21,28 @@ def survey(
     workers: int = 1,
     pool: Pool = processes,
     retry: bool = False,
+    large: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> list[Row]:
     """A row per cell of every study, in order; cells that the store has are not measured again.
 
     full: every cell, the long ones too. retry: what failed or was lost before is measured again. A cell that
-    raises is a row with its status (`refused`, `failed` or, where it took its process down, `lost`).
+    raises is a row with its status (`refused`, `failed` or, where it took its process down, `lost`). Raises
+    BadInput, before the first is measured, unless `large` for cells that take more memory than there is.
     """
     asked = [(study, cell) for study in studies for cell in study.cells(full)]
+    if not large:
+        _require_room([cell["masses"] for _, cell in asked if "masses" in cell])
     runs = [Run(study.measure, cell, f"{study.name} {_short(cell)}") for study, cell in asked]
     outcomes = carry_out(runs, store, workers=workers, pool=pool, retry=retry, progress=progress)
     return [row(study, cell, outcome) for (study, cell), outcome in zip(asked, outcomes, strict=True)]
+
+
+def _require_room(masses: Sequence[int]) -> None:
+    """Of the lattices of cells with so many masses a side; the other cells are small."""
+    if masses:
+        finest = Candidate("lumped", {"grid": (max(masses), max(masses))})
+        require_room(load("one-edge-clamped"), finest, instead="leave --full out")
 
 
 def row(study: Study, cell: dict, outcome: Finished) -> Row:

@@ -21,6 +21,7 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.registry import simulate
 from comparisons.report.report import Report
@@ -138,6 +139,7 @@ def measure(
     """Task: one run and what it cost; the history of the probes included."""
     asked = Scene.model_validate(scene)
     common: dict[str, Any] = {"grid": (grid[0], grid[1], grid[2]), "integrator": integrator, "every": every}
+    common["large"] = True  # `dynamic_tradeoff` has looked at the size
     simulate(asked, 2.0 * every, **common, step=step)  # warm
     history = simulate(asked, duration, **common, step=step)
     return {
@@ -164,19 +166,22 @@ def dynamic_tradeoff(
     workers: int = 1,
     pool: Pool = processes,
     retry: bool = False,
+    large: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> DynamicTradeoff:
     """Measure every integrator at every step on a lattice of consistent springs.
 
-    retry: what failed or was lost before is run again.
+    retry: what failed or was lost before is run again. large: even if it takes more memory than there is.
     Raises BadInput for an integrator that does not exist. A run that diverges is a row with its status.
     """
     import lumped
+    from comparisons.models.registry import check
     from lumped import INTEGRATORS
 
     if unknown := [name for name in integrators if name not in INTEGRATORS]:
         raise BadInput(f"integrator = {unknown[0]!r}: choose from {', '.join(INTEGRATORS)}")
     shape = scene_grid(scene, grid)
+    check(scene, Candidate("lumped", {"grid": shape}), large)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=shape)
     period = 1.0 / float(lumped.modes(scene, springs, 1).frequencies[0])
     every = period / SAMPLES

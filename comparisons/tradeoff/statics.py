@@ -112,20 +112,22 @@ def tradeoff(
     workers: int = 1,
     pool: Pool = processes,
     retry: bool = False,
+    large: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> Tradeoff:
     """Measure every candidate on a scene, through the campaign's store.
 
     reference: by default the shell with twice as many elements as the finest shell among the candidates, and
-    32 at least. retry: do again what failed in an earlier call.
-    Raises SceneError for a scene without a static answer and
+    32 at least. retry: do again what failed in an earlier call. large: even where one takes more memory than
+    there is.
+    Raises SceneError for a scene without a static answer and, before anything is solved,
     BadInput for a model or setting that does not exist. A solve that fails is a row with its status.
     """
     require_static(scene)
     for candidate in candidates:
-        check(scene, candidate)
+        check(scene, candidate, large, f"--{candidate.model}")
     fine = reference or _finest(candidates)
-    check(scene, fine)
+    check(scene, fine, large)
     meshes = coarser(fine.settings["elements"])
     judges = [timing.run(scene, fine.model, {**fine.settings, "elements": n}, timed=False) for n in meshes]
     asked = [timing.run(scene, c.model, c.settings, repeats) for c in candidates]

@@ -56,12 +56,16 @@ def measure(
         raise RuntimeError(f"model = '{model}': the plug-in changed since this was asked")
     asked = Scene.model_validate(scene)
     models.warm(model)
-    solution = models.solve(asked, model, **settings)
+
+    def solve() -> Solution:
+        return models.solve(asked, model, large=True, **settings)  # `tradeoff` has looked at the size
+
+    solution = solve()
     memory, samples = None, list[float]()
     if repeats:
-        solution, memory = _with_peak_memory(lambda: models.solve(asked, model, **settings))
+        solution, memory = _with_peak_memory(solve)
     while len(samples) < repeats or (samples and sum(samples) < SETTLED and len(samples) < MOST):
-        samples.append(models.solve(asked, model, **settings).solve_seconds)
+        samples.append(solve().solve_seconds)
     if not samples:
         samples = [solution.solve_seconds]
     return {

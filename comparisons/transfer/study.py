@@ -22,6 +22,8 @@ from typing import Any
 import numpy as np
 
 from comparisons.comparison.comparison import error
+from comparisons.models.candidate import Candidate
+from comparisons.models.sizes import require_room
 from comparisons.report.report import Report
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
@@ -75,15 +77,20 @@ def transfer(
     workers: int = 1,
     pool: Pool = processes,
     retry: bool = False,
+    large: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> Transfer:
     """Carry out the parts asked for, through a campaign's store, and put their rows together.
 
     methods: names of calibrations; grids: masses a side, 4 n + 1, coarsest first; scenes: names of
     `transfer_scenes`, all of them unless given; elements: of the shell, along a side; retry: what
-    failed or was lost before is run again.
+    failed or was lost before is run again. Raises BadInput, before the first run, unless `large` for grids or
+    elements that take more memory than there is.
     """
     chosen = {name: scene for name, scene in transfer_scenes().items() if scenes is None or name in scenes}
+    for scene in () if large else chosen.values():
+        require_room(scene, Candidate("lumped", {"grid": (max(grids), max(grids))}), "--grids")
+        require_room(scene, Candidate("shell", {"elements": elements}))
     study = _Study(chosen, tuple(methods), tuple(grids), elements)
     study.plan(parts)
     done = carry_out(study.runs, store, workers=workers, pool=pool, retry=retry, progress=progress)

@@ -39,7 +39,7 @@ def lattice(
 def reference(scene: dict[str, Any], model: str, elements: int) -> dict[str, Any]:
     """Displacement of a finite-element model at the points."""
     asked = Scene.model_validate(scene)
-    return _answer(solve_reference(asked, model=model, elements=elements), asked)
+    return _answer(solve_reference(asked, model=model, elements=elements, large=True), asked)
 
 
 def homogenised(
@@ -53,7 +53,7 @@ def homogenised(
     springs = _springs(asked, method, grid, None)
     got = homogenised(asked.sheet, springs.grid, springs.springs)
     section = Section(got.membrane, got.bending, np.diag(got.shear))
-    return _answer(solve_reference(asked, model=model, elements=elements, section=section), asked)
+    return _answer(solve_reference(asked, model=model, elements=elements, large=True, section=section), asked)
 
 
 def lattice_frequencies(
@@ -84,8 +84,8 @@ def _springs(
     scene: Scene, method: str, grid: Sequence[int], training: Sequence[dict[str, Any]] | None
 ) -> Any:
     chosen = None if training is None else [Scene.model_validate(data) for data in training]
-    nx, ny, layers = grid
-    return calibrate(scene.sheet, scene.material, grid=(nx, ny, layers), calibration=method, training=chosen)
+    sheet, material = scene.sheet, scene.material
+    return calibrate(sheet, material, grid=tuple(grid), calibration=method, training=chosen, large=True)
 
 
 def _answer(solution: Any, scene: Scene) -> dict[str, Any]:

@@ -1,0 +1,42 @@
+"""What a solve takes, told before anything is built: unknowns, memory and time.
+
+The factors of a matrix whose graph is a grid of N nodes with d unknowns each, s of them along the shorter
+side, ordered by nested dissection:
+
+    nonzeros   31/4 N log2(s) d²          operations   829/84 N s d³
+
+and those of a band where that is less, on strips: N (s + 1) d² and N (s + 1)² d³. Sources: A. George, SIAM J.
+Numer. Anal. 10 (1973) 345–363 (square grids); R. J. Lipton, D. J. Rose, R. E. Tarjan, SIAM J. Numer. Anal. 16
+(1979) 346–358. What a model needs beside is its own affair.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import log2
+
+UNITS = ((1e12, "TB"), (1e9, "GB"), (1e6, "MB"))
+
+
+@dataclass(frozen=True)
+class Size:
+    """unknowns; memory: the peak [bytes] above what the code takes; seconds: on one core, of a static solve
+    that needs the usual handful of factorisations."""
+
+    unknowns: int
+    memory: float
+    seconds: float
+
+
+def factors(nodes: tuple[int, int], unknowns: int) -> tuple[float, float]:
+    """Nonzeros, and operations that make them, of the factors of a grid with so many unknowns a node."""
+    shorter, count = min(nodes), nodes[0] * nodes[1]
+    nonzeros = count * min(31 / 4 * log2(shorter), shorter + 1.0)
+    operations = count * min(829 / 84 * shorter, (shorter + 1.0) ** 2)
+    return nonzeros * unknowns**2, operations * unknowns**3
+
+
+def in_words(memory: float) -> str:
+    """An amount of memory [bytes] as people say it."""
+    unit, name = next(((unit, name) for unit, name in UNITS if memory >= unit), UNITS[-1])
+    return f"{memory / unit:.2g} {name}" if memory < 100 * unit else f"{memory / unit:.0f} {name}"

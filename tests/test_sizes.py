@@ -1,0 +1,232 @@
+"""Sizes told before anything is built: near what is measured, and a refusal where they do not fit."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from test_cli import run
+
+import lumped
+import sheetbench as sb
+from comparisons.models import memory, sizes
+from comparisons.models.candidate import Candidate
+from comparisons.runs.campaign import campaign
+from comparisons.tradeoff.statics import tradeoff
+from fem_reference.footprint import footprint as of_reference
+from sheetbench import scenes
+from sheetbench.scenes import Scene
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.size import factors, in_words
+
+GB = 10**9
+SCENE = "two-edges-clamped"
+
+
+@pytest.fixture
+def strip() -> Scene:
+    """A sheet 4672 times as long as wide."""
+    scene = scenes.load("one-edge-clamped")
+    sheet = scene.sheet.model_copy(update={"length_x": 0.01, "length_y": 46.72, "thickness": 1e-4})
+    return scene.model_copy(update={"sheet": sheet, "probes": {"tip": (0.0, 46.72)}})
+
+
+def room(monkeypatch: pytest.MonkeyPatch, amount: float | None) -> None:
+    monkeypatch.setattr(memory, "available", lambda: amount)
+
+
+PEAK = """
+import json, resource, sys
+from comparisons.models import registry
+from sheetbench import scenes
+
+def largest():
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+
+model, settings = sys.argv[1], json.loads(sys.argv[2])
+registry.warm(model)
+before = largest()
+registry.solve(scenes.load("two-edges-clamped"), model, **settings)
+print(largest() - before)
+"""
+
+
+def test_peaks_are_within_a_factor_of_two_of_what_is_told() -> None:
+    """In processes of their own, above what the code takes."""
+    asked = {"lumped": {"grid": [33, 33, 2]}, "shell": {"elements": 20}}
+    running = {
+        model: subprocess.Popen(
+            [sys.executable, "-c", PEAK, model, json.dumps(settings)], stdout=subprocess.PIPE, text=True
+        )
+        for model, settings in asked.items()
+    }
+    for model, process in running.items():
+        peak = int(process.communicate()[0])
+        told = sizes.size(scenes.load(SCENE), Candidate(model, asked[model]))
+        assert told is not None and 0.5 < told.memory / peak < 2.0
+
+
+def test_sizes_grow_with_every_count() -> None:
+    for a, b in ((2, 3), (9, 17), (33, 65), (129, 257), (1000, 2000)):
+        for small, large in (((a, 9, 2), (b, 9, 2)), ((9, a, 2), (9, b, 2)), ((9, 9, a), (9, 9, b))):
+            one, other = lumped.footprint(small), lumped.footprint(large)
+            assert one.unknowns < other.unknowns and one.memory < other.memory
+            assert one.seconds < other.seconds
+        for model in ("plate", "shell", "solid"):
+            one, other = of_reference(model, (a, 4)), of_reference(model, (b, 4))
+            assert one.memory < other.memory and one.seconds < other.seconds
+    assert of_reference("solid", (8, 8), 1).memory < of_reference("solid", (8, 8), 2).memory
+
+
+def test_a_strip_is_banded_and_a_square_dissected() -> None:
+    """Of n × m nodes with n ≪ m: proportional to m, and never more than the band of the shorter side."""
+    for n in (2, 5, 33):
+        nonzeros, operations = factors((n, 10_000), 3)
+        assert factors((10_000, n), 3) == (nonzeros, operations)
+        assert factors((n, 20_000), 3) == pytest.approx((2.0 * nonzeros, 2.0 * operations))
+        assert nonzeros <= n * 10_000 * (n + 1) * 9 and operations <= n * 10_000 * (n + 1) ** 2 * 27
+    assert factors((2, 100), 1)[0] == 200 * 3
+    square = factors((1024, 1024), 1)
+    assert square[0] == pytest.approx(31 / 4 * 1024**2 * 10) and square[1] == pytest.approx(
+        829 / 84 * 1024**3
+    )
+
+
+def test_a_grid_of_six_gigabytes_needs_a_machine_that_has_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene, asked = scenes.load(SCENE), Candidate("lumped", {"grid": 257})
+    room(monkeypatch, 16 * GB)
+    sizes.require_room(scene, asked)
+    room(monkeypatch, 4 * GB)
+    with pytest.raises(
+        BadInput, match=r"lumped 257x257x2: 396 294 unknowns take about .* GB of memory"
+    ) as told:
+        sizes.require_room(scene, asked)
+    fitting = int(str(told.value).split("--lumped ")[1].split()[0])
+    sizes.require_room(scene, Candidate("lumped", {"grid": fitting}))
+    with pytest.raises(BadInput):
+        sizes.require_room(scene, Candidate("lumped", {"grid": fitting + 1}))
+
+
+def test_a_long_thin_sheet_is_refused_with_what_fits(strip: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Four elements across are 75 000 in all."""
+    room(monkeypatch, 4 * GB)
+    with pytest.raises(BadInput, match=r"shell 4x18688: .* --elements 1 would fit"):
+        sb.compare(strip, grid=(3, 9), elements=4)
+    room(monkeypatch, 0.5 * GB)
+    with pytest.raises(BadInput, match="take fewer along the longer side, --elements NxM"):
+        sb.solve(strip, "shell", elements=4)
+    with pytest.raises(BadInput, match=r"shell 8x37376: .*; advise has no coarser one"):
+        sb.advise(strip)
+
+
+def test_half_a_sheet_takes_half(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = scenes.load("one-edge-clamped")
+    for model, settings in (("lumped", {"grid": 129}), ("shell", {"elements": 64})):
+        whole, part = (sizes.size(scene, Candidate(model, settings | s)) for s in ({}, {"symmetry": True}))
+        assert whole is not None and part is not None
+        assert 0.4 < part.memory / whole.memory < 0.6
+
+
+def test_every_candidate_is_looked_at_before_the_first_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    room(monkeypatch, 3 * GB)
+    scene = scenes.load(SCENE)
+    listed = [Candidate("lumped", {"grid": 3}), Candidate("solid", {"elements": 64})]
+    judge = Candidate("shell", {"elements": 4})
+    with campaign(tmp_path) as store:
+        with pytest.raises(BadInput, match=r"solid 64x64x1: .*--solid \d+ would fit"):
+            tradeoff(scene, listed, store, reference=judge, pool=pytest.fail)
+        with pytest.raises(BadInput, match=r"shell 128x128: .*--elements \d+ would fit"):
+            tradeoff(scene, [Candidate("shell", {"elements": 64})], store, large=False, pool=pytest.fail)
+
+
+MEASURED = "x,y,uz\n0.094,0.094,-0.002\n0.188,0.188,-0.013\n"
+VERBS = {
+    "compare": (SCENE, "--lumped", "3", "--elements", "2", "--no-uncertainty"),
+    "calibrate": (SCENE, "--grid", "3", "--method", "fit-modal"),
+    "identify": (SCENE, "--measured", "MEASURED", "--lumped", "3"),
+    "modes": (SCENE, "--lumped", "3", "--elements", "2", "--count", "2"),
+    "simulate": (SCENE, "--lumped", "3", "--duration", "0.02"),
+    "tradeoff": (SCENE, "--lumped", "3", "--plate", "", "--shell", "", "--solid", "", "--elements", "4"),
+    "transfer": ("--grids", "5", "--scenes", SCENE, "--methods", "uniform", "--part", "static"),
+    "advise": (SCENE,),
+    "stability": ("--study", "grid"),
+}
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_every_verb_refuses_what_does_not_fit(
+    verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    room(monkeypatch, 1000.0)
+    measured = tmp_path / "measured.csv"
+    measured.write_text(MEASURED)
+    arguments = [str(measured) if part == "MEASURED" else part for part in VERBS[verb]]
+    assert run(verb, *arguments) == 2
+    said = capsys.readouterr().err.splitlines()[-1]
+    assert "of memory, and 0.001 MB are free here" in said and "--large" in said
+
+
+@pytest.mark.parametrize("verb", ["compare", "identify", "modes", "simulate"])
+def test_large_goes_on_all_the_same(
+    verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    room(monkeypatch, 1000.0)
+    measured = tmp_path / "measured.csv"
+    measured.write_text(MEASURED)
+    arguments = [str(measured) if part == "MEASURED" else part for part in VERBS[verb]]
+    assert run(verb, *arguments, "--large", "--json") == 0
+    assert json.loads(capsys.readouterr().out)
+
+
+def written(root: Path, files: dict[str, str]) -> None:
+    for name, text in files.items():
+        path = root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+
+FREE = {"proc/meminfo": "MemTotal:  9000000 kB\nMemAvailable:    4000000 kB\n"}
+SECOND = {
+    "proc/self/cgroup": "0::/user/box\n",
+    "sys/fs/cgroup/user/box/memory.max": "max\n",
+    "sys/fs/cgroup/user/box/memory.current": "700000000\n",
+    "sys/fs/cgroup/user/memory.max": "3000000000\n",
+    "sys/fs/cgroup/user/memory.current": "2500000000\n",
+    "sys/fs/cgroup/user/memory.stat": "anon 1\ninactive_file 500000000\n",
+}
+FIRST = {
+    "proc/self/cgroup": "7:cpu,memory:/box\n3:pids:/box\n",
+    "sys/fs/cgroup/memory/box/memory.limit_in_bytes": "2000000000\n",
+    "sys/fs/cgroup/memory/box/memory.usage_in_bytes": "500000000\n",
+    "sys/fs/cgroup/memory/memory.limit_in_bytes": "9223372036854771712\n",
+    "sys/fs/cgroup/memory/memory.usage_in_bytes": "500000000\n",
+}
+
+
+@pytest.mark.parametrize(("files", "left"), [({}, 4096 * 10**6), (SECOND, 10**9), (FIRST, 15 * 10**8)])
+def test_what_is_free_is_the_least_that_anything_leaves(
+    files: dict[str, str], left: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The machine, and control groups with their parents; pages of files are given back."""
+    written(tmp_path, FREE | files)
+    monkeypatch.setattr(memory, "ROOT", tmp_path)
+    monkeypatch.setattr(memory.resource, "getrlimit", lambda which: (memory.resource.RLIM_INFINITY,) * 2)
+    assert memory.available() == left
+    monkeypatch.setattr(memory.resource, "getrlimit", lambda which: (300_000_000, 300_000_000))
+    (tmp_path / "proc/self").mkdir(parents=True, exist_ok=True)
+    (tmp_path / "proc/self/status").write_text("VmPeak: 9 kB\nVmSize:\t  100000 kB\n")
+    assert memory.available() == 300_000_000 - 102_400_000
+
+
+def test_without_any_word_of_memory_nothing_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    room(monkeypatch, None)
+    sizes.require_room(scenes.load(SCENE), Candidate("lumped", {"grid": 5000}))
+
+
+def test_amounts_as_people_say_them() -> None:
+    assert [in_words(x) for x in (5.4e9, 269e9, 8e6, 2.5e12)] == ["5.4 GB", "269 GB", "8 MB", "2.5 TB"]

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from test_cli import run
+from commands import run
 
 import lumped
 import sheetbench as sb
@@ -39,18 +39,14 @@ def room(monkeypatch: pytest.MonkeyPatch, amount: float | None) -> None:
 
 
 PEAK = """
-import json, resource, sys
+import json, sys
 from comparisons.models import registry
+from comparisons.tradeoff.timing import _with_peak_memory
 from sheetbench import scenes
-
-def largest():
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
 
 model, settings = sys.argv[1], json.loads(sys.argv[2])
 registry.warm(model)
-before = largest()
-registry.solve(scenes.load("two-edges-clamped"), model, **settings)
-print(largest() - before)
+print(_with_peak_memory(lambda: registry.solve(scenes.load("two-edges-clamped"), model, **settings))[1])
 """
 
 

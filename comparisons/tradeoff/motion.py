@@ -23,7 +23,7 @@ import numpy as np
 
 from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked, scene_grid
-from comparisons.models.registry import simulate
+from comparisons.models.registry import check, simulate
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
 from comparisons.runs import manifest
@@ -175,7 +175,6 @@ def dynamic_tradeoff(
     Raises BadInput for an integrator that does not exist. A run that diverges is a row with its status.
     """
     import lumped
-    from comparisons.models.registry import check
     from lumped import INTEGRATORS
 
     if unknown := [name for name in integrators if name not in INTEGRATORS]:

@@ -11,6 +11,7 @@ import pytest
 from scipy.integrate import solve_bvp
 
 from comparisons.cli import main
+from comparisons.report.layout import blocks
 from comparisons.verification import tables as verification
 from fem_reference.verification import CASES, Case, Row, heavy_elastica, mindlin_plates, run
 from fem_reference.verification.rows import absolutely, relatively
@@ -70,6 +71,14 @@ def test_values_of_this_project_are_not_called_somebody_else_s() -> None:
         "this project, 48 × 48",
     }
     assert all("this project" in row.source for row in rows if "change from half" in row.quantity)
+
+
+def test_every_value_stands_beside_its_verdict_on_any_terminal() -> None:
+    rows = [row for name in ("patch", "mindlin-clamped", "nafems-fv16") for row in rows_of(name)]
+    for width in (50, 80, 160):
+        for table in verification.by_case(rows):
+            (block,) = blocks(table, width)
+            assert sum(line.endswith(("yes", "NO")) for line in block.rows) == len(table.rows)
 
 
 def test_the_heavy_elastica_s_values_are_its_equation_s() -> None:

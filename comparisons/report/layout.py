@@ -1,13 +1,15 @@
 """A table as lines of text within a width: every figure and every status whole, however narrow that is.
 
 A table that is too wide first breaks its headings and its prose over lines, at spaces. Where that is not
-enough its columns are stacked in blocks, each led by the columns that name the rows. Only a word longer than
-the width itself is broken, and goes on in the next line: nothing is ever cut off.
+enough, columns that may stand apart go, the last one first, on lines of their own over the rows that share
+them. Where there are none, or still no room, the columns are stacked in blocks, each led by the columns that
+name the rows. Only a word longer than the width itself is broken, and goes on in the next line: nothing is
+ever cut off.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
 
@@ -78,7 +80,21 @@ def blocks(table: Table, width: int | None, say: Callable[[str], str] = terminal
         for i, column in enumerate(brief.columns)
     ]
     ruled = [table.grouped and start and i > 0 for i, start in enumerate(starts)]
+    apart, rest = _set_apart(strips, width)
+    if apart and width is not None:
+        return [_over(apart, rest, width, ruled)]
     return [_block(part, _widths(part, width), ruled) for part in _stacked(strips, naming, width)]
+
+
+def _set_apart(strips: list[_Strip], width: int | None) -> tuple[list[_Strip], list[_Strip]]:
+    """The columns that are to stand apart for the others to fit into the width, and the others."""
+    apart, rest = list[_Strip](), strips
+    while width is not None and _total(strip.pleasant for strip in rest) > width - (GAP if apart else 0):
+        last = next((strip for strip in reversed(rest) if strip.column.apart), None)
+        if last is None or len(rest) == 1:
+            return [], strips
+        apart, rest = [last, *apart], [strip for strip in rest if strip is not last]
+    return apart, rest
 
 
 def _naming(columns: Sequence[Column], rows: list[list[str]]) -> int:
@@ -135,20 +151,44 @@ def _widths(strips: list[_Strip], width: int | None) -> list[int]:
     return found
 
 
+def _over(apart: list[_Strip], rest: list[_Strip], width: int, ruled: list[bool]) -> Block:
+    """The columns that stand apart over the others, which are indented, wherever they change."""
+    widths = _widths(rest, width - GAP)
+    indent = " " * GAP
+    leads = [" · ".join(cells) for cells in zip(*(strip.cells for strip in apart), strict=True)]
+    rule, rows = "─" * (GAP + _total(widths)), list[str]()
+    for i, lines in enumerate(_rows(rest, widths)):
+        rows += [rule] if ruled[i] else []
+        rows += wrapped(leads[i], width) if i == 0 or leads[i] != leads[i - 1] else []
+        rows += [indent + line for line in lines]
+    title = wrapped(" · ".join(strip.name for strip in apart), width)
+    return Block([*title, *(indent + line for line in _head(rest, widths))], rule, rows)
+
+
 def _block(strips: list[_Strip], widths: list[int], ruled: list[bool]) -> Block:
+    rule, rows = "─" * _total(widths), list[str]()
+    for i, lines in enumerate(_rows(strips, widths)):
+        rows += [rule, *lines] if ruled[i] else lines
+    return Block(_head(strips, widths), rule, rows)
+
+
+def _rows(strips: list[_Strip], widths: list[int]) -> Iterator[list[str]]:
+    """The lines of each row."""
+    for cells in zip(*(strip.cells for strip in strips), strict=True):
+        yield _lines(
+            [wrapped(cell, width) for cell, width in zip(cells, widths, strict=True)], strips, widths
+        )
+
+
+def _head(strips: list[_Strip], widths: list[int]) -> list[str]:
+    """The lines of the headings, names over units."""
     any_unit = any(strip.unit for strip in strips)
     heads = []
     for strip, width in zip(strips, widths, strict=True):
         lines = wrapped(strip.name, width)
         heads.append([*lines, strip.unit] if any_unit and strip.unit else lines)
-    rule = "─" * _total(widths)
-    rows: list[str] = []
-    for i, cells in enumerate(zip(*(strip.cells for strip in strips), strict=True)):
-        if ruled[i]:
-            rows.append(rule)
-        rows += _lines([wrapped(c, w) for c, w in zip(cells, widths, strict=True)], strips, widths)
     height = max(map(len, heads))
-    return Block(_lines([[""] * (height - len(h)) + h for h in heads], strips, widths), rule, rows)
+    return _lines([[""] * (height - len(head)) + head for head in heads], strips, widths)
 
 
 def _lines(cells: list[list[str]], strips: list[_Strip], widths: list[int]) -> list[str]:

@@ -39,7 +39,8 @@ def unit(si: str) -> Unit:
 class Column:
     """A column's name, the SI unit of its values, and how to show them: unit, scale and format.
 
-    Numbers have a format; prose may be broken over lines. A detail is left out on terminals and in LaTeX.
+    Numbers have a format; prose may be broken over lines. A detail is left out on terminals and in LaTeX. One
+    that may stand apart does so on terminals too narrow for its table, over the rows that share it.
     """
 
     name: str
@@ -49,6 +50,7 @@ class Column:
     form: str = ""
     prose: bool = False
     detail: bool = False
+    apart: bool = False
 
     @property
     def numeric(self) -> bool:

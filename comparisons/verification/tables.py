@@ -15,10 +15,10 @@ from fem_reference.verification import CASES, Row
 
 COLUMNS = (
     Column("case"),
-    Column("quantity", prose=True),
+    Column("quantity", prose=True, apart=True),
     Column("mesh"),
     Column("expected", form=".5g"),
-    Column("whose", prose=True),
+    Column("whose", prose=True, apart=True),
     Column("computed", form=".5g"),
     Column("off by", "", "%", 100.0, ".2f"),
     Column("held to"),

@@ -1,0 +1,116 @@
+"""Tables as lines of text: whole at any width; broken, set apart or stacked where that is narrow."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from rich.cells import cell_len
+
+from comparisons.report import escape
+from comparisons.report.layout import blocks
+from comparisons.report.table import Column, Table
+
+WIDE = Table(
+    "Wide",
+    (
+        Column("probe"),
+        Column("model"),
+        *(Column(f"error of the {name}", "", "%", 100.0, ".2e") for name in ("first", "second", "third")),
+        Column("factorisations", form="d"),
+        Column("status", prose=True),
+    ),
+    (
+        ("P1", "lumped-uniform", 7.64e-7, -0.01, 12.213, 12345, "strain-outside-model at 40 % of the load"),
+        ("P1", "shell", 7.64e-7, -0.01, None, 7, "converged"),
+    ),
+)
+
+
+def text_of(table: Table, width: int | None) -> list[str]:
+    return [line for block in blocks(table, width) for line in [*block.head, block.rule, *block.rows]]
+
+
+@pytest.mark.parametrize("width", [30, 50, 80, 160, None])
+def test_every_figure_and_status_is_whole_at_any_width(width: int | None) -> None:
+    lines = text_of(WIDE, width)
+    words = " ".join(lines).split()
+    for row in WIDE.shown_rows():
+        for shown in row:
+            assert set(shown.split()) <= set(words)
+    assert width is None or max(map(cell_len, lines)) <= width
+
+
+def test_a_narrow_table_is_stacked_in_blocks_that_name_their_rows() -> None:
+    narrow = blocks(WIDE, 50)
+    assert len(narrow) > 1 and len(blocks(WIDE, 160)) == len(blocks(WIDE, None)) == 1
+    assert all("lumped-uniform" in block.rows[0] and "probe" in " ".join(block.head) for block in narrow)
+    headings = " ".join(" ".join(block.head) for block in narrow)
+    assert headings.count("factorisations") == 1 and headings.count("status") == 1
+
+
+def test_blocks_repeat_the_figures_that_tell_rows_apart() -> None:
+    figures = [Column(name, form="d") for name in ("masses", "ratio", "limit_of_the_step", "iterations_used")]
+    table = Table("Cells", tuple(figures), ((5, 1, 10, 20), (5, 100, 30, 40)))
+    first, second = blocks(table, 36)
+    assert [row.split() for row in first.rows] == [["5", "1", "10"], ["5", "100", "30"]]
+    assert [row.split() for row in second.rows] == [["5", "1", "20"], ["5", "100", "40"]]
+
+
+SOURCES = Table(
+    "Values",
+    (
+        Column("quantity", prose=True, apart=True),
+        Column("expected", form=".5g"),
+        Column("whose", prose=True, apart=True),
+        Column("computed", form=".5g"),
+        Column("off by", "", "%", 100.0, ".2f"),
+        Column("ok"),
+    ),
+    (
+        ("change from half the mesh", 0.0, "this project", -7.2139e-5, None, "yes"),
+        ("mode 4, converged", 4.182, "Leissa & Author 1973", 4.1853, 8e-4, "yes"),
+        ("mode 5, converged", 4.182, "Leissa & Author 1973", 4.1853, 8e-4, "NO"),
+    ),
+)
+
+
+def test_columns_set_apart_stand_over_the_rows_that_share_them() -> None:
+    """The last one first, and only as many as need be: every row's figures and status stay on one line."""
+    for width, over in ((160, []), (70, [0, 2]), (45, [0, 2, 4])):
+        (block,) = blocks(SOURCES, width)
+        lines = [line.split() for line in block.rows]
+        assert [i for i, line in enumerate(lines) if line[-1] not in ("yes", "NO")] == over
+        assert all(cell_len(line) <= width for line in [*block.head, block.rule, *block.rows])
+        assert [line[-1] for i, line in enumerate(lines) if i not in over] == ["yes", "yes", "NO"]
+        assert {"−7.2139e−05", "4.1853", "0.08", "–"} <= {word for line in lines for word in line}
+    assert blocks(SOURCES, 70)[0].rows[2] == "Leissa & Author 1973"
+    assert blocks(SOURCES, 45)[0].rows[4] == "mode 5, converged · Leissa & Author 1973"
+    assert len(blocks(SOURCES, 30)) > 1  # where not even the figures fit, stacked like any other
+
+
+@given(
+    st.lists(st.tuples(st.text(max_size=30), st.floats(), st.text(max_size=60)), max_size=4),
+    st.integers(4, 100),
+)
+def test_no_text_is_lost_or_too_wide(rows: list[tuple[str, float, str]], width: int) -> None:
+    """Whatever stands in the cells: all of it is printed, and nothing beyond the width."""
+    table = Table("", (Column("name"), Column("x", form=".3e"), Column("said", prose=True)), tuple(rows))
+    lines = text_of(table, width)
+    assert all(cell_len(line) <= max(width, 20) for line in lines)
+    printed = "".join(lines).replace(" ", "")
+    for name, _, said in rows:
+        for word in (*escape.terminal(name).split(), *escape.terminal(said).split()):
+            assert set(word) <= set(printed)
+
+
+def test_rows_of_a_group_stand_under_its_name() -> None:
+    table = Table("", (Column("probe"), Column("x", form="d")), (("P1", 1), ("P1", 2), ("P2", 3)), "", True)
+    (block,) = blocks(table, None)
+    assert [row.split() for row in block.rows] == [["P1", "1"], ["2"], [block.rule], ["P2", "3"]]
+
+
+def test_details_are_in_the_files_only() -> None:
+    table = Table("", (Column("a"), Column("b", detail=True)), (("x", "y"),))
+    assert "b" not in " ".join(text_of(table, None)) and "y" not in table.to_latex()
+    assert "b" in table.to_csv() and "b" in table.to_markdown()

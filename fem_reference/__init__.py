@@ -11,19 +11,16 @@ from importlib import import_module
 from inspect import signature
 from typing import Any
 
+from sheetbench.choices import REFERENCE, REFERENCES
 from sheetbench.scenes import AnyScene, Solution, scene_of
 from sheetbench.scenes.errors import BadInput
 
-MODELS = {
-    "plate": "fem_reference.plate.statics",
-    "shell": "fem_reference.shell.statics",
-    "solid": "fem_reference.solid.statics",
-}
+MODELS = {name: f"fem_reference.{name}.statics" for name in REFERENCES}
 
 __all__ = ["MODELS", "check", "modes", "options", "solve"]
 
 
-def solve(scene: AnyScene, model: str = "shell", **asked: Any) -> Solution:
+def solve(scene: AnyScene, model: str = REFERENCE, **asked: Any) -> Solution:
     """The static answer of a reference model; `elements` along the shorter side, or a pair (nx, ny).
 
     Raises BadInput for an unknown model or option, scenes.SceneError for a scene that no support holds.

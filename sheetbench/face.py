@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from comparisons.models import registry
 from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked, scene_grid
+from sheetbench.choices import CALIBRATION, REFERENCES
 from sheetbench.scenes import AnyScene, History, Solution, scene_of
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ def calibrate(
     scene: AnyScene,
     *,
     grid: Asked = None,
-    method: str = "consistent",
+    method: str = CALIBRATION,
     k: float | None = None,
     layer_distance: float | None = None,
     large: bool = False,
@@ -80,7 +81,7 @@ def tradeoff(
     scene: AnyScene,
     *,
     lumped: Sequence[Asked] = (3, 5, 9, 17),
-    calibration: Sequence[str] = ("consistent",),
+    calibration: Sequence[str] = (CALIBRATION,),
     plate: Sequence[int] = (),
     shell: Sequence[int] = (4, 8, 16),
     solid: Sequence[int] = (),
@@ -107,7 +108,7 @@ def tradeoff(
         for name in calibration
         for grid in lumped
     ]
-    for name, meshes in (("plate", plate), ("shell", shell), ("solid", solid)):
+    for name, meshes in zip(REFERENCES, (plate, shell, solid), strict=True):
         candidates += [Candidate(name, {"elements": count}) for count in meshes]
     with ExitStack() as stack:
         folder = Path(stack.enter_context(TemporaryDirectory()) if out is None else out)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -98,6 +99,56 @@ def test_every_verb_means_the_same(
     assert grid(json.loads(capsys.readouterr().out)) == [5, 3, 2]
 
 
+def test_elements_along_x_and_y_on_every_verb(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("long.toml").write_text(TEXT)
+    Path("measured.csv").write_text("x,y,ux,uy,uz\n0.2,0.05,,,-0.02\n0.1,0.05,,,-0.01\n")
+
+    def document(verb: str, *options: str) -> dict[str, Any]:
+        assert run(verb, "long.toml", "--json", *options) == 0
+        found: dict[str, Any] = json.loads(capsys.readouterr().out)
+        return found
+
+    small = ("--elements", "3x2")
+    compared = document("compare", "--lumped", "3", "--no-uncertainty", *small)
+    assert compared["solutions"][1]["settings"]["elements"] == [3, 2]
+    heard = document("modes", "--lumped", "3", "--count", "1", *small)
+    assert heard["solutions"][1]["settings"]["elements"] == [3, 2]
+    found = document("identify", "--measured", "measured.csv", "--model", "shell", *small)
+    assert found["settings"]["elements"] == [3, 2]
+    others = (
+        "--lumped",
+        "3",
+        "--shell",
+        "",
+        "--plate",
+        "",
+        "--solid",
+        "",
+        "--repeats",
+        "1",
+        "--workers",
+        "1",
+    )
+    traded = document("tradeoff", *others, "--calibration", "uniform", "--elements", "4x2")
+    assert traded["reference"]["settings"]["elements"] == [4, 2]
+    assert traded["reference"]["uncertainty"] > 0.0 and traded["rows"][0]["error"] > 0.0
+
+
+@pytest.mark.parametrize("verb", ["compare", "modes", "identify", "tradeoff"])
+def test_what_is_no_number_of_elements_leaves_with_2(
+    verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("long.toml").write_text(TEXT)
+    Path("measured.csv").write_text("x,y,ux,uy,uz\n0.2,0.05,,,-0.02\n")
+    measured = ("--measured", "measured.csv") if verb == "identify" else ()
+    assert run(verb, "long.toml", *measured, "--elements", "8y") == 2
+    assert "--elements = '8y'" in one_line(capsys)
+
+
 @pytest.mark.parametrize("verb", [*VERBS, "tradeoff", "transfer"])
 def test_what_is_not_a_grid_leaves_with_2(
     verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
@@ -140,6 +191,7 @@ def test_springs_of_another_grid_are_refused(
     path = pasted("9x9", tmp_path, capsys)
     assert run(verb, str(path), "--lumped", "9") == 2
     said = one_line(capsys)
+    assert said.startswith(f"sheetbench: {path}: scene 'long'")
     assert "springs.grid = 9x9x2" in said and "17x9x2" in said and "calibrate --grid 17x9x2" in said
 
 

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 from comparisons.models.candidate import series, written
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table, number
+from sheetbench.choices import CALIBRATION
 
 if TYPE_CHECKING:
     from comparisons.advice.advisor import Advice
-
-PLAIN = "consistent"  # what `compare` calibrates with unless told
 
 
 def report(advice: Advice, named: str = "") -> Report:
@@ -74,7 +73,11 @@ def command(advice: Advice, named: str = "") -> str | None:
         return None
     model, settings = advice.choice.model, dict(advice.choice.settings)
     mirrored = ["--symmetry"] if settings.pop("symmetry", False) else []
-    if model == "lumped" and settings.keys() == {"grid", "calibration"} and settings["calibration"] == PLAIN:
+    if (
+        model == "lumped"
+        and settings.keys() == {"grid", "calibration"}
+        and settings["calibration"] == CALIBRATION
+    ):
         options = ["--lumped", "x".join(map(str, settings["grid"])), *mirrored]
     elif model != "lumped" and settings.keys() == {"elements"}:
         options = ["--reference", model, "--elements", "x".join(map(str, settings["elements"])), *mirrored]

@@ -50,12 +50,20 @@ app = typer.Typer(
 
 
 def _with_promise(verb: str, command: Callable[..., None]) -> Callable[..., None]:
-    """The command, which notes first what an interrupt of it leaves behind."""
+    """The command, which notes first what an interrupt of it leaves behind, and names its scene's file where
+    a refusal does not."""
 
     @wraps(command)
     def run(**given: Any) -> None:
         interruption.promise(verb, given.get("out"))
-        command(**given)
+        try:
+            command(**given)
+        except ValueError as error:
+            from sheetbench.scenes.errors import Impossible, SceneError
+
+            if isinstance(error, Impossible) and given.get("scene"):
+                raise SceneError(f"{given['scene']}: {error}") from None
+            raise
 
     return run
 

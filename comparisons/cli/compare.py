@@ -6,28 +6,31 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Elements, Grid, Json, Large, Models, Out, Overwrite, Scene, Symmetry
+from comparisons.cli.options import (
+    Calibration,
+    Elements,
+    Grid,
+    Json,
+    K,
+    Large,
+    LayerDistance,
+    Models,
+    Out,
+    Overwrite,
+    Scene,
+    Symmetry,
+)
+from sheetbench.choices import ELEMENTS, REFERENCE, REFERENCES, listed
 
 
 def command(
     scene: Scene,
     lumped: Grid = None,
-    calibration: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAME",
-            help="How k is found from E, ν and h: consistent, uniform, …; consistent, with uniform shown "
-            "alongside, unless given.",
-        ),
-    ] = None,
-    k: Annotated[
-        float | None, typer.Option(metavar="N/M", help="Stiffness of every spring; means uniform.")
-    ] = None,
-    layer_distance: Annotated[
-        float | None, typer.Option(metavar="M", help="Distance of the lattice's layers.")
-    ] = None,
-    reference: Annotated[str, typer.Option(metavar="MODEL", help="plate, shell or solid.")] = "shell",
-    elements: Elements = "16",
+    calibration: Calibration = None,
+    k: K = None,
+    layer_distance: LayerDistance = None,
+    reference: Annotated[str, typer.Option(metavar="MODEL", help=f"{listed(REFERENCES)}.")] = REFERENCE,
+    elements: Elements = str(ELEMENTS),
     symmetry: Symmetry = False,
     model: Models = None,
     uncertainty: Annotated[
@@ -51,7 +54,10 @@ def command(
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> None:
-    """Solve a scene with the lattice and with a reference, and show what differs and what it cost."""
+    """Solve a scene with the lattice and with a reference, and show what differs and what it cost.
+
+    Where no calibration is named, uniform springs are shown alongside.
+    """
     from comparisons.advice.advisor import advise, check_auto
     from comparisons.cli.finish import finish
     from comparisons.comparison.comparison import compare, load_static

@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Grid, Json, Large, Out, Overwrite, Scene
+from comparisons.cli.options import Calibration, Elements, Grid, Json, Large, Out, Overwrite, Scene
+from sheetbench.choices import ELEMENTS
 
 
 def command(
@@ -30,13 +31,8 @@ def command(
     ] = "young",
     model: Annotated[str, typer.Option(metavar="MODEL", help="lumped, shell or solid.")] = "lumped",
     lumped: Grid = None,
-    calibration: Annotated[
-        str | None,
-        typer.Option(metavar="NAME", help="How k follows from E, ν and h; consistent unless given."),
-    ] = None,
-    elements: Annotated[
-        int, typer.Option(metavar="N", help="The reference's elements along the shorter side.")
-    ] = 16,
+    calibration: Calibration = None,
+    elements: Elements = str(ELEMENTS),
     offset: Annotated[
         float,
         typer.Option(
@@ -59,6 +55,7 @@ def command(
     from comparisons.identification.measurements import read
     from comparisons.identification.prediction import NotReached
     from comparisons.models.candidate import items
+    from comparisons.models.grids import parse_elements
 
     asked = load_static(scene)
     data = read(measured, asked)
@@ -71,7 +68,7 @@ def command(
                 model=model,
                 grid=lumped,
                 calibration=calibration,
-                elements=elements,
+                elements=parse_elements(elements),
                 offset=offset,
                 large=large,
                 progress=end.progress,

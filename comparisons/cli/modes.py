@@ -6,23 +6,22 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Grid, Json, Large, Out, Overwrite, Scene
+from comparisons.cli.options import Calibration, Elements, Grid, Json, Large, Out, Overwrite, Scene
+from sheetbench.choices import ELEMENTS, REFERENCE, REFERENCES, listed
 
 
 def command(
     scene: Scene,
     count: Annotated[int, typer.Option(metavar="N", help="How many modes, lowest first.")] = 10,
     lumped: Grid = None,
-    calibration: Annotated[
-        str | None, typer.Option(metavar="NAME", help="How k is found; consistent unless given.")
-    ] = None,
+    calibration: Calibration = None,
     reference: Annotated[
         list[str] | None,
-        typer.Option(metavar="MODEL", help="plate, shell or solid; may be repeated. The shell unless given."),
+        typer.Option(
+            metavar="MODEL", help=f"{listed(REFERENCES)}; may be repeated. The {REFERENCE} unless given."
+        ),
     ] = None,
-    elements: Annotated[
-        int, typer.Option(metavar="N", help="The reference's elements along the shorter side.")
-    ] = 16,
+    elements: Elements = str(ELEMENTS),
     about: Annotated[
         str,
         typer.Option(
@@ -37,6 +36,7 @@ def command(
 ) -> None:
     """List the natural frequencies of the lattice and a reference, about the flat sheet or the deformed."""
     from comparisons.cli.finish import finish
+    from comparisons.models.grids import parse_elements
     from comparisons.modes.spectra import spectra
     from sheetbench.scenes import load
     from sheetbench.scenes.errors import NoEquilibrium
@@ -49,8 +49,8 @@ def command(
                 count=count,
                 grid=lumped,
                 calibration=calibration,
-                references=reference or ["shell"],
-                elements=elements,
+                references=reference or [REFERENCE],
+                elements=parse_elements(elements),
                 about=about,
                 large=large,
                 starting=lambda model: end.progress(f"modes of {model} …"),

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from comparisons.cli.quantities import checked, sides
-
 if TYPE_CHECKING:
     from sheetbench.scenes import Material, Sheet
 
@@ -46,6 +44,7 @@ def command(
     On a terminal, without options, it asks. Beside the file it leaves the JSON Schema, for editors.
     """
     from comparisons.cli import console
+    from comparisons.models.quantities import sides
     from comparisons.report.files import to_json, write_text
     from sheetbench.scenes import Scene, load
     from sheetbench.scenes.errors import BadInput, require_choice
@@ -73,6 +72,7 @@ def command(
 
 
 def _made(values: dict[str, float]) -> tuple[Sheet, Material]:
+    from comparisons.models.quantities import checked
     from sheetbench import scenes
 
     sheet = checked(scenes.Sheet, {key: values[key] for key in SHEET})

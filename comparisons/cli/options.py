@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from sheetbench.choices import CALIBRATION, CALIBRATIONS, listed
+
 Scene = Annotated[
     str, typer.Argument(metavar="SCENE", help="Catalogue name or path to a TOML file.", show_default=False)
 ]
@@ -59,6 +61,20 @@ Large = Annotated[
 ]
 Retry = Annotated[
     bool, typer.Option("--retry", help="Run again what failed in an earlier run.", show_default=False)
+]
+Calibration = Annotated[
+    str | None,
+    typer.Option(
+        "--calibration",
+        metavar="NAME",
+        help=f"How k is found from E, ν and h: {listed(CALIBRATIONS)}. {CALIBRATION} unless given.",
+    ),
+]
+K = Annotated[
+    float | None, typer.Option("--k", metavar="N/M", help="Stiffness of every spring; means uniform.")
+]
+LayerDistance = Annotated[
+    float | None, typer.Option("--layer-distance", metavar="M", help="Distance of the lattice's layers.")
 ]
 Elements = Annotated[
     str,

@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Grid, Json, Large, Out, Overwrite, Scene
+from comparisons.cli.options import Calibration, Grid, Json, Large, Out, Overwrite, Scene
+from sheetbench.choices import INTEGRATOR, INTEGRATORS
 
 FRAMES = 100
 
@@ -22,12 +23,13 @@ def command(
         ),
     ] = None,
     integrator: Annotated[
-        str, typer.Option(metavar="NAME", help="generalised-alpha, verlet, midpoint or projective.")
-    ] = "generalised-alpha",
+        str,
+        typer.Option(
+            metavar="NAME", help="; ".join(f"{name}: {said}" for name, said in INTEGRATORS.items()) + "."
+        ),
+    ] = INTEGRATOR,
     lumped: Grid = None,
-    calibration: Annotated[
-        str | None, typer.Option(metavar="NAME", help="consistent, uniform, …; consistent unless given.")
-    ] = None,
+    calibration: Calibration = None,
     every: Annotated[
         float | None,
         typer.Option(metavar="S", help="Time between samples; 1/100 of the lowest period unless given."),

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from comparisons.cli import options
 from comparisons.cli.options import Json, Large, Models, Out, Overwrite, Retry, Scheduler, Symmetry, Wait
+from sheetbench.choices import CALIBRATION, CALIBRATIONS, INTEGRATORS, REFERENCES, listed
 
 if TYPE_CHECKING:
     from comparisons.tradeoff.motion import DynamicTradeoff
     from comparisons.tradeoff.statics import Tradeoff
-    from sheetbench.scenes import Scene
 
 GRIDS = "3,5,9,17,33"
 
@@ -28,13 +27,13 @@ def command(
             "--grid",
             metavar="GRIDS",
             help="Masses of lattices: along the shorter side with near-square cells, or NxM, NxMxL. "
-            "3,5,9,17,33 unless given; with --duration one lattice, 9 unless given.",
+            f"{GRIDS} unless given; with --duration one lattice, 9 unless given.",
             show_default=False,
         ),
     ] = None,
-    calibration: Annotated[str, typer.Option(metavar="NAMES", help="Calibrations of every grid.")] = (
-        "consistent,uniform"
-    ),
+    calibration: Annotated[
+        str, typer.Option(metavar="NAMES", help=f"Calibrations of every grid: {listed(CALIBRATIONS)}.")
+    ] = f"{CALIBRATION},uniform",
     plate: Annotated[
         str,
         typer.Option(metavar="ELEMENTS", help="Elements of the linear plate along the shorter side, or NxM."),
@@ -48,9 +47,12 @@ def command(
     model: Models = None,
     symmetry: Symmetry = False,
     elements: Annotated[
-        int | None,
+        str | None,
         typer.Option(
-            metavar="N", help="Elements of the reference shell; twice the finest one's, 32 at least."
+            metavar="N",
+            help="Elements of the reference shell along the shorter side, or 8x4 along x and y; twice the "
+            "finest one's, 32 at least, unless given.",
+            show_default=False,
         ),
     ] = None,
     repeats: Annotated[
@@ -70,7 +72,7 @@ def command(
     ] = None,
     integrator: Annotated[
         str, typer.Option(metavar="NAMES", help="With --duration: the integrators.")
-    ] = "generalised-alpha,midpoint,projective,verlet",
+    ] = ",".join(sorted(INTEGRATORS)),
     retry: Retry = False,
     large: Large = False,
     json: Json = False,
@@ -85,31 +87,18 @@ def command(
 
     from comparisons.cli.finish import finish
     from comparisons.comparison.comparison import load_static
-    from comparisons.models.candidate import Candidate, items, lattices, parse_model, references
-    from comparisons.tradeoff.statics import tradeoff
-    from sheetbench import scenes
-    from sheetbench.scenes.errors import BadInput
+    from comparisons.tradeoff.asked import of_motion, of_statics
+    from sheetbench.scenes import load
 
     measure: Callable[..., Tradeoff | DynamicTradeoff]
     if duration is not None:
-        asked = scenes.load(scene)
-        measure = _of_motion(asked, duration, lumped, items(integrator))
+        asked = load(scene)
+        measure = of_motion(asked, duration, lumped, integrator)
     else:
         asked = load_static(scene)
-        candidates = lattices(asked.sheet, items(GRIDS if lumped is None else lumped), items(calibration))
-        for name, sizes in (("plate", plate), ("shell", shell), ("solid", solid)):
-            candidates += references(name, items(sizes))
-        if symmetry:
-            candidates = [c if c.model == "solid" else c.but(symmetry=True) for c in candidates]
-        candidates += [parse_model(text) for text in model or ()]
-        if not candidates:
-            raise BadInput("no model left to measure")
-        if elements is not None and elements < 2:
-            raise BadInput(
-                f"--elements = {elements}: at least 2, for the reference is solved on half as many too"
-            )
-        judge = Candidate("shell", {"elements": elements}) if elements is not None else None
-        measure = partial(tradeoff, asked, candidates, reference=judge, repeats=repeats)
+        grids = GRIDS if lumped is None else lumped
+        meshes = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
+        measure = of_statics(asked, grids, calibration, meshes, model or (), symmetry, elements, repeats)
     with finish("tradeoff", json, out, overwrite, scene=asked) as end:
         with end.campaign(scheduler, wait) as (store, pool, progress):
             found = measure(
@@ -121,15 +110,3 @@ def command(
                 progress=progress,
             )
         end(found.report())
-
-
-def _of_motion(
-    scene: Scene, duration: float, grid: str | None, integrators: list[str]
-) -> Callable[..., DynamicTradeoff]:
-    """The trade of a motion, integrators and steps, to be carried out through a store."""
-    from comparisons.tradeoff.motion import dynamic_tradeoff
-    from sheetbench.scenes.errors import BadInput
-
-    if not duration > 0.0:
-        raise BadInput(f"--duration = {duration:g}: seconds, more than 0")
-    return partial(dynamic_tradeoff, scene, duration, grid=grid, integrators=integrators)

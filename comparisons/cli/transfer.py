@@ -57,28 +57,19 @@ def command(
     import os
 
     from comparisons.cli.finish import finish
-    from comparisons.models.candidate import items
-    from comparisons.transfer.scenes import transfer_scenes
-    from comparisons.transfer.study import METHODS, PARTS, transfer
-    from sheetbench.scenes.errors import require_choice
+    from comparisons.transfer import asked
+    from comparisons.transfer.study import transfer
 
-    chosen = {
-        "methods": (items(methods) if methods is not None else list(METHODS), METHODS),
-        "scenes": (items(scenes) if scenes is not None else list(transfer_scenes()), transfer_scenes()),
-        "part": (part or list(PARTS), PARTS),
-    }
-    for option, (names, known) in chosen.items():
-        for name in names:
-            require_choice(f"--{option}", name, known)
-    sizes = _grids(grids)
+    calibrations, named = asked.methods(methods), asked.scenes(scenes)
+    parts, sizes = asked.parts(part), asked.grids(grids)
     with finish("transfer", json, out, overwrite) as end:
         with end.campaign() as (store, pool, progress):
             found = transfer(
                 store,
-                methods=chosen["methods"][0],
+                methods=calibrations,
                 grids=sizes,
-                scenes=chosen["scenes"][0],
-                parts=chosen["part"][0],
+                scenes=named,
+                parts=parts,
                 elements=elements,
                 workers=workers or os.cpu_count() or 1,
                 pool=pool,
@@ -87,17 +78,3 @@ def command(
                 progress=progress,
             )
         end(found.report())
-
-
-def _grids(text: str) -> list[int]:
-    """Masses a side. Raises BadInput unless every one is 4 n + 1 and they grow."""
-    from comparisons.models.candidate import items
-    from sheetbench.scenes.errors import BadInput
-
-    try:
-        sizes = [int(part) for part in items(text)]
-    except ValueError:
-        sizes = []
-    if not sizes or sizes != sorted(set(sizes)) or any(n < 5 or n % 4 != 1 for n in sizes):
-        raise BadInput(f"--grids = '{text}': masses a side, 4 n + 1 of them and rising, as 9,17,33")
-    return sizes

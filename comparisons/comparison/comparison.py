@@ -25,6 +25,7 @@ from comparisons.models.grids import Asked, Elements
 from comparisons.models.plugins import shown_name
 from comparisons.models.registry import answer, check, check_reference, has_own_springs
 from comparisons.report.report import Report
+from sheetbench.choices import REFERENCE
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static, summary
 
 if TYPE_CHECKING:
@@ -191,7 +192,7 @@ def compare(
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,
-    reference: str = "shell",
+    reference: str = REFERENCE,
     elements: Elements = 16,
     uncertainty: bool | None = None,
     symmetry: bool = False,

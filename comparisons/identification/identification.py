@@ -38,17 +38,18 @@ from comparisons.identification.prediction import (
 )
 from comparisons.identification.unknowns import DAMPING, Unknown, unknown
 from comparisons.models.candidate import Candidate
-from comparisons.models.grids import Asked, scene_grid
+from comparisons.models.grids import Asked, Elements, scene_grid
 from comparisons.models.registry import check, check_lattice, check_reference
 from comparisons.models.sizes import has_room
 from comparisons.report.report import Report
 from comparisons.report.table import quantity
 from lumped import CALIBRATIONS, Identifiability, identifiability
+from sheetbench.choices import CALIBRATION, ELEMENTS, REFERENCES
 from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import Grid, near_square
 
-MODELS = ("lumped", "shell", "solid")
+MODELS = ("lumped", *(name for name in REFERENCES if name != "plate"))  # whose large displacements hold
 REFUSED = 1e3  # residual, in units of the data, where the model has no answer: the step is shortened
 SMALLEST = 1e-10  # change of x, or of the sum of squares, that ends the search
 PULL = 1e-6  # residual, in units of the data, that a unit of x is worth
@@ -124,7 +125,7 @@ def identify(
     model: str = "lumped",
     grid: Asked = None,
     calibration: str | None = None,
-    elements: int = 16,
+    elements: Elements = ELEMENTS,
     offset: float = 0.0,
     refine: bool = True,
     large: bool = False,
@@ -286,7 +287,7 @@ def _check(
     unknowns: tuple[Unknown, ...],
     model: str,
     calibration: str | None,
-    elements: int,
+    elements: Elements,
 ) -> None:
     names = [u.name for u in unknowns]
     repeated = {name for name in names if names.count(name) > 1}
@@ -296,7 +297,7 @@ def _check(
         raise BadInput(f"model = '{model}': unknown, choose one of {', '.join(MODELS)}")
     if model == "lumped":
         check_lattice(calibration, None, None)
-        if CALIBRATIONS[calibration or "consistent"].fitted:
+        if CALIBRATIONS[calibration or CALIBRATION].fitted:
             raise BadInput(f"calibration = '{calibration}': its springs do not follow from what is sought")
     else:
         check_reference(model, elements)
@@ -317,16 +318,16 @@ def _predictor(
     model: str,
     grid: Asked,
     calibration: str | None,
-    elements: int,
+    elements: Elements,
 ) -> tuple[Predictor, dict[str, Any], tuple[np.ndarray, np.ndarray]]:
     """The predictor, its settings, and the plan grid on which it gives a whole surface."""
     if model == "lumped":
         masses = scene_grid(scene, grid)
-        settings = {"grid": list(masses), "calibration": calibration or "consistent"}
+        settings = {"grid": list(masses), "calibration": calibration or CALIBRATION}
         axes = surface.plan_grid(scene.sheet.lengths, masses[:2])
         if isinstance(measured, Displacements) and measured.time is not None:
             return motion(scene, masses, calibration, measured.time), settings, axes
         return lattice(scene, masses, calibration), settings, axes
-    along_x, along_y = near_square(scene.sheet, elements)
+    along_x, along_y = near_square(scene.sheet, elements) if isinstance(elements, int) else elements
     axes = surface.plan_grid(scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
     return reference(scene, model, elements), {"elements": [along_x, along_y]}, axes

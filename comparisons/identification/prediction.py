@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.identification.unknowns import Unknown, put
+from comparisons.models.grids import Elements
 from comparisons.models.registry import calibrate, solve_reference
 from sheetbench.scenes import BadInput, Scene, Status
 from sheetbench.scenes.grid import Grid
@@ -66,7 +67,7 @@ def lattice(scene: Scene, grid: Grid, calibration: str | None) -> Predictor:
     return predict
 
 
-def reference(scene: Scene, model: str, elements: int) -> Predictor:
+def reference(scene: Scene, model: str, elements: Elements) -> Predictor:
     """Statics through a finite-element reference."""
 
     def displacement(here: Scene, points: np.ndarray) -> np.ndarray:

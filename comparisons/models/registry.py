@@ -21,6 +21,7 @@ from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.sizes import require_room
 from comparisons.models.symmetry import cut_axes, half, whole
+from sheetbench.choices import CALIBRATION, CALIBRATIONS, ELEMENTS, REFERENCE, REFERENCES
 from sheetbench.scenes import History, Material, Scene, Sheet, Solution, load
 from sheetbench.scenes.errors import BadInput, Implausible, require_choice
 from sheetbench.scenes.grid import MASSES, grid_of, near_square
@@ -28,8 +29,6 @@ from sheetbench.scenes.plausibility import layer_slips
 
 if TYPE_CHECKING:
     from lumped import Calibration
-
-REFERENCES = ("plate", "shell", "solid")
 
 
 def calibrate(
@@ -78,7 +77,7 @@ def _calibrate(
     if layer_distance is not None:
         for said in layer_slips(sheet, layer_distance, "layer-distance"):
             warn(Implausible(said), stacklevel=2)
-    method = calibration or "consistent"
+    method = calibration or CALIBRATION
     if k is None and _is_fitted(calibration):
         from comparisons.models.training import fitted
 
@@ -88,9 +87,7 @@ def _calibrate(
 
 
 def _is_fitted(calibration: str | None) -> bool:
-    import lumped
-
-    return lumped.CALIBRATIONS[calibration or "consistent"].fitted
+    return CALIBRATIONS[calibration or CALIBRATION].fitted
 
 
 def _require_room_to_fit(scene: Scene, grid: int | Sequence[int]) -> None:
@@ -200,8 +197,8 @@ def simulate(
 def solve_reference(
     scene: Scene,
     *,
-    model: str = "shell",
-    elements: int | Sequence[int] = 16,
+    model: str = REFERENCE,
+    elements: int | Sequence[int] = ELEMENTS,
     large: bool = False,
     **options: Any,
 ) -> Solution:

@@ -17,10 +17,11 @@ from typing import TYPE_CHECKING, Any, cast, get_args, overload
 import numpy as np
 
 from comparisons.models.candidate import Candidate
-from comparisons.models.grids import Asked
+from comparisons.models.grids import Asked, Elements
 from comparisons.models.registry import check, check_reference, scene_springs
 from comparisons.modes import tables
 from comparisons.report.report import Report
+from sheetbench.choices import ELEMENTS, REFERENCE
 from sheetbench.scenes import About, Scene, free_rigid_motions, load, summary
 from sheetbench.scenes.errors import BadInput, require_choice
 
@@ -104,8 +105,8 @@ def spectra(
     count: int = 10,
     grid: Asked = None,
     calibration: str | None = None,
-    references: Sequence[str] = ("shell",),
-    elements: int = 16,
+    references: Sequence[str] = (REFERENCE,),
+    elements: Elements = ELEMENTS,
     about: str = "flat",
     large: bool = False,
     starting: Callable[[str], None] = lambda model: None,
@@ -163,7 +164,7 @@ def _lattice(scene: Scene, count: int, springs: Calibration, about: About) -> Sp
     )
 
 
-def _reference(scene: Scene, model: str, count: int, elements: int, about: About) -> Spectrum:
+def _reference(scene: Scene, model: str, count: int, elements: Elements, about: About) -> Spectrum:
     import fem_reference
 
     modes = fem_reference.modes(scene, model, elements, count, about)

@@ -32,8 +32,9 @@ from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Store
 from comparisons.tradeoff.motion_row import MotionRow, measured_row
 from comparisons.tradeoff.pareto import error_order, front, grouped
+from sheetbench.choices import INTEGRATORS
 from sheetbench.scenes import Scene, Status
-from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.errors import require_choice
 from sheetbench.scenes.grid import Grid
 
 DIVISIONS = (20, 40, 100, 200, 400)  # steps in the lowest period
@@ -160,7 +161,7 @@ def dynamic_tradeoff(
     store: Store,
     *,
     grid: Asked = None,
-    integrators: Sequence[str] = ("generalised-alpha", "midpoint", "projective", "verlet"),
+    integrators: Sequence[str] = tuple(sorted(INTEGRATORS)),
     divisions: Sequence[int] = DIVISIONS,
     reference: int = REFERENCE,
     workers: int = 1,
@@ -175,10 +176,9 @@ def dynamic_tradeoff(
     Raises BadInput for an integrator that does not exist. A run that diverges is a row with its status.
     """
     import lumped
-    from lumped import INTEGRATORS
 
-    if unknown := [name for name in integrators if name not in INTEGRATORS]:
-        raise BadInput(f"integrator = {unknown[0]!r}: choose from {', '.join(INTEGRATORS)}")
+    for name in integrators:
+        require_choice("integrator", name, INTEGRATORS)
     shape = scene_grid(scene, grid)
     check(scene, Candidate("lumped", {"grid": shape}), large)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=shape)
@@ -199,7 +199,7 @@ def dynamic_tradeoff(
     judges = [run("midpoint", period / n, False) for n in (reference, reference // 2)]
     asked = []
     for name in integrators:
-        if INTEGRATORS[name].explicit:
+        if lumped.INTEGRATORS[name].explicit:
             limit = explicit_limit(scene, shape)
             asked += [run(name, share * limit, True) for share in SHARES]
         else:

@@ -28,8 +28,8 @@ from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff import tables, timing
 from comparisons.tradeoff.pareto import error_order, front, grouped, order
-from comparisons.tradeoff.row import TradeoffRow, cell_size, measured_row
-from fem_reference.uncertainty import coarser, estimate
+from comparisons.tradeoff.row import TradeoffRow, measured_row
+from fem_reference.uncertainty import coarser, estimate, mesh_size
 from sheetbench.scenes import Scene, comparable, require_static
 
 REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the rows
@@ -149,7 +149,8 @@ def assemble(
         measured_row(scene, run, outcome, *_errors(outcome, truth, weights))
         for run, outcome in zip(asked, outcomes, strict=True)
     )
-    sizes = [cell_size(scene, run.arguments["settings"]) or 0.0 for run in judges]
+    meshes = [run.arguments["settings"]["elements"] for run in judges]
+    sizes = [mesh_size(scene, n if isinstance(n, int) else tuple(n)) for n in meshes]
     return Tradeoff(scene, rows, measured_row(scene, judges[0], truth), *_bars(judged, sizes, weights))
 
 

@@ -31,10 +31,11 @@ from comparisons.runs.store import Finished, Store
 from comparisons.transfer import tables
 from comparisons.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_scenes
 from comparisons.transfer.tasks import FINE
+from sheetbench.choices import CALIBRATIONS
 from sheetbench.scenes import Scene, comparable
 
-FITTED = ("fit-static", "fit-modal")
-METHODS = ("consistent", "moduli", *FITTED, "uniform", "cauchy", "axial", "van-gelder", "lloyd")
+METHODS = tuple(name for name in CALIBRATIONS if name != "consistent-edges")  # which came after the study
+FITTED = tuple(name for name in METHODS if CALIBRATIONS[name].fitted)
 PARTS = ("static", "limits", "modal", "aspect", "left-out")
 GRIDS = (9, 17, 33)
 MASSES = ("tributary", "gregory")

@@ -30,6 +30,7 @@ from lumped.lattice import Weights
 from lumped.linear.threads import one_blas_thread
 from lumped.statics.fields import field_mesh
 from lumped.statics.solver import pose
+from sheetbench.choices import INTEGRATOR
 from sheetbench.scenes import AnyScene, History, Status, scene_of
 from sheetbench.scenes.errors import BadInput
 
@@ -42,7 +43,7 @@ def simulate(
     duration: float = 1.0,
     *,
     step: float | None = None,
-    integrator: str = "generalised-alpha",
+    integrator: str = INTEGRATOR,
     every: float | None = None,
     weights: Weights = "tributary",
     precision: Precision = "double",

@@ -6,18 +6,15 @@ from collections.abc import Sequence
 from typing import Any
 
 from lumped.calibration.calibration import Calibration
-from lumped.calibration.methods import CLOSED, Method
+from lumped.calibration.methods import MAKERS, described
 from lumped.fitting.fits import fit_modal, fit_static
 from lumped.fitting.targets import Target
+from sheetbench import choices
 from sheetbench.scenes import Material, Sheet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import MASSES, grid_of
 
-CALIBRATIONS: dict[str, Method] = {
-    **CLOSED,
-    "fit-static": Method(fit_static, "fitted to displacements", ("layer_distance", "grading", "targets")),
-    "fit-modal": Method(fit_modal, "fitted to natural frequencies", ("layer_distance", "targets")),
-}
+CALIBRATIONS = described({**MAKERS, "fit-static": fit_static, "fit-modal": fit_modal})
 UNITS = {"k": "N/m", "layer_distance": "m"}
 
 
@@ -25,7 +22,7 @@ def calibrate(
     sheet: Sheet,
     material: Material,
     grid: int | Sequence[int] = MASSES,
-    method: str = "consistent",
+    method: str = choices.CALIBRATION,
     k: float | None = None,
     layer_distance: float | None = None,
     targets: Sequence[Target] = (),

@@ -20,6 +20,11 @@ class SceneError(BadInput):
     """A scene that cannot be read or asks something impossible; the text names file, key and value."""
 
 
+class Impossible(SceneError):
+    """What a scene that reads well does not go with; the text names the scene, and whoever knows its file
+    puts that before it."""
+
+
 class NoEquilibrium(ArithmeticError):
     """A scene without the stable equilibrium that was to be gone out from; the text says how it ended."""
 

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
-if TYPE_CHECKING:
-    from pydantic import BaseModel
+from pydantic import BaseModel, ValidationError
 
-Quantities = TypeVar("Quantities", bound="BaseModel")
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.refusals import in_one_line
+
+Quantities = TypeVar("Quantities", bound=BaseModel)
 
 
 def sides(text: str | None) -> dict[str, float]:
     """Sides along x and y [m] of `0.188` or `0.188x0.3`; none of no text."""
-    from sheetbench.scenes.errors import BadInput
-
     if text is None:
         return {}
     try:
@@ -27,11 +27,6 @@ def sides(text: str | None) -> dict[str, float]:
 
 def checked(kind: type[Quantities], data: dict[str, Any]) -> Quantities:
     """The validated object, or BadInput naming the first option that is out of bounds."""
-    from pydantic import ValidationError
-
-    from sheetbench.scenes.errors import BadInput
-    from sheetbench.scenes.refusals import in_one_line
-
     try:
         return kind.model_validate(data)
     except ValidationError as error:

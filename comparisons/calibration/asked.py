@@ -1,0 +1,52 @@
+"""The sheet and material to calibrate for: those of a scene, of options, or of a scene changed by options."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+from warnings import warn
+
+from comparisons.comparison.comparison import load_static
+from comparisons.models.quantities import checked
+from sheetbench import scenes
+from sheetbench.scenes import Material, Scene, Sheet
+from sheetbench.scenes.errors import BadInput, Implausible
+from sheetbench.scenes.plausibility import material_slips, sheet_slips
+
+DENSITY = 1000.0  # kg/m³, unless given
+
+
+def sheet_and_material(
+    scene: str | None, sheet: Mapping[str, float | None], material: Mapping[str, float | None]
+) -> tuple[Sheet, Material]:
+    """The scene's sheet and material with what is given put in its place, or those of the options alone.
+
+    Raises BadInput for what is missing or out of bounds. Warns of what the options make implausible.
+    """
+    sheet_data: dict[str, Any] = {}
+    material_data: dict[str, Any] = {"density": DENSITY}
+    known: list[str] = []  # slips of the scene's own, which loading it has told
+    if scene is not None:
+        loaded = scenes.load(scene)
+        known = [*sheet_slips(loaded.sheet), *material_slips(loaded.material)]
+        sheet_data, material_data = loaded.sheet.model_dump(), loaded.material.model_dump()
+    sheet_data |= {key: value for key, value in sheet.items() if value is not None}
+    material_data |= {key: value for key, value in material.items() if value is not None}
+    needed = {"young": "young", "poisson": "poisson", "thickness": "thickness", "length_x": "side"}
+    missing = [f"--{option}" for key, option in needed.items() if key not in sheet_data | material_data]
+    if missing:
+        raise BadInput(f"missing {', '.join(missing)}; give them, or a SCENE to take them from")
+    changed = checked(Sheet, sheet_data), checked(Material, material_data)
+    for said in [*sheet_slips(changed[0]), *material_slips(changed[1])]:
+        if said not in known:
+            warn(Implausible(said), stacklevel=2)
+    return changed
+
+
+def training(scene: str | None, sheet: Sheet, material: Material) -> list[Scene] | None:
+    """The named scene with this sheet and material, for a fitted method to train on."""
+    if scene is None:
+        return None
+    loaded = load_static(scene)
+    changed = {"sheet": sheet.model_dump(), "material": material.model_dump(), "probes": {}}
+    return [checked(Scene, {**loaded.model_dump(by_alias=True, exclude_none=True), **changed})]

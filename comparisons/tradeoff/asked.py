@@ -1,0 +1,57 @@
+"""What is to be traded, from lists as people write them; each answer is carried out through a store."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+
+from comparisons.models.candidate import Candidate, items, lattices, parse_model, references
+from comparisons.models.grids import parse_elements
+from comparisons.tradeoff.motion import DynamicTradeoff, dynamic_tradeoff
+from comparisons.tradeoff.statics import Tradeoff, tradeoff
+from sheetbench.choices import REFERENCE
+from sheetbench.scenes import Scene
+from sheetbench.scenes.errors import BadInput
+
+
+def of_statics(
+    scene: Scene,
+    grids: str,
+    calibrations: str,
+    meshes: Mapping[str, str],
+    models: Sequence[str] = (),
+    symmetry: bool = False,
+    elements: str | None = None,
+    repeats: int = 5,
+) -> Callable[..., Tradeoff]:
+    """The trade of lattices, of references on meshes by name, and of models as `parse_model` reads them.
+
+    symmetry: of all but solids and the models; elements: of the reference that all are held against.
+    Raises BadInput for what cannot be read, no model at all, and a reference of a single element.
+    """
+    candidates = lattices(scene.sheet, items(grids), items(calibrations))
+    for name, sizes in meshes.items():
+        candidates += references(name, items(sizes))
+    if symmetry:
+        candidates = [c if c.model == "solid" else c.but(symmetry=True) for c in candidates]
+    candidates += [parse_model(text) for text in models]
+    if not candidates:
+        raise BadInput("no model left to measure")
+    judge = None if elements is None else Candidate(REFERENCE, {"elements": _halved_too(elements)})
+    return partial(tradeoff, scene, candidates, reference=judge, repeats=repeats)
+
+
+def _halved_too(text: str) -> int | list[int]:
+    found = parse_elements(text)
+    if min([found] if isinstance(found, int) else found) < 2:
+        raise BadInput(f"--elements = {text}: at least 2, for the reference is solved on half as many too")
+    return found if isinstance(found, int) else list(found)
+
+
+def of_motion(
+    scene: Scene, duration: float, grid: str | None, integrators: str
+) -> Callable[..., DynamicTradeoff]:
+    """The trade of a motion over `duration` [s]: integrators and steps, on one lattice. Raises BadInput."""
+    if not duration > 0.0:
+        raise BadInput(f"--duration = {duration:g}: seconds, more than 0")
+    return partial(dynamic_tradeoff, scene, duration, grid=grid, integrators=items(integrators))

@@ -1,0 +1,64 @@
+"""What is chosen by name: calibrations, integrators, references; a line about each, and the usual choice.
+
+Names and words alone, which the command line can have without waiting for what they stand for:
+`lumped.CALIBRATIONS`, `lumped.INTEGRATORS` and `fem_reference.MODELS` make their entries of these.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+Option = Literal["k", "layer_distance", "grading", "targets"]
+
+
+@dataclass(frozen=True)
+class Method:
+    """A calibration method: what it is, and the options that it takes."""
+
+    summary: str
+    takes: tuple[Option, ...] = ("layer_distance",)
+
+    @property
+    def fitted(self) -> bool:
+        """Whether it is fitted to targets."""
+        return "targets" in self.takes
+
+
+CALIBRATION = "consistent"  # unless asked for another
+GRADED: tuple[Option, ...] = ("layer_distance", "grading")
+CALIBRATIONS: dict[str, Method] = {
+    "consistent": Method("every modulus met, in closed form where links allow it", GRADED),
+    "consistent-edges": Method("the same, with the twist that free edges let go", GRADED),
+    "moduli": Method("bounded least squares on the moduli"),
+    "fit-static": Method("fitted to displacements", (*GRADED, "targets")),
+    "fit-modal": Method("fitted to natural frequencies", ("layer_distance", "targets")),
+    "uniform": Method("one k for all links, matched to D11 unless given", ("k", "layer_distance")),
+    "cauchy": Method("the isotropic central-force lattice, ν = 1/3; square cells", ()),
+    "axial": Method("every link a bar, k = E A/L"),
+    "van-gelder": Method("Van Gelder's areas over squared lengths, in each layer"),
+    "lloyd": Method("off-diagonal stiffness of the bilinear element at ν = 1/3, in each layer"),
+}
+
+INTEGRATOR = "generalised-alpha"
+INTEGRATORS = {
+    "generalised-alpha": "implicit, steps by their error",
+    "verlet": "explicit, steps below the limit of stability",
+    "midpoint": "implicit, conserves energy",
+    "projective": "implicit Euler with one matrix, no chains",
+}
+
+REFERENCE = "shell"
+REFERENCES = {
+    "plate": "linear Mindlin plate",
+    "shell": "nonlinear Reissner–Mindlin shell",
+    "solid": "nonlinear three-dimensional solid",
+}
+ELEMENTS = 16  # along the shorter side
+
+
+def listed(names: Iterable[str]) -> str:
+    """The names as a sentence has them: a, b or c."""
+    *first, last = names
+    return f"{', '.join(first)} or {last}"

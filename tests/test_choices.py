@@ -1,0 +1,68 @@
+"""What the command line offers is what there is: the names, options and defaults of the tables themselves."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from inspect import signature
+
+import pytest
+from typer.main import get_command
+
+import fem_reference
+import lumped
+from comparisons.cli.app import app
+from comparisons.models.registry import REFERENCES
+from comparisons.transfer.study import FITTED, METHODS
+from sheetbench import choices
+
+
+def test_every_name_is_there_and_described() -> None:
+    assert list(lumped.CALIBRATIONS) == list(choices.CALIBRATIONS)
+    assert set(lumped.INTEGRATORS) == set(choices.INTEGRATORS)
+    assert list(fem_reference.MODELS) == list(choices.REFERENCES) == list(REFERENCES)
+    for name, method in lumped.CALIBRATIONS.items():
+        assert vars(choices.CALIBRATIONS[name]).items() <= vars(method).items()
+        assert method.fitted == ("targets" in signature(method.make).parameters)
+
+
+def test_the_usual_choices_are_those_of_the_functions() -> None:
+    assert signature(lumped.calibrate).parameters["method"].default == choices.CALIBRATION
+    assert signature(lumped.simulate).parameters["integrator"].default == choices.INTEGRATOR
+    assert signature(fem_reference.solve).parameters["model"].default == choices.REFERENCE
+    assert choices.CALIBRATION in choices.CALIBRATIONS
+    assert choices.INTEGRATOR in choices.INTEGRATORS
+    assert choices.REFERENCE in choices.REFERENCES
+
+
+def test_the_published_study_keeps_its_methods_in_their_order() -> None:
+    assert FITTED == ("fit-static", "fit-modal")
+    others = ["consistent", "moduli", "uniform", "cauchy", "axial", "van-gelder", "lloyd"]
+    assert [name for name in METHODS if name not in FITTED] == others
+
+
+@pytest.mark.parametrize(
+    ("verb", "option", "names"),
+    [
+        ("compare", "calibration", choices.CALIBRATIONS),
+        ("compare", "reference", choices.REFERENCES),
+        ("calibrate", "method", choices.CALIBRATIONS),
+        ("identify", "calibration", choices.CALIBRATIONS),
+        ("modes", "calibration", choices.CALIBRATIONS),
+        ("modes", "reference", choices.REFERENCES),
+        ("simulate", "calibration", choices.CALIBRATIONS),
+        ("simulate", "integrator", choices.INTEGRATORS),
+        ("tradeoff", "calibration", choices.CALIBRATIONS),
+    ],
+)
+def test_help_names_every_choice(verb: str, option: str, names: dict[str, object]) -> None:
+    (said,) = [p for p in get_command(app).commands[verb].params if p.name == option]  # type: ignore[attr-defined]
+    assert all(name in said.help for name in names)  # type: ignore[attr-defined]
+
+
+def test_the_names_are_known_without_what_they_stand_for() -> None:
+    slow = (
+        "import sys, sheetbench.choices; print(*{'numpy', 'numba', 'pydantic', 'lumped'} & set(sys.modules))"
+    )
+    found = subprocess.run([sys.executable, "-c", slow], capture_output=True, text=True, check=True)
+    assert found.stdout.split() == []

@@ -6,13 +6,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from importlib import import_module
-from inspect import signature
+from inspect import Parameter, signature
 from typing import Any
 
 from sheetbench.choices import REFERENCE, REFERENCES
-from sheetbench.scenes import AnyScene, Solution, scene_of
+from sheetbench.scenes import AnyScene, Iteration, Solution, scene_of
 from sheetbench.scenes.errors import BadInput
 
 MODELS = {name: f"fem_reference.{name}.statics" for name in REFERENCES}
@@ -20,13 +20,23 @@ MODELS = {name: f"fem_reference.{name}.statics" for name in REFERENCES}
 __all__ = ["MODELS", "check", "modes", "options", "solve"]
 
 
-def solve(scene: AnyScene, model: str = REFERENCE, **asked: Any) -> Solution:
+def solve(
+    scene: AnyScene,
+    model: str = REFERENCE,
+    *,
+    progress: Callable[[Iteration], None] | None = None,
+    **asked: Any,
+) -> Solution:
     """The static answer of a reference model; `elements` along the shorter side, or a pair (nx, ny).
 
+    progress: called once an iteration; the plate, which is linear, has none.
     Raises BadInput for an unknown model or option, scenes.SceneError for a scene that no support holds.
     """
     check(model, asked)
-    return _solver(model)(scene_of(scene), **asked)
+    solver = _solver(model)
+    if "progress" in signature(solver).parameters:
+        asked["progress"] = progress
+    return solver(scene_of(scene), **asked)
 
 
 def check(model: str, asked: Mapping[str, Any]) -> None:
@@ -44,7 +54,7 @@ def check(model: str, asked: Mapping[str, Any]) -> None:
 def options(model: str) -> dict[str, Any]:
     """A reference model's own options with their defaults. Raises BadInput for an unknown model."""
     _, _, *own = signature(_solver(model)).parameters.values()  # behind scene and elements
-    return {parameter.name: parameter.default for parameter in own}
+    return {p.name: p.default for p in own if p.kind is not Parameter.KEYWORD_ONLY}
 
 
 def _solver(model: str) -> Any:

@@ -11,7 +11,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from comparisons.models import registry
+from comparisons.models import registry, springs
 from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked, scene_grid
 from sheetbench.choices import CALIBRATION, REFERENCES
@@ -40,7 +40,7 @@ def calibrate(
     a fit that takes more memory than there is.
     """
     asked = scene_of(scene)
-    return registry.calibrate(
+    return springs.calibrate(
         asked.sheet,
         asked.material,
         grid=scene_grid(asked, grid),

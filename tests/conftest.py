@@ -31,7 +31,7 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> dict[str, Solution]:
     """Answers without a solver; a test may put its own in."""
     answers: dict[str, Solution] = {}
 
-    def answer(scene: Scene, candidate: Candidate, name: str = "") -> Solution:
+    def answer(scene: Scene, candidate: Candidate, name: str = "", **_: object) -> Solution:
         size = -0.01 if candidate.model == "lumped" else -0.0101
         return answers.get(candidate.model) or fake_solutions.solution(scene, name or candidate.model, size)
 

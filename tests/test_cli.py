@@ -157,7 +157,6 @@ def test_json_is_all_that_standard_output_holds(capsys: pytest.CaptureFixture[st
     printed = capsys.readouterr()
     document = json.loads(printed.out)
     assert [s["model"] for s in document["solutions"]] == ["lumped", "shell", "lumped-uniform"]
-    assert "solving shell" in printed.err
 
 
 @pytest.mark.usefixtures("quick")
@@ -189,7 +188,7 @@ def test_a_solver_that_does_not_converge_leaves_with_3_and_keeps_its_answer(
 def test_what_is_finished_is_kept_when_a_later_model_fails(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    def answer(scene: Scene, candidate: Candidate, name: str = "") -> Solution:
+    def answer(scene: Scene, candidate: Candidate, name: str = "", **_: object) -> Solution:
         if candidate.model == "shell":
             raise KeyboardInterrupt
         return fake_solutions.solution(scene, name)

@@ -6,7 +6,7 @@ import pytest
 from commands import run
 
 from comparisons.models import training as targets
-from comparisons.models.registry import calibrate
+from comparisons.models.springs import calibrate
 from sheetbench import scenes
 
 SCENE = scenes.load("two-edges-clamped")

@@ -13,8 +13,10 @@ CTRL_C = b"\x03"
 DEAF = """
 from hashlib import pbkdf2_hmac
 from comparisons.cli import main
-from comparisons.comparison import comparison
-comparison.solve = lambda *_, **__: pbkdf2_hmac("sha256", b"", b"", 2**31 - 1)  # an hour of native code
+from comparisons.models import registry
+registry.warm = lambda model: None
+an_hour_of_native_code = lambda watch: pbkdf2_hmac("sha256", b"", b"", 2**31 - 1)
+registry._ready = lambda *_: an_hour_of_native_code
 main()
 """
 

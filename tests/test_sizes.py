@@ -14,13 +14,14 @@ import lumped
 import sheetbench as sb
 from comparisons.models import memory, sizes
 from comparisons.models.candidate import Candidate
+from comparisons.report import amounts
 from comparisons.runs.campaign import campaign
 from comparisons.tradeoff.statics import tradeoff
 from fem_reference.footprint import footprint as of_reference
 from sheetbench import scenes
 from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput
-from sheetbench.scenes.size import factors, in_words
+from sheetbench.scenes.size import factors
 
 GB = 10**9
 SCENE = "two-edges-clamped"
@@ -225,4 +226,4 @@ def test_without_any_word_of_memory_nothing_is_refused(monkeypatch: pytest.Monke
 
 
 def test_amounts_as_people_say_them() -> None:
-    assert [in_words(x) for x in (5.4e9, 269e9, 8e6, 2.5e12)] == ["5.4 GB", "269 GB", "8 MB", "2.5 TB"]
+    assert [amounts.memory(x) for x in (5.4e9, 269e9, 8e6, 2.5e12)] == ["5.4 GB", "269 GB", "8 MB", "2.5 TB"]

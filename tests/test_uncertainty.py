@@ -106,7 +106,7 @@ def by_mesh(monkeypatch: pytest.MonkeyPatch) -> dict[str, float]:
     """Answers without a solver: the reference's error is 8 % at one element and falls like h²."""
     sizes = {"lumped": -0.0100, "limit": -0.0100, "share": 0.08}
 
-    def answer(scene: Scene, candidate: Candidate, name: str = "") -> Solution:
+    def answer(scene: Scene, candidate: Candidate, name: str = "", **_: object) -> Solution:
         if candidate.model == "lumped":
             return fake_solutions.solution(scene, name, sizes["lumped"])
         n = candidate.settings["elements"]

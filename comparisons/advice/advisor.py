@@ -20,6 +20,7 @@ from comparisons.advice.probing import Probing, Trial
 from comparisons.advice.scales import Scales, scales
 from comparisons.models.candidate import Candidate
 from comparisons.report.report import Report
+from comparisons.report.work import Progress, silent
 from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
 from sheetbench.scenes.errors import BadInput
 
@@ -91,17 +92,23 @@ class Advice:
 
 
 def advise(
-    scene: AnyScene, tolerance: float | None = 0.01, budget: float | None = None, *, large: bool = False
+    scene: AnyScene,
+    tolerance: float | None = 0.01,
+    budget: float | None = None,
+    *,
+    large: bool = False,
+    progress: Progress = silent,
 ) -> Advice:
     """The cheapest model predicted to meet `tolerance` (a fraction), or the most accurate in `budget` [s].
 
     With both, the cheapest that meets the tolerance; where that takes longer, the most accurate in time, and
-    `met` is false. Models that take more memory than there is are left out unless `large`. Raises SceneError
-    for a scene without a static answer, BadInput where not even the coarsest judges fit.
+    `met` is false. Models that take more memory than there is are left out unless `large`. progress: told of
+    every solve. Raises SceneError for a scene without a static answer, BadInput where not even the coarsest
+    judges fit.
     """
     scene = scene_of(scene)
     require_static(scene)
-    probing = Probing(scene, large)
+    probing = Probing(scene, large, progress)
     sizes = scales(scene)
     resolution = tolerance or 0.01
     for _ in range(3):

@@ -20,6 +20,7 @@ from comparisons.models import registry as models
 from comparisons.models.candidate import Candidate
 from comparisons.models.sizes import has_room, require_room
 from comparisons.models.symmetry import planes
+from comparisons.report.work import Progress, silent
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.grid import near_square
 
@@ -48,10 +49,10 @@ class Trial:
 class Probing:
     """The solves of a scene so far."""
 
-    def __init__(self, scene: Scene, large: bool = False) -> None:
+    def __init__(self, scene: Scene, large: bool = False, progress: Progress = silent) -> None:
         """large: whether to try what takes more memory than there is. Raises BadInput where the first judges
         do, otherwise the larger models are left out."""
-        self.scene, self.large = scene, large
+        self.scene, self.large, self.progress = scene, large, progress
         self.points = scene.probe_points()
         self.planes = planes(scene)
         self.trials: dict[str, Trial] = {}
@@ -89,11 +90,10 @@ class Probing:
         if key not in self.trials:
             began = perf_counter()
             with threadpool_limits(1):  # as campaigns measure
-                solution = models.solve(self.scene, candidate.model, large=True, **candidate.settings)
+                solution = models.answer(self.scene, candidate, progress=self.progress)
                 times = [solution.solve_seconds]
                 while solution.solve_seconds < 0.2 and len(times) < repeats:
-                    again = models.solve(self.scene, candidate.model, large=True, **candidate.settings)
-                    times.append(again.solve_seconds)
+                    times.append(models.answer(self.scene, candidate).solve_seconds)
             self.trials[key] = Trial(candidate, solution, median(times))
             self.seconds += perf_counter() - began
         return self.trials[key]

@@ -40,5 +40,4 @@ def command(
     if tolerance is not None:
         checked_tolerance(tolerance)
     with finish("advise", json, out, overwrite, scene=asked) as end:
-        end.progress("probing …")
-        end(advise(asked, tolerance, budget, large=large).report(scene))
+        end(advise(asked, tolerance, budget, large=large, progress=end.progress).report(scene))

@@ -52,7 +52,7 @@ def command(
     from comparisons.cli.finish import finish
     from comparisons.models.grids import parse_grid
     from comparisons.models.quantities import sides
-    from comparisons.models.registry import calibrate
+    from comparisons.models.springs import calibrate
     from sheetbench.scenes.errors import BadInput
     from sheetbench.scenes.grid import MASSES
 
@@ -74,5 +74,6 @@ def command(
             layer_distance=layer_distance,
             training=asked.training(scene, sheet, material),
             large=large,
+            progress=end.progress,
         )
         end(tables.report(found, sheet, material), instead=tables.to_toml(found.as_dict()) if toml else None)

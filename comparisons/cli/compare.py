@@ -75,8 +75,8 @@ def command(
     with finish("compare", json, out, overwrite, scene=asked, apart=models) as end:
         advice = None
         if auto:
-            end.progress("asking the advisor …")
-            advice = advise(asked, 0.01 if tolerance is None else tolerance, large=large)
+            allowed = 0.01 if tolerance is None else tolerance
+            advice = advise(asked, allowed, large=large, progress=end.progress)
             if advice.choice is None:
                 end.stop(f"--auto: {advice.message}")
         found = compare(
@@ -92,7 +92,7 @@ def command(
             choice=advice.choice if advice is not None else None,
             others=others,
             large=large,
-            starting=lambda model: end.progress(f"solving {model} …"),
+            progress=end.progress,
             finished=lambda s: end.keep(f"{s.model}.vtu", lambda path: write_solution(path, s)),
         )
         end(found.report(advice))

@@ -10,10 +10,13 @@ from rich.console import Console
 from rich.text import Text
 
 from comparisons.cli.characters import spelled, takes_everything
+from comparisons.cli.lines import Lines
+from comparisons.report.amounts import duration
 from comparisons.report.escape import terminal
 
 if TYPE_CHECKING:
     from comparisons.report.table import Table
+    from comparisons.report.work import Work
     from comparisons.runs.campaign import Progress
 
 out = Console(highlight=False)
@@ -26,20 +29,22 @@ def _said(text: str, keep: str = "") -> str:
 
 
 @contextmanager
-def progress() -> Iterator[Callable[[str], None]]:
+def progress() -> Iterator[Callable[[Work | str], None]]:
     """A function that says on standard error what is being done: a spinner on a terminal, else lines."""
     if not err.is_terminal:
-        yield lambda text: err.print(text, markup=False)
+        with Lines(_line) as lines:
+            yield lines.say
         return
     with err.status("", spinner="dots" if takes_everything(err.encoding) else "line") as spinner:
-        yield lambda text: spinner.update(Text(spelled(terminal(text), err.encoding)))
+        yield lambda what: spinner.update(Text(spelled(terminal(str(what)), err.encoding)))
 
 
 @contextmanager
 def campaign_progress() -> Iterator[Callable[[Progress], None]]:
     """A function that shows how far a campaign is: a bar with the time left on a terminal, else lines."""
     if not err.is_terminal:
-        yield lambda progress: err.print(_progress_line(progress), markup=False, soft_wrap=True)
+        with Lines(_line) as lines:
+            yield lambda progress: _tell(progress, lines)
         return
     from rich.progress import BarColumn, MofNCompleteColumn, TextColumn
     from rich.progress import Progress as Bar
@@ -49,24 +54,36 @@ def campaign_progress() -> Iterator[Callable[[Progress], None]]:
         task = bar.add_task("starting …", total=None)
 
         def show(progress: Progress) -> None:
-            left = "" if progress.seconds_left is None else f"{_duration(progress.seconds_left)} left"
+            left = "" if progress.seconds_left is None else f"{duration(progress.seconds_left)} left  "
             bar.update(
-                task, completed=progress.done, total=progress.total, description=f"{left}  {progress.label}"
+                task, completed=progress.done, total=progress.total, description=f"{left}{_going(progress)}"
             )
 
         yield show
 
 
-def _progress_line(progress: Progress) -> str:
-    left = "" if progress.seconds_left is None else f", {_duration(progress.seconds_left)} left"
-    return f"{progress.done}/{progress.total} {progress.label}: {progress.status}{left}"
+def _tell(progress: Progress, lines: Lines) -> None:
+    """A line of every run that is done; of those that go on, when they have for a while."""
+    so_far = f"{progress.done}/{progress.total}"
+    from comparisons.runs.campaign import GOING
+
+    if progress.status == GOING:
+        lines.say(f"{so_far} going on: {_going(progress)}")
+        return
+    left = "" if progress.seconds_left is None else f", {duration(progress.seconds_left)} left"
+    lines.print(f"{so_far} {progress.label}: {progress.status}{left}")
 
 
-def _duration(seconds: float) -> str:
-    """A duration as people say it."""
-    if seconds < 90:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
+def _going(progress: Progress) -> str:
+    """What goes on, else what is done."""
+    if not progress.going:
+        return progress.label
+    more = len(progress.going) - 1
+    return progress.going[0] + (f", and {more} more" if more else "")
+
+
+def _line(text: str) -> None:
+    err.print(Text(spelled(terminal(text), err.encoding)), soft_wrap=True)
 
 
 def document(content: Mapping[str, Any]) -> None:

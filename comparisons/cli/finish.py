@@ -18,6 +18,7 @@ from comparisons.cli import console, warned
 
 if TYPE_CHECKING:
     from comparisons.report.report import Report, Write
+    from comparisons.report.work import Work
     from comparisons.runs.campaign import Progress
     from comparisons.runs.executors import Pool
     from comparisons.runs.folder import Folder
@@ -35,13 +36,13 @@ class End:
         self._folder = folder
         self._also: list[str] = []
         self._spinning = ExitStack()
-        self._say: Callable[[str], None] | None = None
+        self._say: Callable[[Work | str], None] | None = None
 
-    def progress(self, text: str) -> None:
+    def progress(self, what: Work | str) -> None:
         """Say on standard error what is being done."""
         if self._say is None:
             self._say = self._spinning.enter_context(console.progress())
-        self._say(text)
+        self._say(what)
 
     def keep(self, name: str, write: Write) -> None:
         """Write a file of the answer as soon as it is there, if there is a folder."""

@@ -53,7 +53,7 @@ def command(
                 elements=parse_elements(elements),
                 about=about,
                 large=large,
-                starting=lambda model: end.progress(f"modes of {model} …"),
+                progress=end.progress,
             )
         except NoEquilibrium as error:
             end.stop(f"no modes about the deformed sheet: {error}")

@@ -48,8 +48,11 @@ def command(
     from comparisons.cli.finish import finish
     from comparisons.models.candidate import Candidate
     from comparisons.models.registry import check, simulate
+    from comparisons.models.sizes import size
     from comparisons.motion.history import read_measured, require_within
     from comparisons.motion.tables import report
+    from comparisons.report import amounts
+    from comparisons.report.work import Pace, Work
     from sheetbench import scenes
     from sheetbench.scenes.errors import BadInput
 
@@ -60,7 +63,8 @@ def command(
     if measured is not None:
         truth = read_measured(measured, list(asked.probes))
         require_within(truth, duration, measured)
-    check(asked, Candidate("lumped", {"grid": lumped, "calibration": calibration}), large)
+    lattice = Candidate("lumped", {"grid": lumped, "calibration": calibration})
+    check(asked, lattice, large)
     run = {
         "--integrator": integrator,
         "--lumped": lumped,
@@ -69,15 +73,14 @@ def command(
         "--every": every,
     }
     with finish("simulate", json, out, overwrite, scene=asked, apart=run, alone=True) as end:
-        last = 0
+        pace = Pace(duration)
 
         def reached(time: float) -> None:
-            nonlocal last
-            if (percent := int(20 * time / duration) * 5) > last:
-                last = percent
-                end.progress(f"simulated {time:.3g} of {duration:g} s ({percent} %)")
+            left = pace.left(time)
+            soon = "" if left is None else f", {amounts.duration(left)} left"
+            end.progress(f"simulated {time:.3g} of {duration:g} s ({100 * time / duration:.0f} %{soon})")
 
-        end.progress("setting up …")
+        end.progress(Work("setting up", size(asked, lattice)))
         history = simulate(
             asked,
             duration,

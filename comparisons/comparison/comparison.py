@@ -23,8 +23,10 @@ from comparisons.comparison.error_bar import CHEAP, ErrorBar, error_bar
 from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked, Elements
 from comparisons.models.plugins import shown_name
-from comparisons.models.registry import answer, check, check_reference, has_own_springs
+from comparisons.models.registry import answer, check, check_reference
+from comparisons.models.springs import has_own_springs
 from comparisons.report.report import Report
+from comparisons.report.work import Progress, silent
 from sheetbench.choices import REFERENCE
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static, summary
 
@@ -199,6 +201,7 @@ def compare(
     choice: Candidate | None = None,
     others: Sequence[Candidate] = (),
     large: bool = False,
+    progress: Progress = silent,
     starting: Callable[[str], None] = lambda model: None,
     finished: Callable[[Solution], None] = lambda solution: None,
 ) -> Comparison:
@@ -212,9 +215,9 @@ def compare(
     and shell it is unless False, for others if True. symmetry: solve a half or a quarter where scene and grid
     mirror themselves; solids are solved whole. choice: a model that takes the lattice's place
     (`comparisons.advice.advisor`); others: models that stand in the table too, plug-ins or our own. A name
-    that is taken is changed. large: even where a model takes more memory than there is. `starting` and
-    `finished` are called before and after each model, so that a caller can show progress and keep what is
-    done.
+    that is taken is changed. large: even where a model takes more memory than there is. progress: told what
+    is being done, and of every iteration (`comparisons.report.work`). `starting` and `finished` are called
+    before and after each model, so that a caller can keep what is done.
 
     Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
     solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.
@@ -238,12 +241,16 @@ def compare(
     solutions = []
     for name, candidate in named.items():
         starting(name)
-        solutions.append(answer(scene, candidate, name))
+        solutions.append(answer(scene, candidate, name, progress=progress))
         finished(solutions[-1])
     bar = None
     if (reference in CHEAP if uncertainty is None else uncertainty) and solutions[1].comparable:
         starting(f"{reference} on coarser meshes")
-        bar = error_bar(scene, solutions[1], elements, lambda n: answer(scene, judge.but(elements=n)))
+
+        def coarser(n: Elements) -> Solution:
+            return answer(scene, judge.but(elements=n), progress=progress)
+
+        bar = error_bar(scene, solutions[1], elements, coarser)
     return Comparison(scene, tuple(solutions), bar)
 
 

@@ -39,10 +39,12 @@ from comparisons.identification.prediction import (
 from comparisons.identification.unknowns import DAMPING, Unknown, unknown
 from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked, Elements, scene_grid
-from comparisons.models.registry import check, check_lattice, check_reference
+from comparisons.models.registry import check, check_reference
 from comparisons.models.sizes import has_room
+from comparisons.models.springs import check_lattice
 from comparisons.report.report import Report
 from comparisons.report.table import quantity
+from comparisons.report.work import Progress, Work, silent
 from lumped import CALIBRATIONS, Identifiability, identifiability
 from sheetbench.choices import CALIBRATION, ELEMENTS, REFERENCES
 from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
@@ -129,14 +131,14 @@ def identify(
     offset: float = 0.0,
     refine: bool = True,
     large: bool = False,
-    progress: Callable[[str], None] = lambda text: None,
+    progress: Callable[[str | Work], None] = lambda what: None,
 ) -> Identification:
     """The unknowns of these names, from measurements or a file of them (`measurements.read`).
 
     grid (as `comparisons.models.grids` reads it), calibration: of the lattice; elements: of a reference;
     offset [m]: where a cloud was taken along the surface's normal, 0 on the mid-surface. refine: whether to
     look at a finer lattice too (not for motions). large: even where a model takes more memory than there is.
-    progress: told of every evaluation.
+    progress: told of every evaluation, and of a reference's solves.
 
     Raises BadInput for names, models and data that do not go together, and NotReached where the model has no
     stable answer with the scene's own values.
@@ -153,7 +155,7 @@ def identify(
         raise BadInput(
             f"offset = {offset:g} m: of the points of a cloud from the mid-surface; displacements are its own"
         )
-    predict, settings, axes = _predictor(scene, measured, model, grid, calibration, elements)
+    predict, settings, axes = _predictor(scene, measured, model, grid, calibration, elements, progress)
     misfit = Misfit(measured, axes, offset)
     kept: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
     count = 0
@@ -319,6 +321,7 @@ def _predictor(
     grid: Asked,
     calibration: str | None,
     elements: Elements,
+    progress: Progress = silent,
 ) -> tuple[Predictor, dict[str, Any], tuple[np.ndarray, np.ndarray]]:
     """The predictor, its settings, and the plan grid on which it gives a whole surface."""
     if model == "lumped":
@@ -330,4 +333,4 @@ def _predictor(
         return lattice(scene, masses, calibration), settings, axes
     along_x, along_y = near_square(scene.sheet, elements) if isinstance(elements, int) else elements
     axes = surface.plan_grid(scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
-    return reference(scene, model, elements), {"elements": [along_x, along_y]}, axes
+    return reference(scene, model, elements, progress), {"elements": [along_x, along_y]}, axes

@@ -20,7 +20,9 @@ import numpy as np
 
 from comparisons.identification.unknowns import Unknown, put
 from comparisons.models.grids import Elements
-from comparisons.models.registry import calibrate, solve_reference
+from comparisons.models.registry import solve_reference
+from comparisons.models.springs import calibrate
+from comparisons.report.work import Progress, silent
 from sheetbench.scenes import BadInput, Scene, Status
 from sheetbench.scenes.grid import Grid
 
@@ -67,11 +69,11 @@ def lattice(scene: Scene, grid: Grid, calibration: str | None) -> Predictor:
     return predict
 
 
-def reference(scene: Scene, model: str, elements: Elements) -> Predictor:
-    """Statics through a finite-element reference."""
+def reference(scene: Scene, model: str, elements: Elements, progress: Progress = silent) -> Predictor:
+    """Statics through a finite-element reference; progress: told of every solve."""
 
     def displacement(here: Scene, points: np.ndarray) -> np.ndarray:
-        solution = solve_reference(here, model=model, elements=elements, large=True)  # looked at before
+        solution = solve_reference(here, model=model, elements=elements, large=True, progress=progress)
         if solution.status is not Status.CONVERGED:
             raise NotReached(f"{solution.label}: {solution.status}: {solution.status.advice}")
         return solution.displacement(points)

@@ -11,109 +11,29 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
 from inspect import Parameter, signature
-from math import isfinite
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
-from warnings import warn
+from typing import Any
 
 from comparisons.models import plugins
 from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked, scene_grid
-from comparisons.models.sizes import require_room
+from comparisons.models.sizes import require_room, size
+from comparisons.models.springs import (
+    calibrate,
+    check_lattice,
+    has_own_springs,
+    is_fitted,
+    require_room_to_fit,
+    scene_springs,
+)
 from comparisons.models.symmetry import cut_axes, half, whole
-from sheetbench.choices import CALIBRATION, CALIBRATIONS, ELEMENTS, REFERENCE, REFERENCES
-from sheetbench.scenes import History, Material, Scene, Sheet, Solution, load
-from sheetbench.scenes.errors import BadInput, Implausible, require_choice
-from sheetbench.scenes.grid import MASSES, grid_of, near_square
-from sheetbench.scenes.plausibility import layer_slips
+from comparisons.report.work import Progress, Work, silent
+from sheetbench.choices import ELEMENTS, REFERENCE, REFERENCES
+from sheetbench.scenes import History, Iteration, Scene, Solution, load
+from sheetbench.scenes.errors import BadInput, require_choice
+from sheetbench.scenes.grid import near_square
 
-if TYPE_CHECKING:
-    from lumped import Calibration
-
-
-def calibrate(
-    sheet: Sheet,
-    material: Material,
-    *,
-    grid: int | Sequence[int] = MASSES,
-    calibration: str | None = None,
-    k: float | None = None,
-    layer_distance: float | None = None,
-    grading: float = 0.0,
-    training: Sequence[Scene] | None = None,
-    large: bool = False,
-) -> Calibration:
-    """Springs of a lattice; by default consistent ones for nine masses along the shorter side.
-
-    grid: a number is along the shorter side, with near-square cells; or (nx, ny), (nx, ny, layers).
-
-    k [N/m] and layer_distance [m] are the calibration's own options; grading: from 0, cells of one size,
-    to 1, cells finest at the edges (`lumped.grid_lines`); training: the scenes that a fitted one is fitted
-    to, see `comparisons.models.training`. Raises BadInput for a name that is not a calibration or lengths
-    that are not above zero, for options it does not take, and unless `large` for a fit that takes more memory
-    than there is; warns of a layer distance that is hardly meant.
-    """
-    check_lattice(calibration, k, layer_distance, grading)
-    if not large and k is None and _is_fitted(calibration):
-        from comparisons.models.training import training_scenes
-
-        for scene in training_scenes(sheet, material) if training is None else training:
-            _require_room_to_fit(scene, grid)
-    return _calibrate(sheet, material, grid, calibration, k, layer_distance, grading, training)
-
-
-def _calibrate(
-    sheet: Sheet,
-    material: Material,
-    grid: int | Sequence[int],
-    calibration: str | None = None,
-    k: float | None = None,
-    layer_distance: float | None = None,
-    grading: float = 0.0,
-    training: Sequence[Scene] | None = None,
-) -> Calibration:
-    import lumped
-
-    if layer_distance is not None:
-        for said in layer_slips(sheet, layer_distance, "layer-distance"):
-            warn(Implausible(said), stacklevel=2)
-    method = calibration or CALIBRATION
-    if k is None and _is_fitted(calibration):
-        from comparisons.models.training import fitted
-
-        return fitted(sheet, material, grid_of(sheet, grid), method, layer_distance, grading, training)
-    own: dict[str, Any] = {"k": k, "layer_distance": layer_distance, "grading": grading}
-    return lumped.calibrate(sheet, material, grid=grid, method=method, **own)
-
-
-def _is_fitted(calibration: str | None) -> bool:
-    return CALIBRATIONS[calibration or CALIBRATION].fitted
-
-
-def _require_room_to_fit(scene: Scene, grid: int | Sequence[int]) -> None:
-    """Raise BadInput where there is too little memory for a lattice or for the shell that it is fitted to."""
-    from comparisons.models.training import ELEMENTS
-
-    require_room(scene, Candidate("lumped", {"grid": grid}))
-    instead = "take a calibration that is not fitted"
-    require_room(scene, Candidate("shell", {"elements": ELEMENTS}), instead=instead)
-
-
-def check_lattice(
-    calibration: str | None, k: float | None, layer_distance: float | None, grading: float | None = None
-) -> None:
-    """Raise BadInput for a calibration that does not exist, k or layer_distance not above zero, or a grading
-    that is not from 0 to 1."""
-    import lumped
-
-    if grading is not None and not (isinstance(grading, int | float) and 0.0 <= grading <= 1.0):
-        raise BadInput(f"grading = {grading}: a number from 0 (cells of one size) to 1 (finest at the edges)")
-
-    if calibration is not None:
-        require_choice("calibration", calibration, lumped.CALIBRATIONS)
-    for name, value, unit in (("k", k, "N/m"), ("layer-distance", layer_distance, "m")):
-        if value is not None and not (value > 0 and isfinite(value)):
-            raise BadInput(f"{name} = {value:g} {unit}: must be greater than 0 and finite")
+ASIDE = ("training", "large", "progress")  # of `calibrate`, but no settings
 
 
 def check_reference(
@@ -135,27 +55,8 @@ def _whole(counts: Any) -> bool:
     return isinstance(counts, list | tuple) and len(counts) > 0 and all(type(n) is int for n in counts)
 
 
-def has_own_springs(scene: Scene, **settings: Any) -> bool:
-    """Whether the scene's own [springs] are to be used: it has them and nothing else is asked for."""
-    chosen = (settings.get(name) for name in ("calibration", "k", "layer_distance"))
-    return scene.springs is not None and all(choice is None for choice in chosen)
-
-
-def scene_springs(
-    scene: Scene, *, grid: Asked = None, grading: float | None = None, **settings: Any
-) -> Calibration:
-    """Springs of a lattice for a scene, with settings of `calibrate` that `check` has seen: its own [springs]
-    if it has them and no calibration, k or layer distance is given, on their own grid and grading. grid: as
-    `comparisons.models.grids` reads it; grading: 0 unless given."""
-    import lumped
-
-    masses = scene_grid(scene, grid)
-    if has_own_springs(scene, **settings):
-        return lumped.given(scene, masses, grading)
-    return _calibrate(scene.sheet, scene.material, masses, grading=grading or 0.0, **settings)
-
-
-Solve = Callable[[], Solution]
+Watch = Callable[[Iteration], None]  # called once an iteration
+Solve = Callable[[Watch | None], Solution]
 
 
 def lattice(scene: Scene, *, linear: bool = False, symmetry: bool = False, **settings: Any) -> Solve:
@@ -170,7 +71,11 @@ def lattice(scene: Scene, *, linear: bool = False, symmetry: bool = False, **set
     axes = cut_axes(scene, springs.grid, masses=True) if symmetry else []
     for axis in axes:
         springs = springs.halved(axis)
-    return lambda: _by_parts(scene, axes, lambda part: lumped.solve(part, springs, linear=linear))
+
+    def answer(part: Scene, watch: Watch | None) -> Solution:
+        return lumped.solve(part, springs, linear=linear, progress=watch)
+
+    return lambda watch: _by_parts(scene, axes, partial(answer, watch=watch))
 
 
 def simulate(
@@ -200,17 +105,21 @@ def solve_reference(
     model: str = REFERENCE,
     elements: int | Sequence[int] = ELEMENTS,
     large: bool = False,
+    progress: Progress = silent,
     **options: Any,
 ) -> Solution:
     """A finite-element reference's static answer; `elements` along the shorter side, or along x and y.
 
-    Raises BadInput for a model, a number of elements or an option that does not exist, and unless `large` for
-    a mesh that takes more memory than there is.
+    progress: told what is being done, and of every iteration. Raises BadInput for a model, a number of
+    elements or an option that does not exist, and unless `large` for a mesh that takes more memory than there
+    is.
     """
     check_reference(model, elements, options)
+    asked = Candidate(model, {"elements": elements, **options})
     if not large:
-        require_room(scene, Candidate(model, {"elements": elements, **options}))
-    return reference(scene, model=model, elements=elements, **options)()
+        require_room(scene, asked)
+    solve = reference(scene, model=model, elements=elements, **options)
+    return solve(_begun(scene, asked, model, progress))
 
 
 def reference(
@@ -237,10 +146,10 @@ def reference(
         along[axis] //= 2
     counts = (along[0], along[1])
 
-    def answer(part: Scene) -> Solution:
-        return fem_reference.solve(part, model=model, elements=counts, **options)
+    def answer(part: Scene, watch: Watch | None) -> Solution:
+        return fem_reference.solve(part, model=model, elements=counts, progress=watch, **options)
 
-    return lambda: _by_parts(scene, axes, answer)
+    return lambda watch: _by_parts(scene, axes, partial(answer, watch=watch))
 
 
 def _by_parts(scene: Scene, axes: Sequence[int], answer: Callable[[Scene], Solution]) -> Solution:
@@ -269,7 +178,9 @@ MODELS: dict[str, Callable[..., Solve]] = {
 }
 
 
-def solve(scene: Scene, model: str, *, large: bool = False, **settings: Any) -> Solution:
+def solve(
+    scene: Scene, model: str, *, large: bool = False, progress: Progress = silent, **settings: Any
+) -> Solution:
     """The answer of any model by its name, with that model's settings, on warm code.
 
     The name is one of `MODELS` or of an installed plug-in (`comparisons.models.plugins`). Settings are plain
@@ -277,25 +188,35 @@ def solve(scene: Scene, model: str, *, large: bool = False, **settings: Any) -> 
     """
     candidate = Candidate(model, settings)
     check(scene, candidate, large)
-    return answer(scene, candidate)
+    return answer(scene, candidate, progress=progress)
 
 
-def answer(scene: Scene, candidate: Candidate, name: str = "") -> Solution:
-    """The answer of a candidate that `check` has let pass; name: what to call it instead of its model."""
+def answer(scene: Scene, candidate: Candidate, name: str = "", progress: Progress = silent) -> Solution:
+    """The answer of a candidate that `check` has let pass; name: what to call it instead of its model;
+    progress: told what is being done, and of every iteration."""
+    watch = _begun(scene, candidate, name or plugins.shown_name(candidate.model), progress)
     started = perf_counter()
     warm(candidate.model)
     ready = _ready(scene, candidate)
     preparing = perf_counter() - started
-    solution = ready()
+    solution = ready(watch)
     called = name or solution.model
     return replace(solution, model=called, setup_seconds=solution.setup_seconds + preparing)
+
+
+def _begun(scene: Scene, candidate: Candidate, name: str, progress: Progress) -> Watch:
+    """Say that a candidate is being solved; what says how far it is."""
+    work = Work(f"solving {name}", size(scene, candidate))
+    progress(work)
+    return lambda iteration: progress(work.at(iteration.load_factor))
 
 
 def _ready(scene: Scene, candidate: Candidate) -> Solve:
     if candidate.model in MODELS:
         return MODELS[candidate.model](scene, **candidate.settings)
     outside = plugins.plugin(candidate.model)
-    return partial(outside.solve, scene, plugins.settings_of(outside, candidate.settings))
+    settings = plugins.settings_of(outside, candidate.settings)
+    return lambda watch: outside.solve(scene, settings)
 
 
 def check(scene: Scene, candidate: Candidate, large: bool = False, option: str = "") -> None:
@@ -307,15 +228,15 @@ def check(scene: Scene, candidate: Candidate, large: bool = False, option: str =
     _check_settings(scene, candidate)
     if not large:
         require_room(scene, candidate, option)
-        fitted = candidate.model == "lumped" and _is_fitted(candidate.settings.get("calibration"))
+        fitted = candidate.model == "lumped" and is_fitted(candidate.settings.get("calibration"))
         if fitted and candidate.settings.get("k") is None:
-            _require_room_to_fit(scene, scene_grid(scene, candidate.settings.get("grid")))
+            require_room_to_fit(scene, scene_grid(scene, candidate.settings.get("grid")))
 
 
 def _check_settings(scene: Scene, candidate: Candidate) -> None:
     model, settings = candidate.model, candidate.settings
     if model == "lumped":
-        known = [*_keywords(calibrate), *_keywords(lattice)]
+        known = [name for name in (*_keywords(calibrate), *_keywords(lattice)) if name not in ASIDE]
         unknown = [name for name in settings if name not in known]
         if unknown:
             raise BadInput(f"lumped: no setting '{unknown[0]}'; it has {', '.join(known)}")
@@ -347,4 +268,4 @@ def warm(model: str) -> None:
         plugins.plugin(model)
         return
     coarse = {"grid": (3, 3, 2)} if model == "lumped" else {"elements": 2}
-    MODELS[model](load("one-edge-clamped"), **coarse)()
+    MODELS[model](load("one-edge-clamped"), **coarse)(None)

@@ -13,10 +13,11 @@ from comparisons.models import memory
 from comparisons.models.candidate import Candidate
 from comparisons.models.grids import scene_grid
 from comparisons.models.symmetry import cut_axes
+from comparisons.report import amounts
 from sheetbench.scenes import Scene, Sheet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import grid_of, near_square
-from sheetbench.scenes.size import Size, in_words
+from sheetbench.scenes.size import Size
 
 OWN = ("lumped", "plate", "shell", "solid")  # models whose size is known
 
@@ -55,18 +56,12 @@ def require_room(scene: Scene, candidate: Candidate, option: str = "", instead: 
         least, lambda n: _estimate(candidate, _along(scene.sheet, candidate, n)).memory <= room
     )
     advice = f"{option} {fitting} would fit" if fitting else f"take fewer along the longer side, {option} NxM"
+    needed, free = amounts.memory(asked.memory), amounts.memory(room)
     raise BadInput(
-        f"{candidate.model} {counts}: {in_number(asked.unknowns)} unknowns take about "
-        f"{in_words(asked.memory)} of memory, and {in_words(room)} are free here; {instead or advice}, or "
-        "give --large (in Python large=True) to try all the same"
+        f"{candidate.model} {counts}: {amounts.count(asked.unknowns)} unknowns take about {needed} of "
+        f"memory, and {free} are free here; {instead or advice}, or give --large (in Python large=True) to "
+        "try all the same"
     )
-
-
-def in_number(count: int) -> str:
-    """A large number as people say it."""
-    if count < 1_000_000:
-        return f"{count:,}".replace(",", " ")
-    return f"{count / 1e6:.3g} million"
 
 
 def _counts(scene: Scene, candidate: Candidate) -> list[int]:

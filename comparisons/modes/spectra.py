@@ -18,9 +18,12 @@ import numpy as np
 
 from comparisons.models.candidate import Candidate
 from comparisons.models.grids import Asked, Elements
-from comparisons.models.registry import check, check_reference, scene_springs
+from comparisons.models.registry import check, check_reference
+from comparisons.models.sizes import size
+from comparisons.models.springs import scene_springs
 from comparisons.modes import tables
 from comparisons.report.report import Report
+from comparisons.report.work import Progress, Work, silent
 from sheetbench.choices import ELEMENTS, REFERENCE
 from sheetbench.scenes import About, Scene, free_rigid_motions, load, summary
 from sheetbench.scenes.errors import BadInput, require_choice
@@ -109,10 +112,10 @@ def spectra(
     elements: Elements = ELEMENTS,
     about: str = "flat",
     large: bool = False,
-    starting: Callable[[str], None] = lambda model: None,
+    progress: Progress = silent,
 ) -> Spectra:
     """The spectra of the lattice and of each reference; about: "flat", or "deformed" under the scene's loads;
-    large: even where one takes more memory than there is.
+    large: even where one takes more memory than there is; progress: told what is being done.
 
     Raises SceneError for a scene that cannot be read, BadInput for choices that do not exist and a count
     that a mesh cannot give, NoEquilibrium for deformed where a model has no stable equilibrium.
@@ -122,16 +125,22 @@ def spectra(
     scene = scene if isinstance(scene, Scene) else load(scene)
     if count < 1:
         raise BadInput(f"--count = {count}: at least 1")
-    check(scene, Candidate("lumped", {"grid": grid, "calibration": calibration}), large)
+    asked = [Candidate("lumped", {"grid": grid, "calibration": calibration})]
     for reference in references:
         check_reference(reference, elements)
-        check(scene, Candidate(reference, {"elements": elements}), large)
-    starting("lumped")
+        asked.append(Candidate(reference, {"elements": elements}))
+    for candidate in asked:
+        check(scene, candidate, large)
+
+    def starting(candidate: Candidate) -> None:
+        progress(Work(f"modes of {candidate.model}", size(scene, candidate)))
+
+    starting(asked[0])
     springs = scene_springs(scene, grid=grid, calibration=calibration)
     found = [_lattice(scene, count, springs, around)]
-    for reference in references:
-        starting(reference)
-        found.append(_reference(scene, reference, count, elements, around))
+    for candidate in asked[1:]:
+        starting(candidate)
+        found.append(_reference(scene, candidate.model, count, elements, around))
     return Spectra(scene, tuple(found), around, _sag(scene, springs))
 
 

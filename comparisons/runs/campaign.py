@@ -33,6 +33,7 @@ from comparisons.runs.tasks import function
 from sheetbench.files import only_writer
 from sheetbench.scenes.errors import BadInput
 
+GOING = "going on"
 LOOK = 1.0  # s between looks at who carries out the runs
 
 
@@ -65,8 +66,9 @@ class Run:
 class Progress:
     """How far a campaign is: runs done (kept from before included) of all, the last one, seconds left.
 
-    seconds_left: the mean duration of the runs of this session times the runs left, over those that run
-    side by side; None before the first has finished.
+    status: of the run that has just ended, or `GOING` where it has just begun. seconds_left: the mean
+    duration of the runs of this session times the runs left, over those that run side by side; None before
+    the first has finished. going: the runs that are under way.
     """
 
     done: int
@@ -74,6 +76,7 @@ class Progress:
     label: str
     status: str
     seconds_left: float | None
+    going: tuple[str, ...] = ()
 
 
 @contextmanager
@@ -95,7 +98,7 @@ def carry_out(
 ) -> list[Finished]:
     """Every run's outcome, in the order of `runs`; those that the store has are not run again.
 
-    retry: but those that failed or were lost are.
+    retry: but those that failed or were lost are. progress: told of every run as it begins and as it ends.
     """
     asked = list(runs)
     for run in asked if retry else ():
@@ -117,6 +120,7 @@ class _Session:
     def __init__(self, store: Store, total: int, missing: int, progress: Callable[[Progress], None]) -> None:
         self.store, self.total, self.missing, self.progress = store, total, missing, progress
         self.seconds: list[float] = []
+        self.going: dict[str, str] = {}  # labels of the runs under way, by their keys
 
     def carry_out(self, waiting: deque[Run], pool: Pool, width: int) -> None:
         """All waiting runs, `width` at a time. Those under way when a process died go again, one at a time:
@@ -131,11 +135,14 @@ class _Session:
     def _stream(self, waiting: deque[Run], pool: Pool, width: int) -> list[Run]:
         """Runs until none waits or the pool is gone; the runs under way if the pool broke."""
         under_way: dict[Future[Finished], Run] = {}
+        self.going.clear()
         with _ended(pool(width)) as executor:
             while waiting or under_way:
                 while waiting and len(under_way) < width:
                     run = waiting.popleft()
                     under_way[_submit(executor, run)] = run
+                    self.going[run.key] = run.label
+                    self._tell(run, GOING, width)
                 done, _ = wait(under_way, timeout=LOOK, return_when=FIRST_COMPLETED)
                 if not done and isinstance(executor, Watched):
                     executor.watch()
@@ -160,9 +167,14 @@ class _Session:
     def _keep(self, run: Run, outcome: Finished, width: int) -> None:
         self.store.add(run.task, run.arguments, outcome)
         self.seconds.append(outcome.seconds)
+        self.going.pop(run.key, None)
+        self._tell(run, outcome.status, width)
+
+    def _tell(self, run: Run, status: str, width: int) -> None:
         left = self.missing - len(self.seconds)
-        mean = sum(self.seconds) / len(self.seconds)
-        self.progress(Progress(self.total - left, self.total, run.label, outcome.status, mean * left / width))
+        seconds = sum(self.seconds) / len(self.seconds) * left / width if self.seconds else None
+        going = tuple(self.going.values())
+        self.progress(Progress(self.total - left, self.total, run.label, status, seconds, going))
 
 
 @contextmanager

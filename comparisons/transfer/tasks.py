@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from comparisons.identification.surface import plan_grid, plan_points
-from comparisons.models.registry import calibrate, solve_reference
+from comparisons.models.registry import solve_reference
+from comparisons.models.springs import calibrate
 from sheetbench.scenes import Scene, Sheet
 
 POINTS = 5  # along each side

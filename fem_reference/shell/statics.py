@@ -18,7 +18,7 @@ from fem_reference.shell.balance import balance
 from fem_reference.shell.element import Element
 from fem_reference.shell.structure import UP, ShellStructure, State
 from fem_reference.shell.validity import STRETCHED, inspector, judge
-from fem_reference.solving.equilibrium import Path, trace
+from fem_reference.solving.equilibrium import Path, Progress, trace
 from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.pseudo_transient import settler
 from fem_reference.surface import loads, rod
@@ -34,23 +34,29 @@ from sheetbench.scenes.scene import require_static
 
 
 def solve(
-    scene: Scene, elements: Elements = 16, graded: bool = True, section: Section | None = None
+    scene: Scene,
+    elements: Elements = 16,
+    graded: bool = True,
+    section: Section | None = None,
+    *,
+    progress: Progress | None = None,
 ) -> Solution:
     """The static equilibrium of a scene; elements along the shorter side (near-square), or (nx, ny).
 
     graded: finer towards the edges, uniform otherwise (see `mesh.rectangle`); where the sheet bends more than
     stretched elements stand, it is divided evenly after all, and `fallback` says so. section: stiffness per
     width, from material and thickness unless given. Past limit points under conservative loads the path goes
-    on (see `pseudo_transient`), and `snaps` has the load factors at which the sheet snapped.
+    on (see `pseudo_transient`), and `snaps` has the load factors at which the sheet snapped. progress: called
+    once an iteration.
     Raises scenes.SceneError if the supports leave a rigid motion free.
     """
     require_static(scene)
     counts = divisions(scene.sheet, elements)
-    run = _run(mesh_of(scene, counts, graded), scene, section, graded)
+    run = _run(mesh_of(scene, counts, graded), scene, section, graded, progress)
     fallback, spent = "", None
     if run.path.fault is STRETCHED:
         fallback, spent, graded = "divided evenly, for it bends much", run, False
-        run = _run(mesh_of(scene, counts, graded), scene, section, graded)
+        run = _run(mesh_of(scene, counts, graded), scene, section, graded, progress)
     settings: dict[str, Any] = {"elements": list(counts), "graded": graded}
     if section is not None:
         settings["section"] = section._asdict()
@@ -77,13 +83,20 @@ class _Run(NamedTuple):
     solve_seconds: float
 
 
-def _run(mesh: MeshQuad, scene: Scene, section: Section | None = None, graded: bool = False) -> _Run:
+def _run(
+    mesh: MeshQuad,
+    scene: Scene,
+    section: Section | None = None,
+    graded: bool = False,
+    progress: Progress | None = None,
+) -> _Run:
     """graded: give up where stretched elements bend too much (see `validity`)."""
     begin = perf_counter()
     structure, nodes = discretise(mesh, scene, section)
     solver = DirectSolver(structure.symmetric)
     ready = perf_counter()
-    path = trace(structure, solver, inspector(scene, structure, solver, graded), settler(structure, solver))
+    inspect, settle = inspector(scene, structure, solver, graded), settler(structure, solver)
+    path = trace(structure, solver, inspect, settle, progress)
     return _Run(mesh, structure, nodes, path, ready - begin, perf_counter() - ready)
 
 

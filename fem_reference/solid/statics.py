@@ -28,7 +28,7 @@ from fem_reference.solid.materials import LAWS, lame
 from fem_reference.solid.mesh import Columns
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.structure import Forces, SolidStructure, State
-from fem_reference.solving.equilibrium import trace
+from fem_reference.solving.equilibrium import Progress, trace
 from fem_reference.solving.linear import DirectSolver
 from fem_reference.surface import loads, rod
 from fem_reference.surface.actuator_forces import Held, OnEdge, exerted
@@ -48,18 +48,21 @@ def solve(
     law: str = "st-venant-kirchhoff",
     clamp: str = "shell-like",
     grading: str = "edges",
+    *,
+    progress: Progress | None = None,
 ) -> Solution:
     """The static equilibrium of a scene; elements along the shorter side (near-square), or (nx, ny).
 
     layers: bricks through the thickness; law: a key of `LAWS`; clamp: one of `supports.CLAMPS`; grading: one
-    of `GRADINGS`.
+    of `GRADINGS`; progress: called once an iteration.
     Raises scenes.SceneError if the supports leave a rigid motion free, BadInput for an unknown option.
     """
     require_static(scene)
     along_x, along_y = divisions(scene.sheet, elements)
     mesh = plan_mesh(scene, (along_x, along_y), grading)
     asked = {"elements": [along_x, along_y], "grading": grading}
-    return _solved(mesh, scene, f"solid {along_x} × {along_y} × {layers}", asked, layers, law, clamp)
+    label = f"solid {along_x} × {along_y} × {layers}"
+    return _solved(mesh, scene, label, asked, layers, law, clamp, progress=progress)
 
 
 def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
@@ -76,13 +79,14 @@ def _solved(
     law: str = "st-venant-kirchhoff",
     clamp: str = "shell-like",
     own: bool = False,
+    progress: Progress | None = None,
 ) -> Solution:
     """own: whether the mesh has an outline of its own, in place of the scene's sheet."""
     begin = perf_counter()
     structure = discretise(mesh, scene, layers, law, clamp)
     solver = DirectSolver(structure.symmetric)
     ready = perf_counter()
-    path = trace(structure, solver)
+    path = trace(structure, solver, progress=progress)
     done = perf_counter()
 
     columns, displacement = structure.columns, path.state.displacement

@@ -51,6 +51,8 @@ SNAPS = 12  # of one path
 SNAP_STEP = 0.01  # in load factor, past the limit point
 SNAPPING = 4 * FACTORISATIONS  # in all, where the structure snaps
 
+Progress = Callable[[Iteration], None]
+
 
 class Fault(NamedTuple):
     """What makes an equilibrium worthless: the status it deserves and a sentence."""
@@ -64,7 +66,7 @@ class Path(Generic[State]):
     """Where the tracing stands: the last equilibrium, its load factor, and what it took.
 
     snaps: load factors that it snapped at; fault: what has ended it early; notes: what to
-    say of it.
+    say of it; progress: told of every iteration.
     """
 
     state: State
@@ -76,6 +78,13 @@ class Path(Generic[State]):
     snaps: list[float] = field(default_factory=list)
     fault: Fault | None = None
     notes: list[str] = field(default_factory=list)
+    progress: Progress | None = None
+
+    def note(self, load_factor: float, residual: float, step: float) -> None:
+        """Keep an iteration and tell whoever watches."""
+        self.history.append(Iteration(load_factor, residual, step))
+        if self.progress is not None:
+            self.progress(self.history[-1])
 
 
 class StepFailed(ArithmeticError):
@@ -91,15 +100,17 @@ def trace(
     solver: DirectSolver,
     inspect: Callable[[Path[State]], Fault | None] = lambda path: None,
     settle: Callable[[Path[State], float], State] | None = None,
+    progress: Progress | None = None,
 ) -> Path[State]:
     """The equilibrium at load factor 1, or the last one on the way with the reason it is the last.
 
     inspect: shown the path at every equilibrium on the way; a fault, if it finds one, ends it there.
     settle: the stable state of a structure under conservative loads that a path leads to at a load factor
     beyond a limit point, for the path to go on from; it raises StepFailed where it finds none.
+    progress: called once an iteration.
     """
     with one_blas_thread():
-        path = Path(structure.rest())
+        path = Path(structure.rest(), progress=progress)
         ended = _follow(structure, solver, path, inspect)
         while isinstance(ended, StepFailed):
             tried = ""
@@ -244,7 +255,7 @@ def newton(
         forces = structure.forces(state, target)
         imbalance = structure.imbalance(state, forces)
         relative = imbalance / forces.size if forces.size > 0.0 else imbalance
-        path.history.append(Iteration(target, relative, lengths[-1]))
+        path.note(target, relative, lengths[-1])
         if not np.isfinite(relative):
             raise StepFailed(Status.NON_FINITE, "a number overflowed", first.length)
         rounded = works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before

@@ -27,7 +27,7 @@ from scipy.sparse import csr_matrix
 from fem_reference.solving.equilibrium import TOLERANCE, Path, Start, StepFailed, newton
 from fem_reference.solving.linear import DirectSolver, Factor, SingularMatrix
 from fem_reference.solving.structure import Creeping, Forces, State
-from sheetbench.scenes import Iteration, Status
+from sheetbench.scenes import Status
 
 FACTORISATIONS = 300  # of one relaxation
 CORRECTIONS = 8  # of one step
@@ -137,7 +137,7 @@ class _Creep(Generic[State, Forces]):
         for k in range(CORRECTIONS + 1):
             forces = structure.forces(state, self.load_factor)
             relative = structure.imbalance(state, forces) / self.size
-            self.path.history.append(Iteration(self.load_factor, relative, lengths[-1] if lengths else 0.0))
+            self.path.note(self.load_factor, relative, lengths[-1] if lengths else 0.0)
             if not np.isfinite(relative):
                 return None
             if k == 0:

@@ -11,6 +11,7 @@ project's plate on 48 × 48 elements.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -68,7 +69,7 @@ def deflection(model: str, kind: str, ratio: float, elements: int, poisson: floa
         support=tuple(SUPPORTS[kind].model_validate({"edge": edge}) for edge in EDGES),
         gravity=Gravity(acceleration=(0.0, 0.0, load / (material.density * ratio))),
     )
-    hard = {"hard_edges": tuple(EDGES)} if kind == "hinged" else {}
+    hard: dict[str, Any] = {"hard_edges": tuple(EDGES)} if kind == "hinged" else {}
     solution = solve(scene, model, elements=elements, **hard)
     if solution.status is not Status.CONVERGED:
         return float("nan")

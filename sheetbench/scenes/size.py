@@ -15,8 +15,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import log2
 
-UNITS = ((1e12, "TB"), (1e9, "GB"), (1e6, "MB"))
-
 
 @dataclass(frozen=True)
 class Size:
@@ -34,9 +32,3 @@ def factors(nodes: tuple[int, int], unknowns: int) -> tuple[float, float]:
     nonzeros = count * min(31 / 4 * log2(shorter), shorter + 1.0)
     operations = count * min(829 / 84 * shorter, (shorter + 1.0) ** 2)
     return nonzeros * unknowns**2, operations * unknowns**3
-
-
-def in_words(memory: float) -> str:
-    """An amount of memory [bytes] as people say it."""
-    unit, name = next(((unit, name) for unit, name in UNITS if memory >= unit), UNITS[-1])
-    return f"{memory / unit:.2g} {name}" if memory < 100 * unit else f"{memory / unit:.0f} {name}"

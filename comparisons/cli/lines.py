@@ -1,0 +1,66 @@
+"""Progress where standard error is no terminal: a line now and then, and none of what is soon over."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from time import monotonic
+from types import TracebackType
+from typing import TYPE_CHECKING, Self
+
+if TYPE_CHECKING:
+    from comparisons.report.work import Work
+
+QUIET = 2.0  # s, at first
+BETWEEN = 10.0  # s, from line to line
+LOOK = 0.25  # s
+
+
+class Lines:
+    """What is being done is printed once it has gone on for a while; what is expected to take long, at once.
+
+    A thread looks at the clock, for what takes long says nothing meanwhile.
+    """
+
+    def __init__(self, write: Callable[[str], None], clock: Callable[[], float] = monotonic) -> None:
+        self._write, self._clock = write, clock
+        self._now, self._printed = "", ""
+        self._due = clock() + QUIET
+        self._lock, self._over = threading.Lock(), threading.Event()
+        self._looking = threading.Thread(target=self._look_on, daemon=True)
+
+    def __enter__(self) -> Self:
+        self._looking.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._over.set()
+        self._looking.join()
+
+    def say(self, what: Work | str) -> None:
+        """What is being done from now on."""
+        with self._lock:
+            self._now = str(what)
+            if not isinstance(what, str) and what.long and what.share is None:
+                self._print(self._now)
+
+    def print(self, text: str) -> None:
+        """A line, at once."""
+        with self._lock:
+            self._print(text)
+
+    def look(self) -> None:
+        """Print what is being done, if it is time and it has not been said."""
+        with self._lock:
+            if self._clock() >= self._due and self._now not in ("", self._printed):
+                self._print(self._now)
+
+    def _print(self, text: str) -> None:
+        self._write(text)
+        self._printed, self._due = text, self._clock() + BETWEEN
+
+    def _look_on(self) -> None:
+        while not self._over.wait(LOOK):
+            self.look()

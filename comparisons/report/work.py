@@ -1,0 +1,61 @@
+"""What is being worked at, for those who wait: in words, how large it is, how far it has come."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+from comparisons.report.amounts import count, duration
+
+if TYPE_CHECKING:
+    from sheetbench.scenes.size import Size
+
+Progress = Callable[["Work"], None]
+LONG = 2.0  # s, from which on people want to know
+
+
+@dataclass(frozen=True)
+class Work:
+    """doing: "solving shell"; size: what it takes, where that is known; share: of the load that is on, from 0
+    to 1, None before the first iteration."""
+
+    doing: str
+    size: Size | None = None
+    share: float | None = None
+
+    @property
+    def long(self) -> bool:
+        """Whether it is expected to take long."""
+        return self.size is not None and self.size.seconds >= LONG
+
+    def at(self, share: float) -> Work:
+        """The same, so far on."""
+        return replace(self, share=share)
+
+    def __str__(self) -> str:
+        how_large = ""
+        if self.size is not None and self.long:
+            how_large = f" ({count(self.size.unknowns)} unknowns, about {duration(self.size.seconds)})"
+        if self.share is None:
+            return f"{self.doing}{how_large} …"
+        return f"{self.doing}{how_large}: {100.0 * self.share:.0f} % of the load"
+
+
+class Pace:
+    """How long what goes on evenly still takes; end: where it ends, in any unit."""
+
+    def __init__(self, end: float) -> None:
+        self._end = end
+        self._first: tuple[float, float] | None = None
+
+    def left(self, reached: float) -> float | None:
+        """Seconds, None as long as nothing has gone on."""
+        now = perf_counter()
+        began, start = self._first = self._first or (now, reached)
+        return (now - began) * (self._end - reached) / (reached - start) if reached > start else None
+
+
+def silent(work: Work) -> None:
+    """The progress of those who do not wait for it."""

@@ -1,0 +1,210 @@
+"""What is said while people wait: what is solved, how large it is, how far it has come; little in a pipe."""
+
+from __future__ import annotations
+
+import io
+from concurrent.futures import Executor, Future
+from pathlib import Path
+from typing import Any
+
+import pytest
+from campaigns import Here, task
+from commands import run
+from rich.console import Console
+
+import fem_reference
+import lumped
+import sheetbench as sb
+from comparisons.cli import console
+from comparisons.cli import lines as cli_lines
+from comparisons.cli.lines import BETWEEN, QUIET, Lines
+from comparisons.report import amounts, work
+from comparisons.report.work import Pace, Work
+from comparisons.runs.campaign import GOING, Progress, campaign, carry_out
+from sheetbench.scenes import Iteration
+from sheetbench.scenes.size import Size
+
+SCENE = "two-edges-clamped"
+SMALL = ("compare", SCENE, "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
+QUICK, SLOW = Size(100, 1e6, 0.1), Size(1_234_567, 1e9, 300.0)
+
+
+@pytest.fixture
+def said() -> tuple[Lines, list[str], list[float]]:
+    """Lines of a clock that is set by hand."""
+    told: list[str] = []
+    now = [100.0]
+    return Lines(told.append, lambda: now[0]), told, now
+
+
+def test_what_is_soon_over_is_not_said_in_a_pipe(said: tuple[Lines, list[str], list[float]]) -> None:
+    lines, told, now = said
+    lines.say(Work("solving lumped", QUICK))
+    now[0] += QUIET / 2
+    lines.look()
+    assert told == []
+
+
+def test_what_lasts_is_said_now_and_then(said: tuple[Lines, list[str], list[float]]) -> None:
+    lines, told, now = said
+    one = Work("solving shell", QUICK)
+    lines.say(one)
+    now[0] += QUIET
+    lines.look()
+    lines.look()
+    assert told == ["solving shell …"]
+    for step in range(10):
+        now[0] += BETWEEN / 10
+        lines.say(one.at(0.1 * (step + 1)))
+        lines.look()
+    assert told == ["solving shell …", "solving shell: 100 % of the load"]
+    now[0] += 10 * BETWEEN
+    lines.look()
+    assert len(told) == 2  # nothing new
+
+
+def test_what_will_last_is_said_before_it_starts(said: tuple[Lines, list[str], list[float]]) -> None:
+    lines, told, _ = said
+    lines.say(Work("solving solid", SLOW))
+    lines.say(Work("solving solid", SLOW).at(0.25))
+    assert told == ["solving solid (1.23 million unknowns, about 5 min) …"]
+    assert str(Work("solving solid", SLOW).at(0.25)).endswith("about 5 min): 25 % of the load")
+
+
+def test_the_clock_is_looked_at_while_nothing_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cli_lines, "QUIET", 0.0)
+    monkeypatch.setattr(cli_lines, "LOOK", 1e-3)
+    told: list[str] = []
+    with Lines(told.append) as lines:
+        lines.say("working …")
+        while not told:
+            pass
+    assert told == ["working …"]
+
+
+def test_a_short_command_is_quiet_in_a_pipe(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(cli_lines, "QUIET", 3600.0)  # however slow this machine is today
+    assert run(*SMALL) == 0
+    assert capsys.readouterr().err == ""
+
+
+def test_a_long_command_says_size_and_time_first(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(work, "LONG", 0.0)
+    assert run(*SMALL) == 0
+    assert "solving shell (125 unknowns, about 0 s) …" in capsys.readouterr().err.splitlines()
+
+
+@pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
+def test_every_iteration_is_told_with_its_load_factor(model: str) -> None:
+    told: list[Iteration] = []
+    if model == "lumped":
+        solution = lumped.solve(SCENE, lumped.calibrate(*parts(), grid=5), progress=told.append)
+    else:
+        solution = fem_reference.solve(SCENE, model, elements=2, progress=told.append)
+    assert tuple(told) == solution.history and told[-1].load_factor == 1.0
+
+
+def parts() -> tuple[sb.Sheet, sb.Material]:
+    scene = sb.load(SCENE)
+    return scene.sheet, scene.material
+
+
+def test_progress_is_no_option_of_a_model() -> None:
+    assert all("progress" not in fem_reference.options(model) for model in fem_reference.MODELS)
+
+
+def test_a_comparison_tells_what_it_solves_and_how_far_it_is() -> None:
+    told: list[Work] = []
+    sb.compare(sb.load(SCENE), grid=3, elements=4, progress=told.append)
+    begun = [one.doing for one in told if one.share is None]
+    assert begun == ["solving lumped", "solving shell", "solving lumped-uniform", *["solving shell"] * 2]
+    assert {one.doing for one in told if one.share == 1.0} == set(begun)
+    assert all(one.size is not None and one.size.unknowns > 0 for one in told)
+
+
+def test_other_verbs_tell_too(tmp_path: Path) -> None:
+    told: list[Any] = []
+    sb.modes(SCENE, grid=3, elements=2, count=2, progress=told.append)
+    assert [one.doing for one in told] == ["modes of lumped", "modes of shell"]
+    told.clear()
+    sb.advise("one-edge-clamped", 0.2, progress=told.append)
+    assert {"solving shell", "solving lumped"} <= {one.doing for one in told}
+    told.clear()
+    measured = tmp_path / "measured.csv"
+    measured.write_text("x,y,uz\n0.094,0.094,-0.00245\n0.188,0.188,-0.0135\n")
+    sb.identify(SCENE, measured, model="shell", elements=2, progress=told.append)
+    assert any(isinstance(one, Work) and one.share == 1.0 for one in told)
+    assert any(isinstance(one, str) and one.startswith("young = ") for one in told)
+
+
+def test_a_fit_tells_what_it_is_trained_on(capsys: pytest.CaptureFixture[str]) -> None:
+    told: list[Work] = []
+    from comparisons.models.springs import calibrate
+
+    calibrate(*parts(), grid=3, calibration="fit-modal", progress=told.append)
+    assert [one.doing.split()[0] for one in told] == ["training", "training", "fitting"]
+
+
+def test_a_campaign_tells_which_run_goes_on(tmp_path: Path) -> None:
+    seen: list[Progress] = []
+    runs = [task("square", x=x) for x in (1.0, 2.0)]
+    with campaign(tmp_path) as store:
+        carry_out(runs, store, pool=Here, progress=seen.append)
+    assert [(p.done, p.status, p.going) for p in seen] == [
+        (0, GOING, ("square",)),
+        (1, "done", ()),
+        (1, GOING, ("square",)),
+        (2, "done", ()),
+    ]
+
+
+class Two(Executor):
+    """A pool whose runs end when both have begun."""
+
+    def __init__(self, workers: int) -> None:
+        self.begun: list[tuple[Future[Any], Any, tuple[Any, ...]]] = []
+
+    def submit(self, work: Any, /, *arguments: Any, **named: Any) -> Future[Any]:
+        future: Future[Any] = Future()
+        self.begun.append((future, work, arguments))
+        if len(self.begun) == 2:
+            for one, does, what in self.begun:
+                one.set_result(does(*what))
+        return future
+
+
+def test_runs_side_by_side_are_all_told(tmp_path: Path) -> None:
+    seen: list[Progress] = []
+    with campaign(tmp_path) as store:
+        runs = [task("square", x=x) for x in (1.0, 2.0)]
+        carry_out(runs, store, pool=Two, workers=2, progress=seen.append)
+    assert [len(p.going) for p in seen] == [1, 2, 1, 0]
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_a_campaign_shows_the_run_that_goes_on(monkeypatch: pytest.MonkeyPatch, terminal: bool) -> None:
+    monkeypatch.setattr(cli_lines, "QUIET", 0.0)
+    screen = io.StringIO()
+    monkeypatch.setattr(console, "err", Console(file=screen, force_terminal=terminal, width=100))
+    with console.campaign_progress() as progress:
+        progress(Progress(0, 9, "solid 24", GOING, None, ("solid 24", "shell 32", "shell 16")))
+        while "solid 24" not in screen.getvalue():
+            pass
+        progress(Progress(1, 9, "solid 24", "converged", 70.0, ("shell 32",)))
+    assert "solid 24, and 2 more" in screen.getvalue()
+    assert ("0/9 going on: solid 24" in screen.getvalue()) is not terminal
+    assert "70 s left" in screen.getvalue()
+
+
+def test_an_even_pace_tells_what_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [10.0]
+    monkeypatch.setattr(work, "perf_counter", lambda: now[0])
+    pace = Pace(2.0)
+    assert pace.left(0.5) is None
+    now[0] += 3.0
+    assert pace.left(1.0) == pytest.approx(6.0)
+    assert [amounts.duration(s) for s in (4.2, 120.0, 7200.0)] == ["4 s", "2 min", "2.0 h"]

@@ -18,6 +18,7 @@ import sheetbench as sb
 from comparisons.cli import console
 from comparisons.cli import lines as cli_lines
 from comparisons.cli.lines import BETWEEN, QUIET, Lines
+from comparisons.models.springs import calibrate
 from comparisons.report import amounts, work
 from comparisons.report.work import Pace, Work
 from comparisons.runs.campaign import GOING, Progress, campaign, carry_out
@@ -141,11 +142,9 @@ def test_other_verbs_tell_too(tmp_path: Path) -> None:
     assert any(isinstance(one, str) and one.startswith("young = ") for one in told)
 
 
-def test_a_fit_tells_what_it_is_trained_on(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_fit_tells_what_it_is_trained_on() -> None:
     told: list[Work] = []
-    from comparisons.models.springs import calibrate
-
-    calibrate(*parts(), grid=3, calibration="fit-modal", progress=told.append)
+    calibrate(*parts(), grid=4, calibration="fit-modal", progress=told.append)
     assert [one.doing.split()[0] for one in told] == ["training", "training", "fitting"]
 
 

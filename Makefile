@@ -4,7 +4,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 OUT    ?= demo
 
-.PHONY: docs-scene help install demo test verify locking transfer tradeoff advisor-study stability lint clean
+.PHONY: docs-scene help install demo test verify locking transfer tradeoff advisor-study stability wheel-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
@@ -15,6 +15,7 @@ help:
 	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/; up to half an hour)"
 	@echo "make stability where each solver holds, degrades, refuses or breaks: eight maps (six minutes; files in $(OUT)/stability/)"
 	@echo "make docs-scene  the page of every key of a scene and its sketch, docs/scene.md, from the types"
+	@echo "make wheel-check  the wheel as its users get it: installed elsewhere, run there, uninstalled without a trace"
 	@echo "make install   set up only: $(BIN)/sheetbench"
 	@echo "make clean     remove the environment and the demo's files"
 
@@ -61,6 +62,9 @@ stability: install
 docs-scene: install
 	@$(BIN)/python docs/scene_sketch.py
 	@$(BIN)/sheetbench schema --markdown > docs/scene.md
+
+wheel-check: install
+	@.ci/wheel-check $(BIN)/python
 
 lint: install
 	@$(BIN)/ruff check .

@@ -12,7 +12,6 @@ Every verb takes a scene, a name or a path, and is loaded when it is first used.
 from __future__ import annotations
 
 from importlib import import_module
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -98,6 +97,8 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     if name == "__version__":
+        from importlib.metadata import version  # not needed for help
+
         return version("sheetbench")
     if name == "scenes":
         return import_module("sheetbench.scenes")

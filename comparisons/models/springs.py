@@ -97,13 +97,10 @@ def check_lattice(
 ) -> None:
     """Raise BadInput for a calibration that does not exist, k or layer_distance not above zero, or a grading
     that is not from 0 to 1."""
-    import lumped
-
     if grading is not None and not (isinstance(grading, int | float) and 0.0 <= grading <= 1.0):
         raise BadInput(f"grading = {grading}: a number from 0 (cells of one size) to 1 (finest at the edges)")
-
     if calibration is not None:
-        require_choice("calibration", calibration, lumped.CALIBRATIONS)
+        require_choice("calibration", calibration, CALIBRATIONS)
     for name, value, unit in (("k", k, "N/m"), ("layer-distance", layer_distance, "m")):
         if value is not None and not (value > 0 and isfinite(value)):
             raise BadInput(f"{name} = {value:g} {unit}: must be greater than 0 and finite")

@@ -249,6 +249,29 @@ def test_curved_edge_follows_the_linearised_rod():
     np.testing.assert_allclose(edge, expected, atol=1e-12)
 
 
+def test_the_mass_of_rigid_motions_is_that_of_a_slab():
+    """Moved ρh; turned about an axis through its middle ρh/12 + ρh³/12, the latter in the directors alone."""
+    h, model = 0.2, plate.Plate.on(distorted())
+    mass, x = plate.mass_matrix(square(h), model), model.nodes[:, 0] - 0.5
+    still = np.zeros_like(x)
+    motions = {
+        "moved": np.array([still, still, still + 1.0, still, still]),
+        "turned": np.array([still, still, -x, still + 1.0, still]),
+        "its directors": np.array([still, still, still, still, still + 1.0]),
+        "in its plane": np.array([still, x, still, still, still]),
+    }
+    per_area = MATERIAL.density * h
+    of = {
+        "moved": 1.0,
+        "turned": (1.0 + h**2) / 12.0,
+        "its directors": h**2 / 12.0,
+        "in its plane": 1.0 / 12.0,
+    }
+    for name, motion in motions.items():
+        v = motion.T.ravel()
+        assert v @ mass @ v == pytest.approx(per_area * of[name], rel=1e-12), name
+
+
 def test_refuses_a_sheet_that_nothing_holds():
     with pytest.raises(scenes.SceneError, match="nothing stops"):
         plate.solve(square(0.01))

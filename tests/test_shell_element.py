@@ -8,10 +8,12 @@ from skfem import Basis, ElementQuad2, MeshQuad
 
 from fem_reference.plate import statics as plate
 from fem_reference.shell import statics as shell
+from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
 from fem_reference.shell.element import Element
 from fem_reference.shell.statics import discretise
 from fem_reference.shell.structure import State
 from fem_reference.solid import statics as solid
+from fem_reference.solving.equilibrium import TOLERANCE
 from fem_reference.surface.loads import FollowerMoment, FollowerPressure, Line, area_force, orientation
 from fem_reference.surface.materials import section_of
 from fem_reference.surface.mesh import rectangle
@@ -244,3 +246,30 @@ def test_an_inverted_element_is_refused_by_every_reference():
     for solve_on in (plate.solve_on, shell.solve_on, solid.solve_on):
         with pytest.raises(ValueError, match="of the mesh is inverted"):
             solve_on(folded, asked)
+
+
+def test_directors_are_brought_to_unit_length_and_turn_across_themselves():
+    """Of length s, the step is Newton's for s² = 1, to (s² + 1)/2s; tangents are orthonormal, whatever s."""
+    rng = np.random.default_rng(7)
+    unit = rng.normal(size=(6, 3))
+    unit /= np.linalg.norm(unit, axis=1, keepdims=True)
+    lengths = np.array([0.5, 0.9, 1.0, 1.001, 1.5, 3.0])
+    directors = lengths[:, None] * unit
+    np.testing.assert_allclose(
+        directors + to_unit(directors), ((lengths**2 + 1.0) / (2.0 * lengths))[:, None] * unit, rtol=1e-14
+    )
+    frames = tangent_frames(directors, np.array([], dtype=int), np.array([], dtype=int))
+    whole = np.concatenate([frames, unit[:, :, None]], axis=2)
+    np.testing.assert_allclose(whole.swapaxes(1, 2) @ whole, np.tile(np.eye(3), (6, 1, 1)), atol=1e-14)
+    couple = rng.normal(size=(6, 3))
+    held = couple + multiplier(directors, couple)[:, None] * directors
+    np.testing.assert_allclose(np.einsum("nc,nc->n", held, directors), 0.0, atol=1e-13)
+
+
+def test_directors_of_the_bent_sheet_are_unit_vectors():
+    """To the tolerance of Newton's method, turned by up to a right angle and stressed."""
+    up = EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, 20.0), moment_per_length=1.0)
+    found = shell.solve(scene((Clamped(edge="x0"),), (up,)), 4)
+    directors = found.mesh.point_data["director"]
+    assert directors[:, 2].min() < 0.5
+    np.testing.assert_allclose(np.linalg.norm(directors, axis=1), 1.0, atol=TOLERANCE)

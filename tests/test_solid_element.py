@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 import pytest
 from skfem import ElementHex2, MeshQuad
 from solid_cases import block
 
 from fem_reference.solid import statics as solid
-from fem_reference.solid.element import Bricks, geometric
-from fem_reference.solid.materials import LAWS, lame
+from fem_reference.solid.element import Bricks, geometric, reference, shape
+from fem_reference.solid.materials import LAWS, PAIRS, lame
 from fem_reference.solid.structure import State
 from fem_reference.solid.supports import into_forces, vectors
 from fem_reference.solving.linear import solve_free
@@ -82,6 +84,49 @@ def test_brick_energy_residual_tangent(law, poisson, rng):
     exact = np.einsum("ekic,ek->eic", gradient, pull) + geometric(bricks.stress(bricks.strain(u))) @ direction
     difference = (residual(u + step * direction) - residual(u - step * direction)) / (2 * step)
     np.testing.assert_allclose(difference, exact, atol=1e-5 * np.abs(exact).max())
+
+
+# Of the six covariant strains, along which of ξ, η, ζ only linear functions are kept.
+LINEAR = {"ξξ": (0,), "ηη": (1,), "ζζ": (), "ξη": (0, 1), "ηζ": (1,), "ξζ": (0,)}
+
+
+@pytest.mark.parametrize("component", LINEAR)
+def test_assumed_strains_keep_what_does_not_lock(component):
+    """Along a direction of two Gauss points s² is taken for 1/3, its value there; powers up to the second are
+    kept otherwise. The shear in the plane is known at three: what is dropped of it is the rest."""
+    ref, number = reference(), list(LINEAR).index(component)
+    points = 2.0 * ref.points - 1.0
+    for powers in product(range(3), repeat=3):
+        whole = np.prod([x**power for x, power in zip(points, powers, strict=True)], axis=0)
+        linear = [power == 2 and axis in LINEAR[component] for axis, power in enumerate(powers)]
+        parts = zip(points, powers, linear, strict=True)
+        taken = np.prod([np.full_like(x, 1.0 / 3.0) if cut else x**power for x, power, cut in parts], axis=0)
+        samples = np.concatenate([np.prod(at**powers, axis=1) for at in sites()])
+        np.testing.assert_allclose(ref.assumed[:, number] @ samples, taken, atol=1e-13)
+        rest = whole - taken if component == "ξη" else 0.0
+        np.testing.assert_allclose(ref.lost[:, number] @ samples, rest, atol=1e-13)
+
+
+def test_samples_are_green_s_strains_at_the_sites(rng):
+    """½ (x,a · x,b − X,a · X,b), the shears twice, at two or three Gauss points a direction."""
+    bricks = Bricks.build(warped(rng), LAWS["st-venant-kirchhoff"], (1.0, 1.0))
+    change = rng.uniform(-0.1, 0.1, bricks.positions.shape)
+    expected = []
+    for at, (a, b) in zip(sites(), PAIRS, strict=True):
+        _, slope = shape((at.T + 1.0) / 2.0)
+        flat = bricks.positions
+        then, now = (np.einsum("ic,idt->tdc", x[0], slope) for x in (flat, flat + change))
+        green = [0.5 * np.einsum("tc,tc->t", x[:, a], x[:, b]) for x in (now, then)]
+        expected.append((1.0 if a == b else 2.0) * (green[0] - green[1]))
+    np.testing.assert_allclose(bricks.strain(change)[0], np.concatenate(expected), atol=1e-14)
+
+
+def sites() -> list[np.ndarray]:
+    """Where each covariant strain is sampled, (k, 3) in [−1, 1]³: at two points along what locks, else three;
+    but the shear in the plane at three, and it is projected."""
+    two, three = np.array([-1.0, 1.0]) / np.sqrt(3.0), np.array([-1.0, 0.0, 1.0]) * np.sqrt(0.6)
+    along = [[two, three], [three, two], [three, three], [three, three], [three, two], [two, three]]
+    return [np.array(list(product(*plan, three))) for plan in along]
 
 
 @pytest.mark.parametrize("stretched", [1.0, 20.0])

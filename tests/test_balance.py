@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 import lumped
 from comparisons.models import registry as models
 from fem_reference.surface.mesh import rectangle
-from sheetbench.scenes import Balance, Status, dead_force, load
+from sheetbench.scenes import Balance, Status, catalogue, dead_force, load
 
 SIDE = 0.188
 CLAMP = {"edge": "x0", "kind": "clamped"}
@@ -205,6 +205,27 @@ def test_no_reference_leaves_a_reaction_out(monkeypatch, model):
     found = models.solve(SCENES["a moved edge"], model, elements=2)
     monkeypatch.setattr(f"fem_reference.{owner}.reactions", lambda *asked: {"x0": found.reactions["x0"]})
     assert models.solve(SCENES["a moved edge"], model, elements=2).status is Status.DIVERGED
+
+
+@pytest.mark.parametrize("name", catalogue())
+@pytest.mark.parametrize("model", REFERENCES)
+def test_the_references_are_in_balance_on_every_scene_of_the_catalogue(model, name):
+    found = models.solve(load(name), model, elements=2)
+    assert found.status is Status.CONVERGED and found.balance.allowed <= SHARP * found.balance.size
+
+
+@pytest.mark.parametrize(
+    ("model", "options"),
+    [
+        ("plate", {"hard_edges": ("y0", "y1"), "graded": False}),
+        ("shell", {"graded": False}),
+        ("solid", {"clamp": "full", "layers": 2}),
+        ("solid", {"law": "neo-hookean", "grading": "uniform"}),
+    ],
+)
+def test_a_reference_is_in_balance_with_every_option(model, options):
+    found = models.solve(SCENES[LOADED], model, elements=2, **options)
+    assert found.status is Status.CONVERGED and found.balance.allowed <= SHARP * found.balance.size
 
 
 @pytest.mark.parametrize("options", [{"weights": "full"}, {"precision": "single"}, {"branch": "stable"}])

@@ -100,11 +100,10 @@ def _weight_moment(scene: Scene, surface: Surface, edge: OnEdge) -> np.ndarray:
         np.einsum("kg,gi,kic->c", weights, _VALUE, values[edge.rod.places])
         for values in (edge.position, edge.director)
     )
-    chains = [c for name, c in scene.named_actuators().items() if name in edge.rod.names]
     axes = [
-        c.line_density * (line + c.axis_height(scene.sheet.thickness) * director)
-        for c in chains
-        if isinstance(c, Chain)
+        chain.line_density * (line + chain.axis_height(scene.sheet.thickness) * director)
+        for name, chain in scene.named_actuators().items()
+        if name in edge.rod.names and isinstance(chain, Chain)
     ]
     return np.cross(np.sum(axes, axis=0), scene.gravity.last_acceleration)
 

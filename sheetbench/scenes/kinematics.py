@@ -27,24 +27,19 @@ from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Symmetric
 from sheetbench.scenes.tables import PiecewiseLinear
 
 UP = np.array([0.0, 0.0, 1.0])
-_CROSS = np.cross(np.eye(3)[:, None], np.eye(3)[None]).swapaxes(1, 2)  # [e_i]× of the three axes
+_CROSS = np.cross(np.eye(3)[:, None], np.eye(3)[None]).swapaxes(1, 2).reshape(3, 9)  # [e]× of the axes
 
 
 @dataclass(frozen=True)
 class Placed:
-    """Where k points of an edge are: displacement u (k, 3) [m], rotation θ (k, 3) or of all (3,) [rad]."""
+    """Where k points of an edge are: displacement u (k, 3) [m], turn R − I (k, 3, 3) or of all (3, 3)."""
 
     displacement: np.ndarray
-    rotation: np.ndarray
-
-    @property
-    def turn(self) -> np.ndarray:
-        """R(θ) − I, (…, 3, 3)."""
-        return _turn(self.rotation)
+    turn: np.ndarray
 
     @property
     def director(self) -> np.ndarray:
-        """The director's change, (…, 3)."""
+        """The director's change, (k, 3) or (3,)."""
         return self.turn[..., 2]
 
     def lifted(self, height: np.ndarray) -> np.ndarray:
@@ -68,7 +63,7 @@ class BentEdge:
         half = 0.5 * kappa * s
         # sin κs/κ − s and (1 − cos κs)/κ by sinc, which has no trouble at κ = 0
         across, rise = s * (np.sinc(2.0 * half / np.pi) - 1.0), s * np.sin(half) * np.sinc(half / np.pi)
-        return Placed(np.outer(across, self._along) + np.outer(rise, UP), self._rotation(kappa * s))
+        return Placed(np.outer(across, self._along) + np.outer(rise, UP), _turn(self._rotation(kappa * s)))
 
     def linear(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Displacement [m] and change of director, (k, 3), to first order in the load factor, at 1."""
@@ -89,7 +84,7 @@ class TiltedEdge:
 
     def placed(self, points: np.ndarray, load_factor: float = 1.0) -> Placed:
         """Where plan points (k, 2) [m] are."""
-        return Placed(np.zeros((len(points), 3)), load_factor * self._rotation)
+        return Placed(np.zeros((len(points), 3)), _turn(load_factor * self._rotation))
 
     def linear(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Displacement (k, 3) [m] and change of director (3,), to first order in the load factor, at 1."""
@@ -108,9 +103,9 @@ class MovedEdge:
 
     def placed(self, points: np.ndarray, load_factor: float = 1.0, time: float | None = None) -> Placed:
         """Where plan points (k, 2) [m] are."""
-        rotation = load_factor * self._rotation.at(time)
-        turned = (points - self._middle) @ _turn(rotation)[:, :2].T
-        return Placed(load_factor * self._displacement.at(time) + turned, rotation)
+        turn = _turn(load_factor * self._rotation.at(time))
+        turned = (points - self._middle) @ turn[:, :2].T
+        return Placed(load_factor * self._displacement.at(time) + turned, turn)
 
     def linear(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Displacement (k, 3) [m] and change of director (3,), to first order in the load factor, at 1."""
@@ -151,7 +146,7 @@ def _middle(rod: Curved, supports: tuple[AnySupport, ...], sheet: Sheet) -> floa
 
 def _cross(rotation: np.ndarray) -> np.ndarray:
     """[θ]× of vectors (…, 3), (…, 3, 3)."""
-    return np.tensordot(rotation, _CROSS, axes=1)
+    return (rotation @ _CROSS).reshape(*rotation.shape, 3)
 
 
 def _turn(rotation: np.ndarray) -> np.ndarray:
@@ -166,7 +161,7 @@ def _angular_velocity(rotation: np.ndarray, rate: np.ndarray) -> np.ndarray:
     """ω (3,) [rad/s] of a rotation vector (3,) and its rate."""
     sine, versine = _coefficients(rotation)
     along = (1.0 - sine) / max(rotation @ rotation, np.finfo(float).tiny) * (rotation @ rate)
-    omega: np.ndarray = sine * rate + versine * np.cross(rotation, rate) + along * rotation
+    omega: np.ndarray = sine * rate + versine * (_cross(rotation) @ rate) + along * rotation
     return omega
 
 

@@ -39,6 +39,9 @@ class Midpoint(Integrator):
         coupling = system.coupling
         algebraic = coupling.algebraic if coupling is not None else np.zeros((1, 1), dtype=bool)
 
+        moved = system.place(time) - system.place(state.time)
+        jump = moved / h - system.place_rate(state.time)
+
         def mean(u: np.ndarray) -> np.ndarray:
             return np.where(algebraic, u, 0.5 * (state.u + u))
 
@@ -47,8 +50,8 @@ class Midpoint(Integrator):
 
         def residual(u: np.ndarray) -> np.ndarray:
             rate = velocity(u)
-            inertia: np.ndarray = (system.mass @ ((2.0 / h) * (rate - state.v)).ravel()).reshape(-1, 3)
-            inertia[system.placed] = 0.0  # it does not reach the unknowns, and its work is counted apart
+            gained = rate - state.v - jump  # what is prescribed has its work apart
+            inertia: np.ndarray = (system.mass @ ((2.0 / h) * gained).ravel()).reshape(-1, 3)
             force = inertia + system.average_elastic(state.u, u, middle)
             system.damping.add_force(mean(u), rate, force)
             return force - system.external(mean(u), middle)
@@ -63,7 +66,6 @@ class Midpoint(Integrator):
         def weigh(correction: np.ndarray) -> np.ndarray:
             return np.where(algebraic, 0.5 * correction, correction)
 
-        moved = system.place(time) - system.place(state.time)
         guess = state.u + moved
         free = state.v - system.place_rate(state.time) + 0.5 * h * state.a
         guess = guess + h * system.expand(system.contract(free))
@@ -71,7 +73,7 @@ class Midpoint(Integrator):
         rate = velocity(u)
         v = 2.0 * rate - state.v
         if system.moving:
-            v = v + system.place_rate(time) + system.place_rate(state.time) - (2.0 / h) * moved
+            v = v + system.place_rate(time) - system.place_rate(state.time) - 2.0 * jump
         power, _ = system.damping_force(mean(u), rate)
         after = State(time, u, v, (v - state.v) / h)
         resisting = residual(u) if system.moving else u
@@ -83,7 +85,7 @@ class Midpoint(Integrator):
         """Work of moving supports, commands and loads without a potential as the step itself has it."""
         system, done = self.system, 0.0
         if system.moving:
-            done += float(np.sum(exerted * moved)) + system.kinetic_of_placed(before, after)
+            done += float(np.sum(exerted * moved)) + system.kinetic_of_placed(before.time, after.time)
         middle = 0.5 * (before.time + after.time)
         if system.working:
             working = system.external(mean, middle) - system.problem.loads.dead

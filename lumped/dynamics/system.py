@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import scipy.sparse as sp
@@ -57,7 +58,6 @@ class System:
         algebraic = np.zeros((size, 3), dtype=bool) if self.coupling is None else self.coupling.algebraic
         self.algebraic = abs(self.transform).T @ algebraic.ravel() > 0.0
         self.moving_part = sp.csr_array(self.transform[:, np.flatnonzero(~self.algebraic)])
-        self.placed = (np.diff(self.transform.indptr) == 0).reshape(-1, 3)  # components that are g alone
         # every unknown is a component of u itself; bound and dependent components have several
         entries = self.moving_part.tocoo()
         single = np.bincount(entries.row, minlength=3 * size)[entries.row] == 1
@@ -66,6 +66,8 @@ class System:
         self._own[entries.col[identity]] = entries.row[identity]
         self.reduced_mass = sp.csc_array(self.moving_part.T @ self.mass @ self.moving_part)
         self.solve_mass = _mass_solver(self.reduced_mass)
+        # integrators ask for the same two moments several times a step
+        self.place, self.place_rate = lru_cache(4)(self._place), lru_cache(4)(self._place_rate)
         self._motions = self._support_motions()
         self.moving = bool(self._motions or (self.coupling is not None and self.coupling.moved.any()))
         self._still = problem.constraints.prescribed(1.0)
@@ -84,8 +86,8 @@ class System:
         """The actuators' commands at a time."""
         return Drive(1.0, time)
 
-    def place(self, time: float) -> np.ndarray:
-        """g(t), what supports and prescribed motions put in place, (size, 3) [m]."""
+    def _place(self, time: float) -> np.ndarray:
+        """g(t), what supports and prescribed motions put in place, (size, 3) [m]; not to be written to."""
         if not self.moving:
             return self._still
         g = self._still.copy()
@@ -95,7 +97,7 @@ class System:
             g += self.coupling.driven(self.drive(time))
         return g
 
-    def place_rate(self, time: float) -> np.ndarray:
+    def _place_rate(self, time: float) -> np.ndarray:
         """Velocity of g from this moment on, (size, 3) [m/s]."""
         g = np.zeros_like(self._still)
         if not self.moving:
@@ -194,11 +196,11 @@ class System:
         inertia: np.ndarray = (self.mass @ state.a.ravel()).reshape(-1, 3)
         return inertia - self.unbalanced(state.u, state.v, state.time)
 
-    def kinetic_of_placed(self, before: State, after: State) -> float:
-        """Kinetic energy [J] that the masses moved by prescription gained, which is work done on them."""
-        gained = after.v**2 - before.v**2
-        mass = np.repeat(self.mass.diagonal().reshape(-1, 3)[:, :1], 3, axis=1)
-        return 0.5 * float(np.sum((mass * gained)[self.placed]))
+    def kinetic_of_placed(self, start: float, end: float) -> float:
+        """Kinetic energy [J] that prescription gives the masses between two times [s], which is work done on
+        them: of ġ alone, since Tᵀ M ġ = 0."""
+        before, after = self.place_rate(start).ravel(), self.place_rate(end).ravel()
+        return 0.5 * float(after @ (self.mass @ after) - before @ (self.mass @ before))
 
     def work(self, before: State, after: State) -> float:
         """Work of moving supports, commands and loads without a potential in a step, by the trapezoidal rule
@@ -207,7 +209,7 @@ class System:
         if self.moving:
             moved = self.place(after.time) - self.place(before.time)
             done += 0.5 * float(np.sum((self.exerted(before) + self.exerted(after)) * moved))
-            done += self.kinetic_of_placed(before, after)
+            done += self.kinetic_of_placed(before.time, after.time)
         if self.working:
             mean = 0.5 * (self.external(before.u, before.time) + self.external(after.u, after.time))
             done += float(np.sum((mean - self.problem.loads.dead) * (after.u - before.u)))

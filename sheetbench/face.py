@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from comparisons.models import registry, springs
 from comparisons.models.candidate import Candidate
+from comparisons.models.grading import Grading, grading_of
 from comparisons.models.grids import Asked, scene_grid
 from sheetbench.choices import CALIBRATION, REFERENCES
 from sheetbench.scenes import AnyScene, History, Solution, scene_of
@@ -30,20 +31,25 @@ def calibrate(
     method: str = CALIBRATION,
     k: float | None = None,
     layer_distance: float | None = None,
+    grading: Grading = None,
     large: bool = False,
 ) -> Calibration:
     """Spring constants of a lattice for the scene's sheet and material, with the moduli that they meet.
 
     grid: 9 along the shorter side with near-square cells unless given; (nx, ny), (nx, ny, layers). method: a
     name of `lumped.CALIBRATIONS`; the fitted ones train on the scene. k [N/m] and layer_distance [m] are for
-    the methods that take them. Raises BadInput for what does not exist or go together, and unless `large` for
-    a fit that takes more memory than there is.
+    the methods that take them. grading: 0, cells of one size, to 1, finest at the edges, or "auto", as the
+    scene's layers need. Raises BadInput for what does not exist or go together, and unless `large` for a fit
+    that takes more memory than there is.
     """
     asked = scene_of(scene)
+    masses = scene_grid(asked, grid)
+    graded, _ = grading_of(asked, masses, grading, calibration=method, k=k, layer_distance=layer_distance)
     return springs.calibrate(
         asked.sheet,
         asked.material,
-        grid=scene_grid(asked, grid),
+        grid=masses,
+        grading=graded or 0.0,
         calibration=method,
         k=k,
         layer_distance=layer_distance,
@@ -55,9 +61,10 @@ def calibrate(
 def solve(scene: AnyScene, model: str = "lumped", **settings: Any) -> Solution:
     """The static answer of one model: "lumped", "plate", "shell", "solid", or a plug-in's name.
 
-    settings: of the lattice `grid`, `calibration`, `k`, `layer_distance`; of the references `elements`.
-    Raises SceneError for a scene that could float away, BadInput for a model or setting that does not exist
-    and for one that takes more memory than there is, unless `large = True`; a solve that fails is a status.
+    settings: of the lattice `grid`, `grading`, `calibration`, `k`, `layer_distance`; of the references
+    `elements`. Raises SceneError for a scene that could float away, BadInput for a model or setting that does
+    not exist and for one that takes more memory than there is, unless `large = True`; a solve that fails is a
+    status.
     """
     return registry.solve(scene_of(scene), model, **settings)
 
@@ -67,6 +74,7 @@ def simulate(
     duration: float,
     *,
     grid: Asked = None,
+    grading: Grading = None,
     calibration: str | None = None,
     **settings: Any,
 ) -> History:
@@ -74,7 +82,8 @@ def simulate(
 
     settings: those of `lumped.simulate`, as `integrator`, `step` [s], `every` [s].
     """
-    return registry.simulate(scene_of(scene), duration, grid=grid, calibration=calibration, **settings)
+    own: dict[str, Any] = {"grid": grid, "grading": grading, "calibration": calibration}
+    return registry.simulate(scene_of(scene), duration, **own, **settings)
 
 
 def tradeoff(

@@ -16,10 +16,10 @@ import fem_reference
 from comparisons.advice import probing
 from comparisons.advice import validation as advisor_study
 from comparisons.advice.advisor import Advice, advise
-from comparisons.advice.scales import scales
 from comparisons.advice.validation import scenes_at_random, study
 from comparisons.comparison.comparison import error
 from comparisons.models.registry import solve
+from comparisons.models.scales import scales
 from comparisons.runs.campaign import campaign
 from sheetbench import scenes
 from sheetbench.scenes import Clamped, Gravity, Scene, Solution

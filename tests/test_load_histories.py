@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 import fem_reference
 import lumped
-from comparisons.advice.scales import scales
+from comparisons.models.scales import scales
 from comparisons.models.symmetry import half, planes
 from lumped.dynamics import INTEGRATORS
 from lumped.dynamics.simulation import SAMPLES_PER_CHECKPOINT

@@ -1,6 +1,6 @@
 """The cheapest model that is good enough for a scene, or the most accurate one in a given time.
 
-Scales (`comparisons.advice.scales`) decide what may be left out; a few quick solves
+Scales (`comparisons.models.scales`) decide what may be left out; a few quick solves
 (`comparisons.advice.probing`) decide the rest. A model is adequate if its distance from the judge plus the
 judge's error bar is within the tolerance; where the bar leaves that open the judge is refined. Predicted
 error: the distance; predicted time: as measured here.
@@ -17,8 +17,8 @@ from typing import Any
 
 from comparisons.advice import tables
 from comparisons.advice.probing import Probing, Trial
-from comparisons.advice.scales import Scales, scales
 from comparisons.models.candidate import Candidate
+from comparisons.models.scales import Scales, scales
 from comparisons.report.report import Report
 from comparisons.report.work import Progress, silent
 from sheetbench.scenes import AnyScene, Scene, require_static, scene_of

@@ -6,6 +6,8 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from comparisons.comparison import tables as summary
 from comparisons.report.files import write_text
 from comparisons.report.report import Report
@@ -36,12 +38,13 @@ def report(calibration: Calibration, sheet: Sheet, material: Material) -> Report
     """What `sheetbench calibrate` shows of the springs for a sheet."""
     found = document(calibration)
     nx, ny, layers = found.get("grid", ("?", "?", "?"))
+    graded = f", grading {found['grading']:g}" if found.get("grading") else ""
     fitted = [f"the targets are met within {100 * found['fit']['residual']:.2g} %"] if "fit" in found else []
     return Report(
         name="calibration",
         page="table",
         title=f"{found['method']} calibration",
-        subtitle=f"of {nx} × {ny} × {layers} masses",
+        subtitle=f"of {nx} × {ny} × {layers} masses{graded}",
         lead=summary.sheet(sheet, material),
         document=found,
         tables=(springs(found), moduli(found), *([fit(found)] if "fit" in found else [])),
@@ -85,15 +88,19 @@ def fit(calibration: dict[str, Any]) -> Table:
 
 
 def springs(calibration: dict[str, Any]) -> Table:
-    """A row per family, and per direction where they differ; `calibration` as its `as_dict` gives it."""
+    """A row per family, and per direction where they differ, of unequal cells the softest and the stiffest;
+    `calibration` as its `as_dict` gives it."""
     rows = []
     for name, value in calibration["springs"].items():
         directions = value if isinstance(value, dict) else {"": value}
-        rows += [(f"{name} {axis}".strip(), _MEANINGS.get(name, ""), k) for axis, k in directions.items()]
+        for axis, k in directions.items():
+            ends = [float(np.min(k)), float(np.max(k))] if calibration.get("grading") else [k]
+            rows.append((f"{name} {axis}".strip(), _MEANINGS.get(name, ""), *ends))
+    headings = ("least", "largest") if calibration.get("grading") else ("stiffness",)
     columns = (
         Column("spring"),
         Column("what it is", prose=True),
-        Column("stiffness", "N/m", "N/m", 1.0, ".6g"),
+        *(Column(heading, "N/m", "N/m", 1.0, ".6g") for heading in headings),
     )
     said = f"layer distance {1e3 * calibration['layer_distance']:.6g} mm"
     return Table("Spring constants", columns, tuple(rows), "springs", text=said)
@@ -129,6 +136,8 @@ def moduli(calibration: dict[str, Any]) -> Table:
 def to_toml(calibration: dict[str, Any]) -> str:
     """The [springs] table for pasting into a scene, with the lattice that it is for; all digits."""
     lines = ["[springs]", f"grid = {list(calibration['grid'])}", f'masses = "{calibration["masses"]}"']
+    if calibration.get("grading"):
+        lines.append(f"grading = {_toml(calibration['grading'])}")
     for name, value in calibration["springs"].items():
         lines.append(f"{name} = {_toml(value)}")
     lines.append(f"layer_distance = {_toml(calibration['layer_distance'])}")
@@ -138,4 +147,6 @@ def to_toml(calibration: dict[str, Any]) -> str:
 def _toml(value: Any) -> str:
     if isinstance(value, dict):
         return "{ " + ", ".join(f"{axis} = {_toml(k)}" for axis, k in value.items()) + " }"
+    if isinstance(value, list):
+        return f"[{', '.join(map(_toml, value))}]"
     return repr(float(value))

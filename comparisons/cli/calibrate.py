@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Grid, Json, Large, LayerDistance, Out, Overwrite
+from comparisons.cli.options import Grading, Grid, Json, Large, LayerDistance, Out, Overwrite
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 
 
@@ -24,6 +25,7 @@ def command(
     ] = None,
     side: Annotated[str | None, typer.Option(metavar="M", help="Sides: 0.188 or 0.188x0.3 (x by y).")] = None,
     grid: Grid = None,
+    grading: Grading = None,
     method: Annotated[
         str,
         typer.Option(
@@ -54,7 +56,7 @@ def command(
     from comparisons.models.quantities import sides
     from comparisons.models.springs import calibrate
     from sheetbench.scenes.errors import BadInput
-    from sheetbench.scenes.grid import MASSES
+    from sheetbench.scenes.grid import MASSES, grid_of
 
     if toml and json:
         raise BadInput("--toml and --json: choose one")
@@ -65,15 +67,20 @@ def command(
     )
     about = {"sheet": sheet.model_dump(mode="json"), "material": material.model_dump(mode="json")}
     with finish("calibrate", json, out, overwrite, about=about) as end:
+        masses = parse_grid(sheet, grid) if grid is not None else grid_of(sheet, MASSES)
+        own = {"calibration": method, "k": k, "layer_distance": layer_distance}
+        graded, why = asked.grading(scene, sheet, material, masses, grading, own)
         found = calibrate(
             sheet,
             material,
-            grid=parse_grid(sheet, grid) if grid is not None else MASSES,
+            grid=masses,
             calibration=method,
             k=k,
             layer_distance=layer_distance,
+            grading=graded,
             training=asked.training(scene, sheet, material),
             large=large,
             progress=end.progress,
         )
+        found = replace(found, notes=(f"grading {graded:g}: {why}", *found.notes)) if why else found
         end(tables.report(found, sheet, material), instead=tables.to_toml(found.as_dict()) if toml else None)

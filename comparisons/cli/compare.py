@@ -9,6 +9,7 @@ import typer
 from comparisons.cli.options import (
     Calibration,
     Elements,
+    Grading,
     Grid,
     Json,
     K,
@@ -26,6 +27,7 @@ from sheetbench.choices import ELEMENTS, REFERENCE, REFERENCES, listed
 def command(
     scene: Scene,
     lumped: Grid = None,
+    grading: Grading = None,
     calibration: Calibration = None,
     k: K = None,
     layer_distance: LayerDistance = None,
@@ -68,6 +70,7 @@ def command(
     asked = load_static(scene)
     size, others = parse_elements(elements), [parse_model(text) for text in model or ()]
     given = {"--lumped": lumped, "--calibration": calibration, "--k": k, "--layer-distance": layer_distance}
+    given |= {"--grading": grading}
     check_auto(auto, tolerance, given)
     named = calibration is not None or k is not None
     models = {"--reference": reference, "--calibration": "named" if named else "open", "--auto": auto}
@@ -82,6 +85,7 @@ def command(
         found = compare(
             asked,
             grid=lumped,
+            grading=grading,
             calibration=calibration,
             k=k,
             layer_distance=layer_distance,

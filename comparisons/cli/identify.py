@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Calibration, Elements, Grid, Json, Large, Out, Overwrite, Scene
+from comparisons.cli.options import Calibration, Elements, Grading, Grid, Json, Large, Out, Overwrite, Scene
 from sheetbench.choices import ELEMENTS
 
 
@@ -31,6 +31,7 @@ def command(
     ] = "young",
     model: Annotated[str, typer.Option(metavar="MODEL", help="lumped, shell or solid.")] = "lumped",
     lumped: Grid = None,
+    grading: Grading = None,
     calibration: Calibration = None,
     elements: Elements = str(ELEMENTS),
     offset: Annotated[
@@ -67,6 +68,7 @@ def command(
                 items(unknown),
                 model=model,
                 grid=lumped,
+                grading=grading,
                 calibration=calibration,
                 elements=parse_elements(elements),
                 offset=offset,

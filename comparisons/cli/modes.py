@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Calibration, Elements, Grid, Json, Large, Out, Overwrite, Scene
+from comparisons.cli.options import Calibration, Elements, Grading, Grid, Json, Large, Out, Overwrite, Scene
 from sheetbench.choices import ELEMENTS, REFERENCE, REFERENCES, listed
 
 
@@ -14,6 +14,7 @@ def command(
     scene: Scene,
     count: Annotated[int, typer.Option(metavar="N", help="How many modes, lowest first.")] = 10,
     lumped: Grid = None,
+    grading: Grading = None,
     calibration: Calibration = None,
     reference: Annotated[
         list[str] | None,
@@ -48,6 +49,7 @@ def command(
                 asked,
                 count=count,
                 grid=lumped,
+                grading=grading,
                 calibration=calibration,
                 references=reference or [REFERENCE],
                 elements=parse_elements(elements),

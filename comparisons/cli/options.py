@@ -29,6 +29,16 @@ Grid = Annotated[
         show_default=False,
     ),
 ]
+Grading = Annotated[
+    str | None,
+    typer.Option(
+        "--grading",
+        metavar="G",
+        help="How much finer the lattice is at its edges, 0 (cells of one size) to 1; auto: as the scene's "
+        "layers need. 0 unless given.",
+        show_default=False,
+    ),
+]
 Overwrite = Annotated[
     bool,
     typer.Option(

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Calibration, Grid, Json, Large, Out, Overwrite, Scene
+from comparisons.cli.options import Calibration, Grading, Grid, Json, Large, Out, Overwrite, Scene
 from sheetbench.choices import INTEGRATOR, INTEGRATORS
 
 FRAMES = 100
@@ -29,6 +29,7 @@ def command(
         ),
     ] = INTEGRATOR,
     lumped: Grid = None,
+    grading: Grading = None,
     calibration: Calibration = None,
     every: Annotated[
         float | None,
@@ -63,11 +64,12 @@ def command(
     if measured is not None:
         truth = read_measured(measured, list(asked.probes))
         require_within(truth, duration, measured)
-    lattice = Candidate("lumped", {"grid": lumped, "calibration": calibration})
+    lattice = Candidate("lumped", {"grid": lumped, "grading": grading, "calibration": calibration})
     check(asked, lattice, large)
     run = {
         "--integrator": integrator,
         "--lumped": lumped,
+        "--grading": grading,
         "--calibration": calibration,
         "--step": step,
         "--every": every,
@@ -85,6 +87,7 @@ def command(
             asked,
             duration,
             grid=lumped,
+            grading=grading,
             calibration=calibration,
             large=large,
             step=step,

@@ -8,7 +8,18 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from comparisons.cli import options
-from comparisons.cli.options import Json, Large, Models, Out, Overwrite, Retry, Scheduler, Symmetry, Wait
+from comparisons.cli.options import (
+    Grading,
+    Json,
+    Large,
+    Models,
+    Out,
+    Overwrite,
+    Retry,
+    Scheduler,
+    Symmetry,
+    Wait,
+)
 from sheetbench.choices import CALIBRATION, CALIBRATIONS, INTEGRATORS, REFERENCES, listed
 
 if TYPE_CHECKING:
@@ -31,6 +42,7 @@ def command(
             show_default=False,
         ),
     ] = None,
+    grading: Grading = None,
     calibration: Annotated[
         str, typer.Option(metavar="NAMES", help=f"Calibrations of every grid: {listed(CALIBRATIONS)}.")
     ] = f"{CALIBRATION},uniform",
@@ -93,12 +105,14 @@ def command(
     measure: Callable[..., Tradeoff | DynamicTradeoff]
     if duration is not None:
         asked = load(scene)
-        measure = of_motion(asked, duration, lumped, integrator)
+        measure = of_motion(asked, duration, lumped, integrator, grading)
     else:
         asked = load_static(scene)
         grids = GRIDS if lumped is None else lumped
         meshes = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
-        measure = of_statics(asked, grids, calibration, meshes, model or (), symmetry, elements, repeats)
+        measure = of_statics(
+            asked, grids, calibration, meshes, model or (), symmetry, elements, repeats, grading
+        )
     with finish("tradeoff", json, out, overwrite, scene=asked) as end:
         with end.campaign(scheduler, wait) as (store, pool, progress):
             found = measure(

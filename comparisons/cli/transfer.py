@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Large, Out, Overwrite, Retry
+from comparisons.cli.options import Grading, Json, Large, Out, Overwrite, Retry
 
 
 def command(
@@ -26,6 +26,7 @@ def command(
             help="Masses along the shorter side, 4 n + 1, coarsest first.",
         ),
     ] = "9,17,33",
+    grading: Grading = None,
     scenes: Annotated[
         str | None,
         typer.Option(metavar="NAMES", help="Scenes of the study; all unless given.", show_default=False),
@@ -68,6 +69,7 @@ def command(
                 store,
                 methods=calibrations,
                 grids=sizes,
+                grading=grading,
                 scenes=named,
                 parts=parts,
                 elements=elements,

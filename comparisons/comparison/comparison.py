@@ -21,6 +21,7 @@ import numpy as np
 from comparisons.comparison import tables
 from comparisons.comparison.error_bar import CHEAP, ErrorBar, error_bar
 from comparisons.models.candidate import Candidate
+from comparisons.models.grading import Grading
 from comparisons.models.grids import Asked, Elements
 from comparisons.models.plugins import shown_name
 from comparisons.models.registry import answer, check, check_reference
@@ -194,6 +195,7 @@ def compare(
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,
+    grading: Grading = None,
     reference: str = REFERENCE,
     elements: Elements = 16,
     uncertainty: bool | None = None,
@@ -210,14 +212,16 @@ def compare(
     grid: masses, 9 by default: a number is along the shorter side, with near-square cells; (nx, ny) or "9x13"
     along x and y; (nx, ny, layers). calibration: by default `consistent`, and then the uniform calibration is
     solved too and shown alongside as `lumped-uniform`; where `k` [N/m] is given the default is `uniform`, and
-    where the scene brings its own [springs] they are used alone. layer_distance [m]. elements: along the
-    shorter side, or (nx, ny). uncertainty: find the reference's error bar on coarser meshes too; for plate
-    and shell it is unless False, for others if True. symmetry: solve a half or a quarter where scene and grid
-    mirror themselves; solids are solved whole. choice: a model that takes the lattice's place
-    (`comparisons.advice.advisor`); others: models that stand in the table too, plug-ins or our own. A name
-    that is taken is changed. large: even where a model takes more memory than there is. progress: told what
-    is being done, and of every iteration (`comparisons.report.work`). `starting` and `finished` are called
-    before and after each model, so that a caller can keep what is done.
+    where the scene brings its own [springs] they are used alone. layer_distance [m]. grading: 0, cells of one
+    size, to 1, finest at the edges, or "auto", as the scene's layers need (`comparisons.models.grading`); the
+    companion's cells are of one size. elements: along the shorter side, or (nx, ny). uncertainty: find the
+    reference's error bar on coarser meshes too; for plate and shell it is unless False, for others if True.
+    symmetry: solve a half or a quarter where scene and grid mirror themselves; solids are solved whole.
+    choice: a model that takes the lattice's place (`comparisons.advice.advisor`); others: models that stand
+    in the table too, plug-ins or our own. A name that is taken is changed. large: even where a model takes
+    more memory than there is. progress: told what is being done, and of every iteration
+    (`comparisons.report.work`). `starting` and `finished` are called before and after each model, so that a
+    caller can keep what is done.
 
     Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
     solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.
@@ -230,12 +234,13 @@ def compare(
     judge = Candidate(reference, {"elements": elements, **(mirrored if reference != "solid" else {})})
     method = "uniform" if calibration is None and k is not None else calibration
     springs = {"calibration": method, "k": k, "layer_distance": layer_distance}
-    first = Candidate("lumped", {"grid": grid, **springs, **mirrored}) if choice is None else choice
+    own = {"grid": grid, "grading": grading, **springs, **mirrored}
+    first = Candidate("lumped", own) if choice is None else choice
     for candidate in (first, judge, *others):
         check(scene, candidate, large)
     named = {first.model if first.model != reference else f"{first.model}-advised": first, reference: judge}
     if choice is None and method is None and not has_own_springs(scene, **springs):
-        named[COMPANION] = first.but(calibration="uniform")
+        named[COMPANION] = first.but(calibration="uniform", grading=None)
     for other in others:
         named[_unlike(shown_name(other.model), named)] = other
     solutions = []

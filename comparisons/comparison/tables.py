@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from comparisons.models.grading import told
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 from comparisons.report.vtk import plan_mesh, write_mesh, write_solution
@@ -43,6 +44,7 @@ def report(comparison: Comparison, advice: Advice | None = None) -> Report:
         printed=(moved, cost),
         notes=(
             " · ".join(solution.label for solution in comparison.solutions),
+            *dict.fromkeys(said for s in comparison.solutions for said in told(s.settings)),
             *uncertainty(comparison),
             explanation(comparison),
             *chosen,

@@ -38,6 +38,7 @@ from comparisons.identification.prediction import (
 )
 from comparisons.identification.unknowns import DAMPING, Unknown, unknown
 from comparisons.models.candidate import Candidate
+from comparisons.models.grading import Grading, grading_of
 from comparisons.models.grids import Asked, Elements, scene_grid
 from comparisons.models.registry import check, check_reference
 from comparisons.models.sizes import has_room
@@ -127,6 +128,7 @@ def identify(
     model: str = "lumped",
     grid: Asked = None,
     calibration: str | None = None,
+    grading: Grading = None,
     elements: Elements = ELEMENTS,
     offset: float = 0.0,
     refine: bool = True,
@@ -135,7 +137,8 @@ def identify(
 ) -> Identification:
     """The unknowns of these names, from measurements or a file of them (`measurements.read`).
 
-    grid (as `comparisons.models.grids` reads it), calibration: of the lattice; elements: of a reference;
+    grid (as `comparisons.models.grids` reads it), calibration, grading (a number, or "auto" by the scene's
+    own values, see `comparisons.models.grading`): of the lattice; elements: of a reference;
     offset [m]: where a cloud was taken along the surface's normal, 0 on the mid-surface. refine: whether to
     look at a finer lattice too (not for motions). large: even where a model takes more memory than there is.
     progress: told of every evaluation, and of a reference's solves.
@@ -148,14 +151,16 @@ def identify(
     measured = read(Path(measured), scene) if isinstance(measured, str | Path) else measured
     names = [names] if isinstance(names, str) else names
     unknowns = tuple(unknown(scene, name) for name in names)
-    _check(measured, unknowns, model, calibration, elements)
+    _check(measured, unknowns, model, calibration, grading, elements)
     size = {"grid": grid} if model == "lumped" else {"elements": elements}
     check(scene, Candidate(model, size), large)
     if offset and not isinstance(measured, Surface):
         raise BadInput(
             f"offset = {offset:g} m: of the points of a cloud from the mid-surface; displacements are its own"
         )
-    predict, settings, axes = _predictor(scene, measured, model, grid, calibration, elements, progress)
+    predict, settings, axes = _predictor(
+        scene, measured, model, grid, calibration, grading, elements, progress
+    )
     misfit = Misfit(measured, axes, offset)
     kept: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
     count = 0
@@ -204,7 +209,9 @@ def identify(
         finer = (2 * nx - 1, 2 * ny - 1, layers)
         if large or has_room(scene, Candidate(model, {"grid": finer})):
             progress("looking at cells half as large")
-            steps = _refinement(scene, measured, unknowns, best.x, finer, calibration, offset)
+            steps = _refinement(
+                scene, measured, unknowns, best.x, finer, calibration, settings["grading"], offset
+            )
         else:
             unseen = ["cells half as large take more memory than is free: the grid's error is not known"]
     found = {
@@ -266,11 +273,12 @@ def _refinement(
     x: np.ndarray,
     finer: Grid,
     calibration: str | None,
+    grading: float,
     offset: float,
 ) -> list[float | None]:
     """The Gauss–Newton step of x on a finer lattice, of what the data see; None where that lattice has no
     answer."""
-    predict, _, axes = _predictor(scene, measured, "lumped", finer, calibration, 0)
+    predict, _, axes = _predictor(scene, measured, "lumped", finer, calibration, grading, 0)
     misfit = Misfit(measured, axes, offset)
     try:
         residuals, slopes = misfit.of(predict(unknowns, x, misfit.asked))
@@ -289,6 +297,7 @@ def _check(
     unknowns: tuple[Unknown, ...],
     model: str,
     calibration: str | None,
+    grading: Grading,
     elements: Elements,
 ) -> None:
     names = [u.name for u in unknowns]
@@ -298,7 +307,7 @@ def _check(
     if model not in MODELS:
         raise BadInput(f"model = '{model}': unknown, choose one of {', '.join(MODELS)}")
     if model == "lumped":
-        check_lattice(calibration, None, None)
+        check_lattice(calibration, None, None, grading)
         if CALIBRATIONS[calibration or CALIBRATION].fitted:
             raise BadInput(f"calibration = '{calibration}': its springs do not follow from what is sought")
     else:
@@ -320,17 +329,21 @@ def _predictor(
     model: str,
     grid: Asked,
     calibration: str | None,
+    grading: Grading,
     elements: Elements,
     progress: Progress = silent,
 ) -> tuple[Predictor, dict[str, Any], tuple[np.ndarray, np.ndarray]]:
     """The predictor, its settings, and the plan grid on which it gives a whole surface."""
     if model == "lumped":
         masses = scene_grid(scene, grid)
-        settings = {"grid": list(masses), "calibration": calibration or CALIBRATION}
+        number, why = grading_of(scene, masses, grading, calibration=calibration)
+        graded = number or 0.0
+        settings = {"grid": list(masses), "calibration": calibration or CALIBRATION, "grading": graded}
+        settings |= {"grading_reason": why} if why else {}
         axes = surface.plan_grid(scene.sheet.lengths, masses[:2])
         if isinstance(measured, Displacements) and measured.time is not None:
-            return motion(scene, masses, calibration, measured.time), settings, axes
-        return lattice(scene, masses, calibration), settings, axes
+            return motion(scene, masses, calibration, measured.time, graded), settings, axes
+        return lattice(scene, masses, calibration, graded), settings, axes
     along_x, along_y = near_square(scene.sheet, elements) if isinstance(elements, int) else elements
     axes = surface.plan_grid(scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
     return reference(scene, model, elements, progress), {"elements": [along_x, along_y]}, axes

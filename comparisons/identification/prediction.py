@@ -52,13 +52,13 @@ def set_in(scene: Scene, unknowns: Sequence[Unknown], x: np.ndarray) -> Scene:
     return scene
 
 
-def lattice(scene: Scene, grid: Grid, calibration: str | None) -> Predictor:
+def lattice(scene: Scene, grid: Grid, calibration: str | None, grading: float = 0.0) -> Predictor:
     """Statics through the lattice."""
     import lumped
 
     def predict(unknowns: Sequence[Unknown], x: np.ndarray, points: np.ndarray) -> Prediction:
         here = set_in(scene, unknowns, x)
-        springs = calibrate(here.sheet, here.material, grid=grid, calibration=calibration)
+        springs = calibrate(here.sheet, here.material, grid=grid, calibration=calibration, grading=grading)
         try:
             found = lumped.sensitivity(here, springs, [u.name for u in unknowns], points)
         except BadInput as error:
@@ -81,7 +81,9 @@ def reference(scene: Scene, model: str, elements: Elements, progress: Progress =
     return _by_differences(scene, displacement, STATIC_STEP)
 
 
-def motion(scene: Scene, grid: Grid, calibration: str | None, time: np.ndarray) -> Predictor:
+def motion(
+    scene: Scene, grid: Grid, calibration: str | None, time: np.ndarray, grading: float = 0.0
+) -> Predictor:
     """Motion of the lattice from rest; row i of the points is asked at time[i] [s]."""
     from scipy.interpolate import CubicSpline
 
@@ -91,7 +93,7 @@ def motion(scene: Scene, grid: Grid, calibration: str | None, time: np.ndarray) 
         places, which = np.unique(points, axis=0, return_inverse=True)
         probes = {f"m{i}": (float(x), float(y)) for i, (x, y) in enumerate(places)}
         here = here.replace(probes=probes)
-        springs = calibrate(here.sheet, here.material, grid=grid, calibration=calibration)
+        springs = calibrate(here.sheet, here.material, grid=grid, calibration=calibration, grading=grading)
         run = lumped.simulate(here, springs, float(time.max()))
         if run.status is not Status.CONVERGED:
             raise NotReached(f"{run.label}: {run.status}: {run.message}")

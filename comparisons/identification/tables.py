@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.identification.measurements import Displacements
+from comparisons.models.grading import told
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table, unit
 
@@ -32,7 +33,7 @@ def report(found: Identification, file: str) -> Report:
         document=found.as_dict(),
         tables=(unknowns(found), residuals(found)),
         printed=(unknowns(found), worst(found)),
-        notes=(explanation(found),),
+        notes=(*told(found.settings), explanation(found)),
         complaints=(*found.warnings, *unended),
         pictures=(Picture(("identification.png", "identification.pdf"), partial(_picture, found)),),
         scene=found.scene,

@@ -16,6 +16,7 @@ from typing import Any
 
 from comparisons.models import plugins
 from comparisons.models.candidate import Candidate
+from comparisons.models.grading import Grading, number
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.sizes import require_room, size
 from comparisons.models.springs import (
@@ -67,13 +68,14 @@ def lattice(scene: Scene, *, linear: bool = False, symmetry: bool = False, **set
     """
     import lumped
 
-    springs = scene_springs(scene, **settings)
+    springs, because = scene_springs(scene, **settings)
     axes = cut_axes(scene, springs.grid, masses=True) if symmetry else []
     for axis in axes:
         springs = springs.halved(axis)
 
     def answer(part: Scene, watch: Watch | None) -> Solution:
-        return lumped.solve(part, springs, linear=linear, progress=watch)
+        solution = lumped.solve(part, springs, linear=linear, progress=watch)
+        return replace(solution, settings={**solution.settings, **because})
 
     return lambda watch: _by_parts(scene, axes, partial(answer, watch=watch))
 
@@ -83,7 +85,7 @@ def simulate(
     duration: float,
     *,
     grid: Asked = None,
-    grading: float | None = None,
+    grading: Grading = None,
     calibration: str | None = None,
     large: bool = False,
     **settings: Any,
@@ -95,8 +97,9 @@ def simulate(
     import lumped
 
     check(scene, Candidate("lumped", {"grid": grid, "calibration": calibration, "grading": grading}), large)
-    springs = scene_springs(scene, grid=grid, grading=grading, calibration=calibration)
-    return lumped.simulate(scene, springs, duration, **settings)
+    springs, because = scene_springs(scene, grid=grid, grading=grading, calibration=calibration)
+    history = lumped.simulate(scene, springs, duration, **settings)
+    return replace(history, settings={**history.settings, **because})
 
 
 def solve_reference(
@@ -245,7 +248,7 @@ def _check_settings(scene: Scene, candidate: Candidate) -> None:
         if has_own_springs(scene, **settings):
             import lumped
 
-            lumped.given(scene, grid, settings.get("grading"))
+            lumped.given(scene, grid, number(settings.get("grading")))
     elif model in MODELS:
         own = {name: value for name, value in settings.items() if name not in ("elements", "symmetry")}
         check_reference(model, settings.get("elements", 16), own)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from warnings import warn
 
 from comparisons.models.candidate import Candidate
+from comparisons.models.grading import Grading, grading_of, number
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.sizes import require_room
 from comparisons.report.work import Progress, silent
@@ -80,6 +81,7 @@ def _calibrate(
 
 
 def is_fitted(calibration: str | None) -> bool:
+    """Whether a calibration, the usual one for None, is fitted to targets."""
     return CALIBRATIONS[calibration or CALIBRATION].fitted
 
 
@@ -93,17 +95,23 @@ def require_room_to_fit(scene: Scene, grid: int | Sequence[int]) -> None:
 
 
 def check_lattice(
-    calibration: str | None, k: float | None, layer_distance: float | None, grading: float | None = None
+    calibration: str | None, k: float | None, layer_distance: float | None, grading: Grading = None
 ) -> None:
-    """Raise BadInput for a calibration that does not exist, k or layer_distance not above zero, or a grading
-    that is not from 0 to 1."""
-    if grading is not None and not (isinstance(grading, int | float) and 0.0 <= grading <= 1.0):
-        raise BadInput(f"grading = {grading}: a number from 0 (cells of one size) to 1 (finest at the edges)")
+    """Raise BadInput for a calibration that does not exist, k or layer_distance not above zero, a grading
+    that is not one or that the calibration does not take."""
     if calibration is not None:
         require_choice("calibration", calibration, CALIBRATIONS)
     for name, value, unit in (("k", k, "N/m"), ("layer-distance", layer_distance, "m")):
         if value is not None and not (value > 0 and isfinite(value)):
             raise BadInput(f"{name} = {value:g} {unit}: must be greater than 0 and finite")
+    if graded := number(grading):
+        takers = [name for name, method in CALIBRATIONS.items() if "grading" in method.takes]
+        method = calibration or ("uniform" if k is not None else CALIBRATION)
+        if method not in takers:
+            raise BadInput(
+                f"grading = {graded:g}: the calibration {method} is for cells of one size; "
+                f"cell by cell are {', '.join(takers)}"
+            )
 
 
 def has_own_springs(scene: Scene, **settings: Any) -> bool:
@@ -113,14 +121,19 @@ def has_own_springs(scene: Scene, **settings: Any) -> bool:
 
 
 def scene_springs(
-    scene: Scene, *, grid: Asked = None, grading: float | None = None, **settings: Any
-) -> Calibration:
+    scene: Scene, *, grid: Asked = None, grading: Grading = None, **settings: Any
+) -> tuple[Calibration, dict[str, str]]:
     """Springs of a lattice for a scene, with settings of `calibrate` that `check` has seen: its own [springs]
-    if it has them and no calibration, k or layer distance is given, on their own grid and grading. grid: as
-    `comparisons.models.grids` reads it; grading: 0 unless given."""
+    if it has them and no calibration, k or layer distance is given, on their own grid and grading.
+
+    grid: as `comparisons.models.grids` reads it; grading: 0 unless given, or "auto"; the reason for what that
+    has chosen comes with the springs, as a setting (`comparisons.models.grading`).
+    """
     import lumped
 
     masses = scene_grid(scene, grid)
     if has_own_springs(scene, **settings):
-        return lumped.given(scene, masses, grading)
-    return _calibrate(scene.sheet, scene.material, masses, grading=grading or 0.0, **settings)
+        return lumped.given(scene, masses, number(grading)), {}
+    graded, why = grading_of(scene, masses, grading, **settings)
+    found = _calibrate(scene.sheet, scene.material, masses, grading=graded or 0.0, **settings)
+    return found, {"grading_reason": why} if why else {}

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, cast, get_args, overload
 import numpy as np
 
 from comparisons.models.candidate import Candidate
+from comparisons.models.grading import Grading
 from comparisons.models.grids import Asked, Elements
 from comparisons.models.registry import check, check_reference
 from comparisons.models.sizes import size
@@ -107,6 +108,7 @@ def spectra(
     *,
     count: int = 10,
     grid: Asked = None,
+    grading: Grading = None,
     calibration: str | None = None,
     references: Sequence[str] = (REFERENCE,),
     elements: Elements = ELEMENTS,
@@ -125,7 +127,8 @@ def spectra(
     scene = scene if isinstance(scene, Scene) else load(scene)
     if count < 1:
         raise BadInput(f"--count = {count}: at least 1")
-    asked = [Candidate("lumped", {"grid": grid, "calibration": calibration})]
+    lattice: dict[str, Any] = {"grid": grid, "grading": grading, "calibration": calibration}
+    asked = [Candidate("lumped", lattice)]
     for reference in references:
         check_reference(reference, elements)
         asked.append(Candidate(reference, {"elements": elements}))
@@ -136,8 +139,8 @@ def spectra(
         progress(Work(f"modes of {candidate.model}", size(scene, candidate)))
 
     starting(asked[0])
-    springs = scene_springs(scene, grid=grid, calibration=calibration)
-    found = [_lattice(scene, count, springs, around)]
+    springs, because = scene_springs(scene, **lattice)
+    found = [_lattice(scene, count, springs, because, around)]
     for candidate in asked[1:]:
         starting(candidate)
         found.append(_reference(scene, candidate.model, count, elements, around))
@@ -155,7 +158,9 @@ def _sag(scene: Scene, springs: Calibration) -> float | None:
     return float(np.abs(solution.mesh.point_data["displacement"]).max())
 
 
-def _lattice(scene: Scene, count: int, springs: Calibration, about: About) -> Spectrum:
+def _lattice(
+    scene: Scene, count: int, springs: Calibration, because: dict[str, str], about: About
+) -> Spectrum:
     import lumped
 
     begin = perf_counter()
@@ -163,8 +168,13 @@ def _lattice(scene: Scene, count: int, springs: Calibration, about: About) -> Sp
     seconds = perf_counter() - begin
     return Spectrum(
         model="lumped",
-        label=f"lumped {'×'.join(str(n) for n in springs.grid)} {springs.method}",
-        settings={"grid": list(springs.grid), "calibration": springs.method},
+        label=f"lumped {springs.title}",
+        settings={
+            "grid": list(springs.grid),
+            "calibration": springs.method,
+            "grading": springs.grading,
+            **because,
+        },
         frequencies=modes.frequencies,
         rigid=modes.rigid,
         unknowns=modes.unknowns,

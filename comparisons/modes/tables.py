@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from comparisons.models.grading import told
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 
@@ -83,7 +84,7 @@ def complaints(found: Spectra) -> list[str]:
 
 def notes(found: Spectra) -> list[str]:
     """What the table does not say: labels, rigid motions left out, actuators left out."""
-    said = [" · ".join(spectrum.label for spectrum in found)]
+    said = [" · ".join(spectrum.label for spectrum in found), *told(found[0].settings)]
     if found[0].rigid:
         said.append(f"{found[0].rigid} rigid motions, free of any frequency, are left out")
     if found.scene.actuators:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
+from comparisons.models.grading import told
 from comparisons.motion import frames
 from comparisons.motion.history import Measured, as_dict, left_out, series, summary
 from comparisons.report.files import write_text
@@ -35,7 +36,7 @@ def report(
         lead=f"{history.label}, {history.integrator}, {history.steps} steps",
         document=as_dict(history, truth),
         tables=(summary(history, truth),),
-        notes=(*([earlier] if resumed else []), balance(history)),
+        notes=(*([earlier] if resumed else []), *told(history.settings), balance(history)),
         complaints=(
             *(() if complete else (f"{history.status}: {history.message}",)),
             *left_out(history, truth),

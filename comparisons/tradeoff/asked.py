@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 from comparisons.models.candidate import Candidate, items, lattices, parse_model, references
+from comparisons.models.grading import Grading, graded
 from comparisons.models.grids import parse_elements
 from comparisons.tradeoff.motion import DynamicTradeoff, dynamic_tradeoff
 from comparisons.tradeoff.statics import Tradeoff, tradeoff
@@ -23,13 +24,15 @@ def of_statics(
     symmetry: bool = False,
     elements: str | None = None,
     repeats: int = 5,
+    grading: Grading = None,
 ) -> Callable[..., Tradeoff]:
     """The trade of lattices, of references on meshes by name, and of models as `parse_model` reads them.
 
-    symmetry: of all but solids and the models; elements: of the reference that all are held against.
+    symmetry: of all but solids and the models; elements: of the reference that all are held against;
+    grading: of the lattices whose calibration takes one.
     Raises BadInput for what cannot be read, no model at all, and a reference of a single element.
     """
-    candidates = lattices(scene.sheet, items(grids), items(calibrations))
+    candidates, reasons = graded(scene, lattices(scene.sheet, items(grids), items(calibrations)), grading)
     for name, sizes in meshes.items():
         candidates += references(name, items(sizes))
     if symmetry:
@@ -38,7 +41,7 @@ def of_statics(
     if not candidates:
         raise BadInput("no model left to measure")
     judge = None if elements is None else Candidate(REFERENCE, {"elements": _halved_too(elements)})
-    return partial(tradeoff, scene, candidates, reference=judge, repeats=repeats)
+    return partial(tradeoff, scene, candidates, reference=judge, repeats=repeats, reasons=reasons)
 
 
 def _halved_too(text: str) -> int | list[int]:
@@ -49,9 +52,11 @@ def _halved_too(text: str) -> int | list[int]:
 
 
 def of_motion(
-    scene: Scene, duration: float, grid: str | None, integrators: str
+    scene: Scene, duration: float, grid: str | None, integrators: str, grading: Grading = None
 ) -> Callable[..., DynamicTradeoff]:
     """The trade of a motion over `duration` [s]: integrators and steps, on one lattice. Raises BadInput."""
     if not duration > 0.0:
         raise BadInput(f"--duration = {duration:g}: seconds, more than 0")
-    return partial(dynamic_tradeoff, scene, duration, grid=grid, integrators=items(integrators))
+    return partial(
+        dynamic_tradeoff, scene, duration, grid=grid, grading=grading, integrators=items(integrators)
+    )

@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.models.candidate import Candidate
+from comparisons.models.grading import Grading, grading_of
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.registry import check, simulate
 from comparisons.report.report import Report
@@ -53,6 +54,7 @@ class DynamicTradeoff:
     rows: tuple[MotionRow, ...]
     reference: MotionRow
     uncertainty: float | None
+    reasons: tuple[str, ...] = ()
 
     @property
     def front(self) -> list[int]:
@@ -90,7 +92,10 @@ class DynamicTradeoff:
             subtitle=self.scene.title,
             document=self.as_dict(),
             tables=(self.table(),),
-            notes=(f"lowest period {self.lowest_period:.4g} s; uncertainty of the reference {known}",),
+            notes=(
+                *self.reasons,
+                f"lowest period {self.lowest_period:.4g} s; uncertainty of the reference {known}",
+            ),
             complaints=tuple(
                 f"{row.integrator}, step {row.step:.3g} s: {row.status}: {row.message}"
                 for row in self.rows
@@ -135,12 +140,18 @@ class DynamicTradeoff:
 
 
 def measure(
-    scene: dict[str, Any], grid: list[int], integrator: str, step: float, duration: float, every: float
+    scene: dict[str, Any],
+    grid: list[int],
+    integrator: str,
+    step: float,
+    duration: float,
+    every: float,
+    grading: float = 0.0,
 ) -> dict[str, Any]:
     """Task: one run and what it cost; the history of the probes included."""
     asked = Scene.model_validate(scene)
     common: dict[str, Any] = {"grid": (grid[0], grid[1], grid[2]), "integrator": integrator, "every": every}
-    common["large"] = True  # `dynamic_tradeoff` has looked at the size
+    common |= {"grading": grading, "large": True}  # `dynamic_tradeoff` has looked at the size
     simulate(asked, 2.0 * every, **common, step=step)  # warm
     history = simulate(asked, duration, **common, step=step)
     return {
@@ -161,6 +172,7 @@ def dynamic_tradeoff(
     store: Store,
     *,
     grid: Asked = None,
+    grading: Grading = None,
     integrators: Sequence[str] = tuple(sorted(INTEGRATORS)),
     divisions: Sequence[int] = DIVISIONS,
     reference: int = REFERENCE,
@@ -180,8 +192,10 @@ def dynamic_tradeoff(
     for name in integrators:
         require_choice("integrator", name, INTEGRATORS)
     shape = scene_grid(scene, grid)
-    check(scene, Candidate("lumped", {"grid": shape}), large)
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=shape)
+    check(scene, Candidate("lumped", {"grid": shape, "grading": grading}), large)
+    number, why = grading_of(scene, shape, grading)
+    graded = number or 0.0
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=shape, grading=graded)
     period = 1.0 / float(lumped.modes(scene, springs, 1).frequencies[0])
     every = period / SAMPLES
 
@@ -193,6 +207,7 @@ def dynamic_tradeoff(
             "step": step,
             "duration": duration,
             "every": every,
+            **({"grading": graded} if graded else {}),
         }
         return Run("motion", arguments, f"{integrator} {step:.3g} s", timed)
 
@@ -200,7 +215,7 @@ def dynamic_tradeoff(
     asked = []
     for name in integrators:
         if lumped.INTEGRATORS[name].explicit:
-            limit = explicit_limit(scene, shape)
+            limit = explicit_limit(scene, shape, graded)
             asked += [run(name, share * limit, True) for share in SHARES]
         else:
             asked += [run(name, period / n, True) for n in divisions]
@@ -210,14 +225,15 @@ def dynamic_tradeoff(
         measured_row(r, outcome, truth, duration) for r, outcome in zip(asked, found[2:], strict=True)
     )
     uncertainty = measured_row(judges[1], found[1], truth, duration).error
-    return DynamicTradeoff(
-        scene, duration, period, rows, measured_row(judges[0], truth, truth, duration), uncertainty
-    )
+    judge = measured_row(judges[0], truth, truth, duration)
+    reasons = (f"grading {graded:g}: {why}",) if why else ()
+    return DynamicTradeoff(scene, duration, period, rows, judge, uncertainty, reasons)
 
 
-def explicit_limit(scene: Scene, grid: Grid) -> float:
+def explicit_limit(scene: Scene, grid: Grid, grading: float = 0.0) -> float:
     """Stability limit [s] of the explicit integrator about the flat sheet."""
     import lumped
 
-    problem = lumped.pose(scene, lumped.calibrate(scene.sheet, scene.material, grid=grid))
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=grid, grading=grading)
+    problem = lumped.pose(scene, springs)
     return lumped.step_limit(lumped.System(scene, problem), np.zeros_like(problem.loads.dead)).step

@@ -13,7 +13,7 @@ rows of a family whose errors are well above the uncertainty.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from math import inf
 from typing import Any
 
@@ -59,6 +59,7 @@ class Tradeoff:
     reference: TradeoffRow
     uncertainty: float | None
     field_uncertainty: float | None
+    reasons: tuple[str, ...] = ()
 
     @property
     def front(self) -> list[int]:
@@ -113,13 +114,14 @@ def tradeoff(
     pool: Pool = processes,
     retry: bool = False,
     large: bool = False,
+    reasons: tuple[str, ...] = (),
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> Tradeoff:
     """Measure every candidate on a scene, through the campaign's store.
 
     reference: by default the shell with twice as many elements as the finest shell among the candidates, and
     32 at least. retry: do again what failed in an earlier call. large: even where one takes more memory than
-    there is.
+    there is. reasons: sentences that the report shall give on the candidates.
     Raises SceneError for a scene without a static answer and, before anything is solved,
     BadInput for a model or setting that does not exist. A solve that fails is a row with its status.
     """
@@ -133,7 +135,7 @@ def tradeoff(
     asked = [timing.run(scene, c.model, c.settings, repeats) for c in candidates]
     outcomes = carry_out([*judges, *asked], store, workers=workers, pool=pool, retry=retry, progress=progress)
     count = len(judges)
-    return assemble(scene, judges, outcomes[:count], asked, outcomes[count:])
+    return replace(assemble(scene, judges, outcomes[:count], asked, outcomes[count:]), reasons=reasons)
 
 
 def assemble(

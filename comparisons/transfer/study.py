@@ -23,6 +23,7 @@ import numpy as np
 
 from comparisons.comparison.comparison import error
 from comparisons.models.candidate import Candidate
+from comparisons.models.grading import Grading, graded
 from comparisons.models.sizes import require_room
 from comparisons.report.report import Report
 from comparisons.runs.campaign import Progress, Run, carry_out
@@ -72,6 +73,7 @@ def transfer(
     *,
     methods: Sequence[str] = METHODS,
     grids: Sequence[int] = GRIDS,
+    grading: Grading = None,
     scenes: Sequence[str] | None = None,
     parts: Sequence[str] = PARTS,
     elements: int = 24,
@@ -83,7 +85,8 @@ def transfer(
 ) -> Transfer:
     """Carry out the parts asked for, through a campaign's store, and put their rows together.
 
-    methods: names of calibrations; grids: masses a side, 4 n + 1, coarsest first; scenes: names of
+    methods: names of calibrations; grids: masses a side, 4 n + 1, coarsest first; grading: in
+    the part "static", of the methods that take one, a number or "auto"; scenes: names of
     `transfer_scenes`, all of them unless given; elements: of the shell, along a side; retry: what
     failed or was lost before is run again. Raises BadInput, before the first run, unless `large` for grids or
     elements that take more memory than there is.
@@ -92,7 +95,7 @@ def transfer(
     for scene in () if large else chosen.values():
         require_room(scene, Candidate("lumped", {"grid": (max(grids), max(grids))}), "--grids")
         require_room(scene, Candidate("shell", {"elements": elements}))
-    study = _Study(chosen, tuple(methods), tuple(grids), elements)
+    study = _Study(chosen, tuple(methods), tuple(grids), elements, grading)
     study.plan(parts)
     done = carry_out(study.runs, store, workers=workers, pool=pool, retry=retry, progress=progress)
     study.outcomes = dict(zip((run.key for run in study.runs), done, strict=True))
@@ -107,8 +110,14 @@ class _Study:
     """The runs asked for, and rows from their outcomes. What is asked before there are any is planned."""
 
     def __init__(
-        self, scenes: dict[str, Scene], methods: tuple[str, ...], grids: tuple[int, ...], elements: int
+        self,
+        scenes: dict[str, Scene],
+        methods: tuple[str, ...],
+        grids: tuple[int, ...],
+        elements: int,
+        grading: Grading = None,
     ) -> None:
+        self.grading = grading
         self.scenes, self.methods, self.grids, self.elements = scenes, methods, grids, elements
         self.texts = {name: scene.document() for name, scene in scenes.items()}
         self.planned: dict[str, Run] = {}
@@ -127,18 +136,31 @@ class _Study:
         rows = []
         for name in self.scenes:
             truth = self._reference(name)
+            gradings, reasons = self.gradings(name)
             for method in self.methods:
-                fields = [self._lattice(name, method, (n, n)) for n in self.grids]
+                grids = list(zip(self.grids, gradings[method], strict=True))
+                fields = [self._lattice(name, method, (n, n), grading=g) for n, g in grids]
+                chosen = {"gradings": gradings[method], "reasons": list(reasons)}
                 rows.append(
                     {
                         "scene": name,
                         "method": method,
+                        **({} if self.grading is None else chosen),
                         "trained_on": method in FITTED and name in TRAINING,
                         "errors": [_error(u, truth) for u in fields],
                         "extrapolated": _error(_richardson(fields), truth),
                     }
                 )
         return rows
+
+    def gradings(self, name: str) -> tuple[dict[str, list[float]], tuple[str, ...]]:
+        """Of the scene's lattices by method, one a grid, and the reasons where they were chosen."""
+        grids = [[n, n, 2] for n in self.grids]
+        asked = [Candidate("lumped", {"grid": g, "calibration": m}) for m in self.methods for g in grids]
+        chosen, reasons = graded(self.scenes[name], asked, self.grading)
+        values = [candidate.settings.get("grading", 0.0) for candidate in chosen]
+        count = len(grids)
+        return {m: values[i * count : (i + 1) * count] for i, m in enumerate(self.methods)}, reasons
 
     def limits(self) -> list[dict[str, Any]]:
         rows = []
@@ -229,9 +251,15 @@ class _Study:
         ]
 
     def _lattice(
-        self, name: str, method: str, grid: tuple[int, int], training: list[str] | None = None
+        self,
+        name: str,
+        method: str,
+        grid: tuple[int, int],
+        training: list[str] | None = None,
+        grading: float = 0.0,
     ) -> np.ndarray | None:
         arguments: dict[str, Any] = {"scene": self.texts[name], "method": method, "grid": [*grid, 2]}
+        arguments |= {"grading": grading} if grading else {}
         if training is not None:
             arguments["training"] = [self.texts[other] for other in training]
         return self._ask("lattice", arguments, f"{name} {method} {grid[0]}×{grid[1]}", "displacement")

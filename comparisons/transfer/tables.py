@@ -35,6 +35,7 @@ def tables(found: Transfer) -> list[Table]:
     made = [
         *(_static(found, i) for i in range(len(found.grids)) if found.static),
         *([_static(found, None)] if found.static and len(found.grids) > 1 else []),
+        *([_gradings(found)] if any("gradings" in row for row in found.static) else []),
         *([_limits(found)] if found.limits else []),
         *(_modal(found, i) for i in range(len(found.grids)) if found.modal),
         *([_aspect(found)] if found.aspect else []),
@@ -62,6 +63,21 @@ def _static(found: Transfer, grid: int | None) -> Table:
         name,
         grouped=True,
     )
+
+
+def _gradings(found: Transfer) -> Table:
+    """A row per scene: how its lattices are graded, and why."""
+    rows = {}
+    for row in found.static:
+        if any(row["gradings"]) or row["scene"] not in rows:
+            rows[row["scene"]] = (
+                row["scene"],
+                ", ".join(f"{g:g}" for g in row["gradings"]),
+                "; ".join(row["reasons"]),
+            )
+    grids = ", ".join(str(n) for n in found.grids)
+    columns = (Column("scene"), Column("grading"), Column("why", prose=True))
+    return Table(f"Grading at {grids} masses a side", columns, tuple(rows.values()), "gradings")
 
 
 def _by_scene(methods: tuple[str, ...], entries: list[tuple[str, str, Any]]) -> tuple[tuple[Any, ...], ...]:

@@ -27,13 +27,17 @@ def points(sheet: Sheet) -> np.ndarray:
 
 
 def lattice(
-    scene: dict[str, Any], method: str, grid: Sequence[int], training: Sequence[dict[str, Any]] | None = None
+    scene: dict[str, Any],
+    method: str,
+    grid: Sequence[int],
+    training: Sequence[dict[str, Any]] | None = None,
+    grading: float = 0.0,
 ) -> dict[str, Any]:
     """Displacement of a lattice at the points. training: scenes of a fitted method, its own unless given."""
     import lumped
 
     asked = Scene.model_validate(scene)
-    solution = lumped.solve(asked, _springs(asked, method, grid, training))
+    solution = lumped.solve(asked, _springs(asked, method, grid, training, grading))
     return _answer(solution, asked)
 
 
@@ -82,11 +86,16 @@ def reference_frequencies(scene: dict[str, Any], elements: int) -> dict[str, Any
 
 
 def _springs(
-    scene: Scene, method: str, grid: Sequence[int], training: Sequence[dict[str, Any]] | None
+    scene: Scene,
+    method: str,
+    grid: Sequence[int],
+    training: Sequence[dict[str, Any]] | None,
+    grading: float = 0.0,
 ) -> Any:
     chosen = None if training is None else [Scene.model_validate(data) for data in training]
     sheet, material = scene.sheet, scene.material
-    return calibrate(sheet, material, grid=tuple(grid), calibration=method, training=chosen, large=True)
+    own: dict[str, Any] = {"calibration": method, "grading": grading, "training": chosen}
+    return calibrate(sheet, material, grid=tuple(grid), large=True, **own)
 
 
 def _answer(solution: Any, scene: Scene) -> dict[str, Any]:

@@ -1,0 +1,140 @@
+"""How much finer a lattice's cells are at the edges: as asked, or as the scene's layers have it.
+
+`auto` looks at the widths of the layers that form at the edges, before anything is solved:
+
+    bent edge   a sheet clamped to a rod (or a chain) of curvature κ keeps its stretching within
+                δ = √(h/κ)/(12 (1 − ν²))^¼ of it (e.g. Calladine, Theory of Shell Structures, 1983)
+    load        q per area bends the sheet within δ = (D/q)^⅓ of a clamp, D = E h³/12(1 − ν²): the length in
+                which a heavy elastica turns
+
+and grades the grid where the narrowest is less than NARROW of the shorter side and less than RESOLVED cells
+wide. On the transfer study's scenes that tells those that grading mends (curved edges, soft and thin sheets,
+pressure) from those whose smooth interior it would make coarser (docs/theory.md).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from comparisons.models.candidate import Candidate
+from comparisons.models.scales import scales
+from sheetbench.choices import CALIBRATION, CALIBRATIONS
+from sheetbench.scenes import Chain, Curved, Scene
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grid import LAYERS
+
+AUTO = "auto"
+GRADED = 0.5  # what `auto` grades by
+NARROW = 0.6
+RESOLVED = 24.0
+Grading = float | str | None
+
+
+def read(asked: Grading) -> float | str | None:
+    """A number, or "auto", from what is asked, text too; None where nothing is. Raises BadInput."""
+    if asked is None or asked == AUTO:
+        return asked
+    try:
+        value = float(asked)
+    except (TypeError, ValueError):
+        value = -1.0
+    if not 0.0 <= value <= 1.0:
+        raise BadInput(
+            f"grading = {asked}: a number from 0 (cells of one size) to 1 (finest at the edges), or auto"
+        )
+    return value
+
+
+def number(asked: Grading) -> float | None:
+    """The number that is asked for; None for "auto" too. Raises BadInput."""
+    chosen = read(asked)
+    return None if isinstance(chosen, str) else chosen
+
+
+def grading_of(
+    scene: Scene, grid: Sequence[int], asked: Grading, **settings: Any
+) -> tuple[float | None, str]:
+    """The number, None where nothing is asked, and for "auto" the reason in a sentence. settings: calibration
+    and layer_distance of the lattice. Raises BadInput for what is neither."""
+    chosen = read(asked)
+    if not isinstance(chosen, str):
+        return chosen, ""
+    return (0.0, why_not) if (why_not := _impossible(grid, settings)) else _by_layers(scene, grid)
+
+
+def graded(
+    scene: Scene, candidates: Sequence[Candidate], asked: Grading
+) -> tuple[list[Candidate], tuple[str, ...]]:
+    """The candidates, the lattices among them on the grading asked for where their calibration takes one, and
+    for "auto" the reasons. Raises BadInput where a grading is asked of none that takes it."""
+    found: list[Candidate] = []
+    reasons: list[str] = []
+    takers = 0
+    for candidate in candidates:
+        settings = candidate.settings
+        if asked is not None and candidate.model == "lumped" and not _impossible(settings["grid"], settings):
+            takers += 1
+            value, why = grading_of(scene, settings["grid"], asked, calibration=settings["calibration"])
+            masses = f"{settings['grid'][0]} × {settings['grid'][1]}"
+            reasons += [f"{masses}, grading {value:g}: {why}"] if why else []
+            candidate = candidate.but(grading=value) if value else candidate
+        found.append(candidate)
+    if number(asked) and not takers:
+        raise BadInput(f"grading = {asked}: none of these calibrations is for cells that differ")
+    return found, tuple(dict.fromkeys(reasons))
+
+
+def told(settings: Mapping[str, Any]) -> tuple[str, ...]:
+    """The sentence of the settings of an answer whose grading was chosen; none where it was asked for."""
+    why = settings.get("grading_reason")
+    return (f"grading {settings['grading']:g}: {why}",) if why else ()
+
+
+def _impossible(grid: Sequence[int], settings: Mapping[str, Any]) -> str:
+    """Why these springs cannot be had cell by cell, or nothing."""
+    method = settings.get("calibration") or ("uniform" if settings.get("k") is not None else CALIBRATION)
+    if "grading" not in CALIBRATIONS[method].takes:
+        return f"the calibration {method} is for cells of one size"
+    if grid[2] != LAYERS or settings.get("layer_distance") is not None:
+        return f"springs cell by cell are for {LAYERS} layers at the distance that they ask for"
+    return ""
+
+
+def _by_layers(scene: Scene, grid: Sequence[int]) -> tuple[float, str]:
+    layers = _layers(scene)
+    if not layers:
+        return 0.0, "nothing bends the sheet, so that it has no layers at its edges"
+    width, cause = min(layers)
+    side = min(scene.sheet.lengths)
+    cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
+    layer = f"{cause} within {1e3 * width:.3g} mm of the edge"
+    cells = f"{width / cell:.2g} cells of {1e3 * cell:.3g} mm where all are alike"
+    if width >= NARROW * side:
+        return 0.0, f"{layer}, no narrow layer on a side of {1e3 * side:.3g} mm"
+    return (0.0 if cell * RESOLVED < width else GRADED), f"{layer}, {cells}"
+
+
+def _layers(scene: Scene) -> list[tuple[float, str]]:
+    """Widths [m] of the layers, and what happens in them."""
+    sheet, material, numbers = scene.sheet, scene.material, scales(scene)
+    found = []
+    bends = [(s.edge, s.curvature) for s in scene.supports if isinstance(s, Curved)]
+    bends += [(a.edge, _curvature(a)) for a in scene.actuators if isinstance(a, Chain)]
+    for edge, curvature in bends:
+        if curvature:
+            width = np.sqrt(sheet.thickness / abs(curvature)) / (12.0 * (1.0 - material.poisson**2)) ** 0.25
+            found.append((float(width), f"edge {edge}, bent by {curvature:g} 1/m, stretches the sheet"))
+    if numbers.load > 0.0:
+        width = min(sheet.lengths) * numbers.load_number ** (-1.0 / 3.0)
+        found.append((width, f"its load of {numbers.load:.3g} Pa bends the sheet"))
+    return found
+
+
+def _curvature(chain: Chain) -> float:
+    """The curvature [1/m] of largest size that a chain is commanded to in the end."""
+    command = chain.curvature
+    values = np.atleast_1d(command if isinstance(command, float | tuple) else command.value[-1])
+    return float(values[np.argmax(np.abs(values))])

@@ -1,0 +1,159 @@
+"""--grading: one meaning on every verb, chosen by the scene's layers where it is auto, and its reasons."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import one_line, run
+
+import lumped
+import sheetbench as sb
+from comparisons.models.candidate import Candidate
+from comparisons.models.grading import GRADED, graded, grading_of, read
+from comparisons.models.registry import solve
+from comparisons.transfer.scenes import transfer_scenes
+from comparisons.transfer.study import _Study
+from sheetbench.scenes import BadInput, load
+
+VERBS = {
+    "compare": (("--elements", "2", "--no-uncertainty"), lambda d: d["solutions"][0]["settings"]),
+    "modes": (("--elements", "2", "--count", "2"), lambda d: d["solutions"][0]["settings"]),
+    "calibrate": ((), lambda d: d),
+    "simulate": (("--duration", "0.01"), lambda d: d["settings"]),
+    "identify": (("--measured", "measured.csv"), lambda d: d["settings"]),
+}
+
+
+def measured(folder: Path) -> None:
+    (folder / "measured.csv").write_text("x,y,ux,uy,uz\n0.188,0.094,,,-0.02\n0.1,0.094,,,-0.01\n")
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_every_verb_takes_a_number(verb, tmp_path, monkeypatch, capsys) -> None:
+    monkeypatch.chdir(tmp_path)
+    measured(tmp_path)
+    others, settings = VERBS[verb]
+    for asked, used in (("0.7", 0.7), ("0", 0.0)):
+        assert run(verb, "one-edge-clamped", "--grid", "3", "--grading", asked, "--json", *others) == 0
+        assert settings(json.loads(capsys.readouterr().out))["grading"] == used
+
+
+@pytest.mark.parametrize("verb", [*VERBS, "tradeoff", "transfer"])
+def test_what_is_no_grading_leaves_with_2(verb, tmp_path, monkeypatch, capsys) -> None:
+    monkeypatch.chdir(tmp_path)
+    measured(tmp_path)
+    scene = () if verb == "transfer" else ("one-edge-clamped",)
+    for wrong in ("2", "-0.1", "fine", "nan"):
+        assert run(verb, *scene, f"--grading={wrong}", *VERBS.get(verb, ((),))[0]) == 2
+        assert f"grading = {wrong}" in one_line(capsys)
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_auto_says_why(verb, tmp_path, monkeypatch, capsys) -> None:
+    """In the tables, beside the other remarks, and in the settings of the document."""
+    monkeypatch.chdir(tmp_path)
+    measured(tmp_path)
+    others, settings = VERBS[verb]
+    scene, value, why = "curved-edge", 0.5, "edge x0, bent by 4 1/m, stretches the sheet within 15.7 mm"
+    if verb == "identify":
+        scene, value, why = "one-edge-clamped", 0.0, "its load of 49.4 Pa bends the sheet within 148 mm"
+    asked = (verb, scene, "--grid", "3", "--grading", "auto", *others)
+    assert run(*asked) == 0
+    assert f"grading {value:g}: {why}" in " ".join(capsys.readouterr().out.split())
+    if verb != "calibrate":
+        assert run(*asked, "--json") == 0
+        found = settings(json.loads(capsys.readouterr().out))
+        assert found["grading"] == value and found["grading_reason"].startswith(why)
+
+
+GRADED_SCENES = (
+    "curved-edge",
+    "curved-edge-down",
+    "half-thickness",
+    "tenth-of-young",
+    "tenth-of-young-one-edge",
+    "pressure",
+)
+
+
+def test_auto_grades_the_scenes_that_grading_mends() -> None:
+    """Of the transfer study's seventeen: on nine masses a side the others lose by it."""
+    for name, scene in transfer_scenes().items():
+        value, why = grading_of(scene, (9, 9, 2), "auto")
+        assert value == (GRADED if name in GRADED_SCENES else 0.0), (name, why)
+        assert why
+
+
+def test_auto_leaves_alone_what_the_cells_resolve_and_what_has_cells_of_one_size_only() -> None:
+    curved = load("curved-edge")
+    assert grading_of(curved, (9, 9, 2), "auto")[0] == 0.5
+    assert "cells of 0.367 mm" in grading_of(curved, (513, 513, 2), "auto")[1]
+    assert grading_of(curved, (513, 513, 2), "auto")[0] == 0.0
+    for settings in ({"calibration": "uniform"}, {"k": 500.0}, {"layer_distance": 0.003}):
+        assert grading_of(curved, (9, 9, 2), "auto", **settings)[0] == 0.0
+    assert grading_of(curved, (9, 9, 3), "auto")[0] == 0.0
+    weightless = curved.replace(supports=[{"edge": "x0", "kind": "clamped"}], gravity=None)
+    assert grading_of(weightless, (9, 9, 2), "auto") == (
+        0.0,
+        "nothing bends the sheet, so that it has no layers at its edges",
+    )
+    assert [read(asked) for asked in (None, "auto", "0.25", 1)] == [None, "auto", 0.25, 1.0]
+    with pytest.raises(BadInput, match=r"grading = 0.5: the calibration uniform is for cells of one size"):
+        solve(curved, "lumped", grid=3, calibration="uniform", grading=0.5)
+
+
+def test_a_scene_file_brings_its_grading(tmp_path, capsys) -> None:
+    """As `calibrate --toml --grading 0.7` writes it: solved so without being asked, and not otherwise."""
+    path = tmp_path / "own.toml"
+    load("one-edge-clamped").save(path)
+    springs = ("--grid", "5", "--grading", "0.7")
+    assert run("calibrate", str(path), *springs, "--method", "consistent-edges", "--toml") == 0
+    with path.open("a") as file:
+        file.write(capsys.readouterr().out)
+    scene = load(path)
+    own = lumped.calibrate(scene.sheet, scene.material, 5, "consistent-edges", grading=0.7)
+    points = scene.probe_points()
+    for asked in ({}, {"grading": 0.7}, {"grading": "auto"}):
+        found = solve(scene, "lumped", **asked)
+        assert found.settings["grading"] == 0.7
+        assert np.array_equal(found.displacement(points), lumped.solve(scene, own).displacement(points))
+    assert run("compare", str(path), "--grading", "0.5") == 2
+    assert "springs.grading = 0.7" in one_line(capsys)
+    assert run("compare", str(path), "--grading", "0") == 2
+    assert "springs.grading = 0.7" in one_line(capsys)
+
+
+def test_of_many_lattices_those_are_graded_whose_calibration_takes_it(monkeypatch, capsys) -> None:
+    """The others keep cells of one size: in trade-offs, and in the transfer study's static part."""
+    seen = []
+
+    def recorded(*asked, **settings):
+        seen.append((asked, settings))
+        raise BadInput("enough")
+
+    monkeypatch.setattr("comparisons.tradeoff.asked.tradeoff", recorded)
+    monkeypatch.setattr("comparisons.tradeoff.asked.dynamic_tradeoff", recorded)
+    grids = ("--lumped", "3", "--calibration", "consistent,uniform", "--grading", "auto")
+    assert run("tradeoff", "curved-edge", *grids) == 2
+    assert run("tradeoff", "curved-edge", "--duration", "0.1", "--grading", "0.3") == 2
+    lattices = [candidate for candidate in seen[0][0][1] if candidate.model == "lumped"]
+    assert [candidate.settings.get("grading") for candidate in lattices] == [0.5, None]
+    assert seen[1][1]["grading"] == "0.3" and "bent by 4 1/m" in seen[0][1]["reasons"][0]
+    shown, reasons = graded(load("curved-edge"), lattices[1:], "auto")
+    assert shown == lattices[1:] and reasons == ()
+    study = _Study(transfer_scenes(), ("consistent", "uniform"), (9, 513), 8, "auto")
+    chosen, reasons = study.gradings("tenth-of-young")
+    assert chosen == {"consistent": [0.5, 0.0], "uniform": [0.0, 0.0]}
+    assert len(reasons) == 2 and "bends the sheet within 68.6 mm" in reasons[0]
+    with pytest.raises(BadInput, match="none of these calibrations"):
+        graded(load("curved-edge"), [Candidate("lumped", {"grid": [3, 3, 2], "calibration": "uniform"})], 0.5)
+
+
+def test_python_takes_it_too() -> None:
+    springs = sb.calibrate("curved-edge", grid=3, grading="auto")
+    assert springs.grading == 0.5 and "grading " in repr(springs)
+    history = sb.simulate("one-edge-clamped", 0.01, grid=3, grading=0.3)
+    assert history.settings["grading"] == 0.3 and "grading 0.3" in history.label

@@ -3,11 +3,21 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 OUT    ?= demo
+FUZZ   ?= 20000
+CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogue.py cli.py compare.py \
+            lattice.py lattice_mechanics.py lumped_statics.py calibration.py balance.py dynamics_forces.py \
+            shell_element.py shell_linear.py solid_element.py plate.py sections.py snaps.py campaign.py \
+            report.py measurements.py) tests/fuzz
 
-.PHONY: docs-scene help install demo test verify locking transfer tradeoff advisor-study stability wheel-check lint clean
+.PHONY: docs-scene help install demo test check slow fuzz catalogue verify locking transfer tradeoff \
+        advisor-study stability wheel-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
+	@echo "make check     the linter and the part of the tests that finds most faults soonest (a minute and a half)"
+	@echo "make slow      the tests that take minutes"
+	@echo "make fuzz      20 000 scenes, command lines and measured files that no one would write (FUZZ=n for others)"
+	@echo "make catalogue the table of the catalogue's answers, tests/catalogue.json, for a change that is meant"
 	@echo "make verify    the references against published values, every row (about a minute)"
 	@echo "make locking   the locking sweeps and their picture (files in $(OUT)/)"
 	@echo "make transfer  every calibration on every scene of the transfer study (ten minutes; files in $(OUT)/transfer/)"
@@ -36,6 +46,18 @@ demo: install
 
 test: install lint
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile
+
+check: install lint
+	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile $(CHECK)
+
+slow: install
+	@$(BIN)/python -m pytest --numprocesses auto -m slow
+
+fuzz: install
+	@FUZZ_EXAMPLES=$(FUZZ) $(BIN)/python -m pytest --numprocesses auto tests/fuzz
+
+catalogue: install
+	@$(BIN)/python tests/catalogue.py
 
 verify: install
 	@$(BIN)/sheetbench verify

@@ -62,7 +62,7 @@ def test_error_falls_with_the_grid():
 
 
 @pytest.mark.parametrize("name", CONVERGED)
-@pytest.mark.parametrize("masses", [5, 9, 17, 33, 65])
+@pytest.mark.parametrize("masses", [5, 9, 17, 33, pytest.param(65, marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("soft", "most"), [(1, 12), (10, 40)])
 def test_factorisations_from_flat(name, masses, soft, most):
     solution = solve(softer(SEED[name], soft), (masses, masses))

@@ -20,6 +20,7 @@ def run(*arguments: str) -> int:
     return int(caught.value.code or 0)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_both_models_agree_and_files_are_left(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ("one-edge-clamped", "--count", "6", "--elements", "8", "--json", "--out", str(tmp_path))
     assert run(*arguments) == 0

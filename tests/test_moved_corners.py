@@ -45,11 +45,11 @@ def scene(supports, *actuators, gravity=GRAVITY) -> Scene:
     )
 
 
-def solve(asked: Scene, model: str) -> Solution:
+def solve(asked: Scene, model: str, elements: tuple[int, int] = (16, 8)) -> Solution:
     if model == "lumped":
         found = lumped.solve(asked, lumped.calibrate(OBLONG, SILICONE, (33, 17)))
     else:
-        found = fem_reference.solve(asked, model=model, elements=(16, 8))
+        found = fem_reference.solve(asked, model=model, elements=elements)
     assert found.status is Status.CONVERGED, found.message
     return found
 
@@ -113,7 +113,9 @@ def test_the_plate_is_their_limit_of_small_motions(name: str) -> None:
 @pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
 def test_a_chain_goes_where_the_corner_goes_in_whatever_order(model: str) -> None:
     bound, moved = chain(curvature=2.0), motion(displacement=LIFT)
-    first, second = (solve(scene((CLAMP,), *both), model) for both in ((bound, moved), (moved, bound)))
+    first, second = (
+        solve(scene((CLAMP,), *both), model, (6, 4)) for both in ((bound, moved), (moved, bound))
+    )
     assert_allclose(
         first.displacement([CORNER, (0.1, 0.0)]), second.displacement([CORNER, (0.1, 0.0)]), atol=1e-9
     )
@@ -191,7 +193,7 @@ def test_in_dynamics_too_the_corner_follows_the_motion() -> None:
     table = {"time": (0.0, 0.02), "displacement": ((0.0, 0.0, 0.0), PULL)}
     asked = scene((CLAMP, Held(edge="y0", components=("z",))), EdgeMotion(kind="motion", edge="x1", **table))
     asked = asked.model_copy(update={"probes": {"corner": CORNER, "far": (0.2, 0.1)}})
-    run = lumped.simulate(asked, lumped.calibrate(OBLONG, SILICONE, (9, 5)), 0.02)
+    run = lumped.simulate(asked, lumped.calibrate(OBLONG, SILICONE, (5, 3)), 0.02)
     for place in run.probes.values():
         assert_allclose(place[:, 0], 0.5 * run.time, atol=1e-12)
         assert_allclose(place[:, 1:], 0.0, atol=1e-12)

@@ -69,6 +69,7 @@ def test_the_example_takes_a_history_and_refuses_what_it_does_not_know(installed
             models.solve(scene.model_copy(update=update), "strip")
 
 
+@pytest.mark.usefixtures("in_process")
 def test_a_plugin_stands_in_the_same_table_and_on_the_same_front(
     installed: None, capsys: pytest.CaptureFixture[str]
 ) -> None:

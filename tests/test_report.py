@@ -209,6 +209,7 @@ def test_a_manifest_that_is_not_ours_is_refused(tmp_path: Path, text: str) -> No
         Folder(tmp_path, "modes", ["m"], about=about(), overwrite=True)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_commands_refuse_a_folder_of_another_scene(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

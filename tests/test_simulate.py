@@ -107,6 +107,7 @@ def test_measured_error_is_relative_to_the_largest_measured_component():
     assert histories.error(history, "P4", measured) == pytest.approx(expected)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_chains_are_in_the_files_of_a_run(tmp_path):
     """Their axes are lines after the lattice's points; they move with the edge that they hold."""
     arguments = ["simulate", "actuated-edge", "--lumped", "5", "--duration", "0.1", "--every", "0.02"]

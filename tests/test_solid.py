@@ -71,7 +71,7 @@ def test_curved_edge(name):
     np.testing.assert_allclose(answer.reactions["x0"], [0.0, 0.0, weight], atol=1e-7 * weight)
 
 
-@pytest.mark.parametrize("poisson", [0.3, 0.48, 0.499, 0.4999])
+@pytest.mark.parametrize("poisson", [0.3, 0.4999])
 def test_no_volumetric_locking(poisson):
     """At every ν the 8×8 mesh is within 1 % of the converged answer, and the graded full clamp too."""
     scene = with_poisson("two-edges-clamped", poisson)
@@ -139,7 +139,7 @@ def test_convergence_of_the_bent_cantilever():
     assert np.all(np.log2(errors[:-1] / errors[1:]) > 3.0), errors
 
 
-@pytest.mark.parametrize("poisson", [0.3, 0.4999])
+@pytest.mark.parametrize("poisson", [pytest.param(0.3, marks=pytest.mark.slow), 0.4999])
 def test_order_of_convergence(poisson):
     """Manufactured, linear, isochoric: u = curl(sin πx sin πy cos z e_z), f = μ (2π² + 1) u; L² like h³."""
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from commands import one_line, run
+from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
 
 import lumped
@@ -95,7 +97,9 @@ def test_uneven_masses_move_the_limit_as_computed():
 
 
 @pytest.mark.parametrize("integrator", time_step.IMPLICIT)
-def test_implicit_steps_end_in_the_theory_s_error_or_a_status(integrator):
+def test_implicit_steps_end_in_the_theory_s_error_or_a_status(integrator, monkeypatch):
+    if integrator == "projective":  # whose steps are dear
+        monkeypatch.setattr(time_step, "MOST", 20)
     steps = (1e-4, 1e-2, 0.1 if integrator == "projective" else 1.0)
     fine, coarse, far = (time_step.measure(integrator, step=step) for step in steps)
     assert fine["status"] == "converged" and fine["error"] < 2e-4
@@ -200,18 +204,32 @@ def test_mechanisms():
     assert mechanism(pressed, (9, 9), 12, bent, flat)["mechanism"] == "branch"
 
 
-def test_a_curved_clamp_snaps_and_says_where():
+def test_a_curved_clamp_snaps_and_says_where(monkeypatch):
+    monkeypatch.setattr(curved_edge, "ELEMENTS", 6)
     row = curved_edge.measure(turn=-0.25, load_number=10.0)
     assert row["status"] == "converged" and len(row["snaps"]) > 0
     assert all(0.0 < load_factor < 1.0 for load_factor in row["snaps"])
 
 
+@pytest.mark.usefixtures("in_process")
 def test_command_writes_maps_tables_and_texts_and_resumes(tmp_path, capsys, monkeypatch):
     for name, study in STUDIES.items():  # each map must be drawn with whatever cells there are
-        few = study.cells(False)[:3]
+        first = 20 if name == "curved-edge" else 0  # there the rod is straight, which is quickly solved
+        few = study.cells(False)[first : first + 1]
         monkeypatch.setitem(STUDIES, name, replace(study, cells=lambda full, few=few: few))
-    asked = ("stability", "--workers", "2", "--out", str(tmp_path))
+    asked = ("stability", "--workers", "1", "--out", str(tmp_path))
     names = [part for name in NAMES for part in ("--study", name.replace("-", " "))]
+    savefig, drawn = Figure.savefig, []
+
+    def save(self, place, **options):
+        """As PNG, the first time; in other formats and again it is the same."""
+        if Path(place).suffix == ".png" and len(drawn) < len(NAMES):
+            drawn.append(place)
+            savefig(self, place, **options)
+        else:
+            Path(place).write_bytes(bytes(200))
+
+    monkeypatch.setattr(Figure, "savefig", save)
     assert run(*asked, *names) == 0
     said = capsys.readouterr().out
     for name in NAMES:
@@ -220,7 +238,7 @@ def test_command_writes_maps_tables_and_texts_and_resumes(tmp_path, capsys, monk
             assert (tmp_path / f"{name}.{suffix}").stat().st_size > 100
         assert f"## {name}" in (tmp_path / "stability.md").read_text()
     rows = json.loads((tmp_path / "stability.json").read_text())["rows"]
-    assert len(rows) == 3 * len(NAMES) and all(row["status"] for row in rows)
+    assert len(rows) == len(NAMES) and all(row["status"] for row in rows)
     before = (tmp_path / "campaign.sqlite").stat().st_mtime_ns
     assert run(*asked, "--json") == 0
     assert json.loads(capsys.readouterr().out)["rows"] == rows

@@ -1,0 +1,52 @@
+"""The catalogue's answers are those of the table, the same on one thread and on two and in every process."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from catalogue import CASES, FILE, WITHIN, answer
+from threadpoolctl import threadpool_limits
+
+KEPT = json.loads(FILE.read_text(encoding="utf-8"))
+
+
+def places(found: dict) -> np.ndarray:
+    """(n, 3) [m]."""
+    return np.array(list(found["displacement"].values()))
+
+
+def test_the_table_has_every_scene_and_model() -> None:
+    assert {(name, model) for name, models in KEPT.items() for model in models} == set(CASES)
+
+
+@pytest.mark.parametrize(("name", "model"), CASES)
+def test_the_answers_are_those_of_the_table(name: str, model: str) -> None:
+    kept, found = KEPT[name][model], answer(name, model)
+    assert found["status"] == kept["status"] and list(found["displacement"]) == list(kept["displacement"])
+    u = places(kept)
+    np.testing.assert_allclose(places(found), u, rtol=0.0, atol=WITHIN * np.abs(u).max())
+
+
+@pytest.mark.parametrize("model", ["lattice", "shell"])
+def test_threads_and_processes_change_nothing(model: str) -> None:
+    name = "two-edges-clamped"
+    found = []
+    for threads in (1, 2):
+        with threadpool_limits(threads):
+            found.append(places(answer(name, model)))
+    code = f"import json; from catalogue import answer; print(json.dumps(answer({name!r}, {model!r})))"
+    environment = {
+        **os.environ,
+        "PYTHONPATH": str(FILE.parent),
+        "OMP_NUM_THREADS": "1",
+        "NUMBA_NUM_THREADS": "1",
+    }
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, check=True)
+    found.append(places(json.loads(done.stdout)))
+    for other in found[1:]:
+        np.testing.assert_allclose(other, found[0], rtol=0.0, atol=1e-10 * np.abs(found[0]).max())

@@ -11,6 +11,8 @@ from dynamic_cases import scene, springs
 
 import lumped
 from comparisons.motion import history as histories
+from comparisons.motion.frames import frames
+from sheetbench.scenes import load
 
 RUN = ["simulate", "two-edges-settling", "--lumped", "4", "--duration", "0.1"]
 
@@ -124,3 +126,13 @@ def test_chains_are_in_the_files_of_a_run(tmp_path):
     ends = lines[np.isin(lines, np.flatnonzero(axis)).all(axis=1)]
     places = (mesh.points + mesh.point_data["displacement"])[ends]
     assert np.linalg.norm(np.diff(places, axis=1)[:, 0], axis=1) == pytest.approx(8 * [0.188 / 8], rel=1e-6)
+
+
+@pytest.mark.parametrize("grading", [0.0, 0.8])
+def test_a_frames_mid_surface_is_that_of_the_runs_lattice(grading):
+    asked = load("two-edges-settling")
+    graded = lumped.calibrate(asked.sheet, asked.material, (5, 4), grading=grading)
+    history = lumped.simulate(asked, graded, 0.01, every=0.005, frames=3)
+    for number, (_, frame) in enumerate(frames(history)):
+        told = np.array([history.probes[name][number] for name in asked.probes])
+        np.testing.assert_allclose(frame.displacement(asked.probe_points()), told, atol=1e-15)

@@ -13,19 +13,20 @@ import numpy as np
 
 from comparisons.report.files import folder, write_text
 from comparisons.report.vtk import write_mesh
-from sheetbench.scenes import FieldMesh, History, Scene
+from lumped import Lattice, MidSurface
+from sheetbench.scenes import FieldMesh, History
 
 
 @dataclass(frozen=True)
 class Frame:
     """One moment of a run, as far as drawing needs a solution: sampled displacement and a mesh.
 
-    axes: rest places and displacements (p, 3) [m] of the points where the segments of each chain end.
+    lattice: of the run, its masses the mesh's points; axes: rest places and displacements (p, 3) [m] of the
+    points where the segments of each chain end.
     """
 
     mesh: FieldMesh
-    grid: tuple[int, int, int]
-    lengths: tuple[float, float]
+    lattice: Lattice
     axes: tuple[tuple[np.ndarray, np.ndarray], ...] = ()
 
     def with_axes(self) -> FieldMesh:
@@ -44,29 +45,20 @@ class Frame:
         return FieldMesh(np.concatenate(points), [*self.mesh.cells, *cells], fields)
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
-        """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m]: bilinear between the masses."""
-        from scipy.interpolate import RegularGridInterpolator
-
-        nx, ny, layers = self.grid
-        mean = self.mesh.point_data["displacement"].reshape(ny, nx, layers, 3).mean(axis=2)
-        axes = (np.linspace(0, self.lengths[1], ny), np.linspace(0, self.lengths[0], nx))
-        found: np.ndarray = RegularGridInterpolator(axes, mean, bounds_error=False, fill_value=None)(
-            np.asarray(points, dtype=float)[:, ::-1]
-        )
-        return found
+        """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m]."""
+        return MidSurface(self.lattice, points).of(self.mesh.point_data["displacement"])
 
 
-def frames(scene: Scene, history: History) -> list[tuple[float, Frame]]:
+def frames(history: History) -> list[tuple[float, Frame]]:
     """Time [s] and frame of every displacement that the run kept."""
     mesh: FieldMesh = history.extra["mesh"]
-    grid = tuple(history.settings["grid"])
     kept = history.extra["frames"]
     times = history.extra["frame_times"][: len(kept)]
     found = []
     for number, (time, u) in enumerate(zip(times, kept, strict=True)):
         moved = FieldMesh(mesh.points, mesh.cells, {"displacement": np.array(u)})
         axes = tuple((rest, over_time[number]) for rest, over_time in history.extra["axes"].values())
-        found.append((float(time), Frame(moved, grid, scene.sheet.lengths, axes)))
+        found.append((float(time), Frame(moved, history.extra["lattice"], axes)))
     return found
 
 

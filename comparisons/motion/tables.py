@@ -44,7 +44,7 @@ def report(
         pictures=tuple(pictures),
         attachments={
             "history.csv": lambda path: write_text(path, series(history).to_csv()),
-            "frames.pvd": lambda path: frames.write_series(path, frames.frames(scene, history)),
+            "frames.pvd": lambda path: frames.write_series(path, frames.frames(history)),
         },
         scene=scene,
         settings={"integrator": history.integrator, **history.settings},
@@ -73,5 +73,5 @@ def _animate(history: History, scene: Scene, paths: Sequence[Path]) -> str | Non
     if impossible is None:
         from comparisons.motion.animation import animate
 
-        animate(paths, scene, frames.frames(scene, history))
+        animate(paths, scene, frames.frames(history))
     return impossible

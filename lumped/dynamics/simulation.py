@@ -10,7 +10,7 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable
 from contextlib import ExitStack
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -18,23 +18,21 @@ import numpy as np
 
 from lumped.assembly import Precision
 from lumped.calibration import Calibration, default
-from lumped.dynamics import watchdog
 from lumped.dynamics.initial import initial_state
-from lumped.dynamics.integrator import Integrator, StepFailed
+from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.integrators import INTEGRATORS
 from lumped.dynamics.plan import Plan, plan_run
+from lumped.dynamics.run import Run
 from lumped.dynamics.sampling import Sampling
 from lumped.dynamics.store import FolderStore, MemoryStore
-from lumped.dynamics.system import State, System
+from lumped.dynamics.system import System
 from lumped.lattice import Weights
 from lumped.linear.threads import one_blas_thread
 from lumped.statics.fields import field_mesh
 from lumped.statics.solver import pose
 from sheetbench.choices import INTEGRATOR
-from sheetbench.scenes import AnyScene, History, Status, scene_of
+from sheetbench.scenes import AnyScene, History, scene_of
 from sheetbench.scenes.errors import BadInput
-
-SAMPLES_PER_CHECKPOINT = 50
 
 
 def simulate(
@@ -69,14 +67,7 @@ def simulate(
     default steps of it; for a folder that cannot be written to, that another process writes to, that holds
     another run, or whose files are damaged.
     """
-    if integrator not in INTEGRATORS:
-        raise BadInput(f"integrator = {integrator!r}: unknown; choose from {', '.join(INTEGRATORS)}")
-    foreign = [name for name in options if name not in INTEGRATORS[integrator].options]
-    if foreign:
-        raise BadInput(f"integrator = {integrator!r}: does not take {', '.join(foreign)}")
-    for name, value in (("duration", duration), ("step", step), ("every", every)):
-        if value is not None and not (value > 0.0 and np.isfinite(value)):
-            raise BadInput(f"{name} = {value:g} s: must be greater than 0 and finite")
+    _refuse(integrator, options, {"duration": duration, "step": step, "every": every})
     began = clock.perf_counter()
     scene = scene_of(scene)
     calibration = calibration or default(scene)
@@ -123,9 +114,10 @@ def simulate(
         shown = plan.shown(frames)
         ready = clock.perf_counter()
         with one_blas_thread():
-            status, message, steps, resumed_from = _run(
-                system, method, plan, sampling, kept, start, set(shown), drawn, progress
-            )
+            run = Run(system, method, plan, sampling, kept, set(shown), drawn, progress)
+            run.begin(start)
+            resumed_from = run.reached.state.time
+            status, message = run.finish()
         done = clock.perf_counter()
         parts = sampling.split(kept.samples())
         whole = kept.frames()
@@ -142,7 +134,7 @@ def simulate(
         energies=parts["energy"],
         reactions=parts.get("reaction", {}),
         actuators=parts.get("actuator", {}),
-        steps=steps,
+        steps=run.reached.steps,
         setup_seconds=ready - began,
         solve_seconds=done - ready,
         resumed_from=resumed_from,
@@ -152,89 +144,25 @@ def simulate(
                 edge: (rest, whole[:, np.searchsorted(drawn, rows)]) for edge, (rows, rest) in axes.items()
             },
             "frame_times": plan.every * np.array(shown),
+            "lattice": system.assembly.lattice,
             "mesh": field_mesh(system.problem, start.u, np.zeros_like(start.u)),
         },
     )
+
+
+def _refuse(integrator: str, options: dict[str, float], times: dict[str, float | None]) -> None:
+    """Raise BadInput for an integrator that there is not, an option that it does not take, no sound time."""
+    if integrator not in INTEGRATORS:
+        raise BadInput(f"integrator = {integrator!r}: unknown; choose from {', '.join(INTEGRATORS)}")
+    foreign = [name for name in options if name not in INTEGRATORS[integrator].options]
+    if foreign:
+        raise BadInput(f"integrator = {integrator!r}: does not take {', '.join(foreign)}")
+    for name, value in times.items():
+        if value is not None and not (value > 0.0 and np.isfinite(value)):
+            raise BadInput(f"{name} = {value:g} s: must be greater than 0 and finite")
 
 
 def _method(system: System, plan: Plan, integrator: str, options: dict[str, float]) -> Integrator:
     kind = INTEGRATORS[integrator]
     extra: dict[str, Any] = {"fixed": not plan.adapts} if kind.adaptive else {}
     return kind(system, plan.every / plan.steps, **options, **extra)
-
-
-def _run(
-    system: System,
-    method: Integrator,
-    plan: Plan,
-    sampling: Sampling,
-    kept: FolderStore | MemoryStore,
-    state: State,
-    shown: set[int],
-    drawn: np.ndarray,
-    progress: Callable[[float], None] | None,
-) -> tuple[Status, str, int, float]:
-    """Take the run to its end, or from its last checkpoint to its end: status, message, steps taken, and the
-    time [s] from which it went on.
-
-    shown: the samples at which to keep a frame; drawn: the rows of the displacement that make one.
-    """
-    done, steps, dissipated, work, round_about, origin = 0, 0, 0.0, 0.0, 0.0, 0.0
-    checkpoint = kept.resume()
-    if checkpoint is not None:
-        state = State(float(checkpoint["time"]), checkpoint["u"], checkpoint["v"], checkpoint["a"])
-        if progress is not None:
-            progress(state.time)
-        done, steps = int(checkpoint["done"]), int(checkpoint["steps"])
-        dissipated, work, round_about, origin = (float(x) for x in checkpoint["energies"])
-        method.recall(
-            {k.removeprefix("method_"): v for k, v in checkpoint.items() if k.startswith("method_")}
-        )
-    else:
-        row = sampling.row(state, 0.0, 0.0)
-        origin = float(row[1:4].sum())
-        kept.sample(row)
-        if 0 in shown:
-            kept.frame(state.u[drawn])
-    began = state.time
-    while done < plan.samples:
-        goal = (done + 1) * plan.every
-        try:
-            taken = 0
-            while (goal - state.time > 1e-9 * plan.every) if plan.adapts else (taken < plan.steps):
-                advance = method.advance(state, goal - state.time if plan.adapts else plan.every / plan.steps)
-                state, taken = advance.state, taken + 1
-                dissipated += advance.dissipated
-                work += advance.work
-                stuck = watchdog.stagnates(state, taken) if plan.adapts else None
-                if stuck is not None:
-                    return stuck.status, stuck.message, steps + taken, began
-        except StepFailed as failure:
-            return Status.DIVERGED, f"at {state.time:.6g} s: {failure}", steps, began
-        state = replace(state, time=goal)
-        steps += taken
-        row = sampling.row(state, dissipated, work)
-        round_about = max(round_about, float(np.abs(row[1:6]).max()))
-        fault = watchdog.bark(system, state, row, origin, round_about)
-        if fault is None or fault.status is not Status.NON_FINITE:
-            kept.sample(row)
-        if fault is not None:
-            return fault.status, fault.message, steps, began
-        done += 1
-        if done in shown:
-            kept.frame(state.u[drawn])
-        if done % SAMPLES_PER_CHECKPOINT == 0:
-            method.forget()
-            own = {f"method_{key}": value for key, value in method.memory().items() if value is not None}
-            content = {
-                "time": state.time,
-                "u": state.u,
-                "v": state.v,
-                "a": state.a,
-                "done": done,
-                "steps": steps,
-            }
-            kept.checkpoint({**content, **own, "energies": [dissipated, work, round_about, origin]})
-        if progress is not None:
-            progress(state.time)
-    return Status.CONVERGED, "", steps, began

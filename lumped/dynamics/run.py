@@ -1,0 +1,130 @@
+"""A run from its start, or from its last checkpoint, to its end: steps to the next sample, over and over.
+
+Samples, frames and checkpoints go to a store as they come. What a checkpoint holds takes the run up again as
+if it had never stopped; hence integrators forget there what they keep only for speed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from lumped.dynamics import watchdog
+from lumped.dynamics.integrator import Integrator, StepFailed
+from lumped.dynamics.plan import Plan
+from lumped.dynamics.sampling import Sampling
+from lumped.dynamics.store import FolderStore, MemoryStore
+from lumped.dynamics.system import State, System
+from lumped.statics.faults import Fault
+from sheetbench.scenes import Status
+
+SAMPLES_PER_CHECKPOINT = 50
+
+
+@dataclass
+class Reached:
+    """How far a run has come: samples after the start, steps, energies [J] dissipated and put in since, the
+    largest of any kind at a sample, and the total at the start."""
+
+    state: State
+    samples: int = 0
+    steps: int = 0
+    dissipated: float = 0.0
+    work: float = 0.0
+    largest: float = 0.0
+    origin: float = 0.0
+
+
+class Run:
+    """A run under way. shown: samples at which to keep a frame; drawn: the rows of the displacement that make
+    one; progress: called with the time reached [s]."""
+
+    def __init__(
+        self,
+        system: System,
+        method: Integrator,
+        plan: Plan,
+        sampling: Sampling,
+        kept: FolderStore | MemoryStore,
+        shown: set[int],
+        drawn: np.ndarray,
+        progress: Callable[[float], None] | None,
+    ):
+        self._system, self._method, self._plan, self._sampling = system, method, plan, sampling
+        self._kept, self._shown, self._drawn = kept, shown, drawn
+        self._progress = progress if progress is not None else lambda time: None
+
+    def begin(self, start: State) -> None:
+        """Take up the last checkpoint, or sample the start."""
+        checkpoint = self._kept.resume()
+        if checkpoint is None:
+            self.reached = Reached(start)
+            row = self._sampling.row(start, 0.0, 0.0)
+            self.reached.origin = float(row[1:4].sum())
+            self._kept.sample(row)
+            self._keep_frame()
+            return
+        state = State(float(checkpoint["time"]), *(checkpoint[name] for name in ("u", "v", "a")))
+        energies = (float(energy) for energy in checkpoint["energies"])
+        self.reached = Reached(state, int(checkpoint["done"]), int(checkpoint["steps"]), *energies)
+        own = {k.removeprefix("method_"): v for k, v in checkpoint.items() if k.startswith("method_")}
+        self._method.recall(own)
+        self._progress(state.time)
+
+    def finish(self) -> tuple[Status, str]:
+        """Go on to the end, or to a fault: how it ended."""
+        while self.reached.samples < self._plan.samples:
+            fault = self._step_to_sample() or self._sample()
+            if fault is not None:
+                return fault.status, fault.message
+            self._progress(self.reached.state.time)
+        return Status.CONVERGED, ""
+
+    def _step_to_sample(self) -> Fault | None:
+        plan, reached, taken = self._plan, self.reached, 0
+        goal = (reached.samples + 1) * plan.every
+        while (goal - reached.state.time > 1e-9 * plan.every) if plan.adapts else (taken < plan.steps):
+            at_most = goal - reached.state.time if plan.adapts else plan.every / plan.steps
+            try:
+                advance = self._method.advance(reached.state, at_most)
+            except StepFailed as failure:
+                return Fault(Status.DIVERGED, f"at {reached.state.time:.6g} s: {failure}")
+            reached.state, taken = advance.state, taken + 1
+            reached.steps += 1
+            reached.dissipated += advance.dissipated
+            reached.work += advance.work
+            stuck = watchdog.stagnates(reached.state, taken) if plan.adapts else None
+            if stuck is not None:
+                return stuck
+        reached.state = replace(reached.state, time=goal)
+        return None
+
+    def _sample(self) -> Fault | None:
+        reached = self.reached
+        row = self._sampling.row(reached.state, reached.dissipated, reached.work)
+        reached.largest = max(reached.largest, float(np.abs(row[1:6]).max()))
+        fault = watchdog.bark(self._system, reached.state, row, reached.origin, reached.largest)
+        if fault is None or fault.status is not Status.NON_FINITE:
+            self._kept.sample(row)
+        if fault is None:
+            reached.samples += 1
+            self._keep_frame()
+            if reached.samples % SAMPLES_PER_CHECKPOINT == 0:
+                self._checkpoint()
+        return fault
+
+    def _keep_frame(self) -> None:
+        if self.reached.samples in self._shown:
+            self._kept.frame(self.reached.state.u[self._drawn])
+
+    def _checkpoint(self) -> None:
+        reached, state = self.reached, self.reached.state
+        self._method.forget()
+        content: dict[str, Any] = {"time": state.time, "u": state.u, "v": state.v, "a": state.a}
+        content |= {"done": reached.samples, "steps": reached.steps}
+        content |= {f"method_{k}": v for k, v in self._method.memory().items() if v is not None}
+        energies = [reached.dissipated, reached.work, reached.largest, reached.origin]
+        self._kept.checkpoint({**content, "energies": energies})

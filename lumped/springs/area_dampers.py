@@ -2,7 +2,8 @@
 
 A damper of coefficient c [N·s/m] on a cell of area a (a0 at rest) resists the rate ȧ = ∇a·v: potential
 ½ c (ȧ/a0)² a0, force (c/a0) ȧ ∇a, power taken (c/a0) ȧ². Tangents: (c/a0) ∇a ∇aᵀ with respect to the
-velocity, (c/a0) [∇a (∇²a v)ᵀ + ȧ ∇²a] with respect to the displacement. In the two diagonals, with n = c/|c|,
+velocity, (c/a0) [∇a (∇²a v)ᵀ + ȧ ∇²a] with respect to the displacement; all but the part with ∇²a v is the
+area springs' own tangent, of c or of the stress (c/a0) ȧ. In the two diagonals, with n = c/|c|,
 c = d1 × d2 and ċ = v1 × d2 + d1 × v2 (see `lumped.springs.areas`),
 
     ∇²a v = ½ (v2 × n + d2 × ṅ,  ṅ × d1 + n × v1),   ṅ = (ċ − n (n·ċ))/|c|.
@@ -16,25 +17,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from lumped.springs.areas import add_tangent, cross, diagonal_changes, measure, scatter
-
-
-@njit(cache=True)
-def rates(
-    u: np.ndarray, v: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, damping: np.ndarray
-) -> np.ndarray:
-    """Stress c ȧ/a0 of every cell's damper, (c,) [N/m]."""
-    change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
-    normal, work = np.empty(3), np.empty(3)
-    out = np.empty(len(nodes))
-    for c in range(len(nodes)):
-        _, area, _ = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
-        diagonal_changes(v, nodes, c, change)
-        rate = 0.0
-        for q in range(3):
-            rate += gradient[0, q] * change[0, q] + gradient[1, q] * change[1, q]
-        out[c] = damping[c] * rate / area
-    return out
+from lumped.springs.areas import cross, diagonal_changes, measure, scatter
 
 
 @njit(cache=True)
@@ -66,21 +49,7 @@ def add_forces(
 
 
 @njit(cache=True)
-def add_velocity_tangent(
-    u: np.ndarray,
-    nodes: np.ndarray,
-    diagonals: np.ndarray,
-    damping: np.ndarray,
-    slots: np.ndarray,
-    scale: float,
-    blocks: np.ndarray,
-) -> None:
-    """Add scale × the derivative of the force with respect to the velocity to the 3×3 blocks."""
-    add_tangent(u, nodes, diagonals, scale * damping, np.zeros(len(nodes)), slots, blocks)
-
-
-@njit(cache=True)
-def add_displacement_tangent(
+def add_turning(
     u: np.ndarray,
     v: np.ndarray,
     nodes: np.ndarray,
@@ -89,10 +58,7 @@ def add_displacement_tangent(
     slots: np.ndarray,
     blocks: np.ndarray,
 ) -> None:
-    """Add the derivative of the force with respect to the displacement to the 3×3 blocks."""
-    add_tangent(
-        u, nodes, diagonals, np.zeros(len(nodes)), rates(u, v, nodes, diagonals, damping), slots, blocks
-    )
+    """Add (c/a0) ∇a (∇²a v)ᵀ of every cell to the 3×3 blocks."""
     change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     normal, work, turning = np.empty(3), np.empty(3), np.empty(3)
     turned = np.empty((2, 3))

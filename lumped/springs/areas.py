@@ -108,20 +108,20 @@ def stresses(u: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness:
 
 
 @njit(cache=True)
-def extrapolated_stresses(
-    u: np.ndarray, step: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray
+def rates(
+    u: np.ndarray, v: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray
 ) -> np.ndarray:
-    """Stresses that the linearisation at u predicts after `step` (n, 3) [m]; (c,) [N/m]."""
+    """Rates k ȧ/a0 of the stresses as the masses move with v (n, 3), (c,) [N/m per unit of v's time]."""
     change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     normal, work = np.empty(3), np.empty(3)
     out = np.empty(len(nodes))
     for c in range(len(nodes)):
-        strain, area, _ = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
-        diagonal_changes(step, nodes, c, change)
+        _, area, _ = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        diagonal_changes(v, nodes, c, change)
         growth = 0.0
         for q in range(3):
             growth += gradient[0, q] * change[0, q] + gradient[1, q] * change[1, q]
-        out[c] = stiffness[c] * (strain + growth / area)
+        out[c] = stiffness[c] * growth / area
     return out
 
 

@@ -3,7 +3,7 @@
 A family is data (masses, rest geometry, a stiffness of every spring's own) and two modules of compiled loops
 over it, `springs` and `dampers`, whose functions take the displacement, then the family's arrays. With a
 measure ε(u) and a stress τ = k ε, a spring's force is τ ∇ε and its tangent k ∇ε ∇εᵀ + τ ∇²ε, where τ is an
-argument: that at u, an extrapolated one, or its harmless part.
+argument: that at u, an extrapolated one, its harmless part, or a damper's c ε̇.
 """
 
 from __future__ import annotations
@@ -57,8 +57,12 @@ class Family:
 
     def extrapolated(self, u: np.ndarray, step: np.ndarray) -> np.ndarray:
         """Stresses that the linearisation at u predicts after `step`."""
-        stresses: np.ndarray = self.springs.extrapolated_stresses(u, step, *self.arrays)
-        return stresses
+        return self.stresses(u) + self.rates(u, step)
+
+    def rates(self, u: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Rates k ∇ε·v of the stresses at u."""
+        rates: np.ndarray = self.springs.rates(u, v, *self.arrays)
+        return rates
 
     def harmless(self, stress: np.ndarray) -> np.ndarray:
         """Stresses with which the tangent is a sum of positive terms."""
@@ -104,12 +108,15 @@ class Dampers:
         return power
 
     def add_velocity_tangent(self, u: np.ndarray, scale: float, blocks: np.ndarray) -> None:
-        """Add scale × the derivative of the force by the velocity to the 3×3 blocks."""
-        self.family.dampers.add_velocity_tangent(u, *self.family.arrays, self.family.slots, scale, blocks)
+        """Add scale × the derivative of the force by the velocity, c ∇ε ∇εᵀ, to the 3×3 blocks."""
+        scaled = replace(self.family, stiffness=scale * self.family.stiffness)
+        scaled.add_tangent(u, np.zeros_like(scaled.stiffness), blocks)
 
     def add_displacement_tangent(self, u: np.ndarray, v: np.ndarray, blocks: np.ndarray) -> None:
-        """Add the derivative of the force by the displacement, which is unsymmetric."""
-        self.family.dampers.add_displacement_tangent(u, v, *self.family.arrays, self.family.slots, blocks)
+        """Add the derivative of the force by the displacement, c ε̇ ∇²ε + c ∇ε (∇²ε v)ᵀ, unsymmetric."""
+        unloaded = replace(self.family, stiffness=np.zeros_like(self.family.stiffness))
+        unloaded.add_tangent(u, self.family.rates(u, v), blocks)
+        self.family.dampers.add_turning(u, v, *self.family.arrays, self.family.slots, blocks)
 
     def add_bound(self, step: float, blocks: np.ndarray) -> None:
         """Add what the dampers bring to the bound of a step's stiffness, c over the step [s]."""

@@ -3,7 +3,8 @@
 A damper of coefficient c on a link of unit vector n and current length r resists the rate of its length,
 w = n·Δv. Its dissipation potential is ½ c w², its force ± c w n on the ends, the power it takes c w² ≥ 0.
 Tangents: c n nᵀ with respect to the velocity, (c/r) [n (PΔv)ᵀ + w P] with P = I − n nᵀ with respect to the
-displacement (unsymmetric). Source: the seed's collocated linear dampers, with the rate taken along the link.
+displacement (unsymmetric); all but the part with PΔv is the links' own tangent, of c or of the tension c w.
+Source: the seed's collocated linear dampers, with the rate taken along the link.
 Arrays as in `lumped.springs.links`; velocity (n, 3) [m/s]; damping (m,) [N·s/m].
 """
 
@@ -43,31 +44,7 @@ def add_forces(
 
 
 @njit(cache=True)
-def add_velocity_tangent(
-    u: np.ndarray,
-    nodes: np.ndarray,
-    offset: np.ndarray,
-    rest_length: np.ndarray,
-    damping: np.ndarray,
-    slots: np.ndarray,
-    scale: float,
-    blocks: np.ndarray,
-) -> None:
-    """Add scale × the derivative of the force with respect to the velocity, c n nᵀ, to the 3×3 blocks."""
-    n = np.empty(3)
-    for m in range(len(nodes)):
-        _, _, n[0], n[1], n[2] = stretch(u, nodes, offset, rest_length, m)
-        for p in range(3):
-            for q in range(3):
-                value = scale * damping[m] * n[p] * n[q]
-                blocks[slots[m, 0], p, q] += value
-                blocks[slots[m, 3], p, q] += value
-                blocks[slots[m, 1], p, q] -= value
-                blocks[slots[m, 2], p, q] -= value
-
-
-@njit(cache=True)
-def add_displacement_tangent(
+def add_turning(
     u: np.ndarray,
     v: np.ndarray,
     nodes: np.ndarray,
@@ -77,7 +54,7 @@ def add_displacement_tangent(
     slots: np.ndarray,
     blocks: np.ndarray,
 ) -> None:
-    """Add the derivative of the force with respect to the displacement to the 3×3 blocks."""
+    """Add c/r n (PΔv)ᵀ of every link to the 3×3 blocks."""
     n, across = np.empty(3), np.empty(3)
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
@@ -89,10 +66,7 @@ def add_displacement_tangent(
             across[q] = v[b, q] - v[a, q] - rate * n[q]
         for p in range(3):
             for q in range(3):
-                value = n[p] * across[q] - rate * n[p] * n[q]
-                if p == q:
-                    value += rate
-                value *= damping[m] / length
+                value = damping[m] / length * n[p] * across[q]
                 blocks[slots[m, 0], p, q] += value
                 blocks[slots[m, 3], p, q] += value
                 blocks[slots[m, 1], p, q] -= value

@@ -46,23 +46,21 @@ def stresses(
 
 
 @njit(cache=True)
-def extrapolated_stresses(
+def rates(
     u: np.ndarray,
-    step: np.ndarray,
+    v: np.ndarray,
     nodes: np.ndarray,
     offset: np.ndarray,
     rest_length: np.ndarray,
     stiffness: np.ndarray,
 ) -> np.ndarray:
-    """Tensions k (e(u) + n·δ) that the linearisation at u predicts after `step` (n, 3) [m]; (m,) [N]."""
+    """Rates k n·v of the tensions as the ends move with v (n, 3), (m,) [N per unit of v's time]."""
     out = np.empty(len(nodes))
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
-        e, _, nx, ny, nz = stretch(u, nodes, offset, rest_length, m)
-        along = (
-            nx * (step[b, 0] - step[a, 0]) + ny * (step[b, 1] - step[a, 1]) + nz * (step[b, 2] - step[a, 2])
-        )
-        out[m] = stiffness[m] * (e + along)
+        _, _, nx, ny, nz = stretch(u, nodes, offset, rest_length, m)
+        along = nx * (v[b, 0] - v[a, 0]) + ny * (v[b, 1] - v[a, 1]) + nz * (v[b, 2] - v[a, 2])
+        out[m] = stiffness[m] * along
     return out
 
 

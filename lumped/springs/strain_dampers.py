@@ -2,7 +2,8 @@
 
 Dampers of coefficients c (three, [N·s/m]) on a cell of `lumped.springs.strains` resist the rates ε̇ = ∇ε·v:
 potential ½ Σ c ε̇² a0 b0, force Σ c ε̇ ∇ε a0 b0, power taken Σ c ε̇² a0 b0. Tangents: Σ c ∇ε ∇εᵀ a0 b0 with
-respect to the velocity, Σ c [∇ε (∇²ε v)ᵀ + ε̇ ∇²ε] a0 b0 with respect to the displacement.
+respect to the velocity, Σ c [∇ε (∇²ε v)ᵀ + ε̇ ∇²ε] a0 b0 with respect to the displacement; all but the part
+with ∇²ε v is the strain springs' own tangent, of c or of the stresses c ε̇.
 
 Arrays as in `lumped.springs.strains`: damping (c, 3) [N·s/m]; displacement, velocity and force (n, 3).
 """
@@ -12,46 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from lumped.springs.areas import diagonal_changes
-from lumped.springs.strains import A_SIGNS, B_SIGNS, add_tangent, measure, scatter
-
-
-@njit(cache=True)
-def _rates(
-    v: np.ndarray,
-    nodes: np.ndarray,
-    diagonals: np.ndarray,
-    c: int,
-    change: np.ndarray,
-    sides: np.ndarray,
-    a0: float,
-    b0: float,
-    moving: np.ndarray,
-) -> tuple[float, float, float]:
-    """ε̇1, ε̇2, γ̇; fills moving (2, 3), the velocities of the sides."""
-    diagonal_changes(v, nodes, c, change)
-    r1 = r2 = r3 = 0.0
-    for q in range(3):
-        va, vb = 0.5 * (change[0, q] - change[1, q]), 0.5 * (change[0, q] + change[1, q])
-        moving[0, q], moving[1, q] = va, vb
-        r1 += sides[0, q] * va / a0
-        r2 += sides[1, q] * vb / b0
-        r3 += (sides[1, q] * va + sides[0, q] * vb) / np.sqrt(a0 * b0)
-    return r1, r2, r3
-
-
-@njit(cache=True)
-def rates(
-    u: np.ndarray, v: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, damping: np.ndarray
-) -> np.ndarray:
-    """Stresses c ε̇ of every cell's dampers, (c, 3) [N/m]."""
-    change, sides, moving = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
-    out = np.empty((len(nodes), 3))
-    for c in range(len(nodes)):
-        _, _, _, a0, b0 = measure(u, nodes, diagonals, c, change, sides)
-        r1, r2, r3 = _rates(v, nodes, diagonals, c, change, sides, a0, b0, moving)
-        out[c, 0], out[c, 1], out[c, 2] = damping[c, 0] * r1, damping[c, 1] * r2, damping[c, 2] * r3
-    return out
+from lumped.springs.strains import A_SIGNS, B_SIGNS, measure, scatter, strain_rates
 
 
 @njit(cache=True)
@@ -64,11 +26,11 @@ def add_forces(
     force: np.ndarray,
 ) -> float:
     """Add the damping force, signed as an internal one, to `force` (n, 3) [N]; the power taken [W]."""
-    change, sides, moving = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
+    change, sides = np.empty((2, 3)), np.empty((2, 3))
     power = 0.0
     for c in range(len(nodes)):
         _, _, _, a0, b0 = measure(u, nodes, diagonals, c, change, sides)
-        r1, r2, r3 = _rates(v, nodes, diagonals, c, change, sides, a0, b0, moving)
+        r1, r2, r3 = strain_rates(v, nodes, diagonals, c, change, sides, a0, b0)
         t1, t2, t3 = damping[c, 0] * r1, damping[c, 1] * r2, damping[c, 2] * r3
         power += (t1 * r1 + t2 * r2 + t3 * r3) * np.sqrt(a0 * b0)
         scatter(nodes, c, t1, t2, t3, sides, a0, b0, force)
@@ -76,21 +38,7 @@ def add_forces(
 
 
 @njit(cache=True)
-def add_velocity_tangent(
-    u: np.ndarray,
-    nodes: np.ndarray,
-    diagonals: np.ndarray,
-    damping: np.ndarray,
-    slots: np.ndarray,
-    scale: float,
-    blocks: np.ndarray,
-) -> None:
-    """Add scale × the derivative of the force with respect to the velocity to the 3×3 blocks."""
-    add_tangent(u, nodes, diagonals, scale * damping, np.zeros((len(nodes), 3)), slots, blocks)
-
-
-@njit(cache=True)
-def add_displacement_tangent(
+def add_turning(
     u: np.ndarray,
     v: np.ndarray,
     nodes: np.ndarray,
@@ -99,14 +47,12 @@ def add_displacement_tangent(
     slots: np.ndarray,
     blocks: np.ndarray,
 ) -> None:
-    """Add the derivative of the force with respect to the displacement to the 3×3 blocks."""
-    none = np.zeros((len(nodes), 3))
-    add_tangent(u, nodes, diagonals, none, rates(u, v, nodes, diagonals, damping), slots, blocks)
+    """Add Σ c ∇ε (∇²ε v)ᵀ a0 b0 of every cell to the 3×3 blocks."""
     change, sides, moving = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     p = nodes.shape[2]
     for c in range(len(nodes)):
         _, _, _, a0, b0 = measure(u, nodes, diagonals, c, change, sides)
-        _rates(v, nodes, diagonals, c, change, sides, a0, b0, moving)
+        strain_rates(v, nodes, diagonals, c, moving, sides, a0, b0)
         area = np.sqrt(a0 * b0)
         for m in range(4):
             for n in range(4):

@@ -60,21 +60,39 @@ def stresses(u: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness:
 
 
 @njit(cache=True)
-def extrapolated_stresses(
-    u: np.ndarray, step: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray
+def strain_rates(
+    v: np.ndarray,
+    nodes: np.ndarray,
+    diagonals: np.ndarray,
+    c: int,
+    moving: np.ndarray,
+    sides: np.ndarray,
+    a0: float,
+    b0: float,
+) -> tuple[float, float, float]:
+    """ε̇1, ε̇2, γ̇ of cell c with sides (2, 3); fills moving (2, 3), the velocities of the sides."""
+    diagonal_changes(v, nodes, c, moving)
+    r1 = r2 = r3 = 0.0
+    for q in range(3):
+        va, vb = 0.5 * (moving[0, q] - moving[1, q]), 0.5 * (moving[0, q] + moving[1, q])
+        moving[0, q], moving[1, q] = va, vb
+        r1 += sides[0, q] * va / a0
+        r2 += sides[1, q] * vb / b0
+        r3 += (sides[1, q] * va + sides[0, q] * vb) / np.sqrt(a0 * b0)
+    return r1, r2, r3
+
+
+@njit(cache=True)
+def rates(
+    u: np.ndarray, v: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray
 ) -> np.ndarray:
-    """Stresses that the linearisation at u predicts after `step` (n, 3) [m]; (c, 3) [N/m]."""
+    """Rates k ε̇ of the stresses as the masses move with v (n, 3), (c, 3) [N/m per unit of v's time]."""
     change, sides = np.empty((2, 3)), np.empty((2, 3))
     out = np.empty((len(nodes), 3))
     for c in range(len(nodes)):
-        e1, e2, shear, a0, b0 = measure(u, nodes, diagonals, c, change, sides)
-        diagonal_changes(step, nodes, c, change)
-        for q in range(3):
-            da, db = 0.5 * (change[0, q] - change[1, q]), 0.5 * (change[0, q] + change[1, q])
-            e1 += sides[0, q] * da / a0
-            e2 += sides[1, q] * db / b0
-            shear += (sides[1, q] * da + sides[0, q] * db) / np.sqrt(a0 * b0)
-        out[c, 0], out[c, 1], out[c, 2] = stiffness[c, 0] * e1, stiffness[c, 1] * e2, stiffness[c, 2] * shear
+        _, _, _, a0, b0 = measure(u, nodes, diagonals, c, change, sides)
+        r1, r2, r3 = strain_rates(v, nodes, diagonals, c, change, sides, a0, b0)
+        out[c, 0], out[c, 1], out[c, 2] = stiffness[c, 0] * r1, stiffness[c, 1] * r2, stiffness[c, 2] * r3
     return out
 
 

@@ -16,6 +16,7 @@ from math import isfinite, nan
 from pathlib import Path
 
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.quantities import LARGEST
 
 SEPARATORS = ";\t,"
 SI = ("[m]", "[s]")
@@ -50,6 +51,8 @@ class Row:
             value = nan
         if not isfinite(value):
             raise self.refused(name, "not a number")
+        if abs(value) > LARGEST:
+            raise self.refused(name, f"must be {LARGEST:g} or less in magnitude")
         return value
 
     def refused(self, name: str, why: str) -> BadInput:

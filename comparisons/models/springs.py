@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isfinite
 from typing import TYPE_CHECKING, Any
 from warnings import warn
 
@@ -17,6 +16,7 @@ from sheetbench.scenes import Material, Scene, Sheet
 from sheetbench.scenes.errors import BadInput, Implausible, require_choice
 from sheetbench.scenes.grid import MASSES, grid_of
 from sheetbench.scenes.plausibility import layer_slips
+from sheetbench.scenes.quantities import require_positive
 
 if TYPE_CHECKING:
     from lumped import Calibration
@@ -101,9 +101,8 @@ def check_lattice(
     that is not one or that the calibration does not take."""
     if calibration is not None:
         require_choice("calibration", calibration, CALIBRATIONS)
-    for name, value, unit in (("k", k, "N/m"), ("layer-distance", layer_distance, "m")):
-        if value is not None and not (value > 0 and isfinite(value)):
-            raise BadInput(f"{name} = {value:g} {unit}: must be greater than 0 and finite")
+    require_positive("k", k, "N/m")
+    require_positive("layer-distance", layer_distance, "m")
     if graded := number(grading):
         takers = [name for name, method in CALIBRATIONS.items() if "grading" in method.takes]
         method = calibration or ("uniform" if k is not None else CALIBRATION)

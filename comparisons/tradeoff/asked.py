@@ -13,6 +13,7 @@ from comparisons.tradeoff.statics import Tradeoff, tradeoff
 from sheetbench.choices import REFERENCE
 from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.quantities import require_positive
 
 
 def of_statics(
@@ -55,8 +56,7 @@ def of_motion(
     scene: Scene, duration: float, grid: str | None, integrators: str, grading: Grading = None
 ) -> Callable[..., DynamicTradeoff]:
     """The trade of a motion over `duration` [s]: integrators and steps, on one lattice. Raises BadInput."""
-    if not duration > 0.0:
-        raise BadInput(f"--duration = {duration:g}: seconds, more than 0")
+    require_positive("--duration", duration, "s")
     return partial(
         dynamic_tradeoff, scene, duration, grid=grid, grading=grading, integrators=items(integrators)
     )

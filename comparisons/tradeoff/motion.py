@@ -37,6 +37,7 @@ from sheetbench.choices import INTEGRATORS
 from sheetbench.scenes import Scene, Status
 from sheetbench.scenes.errors import require_choice
 from sheetbench.scenes.grid import Grid
+from sheetbench.scenes.quantities import require_positive
 
 DIVISIONS = (20, 40, 100, 200, 400)  # steps in the lowest period
 SHARES = (0.9, 0.45)  # of the explicit integrator's limit
@@ -189,6 +190,7 @@ def dynamic_tradeoff(
     """
     import lumped
 
+    require_positive("duration", duration, "s")
     for name in integrators:
         require_choice("integrator", name, INTEGRATORS)
     shape = scene_grid(scene, grid)

@@ -15,6 +15,8 @@ from sheetbench.scenes.errors import BadInput
 
 SAMPLES_PER_PERIOD = 100
 MOST_DEFAULT_STEPS = 10_000_000  # that an explicit run takes unasked: an hour or more
+MOST_STEPS = 10**10  # that any run takes: weeks
+MOST_SAMPLES = 10**7  # that any run keeps: gigabytes
 
 
 @dataclass(frozen=True)
@@ -58,16 +60,20 @@ def plan_run(
 ) -> Plan:
     """How a run that begins is sampled and stepped; see `lumped.simulate` for the defaults.
 
-    Raises BadInput for a step above the limit of `verlet`, or too many of them.
+    Raises BadInput for a step above the limit of `verlet`, too many of them, or too many samples.
     """
     kind = INTEGRATORS[integrator]
     period = 1.0 / float(modes(system.scene, calibration, 1).frequencies[0])
     spacing = every if every is not None else period / SAMPLES_PER_PERIOD
     if step is not None and every is None:
         spacing = max(spacing, step)
-    samples = (
-        max(round(duration / spacing), 1) if every is not None else int(np.ceil(duration / spacing - 1e-9))
-    )
+    if duration / spacing > MOST_SAMPLES:
+        raise BadInput(
+            f"duration = {duration:g} s: would keep {duration / spacing:.1e} samples, {spacing:.3g} s apart; "
+            f"{MOST_SAMPLES:.0e} at most: ask for a shorter run, or samples farther apart (--every)"
+        )
+    samples = round(duration / spacing) if every is not None else int(np.ceil(duration / spacing - 1e-9))
+    samples = max(samples, 1)
     spacing = duration / samples
     limit = step_limit(system, start.u) if kind.explicit else None
     wanted = step if step is not None else kind.default_step(period, limit)
@@ -81,5 +87,9 @@ def plan_run(
                 f"integrator = '{integrator}': would take {duration / wanted:.1e} steps, its stability limit "
                 f"being {limit.describe()}; choose an implicit integrator, or give a step to insist"
             )
+    if duration / wanted > MOST_STEPS:
+        raise BadInput(
+            f"step = {wanted:g} s: {duration / wanted:.1e} steps to {duration:g} s; {MOST_STEPS:.0e} at most"
+        )
     steps = max(int(np.ceil(spacing / wanted - 1e-9)), 1)
     return Plan(samples, spacing, steps, kind.adaptive and step is None, samples)

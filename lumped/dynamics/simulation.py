@@ -33,6 +33,7 @@ from lumped.statics.solver import pose
 from sheetbench.choices import INTEGRATOR
 from sheetbench.scenes import AnyScene, History, scene_of
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.quantities import require_positive
 
 
 def simulate(
@@ -158,8 +159,7 @@ def _refuse(integrator: str, options: dict[str, float], times: dict[str, float |
     if foreign:
         raise BadInput(f"integrator = {integrator!r}: does not take {', '.join(foreign)}")
     for name, value in times.items():
-        if value is not None and not (value > 0.0 and np.isfinite(value)):
-            raise BadInput(f"{name} = {value:g} s: must be greater than 0 and finite")
+        require_positive(name, value, "s")
 
 
 def _method(system: System, plan: Plan, integrator: str, options: dict[str, float]) -> Integrator:

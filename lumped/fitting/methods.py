@@ -13,6 +13,7 @@ from sheetbench import choices
 from sheetbench.scenes import Material, Sheet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import MASSES, grid_of
+from sheetbench.scenes.quantities import require_positive
 
 CALIBRATIONS = described({**MAKERS, "fit-static": fit_static, "fit-modal": fit_modal})
 UNITS = {"k": "N/m", "layer_distance": "m"}
@@ -47,6 +48,6 @@ def calibrate(
             unit = f" {UNITS[name]}" if name in UNITS else ""
             given = "" if name == "targets" else f"{name} = {value:g}{unit}: "
             raise BadInput(f"{given}calibration '{method}' takes no {name}; {name} goes with {others}")
-        if name in UNITS and not value > 0.0:
-            raise BadInput(f"{name} = {value:g} {UNITS[name]}: must be greater than 0")
+        if name in UNITS:
+            require_positive(name, value, UNITS[name])
     return chosen.make(sheet, material, grid_of(sheet, grid), **options)

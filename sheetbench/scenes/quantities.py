@@ -1,19 +1,61 @@
-"""Validated numbers with their units, and the frozen base of every scene object. All are in SI units."""
+"""Validated numbers with their units, and the frozen base of every scene object. All are in SI units.
+
+No number is larger than `LARGEST` in magnitude, and what must be positive not smaller than `SMALLEST`: beyond
+them nothing is meant, and the products and quotients of the mechanics would overflow.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, Strict, ValidationError
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    GetJsonSchemaHandler,
+    Strict,
+    ValidationError,
+)
+from pydantic_core import PydanticCustomError
 
-from sheetbench.scenes.errors import SceneError
+from sheetbench.scenes.errors import BadInput, SceneError
 from sheetbench.scenes.refusals import in_one_line
 from sheetbench.scenes.schema import sentences
 
-Number = Annotated[float, Strict(), Field(allow_inf_nan=False)]
-Positive = Annotated[Number, Field(gt=0)]
-NonNegative = Annotated[Number, Field(ge=0)]
+SMALLEST, LARGEST = 1e-12, 1e15  # E of a diamond is 1e12 Pa
+
+
+def require_positive(name: str, value: object, unit: str) -> None:
+    """Raise BadInput unless a value is left out (None) or a positive number within bounds."""
+    if value is None:
+        return
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise BadInput(f"{name} = {value!r}: must be a number [{unit}]")
+    if not (value > 0 and isfinite(value)):
+        raise BadInput(f"{name} = {value:g} {unit}: must be greater than 0 and finite")
+    if not SMALLEST <= value <= LARGEST:
+        raise BadInput(f"{name} = {value:g} {unit}: must be between {SMALLEST:g} and {LARGEST:g}")
+
+
+def _not_too_large(value: float) -> float:
+    if abs(value) > LARGEST:
+        raise PydanticCustomError("too_large", "too large", {"largest": LARGEST})
+    return value
+
+
+def _not_too_small(value: float) -> float:
+    if value < SMALLEST:
+        raise PydanticCustomError("too_small", "too small", {"smallest": SMALLEST})
+    return _not_too_large(value)
+
+
+_Finite = Annotated[float, Strict(), Field(allow_inf_nan=False)]
+Number = Annotated[_Finite, AfterValidator(_not_too_large)]
+Positive = Annotated[_Finite, Field(gt=0), AfterValidator(_not_too_small)]
+NonNegative = Annotated[_Finite, Field(ge=0), AfterValidator(_not_too_large)]
 Vector3 = tuple[Number, Number, Number]
 PlanPoint = tuple[Number, Number]
 

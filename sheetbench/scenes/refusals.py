@@ -114,6 +114,10 @@ def _allowed(fault: str, facts: dict[str, Any]) -> str:
             return f"must be greater than {facts['gt']:g}"
         case "greater_than_equal":
             return f"must be {facts['ge']:g} or more"
+        case "too_large":
+            return f"must be {facts['largest']:g} or less in magnitude"
+        case "too_small":
+            return f"must be {facts['smallest']:g} or more"
         case "less_than":
             return f"must be less than {facts['lt']:g}"
         case "too_short":

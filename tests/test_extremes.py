@@ -1,0 +1,137 @@
+"""Numbers that nobody means: one line that names the option or the key, or a status that says so."""
+
+from __future__ import annotations
+
+import json
+import re
+import warnings
+from pathlib import Path
+
+import pytest
+from commands import one_line, run
+from scene_files import GOOD, written
+
+import lumped
+from comparisons.models import registry
+from sheetbench import scenes
+from sheetbench.scenes import Status
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.quantities import LARGEST, SMALLEST
+
+SEED, SETTLING = "two-edges-clamped", "two-edges-settling"
+COMPARE = ("compare", SEED, "--lumped", "3", "--elements", "2", "--no-uncertainty")
+CALIBRATE = ("calibrate", SEED, "--grid", "3")
+SIMULATE = ("simulate", SETTLING, "--lumped", "3")
+OPTIONS = [
+    *((verb, option) for verb in (COMPARE, CALIBRATE) for option in ("--layer-distance", "--k")),
+    *((CALIBRATE, option) for option in ("--young", "--side", "--thickness", "--density", "--poisson")),
+    *((SIMULATE, option) for option in ("--step", "--duration", "--every")),
+    (("tradeoff", SEED), "--duration"),
+    (("advise", SEED), "--tolerance"),
+    (("compare", SEED, "--auto"), "--tolerance"),
+]
+HUGE = "9" * 22
+
+
+@pytest.mark.parametrize("value", ["1e-308", "1e308", "inf", "nan"])
+@pytest.mark.parametrize(
+    ("verb", "option"), OPTIONS, ids=lambda part: part if isinstance(part, str) else part[0]
+)
+def test_an_extreme_option_is_refused_by_its_name(
+    verb: tuple[str, ...], option: str, value: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    if option in ("--poisson", "--tolerance") and value == "1e-308":
+        return  # as good as 0, or as strict as may be
+    assert run(*verb, option, value) == 2
+    assert option.removeprefix("--") in one_line(capsys)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("compare", SEED, "--lumped", HUGE),
+        ("compare", SEED, "--elements", HUGE),
+        ("calibrate", SEED, "--grid", f"3x3x{HUGE}"),
+        ("modes", SEED, "--elements", HUGE),
+        ("simulate", SEED, "--lumped", f"{HUGE}x3"),
+        ("tradeoff", SEED, "--shell", HUGE),
+        ("modes", SEED, "--lumped", "3", "--elements", "2", "--count", HUGE),
+    ],
+    ids=lambda part: " ".join(part).replace(HUGE, "99…"),
+)
+def test_an_extreme_count_is_refused(arguments: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(*arguments) == 2
+    assert one_line(capsys)
+
+
+@pytest.mark.parametrize("value", ["1e-308", "1e308", "1e16", "1e-13"])
+@pytest.mark.parametrize("key", ["length_x", "thickness", "young", "density"])
+def test_an_extreme_quantity_of_a_scene_is_refused(key: str, value: str, tmp_path: Path) -> None:
+    lines = [f"{key} = {value}" if line.startswith(f"{key} ") else line for line in GOOD.splitlines()]
+    with pytest.raises(BadInput, match=re.escape(f".{key} = {float(value):g}: must be 1e")):
+        scenes.load(written(tmp_path, "\n".join(lines)))
+
+
+@pytest.mark.parametrize("factor", [SMALLEST, LARGEST])
+@pytest.mark.parametrize("key", ["young", "density"])
+@pytest.mark.parametrize(("model", "size"), [("lumped", {"grid": 3}), ("shell", {"elements": 2})])
+def test_what_is_just_allowed_ends_in_a_status(
+    key: str, factor: float, model: str, size: dict[str, int]
+) -> None:
+    scene = scenes.load(SEED)
+    scene = scene.replace(material=scene.material.replace(**{key: factor}))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)
+        solution = registry.solve(scene, model, **size)
+    assert isinstance(solution.status, Status)
+
+
+@pytest.mark.parametrize("k", [SMALLEST, LARGEST])
+def test_springs_just_allowed_end_in_a_status(k: float) -> None:
+    scene = scenes.load(SEED)
+    springs = lumped.calibrate(scene.sheet, scene.material, 3, "uniform", k=k)
+    assert isinstance(lumped.solve(scene, springs).status, Status)
+
+
+def test_steps_and_samples_have_their_bounds(capsys: pytest.CaptureFixture[str]) -> None:
+    for options, said in (
+        (("--step", "1e-12", "--duration", "1"), "steps to 1 s"),
+        (("--every", "1e-9", "--duration", "1"), "samples"),
+        (("--duration", "1e9"), "samples"),
+    ):
+        assert run(*SIMULATE, *options) == 2
+        assert said in capsys.readouterr().err.splitlines()[-1]
+
+
+def test_a_step_longer_than_the_run_is_the_run(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(*SIMULATE, "--step", "1e15", "--duration", "0.001", "--json") == 0
+    assert json.loads(capsys.readouterr().out)["steps"] == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("time,x,y,uz\n1e300,0.1,0.1,-0.01\n", "line 2: time = '1e300': must be 1e+15 or less"),
+        ("x,y,uz\n0.1,0.1,1e308\n", "line 2: uz = '1e308': must be 1e+15 or less"),
+        ("x,y,uz\n0.1,0.1,-inf\n", "line 2: uz = '-inf': not a number"),
+        (f"x,y,uz\n0.1,0.1,{'1' * 140_000}\n", "line 2: field larger than field limit"),
+    ],
+    ids=["time", "displacement", "infinity", "long cell"],
+)
+def test_an_extreme_cell_is_refused_by_its_line(
+    text: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "measured.csv"
+    path.write_text(text)
+    assert run("identify", SEED, "--measured", str(path)) == 2
+    assert said in one_line(capsys)
+
+
+def test_of_many_faults_three_are_told_and_the_rest_counted(tmp_path: Path) -> None:
+    text = GOOD
+    for key in ("length_x", "length_y", "thickness", "young", "density"):
+        lines = [f"{key} = 1e308" if line.startswith(f"{key} ") else line for line in text.splitlines()]
+        text = "\n".join(lines)
+    with pytest.raises(BadInput, match="; and 2 more") as told:
+        scenes.load(written(tmp_path, text))
+    assert str(told.value).count("must be") == 3

@@ -52,10 +52,10 @@ def _not_too_small(value: float) -> float:
     return _not_too_large(value)
 
 
-_Finite = Annotated[float, Strict(), Field(allow_inf_nan=False)]
-Number = Annotated[_Finite, AfterValidator(_not_too_large)]
-Positive = Annotated[_Finite, Field(gt=0), AfterValidator(_not_too_small)]
-NonNegative = Annotated[_Finite, Field(ge=0), AfterValidator(_not_too_large)]
+Finite = Annotated[float, Strict(), Field(allow_inf_nan=False)]
+Number = Annotated[Finite, AfterValidator(_not_too_large)]
+Positive = Annotated[Finite, Field(gt=0), AfterValidator(_not_too_small)]
+NonNegative = Annotated[Finite, Field(ge=0), AfterValidator(_not_too_large)]
 Vector3 = tuple[Number, Number, Number]
 PlanPoint = tuple[Number, Number]
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from pydantic import Field, model_validator
 
-from sheetbench.scenes.quantities import Frozen, NonNegative, Number, PlanPoint, Positive, Unit, Vector3
+from sheetbench.scenes.quantities import Finite, Frozen, NonNegative, PlanPoint, Positive, Unit, Vector3
 from sheetbench.scenes.tables import Loading
 
 EdgeName = Literal["x0", "x1", "y0", "y1"]
@@ -86,7 +86,7 @@ class Material(Frozen):
 
     young: Annotated[Positive, Unit("Pa")]
     """Young's modulus E: 1 MPa is 1.0e6."""
-    poisson: Annotated[Number, Field(gt=-1, lt=0.5)]
+    poisson: Annotated[Finite, Field(gt=-1, lt=0.5)]
     """Poisson's ratio ν, below 0.5: rubber and silicone are about 0.48 to 0.499."""
     density: Annotated[Positive, Unit("kg/m³")]
     """Density ρ: water's is 1000."""

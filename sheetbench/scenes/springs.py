@@ -20,7 +20,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Strict, Tag, model_validator
 
-from sheetbench.scenes.quantities import Frozen, NonNegative, Number, Positive, Unit
+from sheetbench.scenes.quantities import Finite, Frozen, NonNegative, Number, Positive, Unit
 
 
 def _form(value: Any) -> str:
@@ -116,7 +116,7 @@ class SpringTable(SpringSet):
     grid: tuple[Masses, Masses, Masses] | None = None
     """Masses along x and y, and layers, of the lattice that these springs belong to: what is solved unless a
     grid is asked for; another grid is refused."""
-    grading: Annotated[Number, Field(ge=0, le=1)] = 0.0
+    grading: Annotated[Finite, Field(ge=0, le=1)] = 0.0
     """How much smaller that lattice's cells are at the edges: 0, all alike, to 1; another one is refused."""
     masses: Distribution = "tributary"
     """How its mass is shared out: tributary, or as the fit to frequencies found it best (gregory)."""

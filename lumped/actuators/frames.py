@@ -31,6 +31,20 @@ from sheetbench.scenes import Chain
 T, N, B = range(3)
 
 
+class _Quantities:
+    """Sums of products of two vectors less a target; terms: quantity, first, second and weight of each
+    product."""
+
+    def __init__(self) -> None:
+        self.terms: list[tuple[int, int, int, float]] = []
+        self.target: list[float] = []
+
+    def add(self, value: float, *products: tuple[int, int, float]) -> None:
+        """Another quantity: the weighted sum of products, less a value."""
+        self.terms.extend((len(self.target), *product) for product in products)
+        self.target.append(value)
+
+
 class Frames:
     """Geometry of one chain. axes: the undeformed t, n, b as rows of a (3, 3) matrix; start: (3,) [m].
 
@@ -67,37 +81,12 @@ class Frames:
             self.free[self.corner_row[end]] = False
             kinds = [kind for kind in (T, N, B) if not self._slides(chain, end, kind)]
             self.free[self.end_point(end), np.abs(axes[kinds]).argmax(axis=1)] = False
-        rigid = [i for i in range(count) if not self._held(i)]
-        terms: list[tuple[int, int, int, float]] = []
-        target: list[float] = []
-
-        def quantity(value: float, *products: tuple[int, int, float]) -> None:
-            terms.extend((len(target), *product) for product in products)
-            target.append(value)
-
-        for i in rigid:
-            for first, second in ((T, T), (N, N), (B, B), (T, N), (T, B), (N, B)):
-                same = first == second
-                quantity(0.5 * same, (self._vector(i, first), self._vector(i, second), 0.5 if same else 1.0))
-        for before, after, _ in self.joints:
-            for products in _JOINT_CONSTRAINTS[chain.plane]:
-                quantity(0.0, *((self._vector(before, p), self._vector(after, q), w) for p, q, w in products))
-        for end in self.corners:
-            if chain.base == "free" and end == self.corners[0]:
-                for kind in (T, B) if chain.plane == "inplane" else (B,):
-                    quantity(0.0, (self._corner(end), self._vector(self.end_segment(end), kind), 1.0))
-        self.constraints = len(target)
-        for before, after, _ in self.joints:
-            for first in (N, B):
-                weight = float(first in _MEASURED[chain.plane])
-                quantity(0.0, (self._vector(before, first), self._vector(after, T), weight))
-            quantity(0.0, (self._vector(before, T), self._vector(after, T), 1.0))
+        quantities = _Quantities()
+        self._constrain(chain, quantities)
+        self.constraints = len(quantities.target)
         hinged = () if chain.plane == "inplane" else self.corners
-        for end in hinged:
-            corner, segment = self._corner(end), self.end_segment(end)
-            quantity(0.0, (corner, self._vector(segment, T), 1.0 if end == 0 else -1.0))
-            quantity(0.0, (corner, self._vector(segment, B), 0.0))
-            quantity(0.0, (corner, self._vector(segment, N), 1.0))
+        self._measure(chain, hinged, quantities)
+        terms, target = quantities.terms, quantities.target
         self.target = np.array(target)
         index = np.array([term[:3] for term in terms], dtype=int).reshape(-1, 3)  # one held segment has none
         self._quantity, self._first, self._second = index.T
@@ -109,6 +98,37 @@ class Frames:
         self.share = np.array([share for _, _, share in self.joints] + [0.5] * len(hinged))
         ends = [0 if end == 0 else len(self.joints) - 1 for end in hinged]
         self.command = np.array([*range(len(self.joints)), *ends], dtype=int)  # whose curvature a joint has
+
+    def _constrain(self, chain: Chain, quantities: _Quantities) -> None:
+        """Rigid segments that are not held, joints of the plane, and the first corner of a chain without a
+        base."""
+        for i in range(self.segments):
+            if self._held(i):
+                continue
+            for first, second in ((T, T), (N, N), (B, B), (T, N), (T, B), (N, B)):
+                same = first == second
+                pair = (self._vector(i, first), self._vector(i, second), 0.5 if same else 1.0)
+                quantities.add(0.5 * same, pair)
+        for before, after, _ in self.joints:
+            for products in _JOINT_CONSTRAINTS[chain.plane]:
+                pairs = [(self._vector(before, p), self._vector(after, q), w) for p, q, w in products]
+                quantities.add(0.0, *pairs)
+        for end in self.corners[:1] if chain.base == "free" else ():
+            for kind in (T, B) if chain.plane == "inplane" else (B,):
+                pair = (self._corner(end), self._vector(self.end_segment(end), kind), 1.0)
+                quantities.add(0.0, pair)
+
+    def _measure(self, chain: Chain, hinged: tuple[int, ...], quantities: _Quantities) -> None:
+        """Three measures of every joint, and of those between corners and the segments hinged to them."""
+        for before, after, _ in self.joints:
+            for first in (N, B):
+                weight = float(first in _MEASURED[chain.plane])
+                quantities.add(0.0, (self._vector(before, first), self._vector(after, T), weight))
+            quantities.add(0.0, (self._vector(before, T), self._vector(after, T), 1.0))
+        for end in hinged:
+            corner, segment = self._corner(end), self.end_segment(end)
+            for kind, weight in ((T, 1.0 if end == 0 else -1.0), (B, 0.0), (N, 1.0)):
+                quantities.add(0.0, (corner, self._vector(segment, kind), weight))
 
     @property
     def multiplier_rows(self) -> int:

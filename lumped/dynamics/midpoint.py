@@ -85,7 +85,8 @@ class Midpoint(Integrator):
         """Work of moving supports, commands and loads without a potential as the step itself has it."""
         system, done = self.system, 0.0
         if system.moving:
-            done += float(np.sum(exerted * moved)) + system.kinetic_of_placed(before.time, after.time)
+            done += float(np.sum(exerted * moved))
+            done += system.kinetic_of_placed(after) - system.kinetic_of_placed(before)
         middle = 0.5 * (before.time + after.time)
         if system.working:
             working = system.external(mean, middle) - system.problem.loads.dead

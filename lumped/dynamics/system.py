@@ -196,11 +196,12 @@ class System:
         inertia: np.ndarray = (self.mass @ state.a.ravel()).reshape(-1, 3)
         return inertia - self.unbalanced(state.u, state.v, state.time)
 
-    def kinetic_of_placed(self, start: float, end: float) -> float:
-        """Kinetic energy [J] that prescription gives the masses between two times [s], which is work done on
-        them: of ġ alone, since Tᵀ M ġ = 0."""
-        before, after = self.place_rate(start).ravel(), self.place_rate(end).ravel()
-        return 0.5 * float(after @ (self.mass @ after) - before @ (self.mass @ before))
+    def kinetic_of_placed(self, state: State) -> float:
+        """Kinetic energy [J] of what is prescribed, whose gain is work done on the masses: all but that of
+        the free unknowns, which is apart since Tᵀ M ġ = 0."""
+        momentum = self.mass @ state.v.ravel()
+        free = self.moving_part.T @ momentum
+        return 0.5 * float(state.v.ravel() @ momentum - free @ self.solve_mass(free))
 
     def work(self, before: State, after: State) -> float:
         """Work of moving supports, commands and loads without a potential in a step, by the trapezoidal rule
@@ -209,7 +210,7 @@ class System:
         if self.moving:
             moved = self.place(after.time) - self.place(before.time)
             done += 0.5 * float(np.sum((self.exerted(before) + self.exerted(after)) * moved))
-            done += self.kinetic_of_placed(before.time, after.time)
+            done += self.kinetic_of_placed(after) - self.kinetic_of_placed(before)
         if self.working:
             mean = 0.5 * (self.external(before.u, before.time) + self.external(after.u, after.time))
             done += float(np.sum((mean - self.problem.loads.dead) * (after.u - before.u)))

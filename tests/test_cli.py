@@ -208,6 +208,8 @@ def test_scenes_lists_the_catalogue_whole(tmp_path: Path, capsys: pytest.Capture
     document = json.loads(capsys.readouterr().out)
     assert {row["name"] for row in document["scenes"]} == set(scenes.catalogue())
     assert scenes.load(tmp_path / "one-edge-clamped.toml") == scenes.load("one-edge-clamped")
+    (listed,) = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))["runs"].values()
+    assert listed["finished"] and "one-edge-clamped.toml" in listed["files"]
 
 
 def test_calibrate_from_options_and_from_a_scene_agree(capsys: pytest.CaptureFixture[str]) -> None:

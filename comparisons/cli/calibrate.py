@@ -7,7 +7,19 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Grading, Grid, Json, Large, LayerDistance, Out, Overwrite
+from comparisons.cli.options import (
+    Grading,
+    Grid,
+    Json,
+    Large,
+    LayerDistance,
+    Out,
+    Overwrite,
+    Poisson,
+    Side,
+    Thickness,
+    Young,
+)
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 
 
@@ -16,14 +28,14 @@ def command(
         str | None,
         typer.Argument(metavar="[SCENE]", help="Take sheet and material from here.", show_default=False),
     ] = None,
-    young: Annotated[float | None, typer.Option(metavar="PA", help="Young's modulus E.")] = None,
-    poisson: Annotated[float | None, typer.Option(metavar="NU", help="Poisson's ratio ν.")] = None,
-    thickness: Annotated[float | None, typer.Option(metavar="M", help="Thickness of the sheet.")] = None,
+    young: Young = None,
+    poisson: Poisson = None,
+    thickness: Thickness = None,
     density: Annotated[
         float | None,
         typer.Option(metavar="KG/M3", help="Density; 1000 kg/m³ unless given.", show_default=False),
     ] = None,
-    side: Annotated[str | None, typer.Option(metavar="M", help="Sides: 0.188 or 0.188x0.3 (x by y).")] = None,
+    side: Side = None,
     grid: Grid = None,
     grading: Grading = None,
     method: Annotated[

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from comparisons.cli.options import Poisson, Side, Thickness, Young
+
 if TYPE_CHECKING:
     from sheetbench.scenes import Material, Sheet
 
@@ -26,10 +28,10 @@ QUESTIONS = {
 
 def command(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="The TOML file to write.")],
-    side: Annotated[str | None, typer.Option(metavar="M", help="Sides: 0.188 or 0.3x0.2 (x by y).")] = None,
-    thickness: Annotated[float | None, typer.Option(metavar="M", help="Thickness of the sheet.")] = None,
-    young: Annotated[float | None, typer.Option(metavar="PA", help="Young's modulus E.")] = None,
-    poisson: Annotated[float | None, typer.Option(metavar="NU", help="Poisson's ratio ν.")] = None,
+    side: Side = None,
+    thickness: Thickness = None,
+    young: Young = None,
+    poisson: Poisson = None,
     density: Annotated[float | None, typer.Option(metavar="KG/M3", help="Density.")] = None,
     clamped: Annotated[
         str | None,

@@ -69,6 +69,12 @@ Large = Annotated[
         show_default=False,
     ),
 ]
+Workers = Annotated[
+    int | None,
+    typer.Option(
+        "--workers", min=1, metavar="N", help="Processes for what is not timed; one a core unless given."
+    ),
+]
 Retry = Annotated[
     bool, typer.Option("--retry", help="Run again what failed in an earlier run.", show_default=False)
 ]
@@ -86,6 +92,10 @@ K = Annotated[
 LayerDistance = Annotated[
     float | None, typer.Option("--layer-distance", metavar="M", help="Distance of the lattice's layers.")
 ]
+Side = Annotated[str | None, typer.Option("--side", metavar="M", help="Sides: 0.188 or 0.188x0.3 (x by y).")]
+Thickness = Annotated[float | None, typer.Option("--thickness", metavar="M", help="Thickness of the sheet.")]
+Young = Annotated[float | None, typer.Option("--young", metavar="PA", help="Young's modulus E.")]
+Poisson = Annotated[float | None, typer.Option("--poisson", metavar="NU", help="Poisson's ratio ν.")]
 Elements = Annotated[
     str,
     typer.Option(

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Large, Out, Overwrite, Retry, Scheduler, Wait
+from comparisons.cli.options import Json, Large, Out, Overwrite, Retry, Scheduler, Wait, Workers
 
 
 def command(
@@ -21,9 +21,7 @@ def command(
         ),
     ] = None,
     full: Annotated[bool, typer.Option("--full", help="Every cell: finer maps, grids to 257 × 257.")] = False,
-    workers: Annotated[
-        int | None, typer.Option(min=1, metavar="N", help="Cells measured side by side; one a core.")
-    ] = None,
+    workers: Workers = None,
     scheduler: Scheduler = None,
     wait: Wait = False,
     retry: Retry = False,

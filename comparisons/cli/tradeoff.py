@@ -19,6 +19,7 @@ from comparisons.cli.options import (
     Scheduler,
     Symmetry,
     Wait,
+    Workers,
 )
 from sheetbench.choices import CALIBRATION, CALIBRATIONS, INTEGRATORS, REFERENCES, listed
 
@@ -70,9 +71,7 @@ def command(
     repeats: Annotated[
         int, typer.Option(min=1, metavar="N", help="Timed solves of every row, at least.")
     ] = 5,
-    workers: Annotated[
-        int | None, typer.Option(min=1, metavar="N", help="Processes for what is not timed; one a core.")
-    ] = None,
+    workers: Workers = None,
     scheduler: Scheduler = None,
     wait: Wait = False,
     duration: Annotated[

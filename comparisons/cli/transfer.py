@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Grading, Json, Large, Out, Overwrite, Retry
+from comparisons.cli.options import Grading, Json, Large, Out, Overwrite, Retry, Workers
 
 
 def command(
@@ -42,9 +42,7 @@ def command(
     elements: Annotated[
         int, typer.Option(min=1, metavar="N", help="Elements of the shell along a side.")
     ] = 24,
-    workers: Annotated[
-        int | None, typer.Option(min=1, metavar="N", help="Processes; one a core unless given.")
-    ] = None,
+    workers: Workers = None,
     retry: Retry = False,
     large: Large = False,
     json: Json = False,

@@ -25,7 +25,7 @@ from fem_reference.surface.actuator_forces import OnEdge
 from fem_reference.surface.biquadratic import GAUSS, THREE, THREE_WEIGHTS, areas, shape, side_shape
 from fem_reference.surface.loads import Line
 from fem_reference.surface.location import interpolate
-from sheetbench.scenes import Chain, EdgeLoad, PointLoad, Pressure, Scene, dead_force
+from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene, dead_force
 
 _VALUE, _SLOPE = side_shape(THREE)  # (3 points, 3 nodes)
 _AT_GAUSS, _ = shape(*GAUSS)  # (9 points, 9 nodes)
@@ -102,8 +102,7 @@ def _weight_moment(scene: Scene, surface: Surface, edge: OnEdge) -> np.ndarray:
     )
     axes = [
         chain.line_density * (line + chain.axis_height(scene.sheet.thickness) * director)
-        for name, chain in scene.named_actuators().items()
-        if name in edge.rod.names and isinstance(chain, Chain)
+        for chain in scene.chains()[edge.rod.edge].values()
     ]
     return np.cross(np.sum(axes, axis=0), scene.gravity.last_acceleration)
 

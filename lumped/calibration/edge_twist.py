@@ -23,6 +23,7 @@ both reductions add) and 2 λ is lost; else ψ_n = 0 at the far edge and λ is l
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -91,10 +92,19 @@ def _strip(
         column, row = (cell, place) if axis == 0 else (place, cell)
         own = by_cell.of_cell(springs, row, column)
         sides = (float(lines[0].widths[column]), float(lines[1].widths[row]), springs.layer_distance)
-        whole = moduli.of_springs(own, sides, layers)
-        rows.append((whole.bending[2, 2], whole.shear[1 - axis], _shares(own, sides)[1 - axis]))
-    twisting, shear, shares = np.array(rows).T
-    return twisting, shear, shares
+        twisting, shear, shares = _of_cell(own, sides, layers)
+        rows.append((twisting, shear[1 - axis], shares[1 - axis]))
+    of_strip = np.array(rows).T
+    return of_strip[0], of_strip[1], of_strip[2]
+
+
+@lru_cache(maxsize=4096)  # kinds of cells: strips have most in common
+def _of_cell(
+    springs: SpringSet, sides: tuple[float, float, float], layers: int
+) -> tuple[float, list[float], list[float]]:
+    """D66 [N·m] of a cell, its S along x and y [N/m] and the diagonals' share of it."""
+    whole = moduli.of_springs(springs, sides, layers)
+    return float(whole.bending[2, 2]), whole.shear.tolist(), _shares(springs, sides)
 
 
 def _shares(springs: SpringSet, spacing: tuple[float, float, float]) -> list[float]:

@@ -78,7 +78,6 @@ WAYS: dict[str, tuple[int, dict[str, str], str]] = {
     "50": (50, {}, "utf-8"),
     "80": (80, {}, "utf-8"),
     "160": (160, {}, "utf-8"),
-    "50, no colour": (50, {"NO_COLOR": "1"}, "utf-8"),
     "160, no colour": (160, {"NO_COLOR": "1"}, "utf-8"),
     "80, ASCII": (80, {"NO_COLOR": "1"}, "ascii"),
 }

@@ -173,6 +173,7 @@ def test_oscillation_of_a_damped_cosine() -> None:
     assert oscillation(time, time) == (None, None)
 
 
+@pytest.mark.usefixtures("in_process")
 def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path: Path) -> None:
     scene = scenes.load("two-edges-settling")
     with campaign(tmp_path) as store:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from campaigns import rows_in
+from campaigns import Here, rows_in
 from commands import one_line, run
 
 from comparisons.models import candidate as candidates
@@ -173,7 +173,6 @@ def test_oscillation_of_a_damped_cosine() -> None:
     assert oscillation(time, time) == (None, None)
 
 
-@pytest.mark.usefixtures("in_process")
 def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path: Path) -> None:
     scene = scenes.load("two-edges-settling")
     with campaign(tmp_path) as store:
@@ -185,7 +184,7 @@ def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path: Path
             integrators=("generalised-alpha", "midpoint"),
             divisions=(40, 80, 160),
             reference=1600,
-            workers=2,
+            pool=Here,
         )
     assert len(found.rows) == 6 and all(row.status == "converged" for row in found.rows)
     assert found.uncertainty is not None and found.uncertainty < 1e-4

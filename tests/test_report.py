@@ -6,18 +6,21 @@ import csv
 import io
 import json
 import re
+import warnings
 from pathlib import Path
 
 import pytest
 from commands import one_line, run
 from scene_files import written
 
+from comparisons.cli.finish import finish
+from comparisons.cli.warned import in_a_line
 from comparisons.report import escape
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table, Unit, quantity, unit
 from comparisons.runs.folder import MANIFEST, Folder
 from sheetbench import scenes
-from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.errors import BadInput, Implausible
 
 HOSTILE = '\x1b[31m<script>alert("x")</script>|=1+1\n`$\\'
 NUMBERS = Column("a", "m", "mm", 1e3, ".4g")
@@ -245,3 +248,13 @@ def test_an_empty_out_is_refused(verb: tuple[str, ...], capsys: pytest.CaptureFi
 def test_brackets_in_help_are_no_markup(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("calibrate", "--help") == 0
     assert "[springs]" in capsys.readouterr().out
+
+
+def test_a_questions_own_warnings_stand_before_those_about_its_scene(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with in_a_line():
+        warnings.warn(Implausible("young = 54.5 Pa"), stacklevel=1)
+        with finish("identify", json=True, out=None) as end:
+            end(Report("identification", "t", {"warnings": ["a poor fit"]}))
+    assert json.loads(capsys.readouterr().out)["warnings"] == ["a poor fit", "young = 54.5 Pa"]

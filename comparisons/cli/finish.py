@@ -83,7 +83,8 @@ class End:
     def __call__(self, report: Report, instead: str | None = None) -> None:
         """Write the files, print the document or the tables or what is wanted `instead` of them, warn, and
         leave with 3 where the question was not met."""
-        report = replace(report, document={**report.document, "warnings": list(warned.said)})
+        found = report.document.get("warnings", ())  # the question's own, before those about its scene
+        report = replace(report, document={**report.document, "warnings": [*found, *warned.said]})
         missing: list[str] = []
         if self._folder is not None:
             missing = [f"No picture: {said}" for said in self._folder.report(report, self.progress)]

@@ -6,7 +6,7 @@ OUT    ?= demo
 FUZZ   ?= 20000
 CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogue.py cli.py compare.py \
             lattice.py lattice_mechanics.py lumped_statics.py calibration.py balance.py dynamics_forces.py \
-            shell_element.py shell_linear.py solid_element.py plate.py sections.py snaps.py campaign.py \
+            shell_element.py shell_linear.py solid_element.py sections.py snaps.py campaign.py \
             report.py measurements.py) tests/fuzz
 
 .PHONY: docs-scene help install demo test check slow fuzz catalogue verify locking transfer tradeoff \

@@ -17,8 +17,10 @@ from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.pseudo_transient import relax, settler
 from fem_reference.surface.loads import point_force
 from fem_reference.surface.mesh import rectangle
+from fem_reference.surface.supports import Driven
 from sheetbench import scenes
 from sheetbench.scenes import Chain, Curved, Hinged, Material, Scene, Sheet, Status
+from sheetbench.scenes.kinematics import Placed
 
 SIDE, WIDTH, THICKNESS, YOUNG = 1.0, 0.1, 0.002, 1e7
 SHORTER = 0.002  # shortening of the strip
@@ -59,14 +61,12 @@ BRANCHING, LIMIT = push_of(np.pi), limit()
 class Shortening:
     """The strip's ends brought closer, at every load factor."""
 
-    nodes: np.ndarray
-    outward: np.ndarray
     shorter: float
 
-    def change(self, load_factor: float) -> tuple[np.ndarray, np.ndarray]:
-        out = np.zeros((len(self.nodes), 3))
-        out[:, 0] = -0.5 * self.shorter * self.outward
-        return out, np.zeros_like(out)
+    def placed(self, points: np.ndarray, load_factor: float) -> Placed:
+        out = np.zeros((len(points), 3))
+        out[:, 0] = -0.5 * self.shorter * np.sign(points[:, 0] - SIDE / 2)
+        return Placed(out, np.zeros((3, 3)))
 
 
 @dataclass(frozen=True)
@@ -96,9 +96,8 @@ def strip(at: float = 0.5, shorter: float = SHORTER, bent: float = 0.0) -> Strip
     mesh = rectangle(scene.sheet, (12, 1), graded=False)
     plain, nodes = shell.discretise(mesh, scene)
     ends = np.flatnonzero(plain.supports.position.any(axis=1))
-    supports = plain.supports
-    driver = Shortening(ends, np.sign(nodes[ends, 0] - SIDE / 2), shorter)
-    object.__setattr__(supports, "driven", (driver,))
+    closer = Driven(ends, nodes[ends], Shortening(shorter), np.ones(len(ends)))
+    supports = replace(plain.supports, turning=(closer,))
     point = np.array([at * SIDE, WIDTH / 2])
     dead = point_force(mesh, plain.element_nodes, len(nodes), point, np.array([0.0, 0.0, -1.5 * LIMIT]))
     out = Strip.build(plain.element, plain.element_nodes, supports, dead)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from commands import run
 from rich.console import Console
 from terminals import CONTROL, Terminal
 
@@ -132,6 +133,18 @@ def numbers(text: str) -> list[str]:
 
 def test_every_verb_is_tried() -> None:
     assert set(SMALL) == set(VERBS)
+
+
+@pytest.mark.parametrize("width", [50, 80, 160])
+@pytest.mark.parametrize("verb", VERBS)
+def test_a_help_page_cuts_nothing_off(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], verb: str, width: int
+) -> None:
+    monkeypatch.setenv("COLUMNS", str(width))
+    monkeypatch.setattr("typer.rich_utils.MAX_WIDTH", width)  # as it reads the variable where it is imported
+    assert run(verb, "--help") == 0
+    page = capsys.readouterr().out
+    assert "--help" in page and "…" not in page.replace("N,N,…", "")
 
 
 @pytest.mark.parametrize("way", ["wide", *WAYS])

@@ -14,6 +14,7 @@ import traceback
 from collections.abc import Callable
 from functools import wraps
 from importlib import import_module
+from shutil import get_terminal_size
 from typing import Any
 
 import typer
@@ -39,6 +40,7 @@ VERBS = (
 FAULT = 1
 BAD_INPUT = 2
 NOT_CONVERGED = 3
+BOXES = 80  # columns; in narrower ones the boxes of a help page cut names off, and it is plain text
 
 app = typer.Typer(
     help="How good is your spring lattice? Lumped-mass models of soft sheets beside finite elements.",
@@ -95,6 +97,7 @@ def main(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit status."""
     for stream in (sys.stdout, sys.stderr):
         characters.adapt(stream)
+    app.rich_markup_mode = "rich" if get_terminal_size().columns >= BOXES else None
     with interruption.heeded(), warned.in_a_line():
         try:
             app(args=arguments, prog_name="sheetbench")

@@ -118,7 +118,7 @@ Models = Annotated[
         "--model",
         metavar="MODEL",
         help="A model more: a plug-in's NAME, FILE.py:CLASS with one of your own, or lumped, plate, shell, "
-        "solid; settings after it, as NAME:grid=9x5,symmetry=true. May be repeated.",
+        "solid; settings after it, as NAME:grid=9x5. May be repeated.",
         show_default=False,
     ),
 ]

@@ -82,7 +82,12 @@ def command(
         ),
     ] = None,
     integrator: Annotated[
-        str, typer.Option(metavar="NAMES", help="With --duration: the integrators.")
+        str,
+        typer.Option(
+            metavar="NAMES",
+            help="With --duration: the integrators.",
+            show_default=", ".join(sorted(INTEGRATORS)),  # a line of help breaks at blanks alone
+        ),
     ] = ",".join(sorted(INTEGRATORS)),
     retry: Retry = False,
     large: Large = False,

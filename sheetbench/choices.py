@@ -58,6 +58,11 @@ REFERENCES = {
 ELEMENTS = 16  # along the shorter side
 
 
+def method_of(calibration: str | None, k: float | None) -> str:
+    """The calibration meant: the one named, else `uniform` where k is given, else the usual one."""
+    return calibration or ("uniform" if k is not None else CALIBRATION)
+
+
 def listed(names: Iterable[str]) -> str:
     """The names as a sentence has them: a, b or c."""
     *first, last = names

@@ -155,14 +155,19 @@ VERBS = {
 }
 
 
-@pytest.mark.parametrize("verb", VERBS)
-def test_every_verb_refuses_what_does_not_fit(
-    verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+@pytest.fixture
+def arguments(verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Those of the verb, where next to nothing is free."""
     room(monkeypatch, 1000.0)
     measured = tmp_path / "measured.csv"
     measured.write_text(MEASURED)
-    arguments = [str(measured) if part == "MEASURED" else part for part in VERBS[verb]]
+    return [str(measured) if part == "MEASURED" else part for part in VERBS[verb]]
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_every_verb_refuses_what_does_not_fit(
+    verb: str, arguments: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
     assert run(verb, *arguments) == 2
     said = capsys.readouterr().err.splitlines()[-1]
     assert "of memory, and 0.001 MB are free here" in said and "--large" in said
@@ -170,12 +175,8 @@ def test_every_verb_refuses_what_does_not_fit(
 
 @pytest.mark.parametrize("verb", ["compare", "identify", "modes", "simulate"])
 def test_large_goes_on_all_the_same(
-    verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    verb: str, arguments: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    room(monkeypatch, 1000.0)
-    measured = tmp_path / "measured.csv"
-    measured.write_text(MEASURED)
-    arguments = [str(measured) if part == "MEASURED" else part for part in VERBS[verb]]
     assert run(verb, *arguments, "--large", "--json") == 0
     assert json.loads(capsys.readouterr().out)
 

@@ -10,11 +10,10 @@ import shlex
 from comparisons.models.grids import scene_grid
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
+from sheetbench.choices import ELEMENTS
 from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
 from sheetbench.scenes.grid import near_square
 from sheetbench.scenes.words import in_words
-
-ELEMENTS = 16  # of the shell, along the shorter side
 
 
 def check(scene: AnyScene, called: str | None = None) -> Report:

@@ -28,7 +28,7 @@ from comparisons.models.registry import answer, check, check_reference
 from comparisons.models.springs import has_own_springs
 from comparisons.report.report import Report
 from comparisons.report.work import Progress, silent
-from sheetbench.choices import REFERENCE
+from sheetbench.choices import ELEMENTS, REFERENCE
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static, summary
 
 if TYPE_CHECKING:
@@ -197,7 +197,7 @@ def compare(
     layer_distance: float | None = None,
     grading: Grading = None,
     reference: str = REFERENCE,
-    elements: Elements = 16,
+    elements: Elements = ELEMENTS,
     uncertainty: bool | None = None,
     symmetry: bool = False,
     choice: Candidate | None = None,

@@ -21,7 +21,7 @@ import numpy as np
 
 from comparisons.models.candidate import Candidate
 from comparisons.models.scales import scales
-from sheetbench.choices import CALIBRATION, CALIBRATIONS
+from sheetbench.choices import CALIBRATIONS, method_of
 from sheetbench.scenes import Chain, Curved, Scene
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import LAYERS
@@ -95,7 +95,7 @@ def told(settings: Mapping[str, Any]) -> tuple[str, ...]:
 
 def _impossible(grid: Sequence[int], settings: Mapping[str, Any]) -> str:
     """Why these springs cannot be had cell by cell, or nothing."""
-    method = settings.get("calibration") or ("uniform" if settings.get("k") is not None else CALIBRATION)
+    method = method_of(settings.get("calibration"), settings.get("k"))
     if "grading" not in CALIBRATIONS[method].takes:
         return f"the calibration {method} is for cells of one size"
     if grid[2] != LAYERS or settings.get("layer_distance") is not None:

@@ -129,7 +129,7 @@ def reference(
     scene: Scene,
     *,
     model: str,
-    elements: int | Sequence[int] = 16,
+    elements: int | Sequence[int] = ELEMENTS,
     symmetry: bool = False,
     **options: Any,
 ) -> Solve:
@@ -251,7 +251,7 @@ def _check_settings(scene: Scene, candidate: Candidate) -> None:
             lumped.given(scene, grid, number(settings.get("grading")))
     elif model in MODELS:
         own = {name: value for name, value in settings.items() if name not in ("elements", "symmetry")}
-        check_reference(model, settings.get("elements", 16), own)
+        check_reference(model, settings.get("elements", ELEMENTS), own)
     else:
         known = [*MODELS, *plugins.names()]
         if model not in known and plugins.from_file(model) is None:

@@ -14,6 +14,7 @@ from comparisons.models.candidate import Candidate
 from comparisons.models.grids import scene_grid
 from comparisons.models.symmetry import cut_axes
 from comparisons.report import amounts
+from sheetbench.choices import ELEMENTS
 from sheetbench.scenes import Scene, Sheet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import grid_of, near_square
@@ -68,7 +69,7 @@ def _counts(scene: Scene, candidate: Candidate) -> list[int]:
     """Masses (nx, ny, layers), or elements (nx, ny) and bricks through the thickness."""
     if candidate.model == "lumped":
         return list(scene_grid(scene, candidate.settings.get("grid")))
-    elements = candidate.settings.get("elements", 16)
+    elements = candidate.settings.get("elements", ELEMENTS)
     asked = [elements] if isinstance(elements, int) else list(elements)
     along = list(near_square(scene.sheet, asked[0])) if len(asked) == 1 else asked
     return [*along, *_layers(candidate)]

@@ -11,7 +11,7 @@ from comparisons.models.grading import Grading, grading_of, number
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.sizes import require_room
 from comparisons.report.work import Progress, silent
-from sheetbench.choices import CALIBRATION, CALIBRATIONS
+from sheetbench.choices import CALIBRATION, CALIBRATIONS, method_of
 from sheetbench.scenes import Material, Scene, Sheet
 from sheetbench.scenes.errors import BadInput, Implausible, require_choice
 from sheetbench.scenes.grid import MASSES, grid_of
@@ -105,7 +105,7 @@ def check_lattice(
     require_positive("layer-distance", layer_distance, "m")
     if graded := number(grading):
         takers = [name for name, method in CALIBRATIONS.items() if "grading" in method.takes]
-        method = calibration or ("uniform" if k is not None else CALIBRATION)
+        method = method_of(calibration, k)
         if method not in takers:
             raise BadInput(
                 f"grading = {graded:g}: the calibration {method} is for cells of one size; "

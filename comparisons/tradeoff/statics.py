@@ -30,6 +30,7 @@ from comparisons.tradeoff import tables, timing
 from comparisons.tradeoff.pareto import error_order, front, grouped, order
 from comparisons.tradeoff.row import TradeoffRow, measured_row
 from fem_reference.uncertainty import coarser, estimate, mesh_size
+from sheetbench.choices import ELEMENTS
 from sheetbench.scenes import Scene, comparable, require_static
 
 REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the rows
@@ -171,7 +172,7 @@ def _bars(
 
 
 def _finest(candidates: Sequence[Candidate]) -> Candidate:
-    shells = [np.min(c.settings.get("elements", 16)) for c in candidates if c.model == "shell"]
+    shells = [np.min(c.settings.get("elements", ELEMENTS)) for c in candidates if c.model == "shell"]
     return Candidate("shell", {"elements": max([REFERENCE_ELEMENTS, *(2 * int(n) for n in shells)])})
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -30,7 +31,7 @@ class Advance:
     work: float
 
 
-class Integrator:
+class Integrator(ABC):
     """Takes a system from one state to the next.
 
     step: [s]; order: declared, of the displacement; adaptive: whether it chooses its steps by their error,
@@ -53,18 +54,18 @@ class Integrator:
         there is one, else from the lowest period [s]."""
         return limit.advised if limit is not None else period / STEPS_PER_PERIOD
 
+    @abstractmethod
     def advance(self, state: State, at_most: float) -> Advance:
         """One step, no longer than `at_most` [s]. Raises StepFailed."""
-        raise NotImplementedError
 
-    def forget(self) -> None:
+    def forget(self) -> None:  # noqa: B027  # most integrators keep nothing
         """Drop what was kept only for speed, so that a resumed run goes on exactly as one never stopped."""
 
     def memory(self) -> dict[str, Any]:
         """What a resumed run needs besides the state."""
         return {}
 
-    def recall(self, memory: dict[str, Any]) -> None:
+    def recall(self, memory: dict[str, Any]) -> None:  # noqa: B027
         """Take up what `memory` gave."""
 
 

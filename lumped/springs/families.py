@@ -6,6 +6,7 @@ arrays are, and a row of the table.
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -130,9 +131,9 @@ class Cells(Family):
                 slots = self.slots[:, corner * p : (corner + 1) * p, other * p : (other + 1) * p]
                 np.add.at(blocks, slots, (sign * k / p**2)[:, None, None, None, None] * np.eye(3))
 
+    @abstractmethod
     def _on_diagonals(self) -> np.ndarray:
         """What the springs weigh at most on either diagonal, (c,) [N/m]."""
-        raise NotImplementedError
 
 
 @dataclass(frozen=True, eq=False)

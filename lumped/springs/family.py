@@ -8,6 +8,7 @@ argument: that at u, an extrapolated one, its harmless part, or a damper's c ε�
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any, ClassVar, Self
@@ -16,7 +17,7 @@ import numpy as np
 
 
 @dataclass(frozen=True, eq=False)
-class Family:
+class Family(ABC):
     """nodes: (m, …) masses of each spring; stiffness: (m,) or (m, 3) [N/m]; slots: (m, …) block numbers of
     each spring's pairs of masses. Displacements and forces are (n, 3) [m], [N]."""
 
@@ -32,9 +33,9 @@ class Family:
         return len(self.nodes)
 
     @property
+    @abstractmethod
     def geometry(self) -> tuple[np.ndarray, ...]:
         """What the loops take between nodes and stiffness."""
-        raise NotImplementedError
 
     @cached_property
     def arrays(self) -> tuple[np.ndarray, ...]:

@@ -18,7 +18,8 @@ from sheetbench.scenes import Scene
 class Damping:
     """Damping forces, (size, 3) [N], on masses and actuators' rows. mass: (n,) [kg].
 
-    present: whether there are any; proportional: to the stiffness and the masses, in the flat sheet.
+    dampers: those of the lattice; present: whether there are any; proportional: to the stiffness and the
+    masses, in the flat sheet.
     """
 
     def __init__(self, scene: Scene, assembly: Assembly, mass: np.ndarray):
@@ -26,20 +27,20 @@ class Damping:
         self._coupling_slots = assembly.coupling_slots if assembly.coupling is not None else np.empty(0, int)
         self._rate = scene.material.damping_rate * mass
         if scene.dampers is not None:
-            self._dampers = [table_dampers(assembly.lattice, assembly.pattern, scene.dampers)]
+            self.dampers = [table_dampers(assembly.lattice, assembly.pattern, scene.dampers)]
         else:
             time = scene.material.damping_time
-            self._dampers = [family.damped(time) for family in assembly.springs] if time else []
+            self.dampers = [family.damped(time) for family in assembly.springs] if time else []
         self._diagonal = assembly.pattern.slots(np.arange(len(mass)), np.arange(len(mass)))
         in_chains = any(getattr(a, "damping_time", 0.0) > 0.0 for a in scene.actuators)
         self.proportional = scene.dampers is None and not scene.actuators and assembly.conservative
-        self.present = bool(self._dampers or self._rate.any() or in_chains)
+        self.present = bool(self.dampers or self._rate.any() or in_chains)
 
     def add_force(self, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
         """Add the damping force, signed as an internal one; the power taken [W]."""
         if not self.present:
             return 0.0
-        power = sum(dampers.add_force(u, v, force) for dampers in self._dampers)
+        power = sum(dampers.add_force(u, v, force) for dampers in self.dampers)
         masses = len(self._rate)
         resisting = self._rate[:, None] * v[:masses]
         force[:masses] += resisting
@@ -52,7 +53,7 @@ class Damping:
         """Add scale × the derivative of the force by the velocity to the 3×3 blocks."""
         if not self.present:
             return
-        for dampers in self._dampers:
+        for dampers in self.dampers:
             dampers.add_velocity_tangent(u, scale, blocks)
         blocks[self._diagonal] += scale * self._rate[:, None, None] * np.eye(3)
         if self._coupling is not None:
@@ -60,10 +61,10 @@ class Damping:
 
     def add_displacement_tangent(self, u: np.ndarray, v: np.ndarray, blocks: np.ndarray) -> None:
         """Add the derivative of the lattice's damping force by the displacement, which is unsymmetric."""
-        for dampers in self._dampers:
+        for dampers in self.dampers:
             dampers.add_displacement_tangent(u, v, blocks)
 
     def add_bound(self, step: float, blocks: np.ndarray) -> None:
         """Add what the dampers bring to the bound of a step's stiffness, see `Family.add_bound`."""
-        for dampers in self._dampers:
+        for dampers in self.dampers:
             dampers.add_bound(step, blocks)

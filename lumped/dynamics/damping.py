@@ -18,45 +18,49 @@ from sheetbench.scenes import Scene
 class Damping:
     """Damping forces, (size, 3) [N], on masses and actuators' rows. mass: (n,) [kg].
 
-    dampers: those of the lattice; present: whether there are any; proportional: to the stiffness and the
-    masses, in the flat sheet.
+    dampers: those of the lattice; time [s]: coefficient over stiffness, where every spring has one of the
+    same (else 0); rate: of the masses (n,) [kg/s]; present: whether there are any; proportional: to the
+    stiffness and the masses, in the flat sheet.
     """
 
     def __init__(self, scene: Scene, assembly: Assembly, mass: np.ndarray):
         self._coupling = assembly.coupling
         self._coupling_slots = assembly.coupling_slots if assembly.coupling is not None else np.empty(0, int)
-        self._rate = scene.material.damping_rate * mass
+        self.rate = scene.material.damping_rate * mass
+        self.time = 0.0
         if scene.dampers is not None:
             self.dampers = [table_dampers(assembly.lattice, assembly.pattern, scene.dampers)]
         else:
             time = scene.material.damping_time
             self.dampers = [family.damped(time) for family in assembly.springs] if time else []
+            self.time = time if assembly.conservative else 0.0
         self._diagonal = assembly.pattern.slots(np.arange(len(mass)), np.arange(len(mass)))
-        in_chains = any(getattr(a, "damping_time", 0.0) > 0.0 for a in scene.actuators)
+        self._in_chains = any(getattr(a, "damping_time", 0.0) > 0.0 for a in scene.actuators)
         self.proportional = scene.dampers is None and not scene.actuators and assembly.conservative
-        self.present = bool(self.dampers or self._rate.any() or in_chains)
+        self.present = bool(self.dampers or self.rate.any() or self._in_chains)
 
-    def add_force(self, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
-        """Add the damping force, signed as an internal one; the power taken [W]."""
-        if not self.present:
-            return 0.0
-        power = sum(dampers.add_force(u, v, force) for dampers in self.dampers)
-        masses = len(self._rate)
-        resisting = self._rate[:, None] * v[:masses]
-        force[:masses] += resisting
-        power += float(np.sum(resisting * v[:masses]))
-        if self._coupling is not None:
+    def add_other_forces(self, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
+        """Add the forces of the mass-proportional damping and of the chains, signed as internal ones; the
+        power taken [W]."""
+        power = 0.0
+        if self.rate.any():
+            masses = len(self.rate)
+            resisting = self.rate[:, None] * v[:masses]
+            force[:masses] += resisting
+            power += float(np.sum(resisting * v[:masses]))
+        if self._in_chains and self._coupling is not None:
             power += self._coupling.add_damping_force(u, v, force)
         return power
 
     def add_velocity_tangent(self, u: np.ndarray, scale: float, blocks: np.ndarray) -> None:
-        """Add scale × the derivative of the force by the velocity to the 3×3 blocks."""
-        if not self.present:
-            return
-        for dampers in self.dampers:
-            dampers.add_velocity_tangent(u, scale, blocks)
-        blocks[self._diagonal] += scale * self._rate[:, None, None] * np.eye(3)
-        if self._coupling is not None:
+        """Add scale × the derivative of the force by the velocity to the 3×3 blocks, but for the dampers in
+        proportion to the springs (`time`)."""
+        if not self.time:
+            for dampers in self.dampers:
+                dampers.add_velocity_tangent(u, scale, blocks)
+        if self.rate.any():
+            blocks[self._diagonal] += scale * self.rate[:, None, None] * np.eye(3)
+        if self._in_chains and self._coupling is not None:
             self._coupling.add_damping_tangent(u, scale, self._coupling_slots, blocks)
 
     def add_displacement_tangent(self, u: np.ndarray, v: np.ndarray, blocks: np.ndarray) -> None:

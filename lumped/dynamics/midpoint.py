@@ -53,8 +53,7 @@ class Midpoint(Integrator):
             gained = rate - state.v - jump  # what is prescribed has its work apart
             inertia: np.ndarray = (system.mass @ ((2.0 / h) * gained).ravel()).reshape(-1, 3)
             force = inertia + system.average_elastic(state.u, u, middle)
-            system.damping.add_force(mean(u), rate, force)
-            return force - system.external(mean(u), middle)
+            return force + system.damping_force(mean(u), rate)[1] - system.external(mean(u), middle)
 
         def halved(u: np.ndarray) -> np.ndarray:
             force = residual(u)

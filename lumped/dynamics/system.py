@@ -10,7 +10,7 @@ M is diagonal on the lattice and constant throughout. Units: m, s, N, kg, J.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -20,6 +20,8 @@ from scipy.sparse.linalg import splu
 from lumped.actuators import Drive
 from lumped.dynamics.damping import Damping
 from lumped.masses import masses
+from lumped.springs.all_forces import add_forces
+from lumped.springs.packing import pack, scratch
 from lumped.statics.problem import Problem
 from sheetbench.scenes import PiecewiseLinear, Scene, held_axes, holds_director
 
@@ -46,6 +48,8 @@ class System:
         shared = masses(scene, lattice, self.assembly.distribution)
         self.lattice_mass = shared if mass is None else mass
         self.damping = Damping(scene, self.assembly, self.lattice_mass)
+        self.packing = pack(lattice, self.assembly.springs, self.damping.dampers)
+        self.scratch = scratch(self.packing)
         self.mass_blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
         n = np.arange(lattice.mass_count)
         self.mass_blocks[self.assembly.pattern.slots(n, n)] = self.lattice_mass[:, None, None] * np.eye(3)
@@ -66,6 +70,7 @@ class System:
         self._own[entries.col[identity]] = entries.row[identity]
         self.reduced_mass = sp.csc_array(self.moving_part.T @ self.mass @ self.moving_part)
         self.solve_mass = _mass_solver(self.reduced_mass)
+        self._single = self.assembly.precision == "single"
         # integrators ask for the same two moments several times a step
         self.place, self.place_rate = lru_cache(4)(self._place), lru_cache(4)(self._place_rate)
         self._motions = self._support_motions()
@@ -120,17 +125,35 @@ class System:
                     found.append((row if holds_director(support) else row[free], axis, course))
         return found
 
+    def internal(self, u: np.ndarray, v: np.ndarray, time: float) -> tuple[float, float, np.ndarray]:
+        """Elastic energy, power taken by the dampers, and both their forces, actuators with their multipliers
+        included."""
+        energy, force = self.elastic(u, time) if self._single else (0.0, np.zeros_like(u))
+        stored, power = add_forces(
+            u, v, not self._single, self.packing.damped, self.packing, self.scratch, force
+        )
+        power += self.damping.add_other_forces(u, v, force)
+        if self.coupling is not None and not self._single:
+            energy += self.coupling.add_force(u, self.drive(time), force)
+        return energy + stored, power, force
+
     def elastic(self, u: np.ndarray, time: float) -> tuple[float, np.ndarray]:
         """Elastic energy and internal force, actuators with their multipliers included."""
-        energy, force = self.assembly.force(u)
+        if self._single:
+            energy, force = self.assembly.force(u)
+        else:
+            force = np.zeros_like(u)
+            energy, _ = add_forces(u, u, True, False, self.packing, self.scratch, force)
         if self.coupling is not None:
             energy += self.coupling.add_force(u, self.drive(time), force)
         return energy, force
 
     def damping_force(self, u: np.ndarray, v: np.ndarray) -> tuple[float, np.ndarray]:
         """Power taken and damping force."""
-        force = np.zeros_like(u)
-        return self.damping.add_force(u, v, force), force
+        force, power = np.zeros_like(u), 0.0
+        if self.packing.damped:
+            _, power = add_forces(u, v, False, True, self.packing, self.scratch, force)
+        return power + self.damping.add_other_forces(u, v, force), force
 
     def external(self, u: np.ndarray, time: float) -> np.ndarray:
         """External force."""
@@ -138,9 +161,7 @@ class System:
 
     def unbalanced(self, u: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         """f_ext − f_int − f_damp − Jᵀλ; on multiplier rows −Φ."""
-        _, force = self.elastic(u, time)
-        self.damping.add_force(u, v, force)
-        return self.external(u, time) - force
+        return self.external(u, time) - self.internal(u, v, time)[2]
 
     def average_elastic(self, start: np.ndarray, end: np.ndarray, time: float) -> np.ndarray:
         """Internal force whose work from `start` to `end` is the energy stored, commands as at `time`."""
@@ -153,13 +174,18 @@ class System:
         self, u: np.ndarray, v: np.ndarray, time: float, mass: float, damping: float, stiffness: float
     ) -> np.ndarray:
         """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once."""
-        blocks = self.assembly.tangent(u)
-        self.problem.loads.add_tangent(u, 1.0, blocks, time)
-        if not self.problem.conservative:
-            self.damping.add_displacement_tangent(u, v, blocks)
-        if self.coupling is not None:
-            self.coupling.add_tangent(u, self.drive(time), self.assembly.coupling_slots, blocks)
-        blocks *= stiffness
+        both = stiffness + damping * self.damping.time  # dampers in proportion stand where the springs do
+        blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
+        for family, stress in zip(self.assembly.springs, self.assembly.stresses(u), strict=True):
+            replace(family, stiffness=both * family.stiffness).add_tangent(u, stiffness * stress, blocks)
+        self.problem.loads.add_tangent(u, stiffness, blocks, time)
+        if not self.problem.conservative or self.coupling is not None:
+            others = np.zeros_like(blocks)
+            if not self.problem.conservative:
+                self.damping.add_displacement_tangent(u, v, others)
+            if self.coupling is not None:
+                self.coupling.add_tangent(u, self.drive(time), self.assembly.coupling_slots, others)
+            blocks += stiffness * others
         blocks += mass * self.mass_blocks
         self.damping.add_velocity_tangent(u, damping, blocks)
         return blocks

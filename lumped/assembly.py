@@ -7,6 +7,7 @@ in single precision, each link in it, cells in double within themselves; the tan
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -16,11 +17,11 @@ from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.pattern import Pattern, neighbours
 from lumped.springs.families import Links, families
+from lumped.springs.together import Stresses, together
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
 
 Precision = Literal["double", "single"]
-Stresses = tuple[np.ndarray, ...]  # of every family in `Assembly.springs`
 
 
 class Assembly:
@@ -61,6 +62,7 @@ class Assembly:
             self.coupling_slots = self.pattern.slots(*own)
         self.springs = families(self.lattice, self.pattern, calibration.springs)
         self.links = next(family for family in self.springs if isinstance(family, Links))
+        self.together = together(self.springs)
         self.precision = precision
         single = precision == "single"
         self._forcing = tuple(family.rounded() for family in self.springs) if single else self.springs
@@ -82,8 +84,16 @@ class Assembly:
                 "per-direction springs have no energy: descent and energy-based methods do not apply"
             )
 
+    @cached_property
+    def link_stiffness(self) -> np.ndarray:
+        """Stiffness of the central links at every row of the arrays, summed, (size,) [N/m]."""
+        both = np.repeat(self.links.stiffness, 2)
+        return np.bincount(self.links.nodes.ravel(), both, minlength=self.pattern.size)
+
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Elastic energy [J] and its gradient, the internal force, (n, 3) [N]."""
+        if self.together is not None and self.precision == "double":
+            return self.together.force(u)
         kept = u.astype(np.float32) if self.precision == "single" else u
         force, energy = np.zeros(kept.shape, kept.dtype), 0.0
         for family in self._forcing:
@@ -107,10 +117,14 @@ class Assembly:
 
     def stresses(self, u: np.ndarray) -> Stresses:
         """Stresses of every family at u."""
+        if self.together is not None:
+            return self.together.stresses(u)
         return tuple(family.stresses(u) for family in self.springs)
 
     def extrapolated(self, u: np.ndarray, step: np.ndarray) -> Stresses:
         """Stresses that the linearisation at u predicts after `step`."""
+        if self.together is not None:
+            return self.together.extrapolated(u, step)
         return tuple(family.extrapolated(u, step) for family in self.springs)
 
     def harmless(self, u: np.ndarray) -> Stresses:
@@ -119,7 +133,10 @@ class Assembly:
 
     def tangent(self, u: np.ndarray, stresses: Stresses | None = None) -> np.ndarray:
         """Blocks (b, 3, 3) [N/m] of the tangent at u, with the stresses given or those at u."""
+        stresses = stresses or self.stresses(u)
+        if self.together is not None:
+            return self.together.tangent(u, stresses, self.pattern.blocks)
         blocks = np.zeros((self.pattern.blocks, 3, 3))
-        for family, stress in zip(self.springs, stresses or self.stresses(u), strict=True):
+        for family, stress in zip(self.springs, stresses, strict=True):
             family.add_tangent(u, stress, blocks)
         return blocks

@@ -1,24 +1,24 @@
 """The lattice's linear systems: reduction to the free unknowns, factorisation, solution, inertia.
 
 The reduced tangent Tᵀ K T keeps one pattern, so the map from block entries to its entries is computed
-once and the symbolic analysis is done once. Solvers, in the order they are tried for symmetric systems:
-LAPACK's banded Cholesky (small grids; fails on indefinite matrices, which then go on), rslab's sparse
-L D Lᵀ with exact inertia, SciPy's SuperLU (always there; the inertia from the signs of U's diagonal
-when no row was exchanged). Unsymmetric systems go to rslab's or SciPy's L U. Each solution's residual is
-checked, with one step of refinement.
+once and the symbolic analysis is done once. Solvers, in the order they are tried for symmetric systems: a
+banded Cholesky (small grids; fails on indefinite matrices, which then go on), rslab's sparse L D Lᵀ with
+exact inertia, SciPy's SuperLU (always there; the inertia from the signs of U's diagonal when no row was
+exchanged). Unsymmetric systems go to rslab's or SciPy's L U. Each solution's residual is checked, with one
+step of refinement.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any
 
 import numpy as np
-import scipy.linalg
 import scipy.sparse as sp
-from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import LinearOperator, eigs, onenormest, splu
 
+from lumped.linear import banded
 from lumped.linear.saddle_point import Saddle
 from lumped.pattern import Pattern
 
@@ -32,7 +32,7 @@ BANDED_LIMIT = 2.0e7  # n × bandwidth² below which the banded Cholesky is quic
 BACKWARD_ERROR = 1e-10  # ‖A x − b‖ relative to ‖A‖‖x‖ + ‖b‖ beyond which the matrix counts as singular
 NEAREST = 12  # eigenvalues sought when the tangent is unsymmetric
 
-SADDLE_REFINEMENTS = 4
+REFINEMENTS, SADDLE_REFINEMENTS = 1, 4
 
 
 class SingularMatrixError(ArithmeticError):
@@ -50,7 +50,7 @@ class Factor:
         matrix: sp.csc_array,
         solve: Callable[[np.ndarray], np.ndarray],
         negative: int | None,
-        refinements: int = 1,
+        refinements: int = REFINEMENTS,
     ):
         self._matrix, self._solve, self.negative = matrix, solve, negative
         self._refinements = refinements
@@ -62,9 +62,7 @@ class Factor:
             x = x + self._solve(b - self._matrix @ x)
         size = np.abs(self._matrix.data).max() * np.abs(x).max(initial=0.0) + np.abs(b).max(initial=0.0)
         miss = np.abs(b - self._matrix @ x).max(initial=0.0)
-        if not miss <= BACKWARD_ERROR * size:  # also catches nan
-            raise SingularMatrixError(f"residual {miss:.1e} after refinement")
-        return x
+        return checked(x, miss / size if size > 0.0 else miss)
 
     def condition(self) -> float:
         """Condition number ‖A‖₁ ‖A⁻¹‖₁, the latter estimated with the factors (Hager 1984, Higham 1988)."""
@@ -100,6 +98,36 @@ class Factor:
         return int(np.sum(values.real < 0.0))
 
 
+def checked(x: np.ndarray, miss: float) -> np.ndarray:
+    """x, unless its residual relative to the matrix and the vectors is large."""
+    if not miss <= BACKWARD_ERROR:  # also catches nan
+        raise SingularMatrixError(f"residual {miss:.1e} after refinement")
+    return x
+
+
+class BandedFactor(Factor):
+    """Cholesky factors in a band: of a positive definite matrix."""
+
+    def __init__(self, band: banded.Band, matrix: np.ndarray, factors: np.ndarray):
+        self._band, self._stored, self._factors = band, matrix, factors
+        self.negative = 0
+
+    @cached_property
+    def _matrix(self) -> sp.csc_array:
+        return banded.sparse(self._stored, self._band)
+
+    def _solve(self, b: np.ndarray) -> np.ndarray:
+        return self._substituted(b, 0)[0]
+
+    def solve(self, b: np.ndarray) -> np.ndarray:
+        """x with A x = b, refined. Raises SingularMatrixError when the residual stays large."""
+        return checked(*self._substituted(b, REFINEMENTS))
+
+    def _substituted(self, b: np.ndarray, refinements: int) -> tuple[np.ndarray, float]:
+        order, width = self._band.order, self._band.width
+        return banded.solve(self._stored, self._factors, width, order, b, refinements)
+
+
 class ReducedSystem:
     """Tᵀ K T over a fixed pattern, from the blocks of K to factors.
 
@@ -118,25 +146,40 @@ class ReducedSystem:
         self.unknowns = transform.shape[1]
         self._transform = transform
         self._pattern = pattern
-        rows = (3 * pattern.rows[:, None, None] + np.arange(3)[None, :, None]).repeat(3, axis=2).ravel()
-        columns = (3 * pattern.indices[:, None, None] + np.arange(3)[None, None, :]).repeat(3, axis=1).ravel()
-        source, r, c, weight = _expand(transform, rows, columns)
-        keys, target = np.unique(c.astype(np.int64) * self.unknowns + r, return_inverse=True)
-        self._map = sp.csr_array(sp.coo_array((weight, (target, source)), shape=(len(keys), len(rows))))
-        self._indices = (keys % self.unknowns).astype(np.int32)
-        column_of = (keys // self.unknowns).astype(np.int32)
-        self._indptr = np.searchsorted(column_of, np.arange(self.unknowns + 1)).astype(np.int32)
         self._analysis: Any = None
-        self._saddle: Saddle | None = None
-        self._band = _Band(self._indices, column_of, self._indptr) if symmetric else None
-        if multipliers is not None and multipliers.any():
-            self._band = None
-            self._saddle = Saddle(self._indices, column_of, multipliers)
+        self.band: banded.Band | None = None
+        self._multipliers = multipliers if multipliers is not None and multipliers.any() else None
+        if symmetric and self._multipliers is None:
+            source, rows, columns, weight = self._entries()
+            order, width = banded.ordered(rows, columns, self.unknowns)
+            if banded.cost(self.unknowns, width) < BANDED_LIMIT:
+                self.band = banded.band_of(source, rows, columns, weight, order, width)
+
+    def _entries(self) -> tuple[np.ndarray, ...]:
+        """Entries of Tᵀ K T that each entry of K feeds."""
+        return _expand(self._transform, *self._pattern.entries())
+
+    @cached_property
+    def _compressed(self) -> tuple[sp.csr_array, np.ndarray, np.ndarray, np.ndarray]:
+        """Map from the blocks' entries to the matrix's, and its rows, columns and column pointers."""
+        source, r, c, weight = self._entries()
+        keys, target = np.unique(c.astype(np.int64) * self.unknowns + r, return_inverse=True)
+        count = 9 * self._pattern.blocks
+        entries = sp.csr_array(sp.coo_array((weight, (target, source)), shape=(len(keys), count)))
+        columns = (keys // self.unknowns).astype(np.int32)
+        pointers = np.searchsorted(columns, np.arange(self.unknowns + 1)).astype(np.int32)
+        return entries, (keys % self.unknowns).astype(np.int32), columns, pointers
+
+    @cached_property
+    def _saddle(self) -> Saddle | None:
+        _, rows, columns, _ = self._compressed
+        return None if self._multipliers is None else Saddle(rows, columns, self._multipliers)
 
     def matrix(self, blocks: np.ndarray) -> sp.csc_array:
         """The reduced matrix (m, m) of blocks (b, 3, 3), both triangles."""
-        data = self._map @ blocks.ravel()
-        return sp.csc_array((data, self._indices, self._indptr), shape=(self.unknowns, self.unknowns))
+        entries, rows, _, pointers = self._compressed
+        data = entries @ blocks.ravel()
+        return sp.csc_array((data, rows, pointers), shape=(self.unknowns, self.unknowns))
 
     def apply(self, blocks: np.ndarray, u: np.ndarray) -> np.ndarray:
         """K u for a displacement (n, 3): force (n, 3)."""
@@ -146,13 +189,14 @@ class ReducedSystem:
 
     def factor(self, blocks: np.ndarray) -> Factor:
         """Factors of Tᵀ K T. Raises SingularMatrixError when there are none."""
+        if self.band is not None:
+            stored = banded.stored(blocks, self.band)
+            factors = stored.copy()
+            if banded.factor(factors, self.unknowns, self.band.width):
+                return BandedFactor(self.band, stored, factors)
         matrix = self.matrix(blocks)
         if not np.isfinite(matrix.data).all():
             raise SingularMatrixError("an entry is not finite")
-        if self._band is not None and self._band.cost < BANDED_LIMIT:
-            banded = self._band.factor(matrix)
-            if banded is not None:
-                return Factor(matrix, banded, 0)
         if self._saddle is not None and self.symmetric and rslab is not None:
             return self._quasi_definite(self._saddle, matrix)
         try:
@@ -175,39 +219,6 @@ class ReducedSystem:
             raise SingularMatrixError(str(error)) from None
         negative = factors.inertia[1]
         return Factor(matrix, lambda b: factors.solve(augmented(b)), negative, SADDLE_REFINEMENTS)
-
-
-class _Band:
-    """Lower band storage of a symmetric matrix after reverse Cuthill–McKee ordering."""
-
-    def __init__(self, rows: np.ndarray, columns: np.ndarray, indptr: np.ndarray):
-        n = len(indptr) - 1
-        graph = sp.csr_array((np.ones(len(rows), np.int8), rows, indptr), shape=(n, n))
-        self._order = reverse_cuthill_mckee(graph, symmetric_mode=True) if n else np.empty(0, int)
-        place = np.empty(n, int)
-        place[self._order] = np.arange(n)
-        r, c = place[rows], place[columns]
-        self._width = int(np.max(np.abs(r - c), initial=0))
-        self._lower = np.flatnonzero(r >= c)
-        self._at = ((r - c)[self._lower], c[self._lower])
-        self._size = n
-        self.cost = float(n) * self._width**2
-
-    def factor(self, matrix: sp.csc_array) -> Callable[[np.ndarray], np.ndarray] | None:
-        """A solve function, or None when the matrix is not positive definite."""
-        band = np.zeros((self._width + 1, self._size))
-        band[self._at] = matrix.data[self._lower]
-        factors, info = scipy.linalg.lapack.dpbtrf(band, lower=1, overwrite_ab=1)
-        if info:
-            return None
-        order = self._order
-
-        def solve(b: np.ndarray) -> np.ndarray:
-            x = np.empty_like(b)
-            x[order] = scipy.linalg.lapack.dpbtrs(factors, b[order], lower=1)[0]
-            return x
-
-        return solve
 
 
 def _symmetric(matrix: sp.csc_array) -> Factor:

@@ -22,8 +22,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lumped.assembly import Stresses
 from lumped.linear.solver import Factor, SingularMatrixError
+from lumped.springs.together import Stresses
 from lumped.statics.faults import broken
 from lumped.statics.problem import Problem
 
@@ -100,7 +100,9 @@ def follow(problem: Problem, start: State, target: float = 1.0) -> tuple[State, 
 def predictor(problem: Problem, state: State, step: float) -> np.ndarray:
     """Displacement (n, 3) of a load step, linear at the state."""
     moved = problem.prescribed(state.load_factor + step) - problem.prescribed(state.load_factor)
-    unbalanced = step * problem.growing(state.u) - problem.system.apply(state.blocks, moved)
+    unbalanced = step * problem.growing(state.u)
+    if moved.any():
+        unbalanced = unbalanced - problem.system.apply(state.blocks, moved)
     return problem.expand(state.factor.solve(problem.reduce(unbalanced))) + moved
 
 
@@ -108,22 +110,19 @@ def _correct(
     problem: Problem, start: State, load_factor: float, predicted: np.ndarray, tolerance: float
 ) -> State:
     """Equilibrium at a load factor from a predicted step. Raises StepFailed, SingularMatrixError."""
-    assembly = problem.assembly
-    stresses = assembly.extrapolated(start.u, predicted)
+    stresses: Stresses | None = problem.assembly.extrapolated(start.u, predicted)
     u = start.u + predicted
     lengths = [float(np.abs(predicted).max())]
+    unbalanced, residual = problem.residual(u, load_factor)
     for _ in range(CORRECTIONS):
-        unbalanced, residual = problem.residual(u, load_factor)
         problem.note(load_factor, residual, lengths[-1])
         if not np.isfinite(residual):
             raise StepFailed("a number overflowed")
         if residual < COARSE or all_rounding(problem, u, load_factor, residual, lengths[-1]):
             return polish(problem, u, load_factor, tolerance)
-        factor = problem.factor(problem.tangent(u, load_factor, stresses))
-        step = problem.expand(factor.solve(problem.reduce(unbalanced)))
-        stresses = assembly.extrapolated(u, step)
-        u = u + step
-        lengths.append(float(np.abs(step).max()))
+        done = problem.correction(u, load_factor, unbalanced, stresses)
+        u, unbalanced, residual, stresses = done.u, done.unbalanced, done.residual, done.stresses
+        lengths.append(done.length)
         if lengths[-1] > 4.0 * problem.size or (len(lengths) > 4 and lengths[-1] > lengths[-2] > lengths[-3]):
             raise StepFailed("the corrections grow")
     raise StepFailed(f"no equilibrium in {CORRECTIONS} corrections")
@@ -135,22 +134,17 @@ def polish(problem: Problem, u: np.ndarray, load_factor: float, tolerance: float
     Raises StepFailed when it does not converge there.
     """
     floor = rounding_floor(problem, u, load_factor)
+    unbalanced, before = problem.residual(u, load_factor)
     for _ in range(6):
-        blocks = problem.tangent(u, load_factor)
-        factor = problem.factor(blocks)
-        unbalanced, before = problem.residual(u, load_factor)
-        step = problem.expand(factor.solve(problem.reduce(unbalanced)))
-        after = problem.residual(u + step, load_factor)[1]
-        length = float(np.abs(step).max())
-        if not np.isfinite(after) or length > 0.1 * problem.size:
+        done = problem.correction(u, load_factor, unbalanced)
+        if not np.isfinite(done.residual) or done.length > 0.1 * problem.size:
             raise StepFailed("the polishing step is not small")
-        if after < before:
-            u = u + step
-        problem.note(load_factor, min(after, before), length)
-        if min(after, before) < max(tolerance, floor):
-            return State(
-                u, load_factor, problem.assembly.stresses(u), blocks, factor, problem.negative(factor)
-            )
+        if done.residual < before:
+            u, unbalanced, before = done.u, done.unbalanced, done.residual
+        problem.note(load_factor, before, done.length)
+        if before < max(tolerance, floor):
+            negative = problem.negative(done.factor)
+            return State(u, load_factor, problem.assembly.stresses(u), done.blocks, done.factor, negative)
     raise StepFailed("the residual stagnates")
 
 
@@ -176,10 +170,8 @@ def rounding_floor(problem: Problem, u: np.ndarray, load_factor: float) -> float
 def rounding(problem: Problem, u: np.ndarray) -> float:
     """Norm of the forces [N] that rounding of the link forces leaves."""
     assembly = problem.assembly
-    carried = np.zeros(len(u))
     # relative displacements are differences of u: their rounding, times the stiffness
-    rounded = assembly.links.stiffness * np.abs(u).max()
-    np.add.at(carried, assembly.links.nodes.ravel(), np.repeat(rounded, 2))
+    carried = assembly.link_stiffness * np.abs(u).max()
     if assembly.coupling is not None:
         carried += assembly.coupling.carried()
     return float(assembly.rounding * np.linalg.norm(carried))

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from lumped.assembly import Stresses
 from lumped.lattice import Lattice
 from lumped.springs.families import Cells
+from lumped.springs.together import Stresses
 from lumped.statics.problem import Problem
 from sheetbench.scenes import FieldMesh
 

@@ -7,18 +7,36 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
 from lumped.actuators import Drive
-from lumped.assembly import Assembly, Stresses
-from lumped.linear.solver import Factor, ReducedSystem
+from lumped.assembly import Assembly
+from lumped.linear.maps import product, rows, transposed_product
+from lumped.linear.solver import REFINEMENTS, BandedFactor, Factor, ReducedSystem, checked
 from lumped.loads import Loads
+from lumped.springs.together import Stresses
+from lumped.statics import fused
 from lumped.statics.faults import Fault
 from lumped.supports import Constraints
 from sheetbench.scenes import Iteration
 
 Progress = Callable[[Iteration], None]
+
+
+class Correction(NamedTuple):
+    """A Newton correction: displacement (n, 3) [m] behind it and how far it went at most [m]; the tangent's
+    blocks and factors; the unbalanced force (n, 3) [N] behind it and its norm on the free unknowns relative
+    to the forces; the stresses that the linearisation predicts there, where it was given some."""
+
+    u: np.ndarray
+    length: float
+    blocks: np.ndarray
+    factor: Factor
+    unbalanced: np.ndarray
+    residual: float
+    stresses: Stresses | None
 
 
 @dataclass
@@ -44,7 +62,10 @@ class Problem:
         dead = self.loads.conservative and (self.base is None or self.base.conservative)
         self.conservative = self.assembly.conservative and dead
         coupling = self.assembly.coupling
+        in_double = self.assembly.precision == "double"
+        self._plain = self.loads.potential and self.base is None and coupling is None and in_double
         self.multipliers = coupling.multipliers if coupling is not None else 0
+        self._free = rows(self.constraints.transform)
         self.system = ReducedSystem(
             self.assembly.pattern, self.constraints.transform, self.conservative, self._multiplier_unknowns()
         )
@@ -63,12 +84,13 @@ class Problem:
 
     def reduce(self, force: np.ndarray) -> np.ndarray:
         """Tᵀ f, the force on the free unknowns."""
-        reduced: np.ndarray = self.constraints.transform.T @ force.ravel()
+        reduced: np.ndarray = transposed_product(self._free, force.ravel(), self.system.unknowns)
         return reduced
 
     def expand(self, unknowns: np.ndarray) -> np.ndarray:
         """T q as a displacement."""
-        return (self.constraints.transform @ unknowns).reshape(-1, 3)
+        full: np.ndarray = product(self._free, np.ascontiguousarray(unknowns))
+        return full.reshape(-1, 3)
 
     def tangent(self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None) -> np.ndarray:
         """Blocks of the tangent of the residual, loads included."""
@@ -134,21 +156,58 @@ class Problem:
     def force_scale(self, u: np.ndarray, load_factor: float) -> float:
         """Norm of the external forces plus that of the supports' [N]: what residuals are relative to."""
         _, internal = self.internal(u, load_factor)
-        return self._scale(internal, self.external(u, load_factor))
+        size: float = fused.scale(internal, self.external(u, load_factor), self.constraints.held)
+        return size
 
     def residual(self, u: np.ndarray, load_factor: float) -> tuple[np.ndarray, float]:
         """Unbalanced force (n, 3) [N] and its norm on the free unknowns relative to the forces."""
         _, internal = self.internal(u, load_factor)
         external = self.external(u, load_factor)
-        unbalanced = external - internal
-        scale = self._scale(internal, external)
-        with np.errstate(over="ignore", invalid="ignore"):
-            size = float(np.linalg.norm(self.reduce(unbalanced)))
-        return unbalanced, size / scale if scale > 0.0 else size
+        unbalanced, residual = fused.unbalanced_force(
+            internal, external, self.constraints.held, self._free, self.system.unknowns
+        )
+        return unbalanced, residual
 
-    def _scale(self, internal: np.ndarray, external: np.ndarray) -> float:
-        held = np.where(self.constraints.held, internal, 0.0)
-        return float(np.linalg.norm(external) + np.linalg.norm(held))
+    def correction(
+        self, u: np.ndarray, load_factor: float, unbalanced: np.ndarray, stresses: Stresses | None = None
+    ) -> Correction:
+        """The Newton correction at u with these stresses in the tangent, or those at u.
+
+        Raises SingularMatrixError when the tangent has no usable factors.
+        """
+        if (done := self._fused(u, load_factor, unbalanced, stresses)) is not None:
+            return done
+        blocks = self.tangent(u, load_factor, stresses)
+        factor = self.factor(blocks)
+        step = self.expand(factor.solve(self.reduce(unbalanced)))
+        left, residual = self.residual(u + step, load_factor)
+        following = self.assembly.extrapolated(u, step) if stresses is not None else None
+        return Correction(u + step, float(np.abs(step).max()), blocks, factor, left, residual, following)
+
+    def _fused(
+        self, u: np.ndarray, load_factor: float, unbalanced: np.ndarray, stresses: Stresses | None
+    ) -> Correction | None:
+        """The correction in one compiled call; None where that does not apply, and for tangents that are not
+        positive definite."""
+        springs, band, held = self.assembly.together, self.system.band, self.constraints.held
+        if springs is None or band is None or not self._plain:
+            return None
+        given = springs.every(stresses or self.assembly.stresses(u))
+        external, count = self.external(u, load_factor), self.assembly.pattern.blocks
+        done = fused.corrected(
+            u, unbalanced, external, held, given, stresses is not None, springs.springs, count, band,
+            self._free, REFINEMENTS,
+        )  # fmt: skip
+        if not done.definite:
+            return None
+        self.factorisations += 1
+        checked(done.step, done.miss)
+        factor = BandedFactor(band, done.matrix, done.factors)
+        following = springs.of_families(done.stresses) if stresses is not None else None
+        length = float(np.abs(done.step).max())
+        return Correction(
+            u + done.step, length, done.blocks, factor, done.unbalanced, done.residual, following
+        )
 
     def note(self, load_factor: float, residual: float, step: float) -> None:
         """Keep one line of history and tell whoever watches."""

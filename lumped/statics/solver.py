@@ -11,7 +11,7 @@ from typing import Any, Literal
 import numpy as np
 
 from lumped.actuators import Coupling
-from lumped.assembly import Assembly, Precision, Stresses
+from lumped.assembly import Assembly, Precision
 from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
 from lumped.lattice import Weights
@@ -19,6 +19,7 @@ from lumped.linear.solver import SingularMatrixError
 from lumped.linear.threads import one_blas_thread
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
+from lumped.springs.together import Stresses
 from lumped.statics import validity
 from lumped.statics.balance import balance
 from lumped.statics.energy_descent import descend, disturbed

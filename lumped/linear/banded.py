@@ -1,0 +1,206 @@
+"""Banded Cholesky factors of symmetric positive definite matrices, as compiled loops that hold no lock.
+
+Storage: row j holds column j of the lower triangle from the diagonal on, band[j, i − j] = A_ij, then zeros.
+PANEL columns are eliminated together and the rest is updated two columns at a time: a rank-PANEL update whose
+operands stay in registers. LAPACK's dpbtrf eliminates a column at a time at bandwidths below 65, which is
+what small lattices have, at half the rate.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import scipy.sparse as sp
+from numba import njit
+from scipy.sparse.csgraph import reverse_cuthill_mckee
+
+PANEL = 6  # the unknowns of a column of masses in two layers
+TRY_OTHER_ORDER = 20_000  # unknowns up to which a second order is looked at: beyond, bands do not pay
+REORDERED = {"reassoc", "contract", "nsz"}  # sums in any order, for vector instructions; infinities count
+
+
+class Band(NamedTuple):
+    """Where the entries of a matrix over 3×3 blocks go.
+
+    order: (n,) the unknown at each place; width: entries below the diagonal; source, column, below, weight:
+    entry of the blocks, column and distance from the diagonal where it is added, factor.
+    """
+
+    order: np.ndarray
+    width: int
+    source: np.ndarray
+    column: np.ndarray
+    below: np.ndarray
+    weight: np.ndarray
+
+
+def sparse(matrix: np.ndarray, band: Band) -> sp.csc_array:
+    """A matrix in band storage as SciPy has it, both triangles."""
+    n = len(band.order)
+    column, below = np.nonzero(matrix[:n, : band.width + 1])
+    rows, columns, values = band.order[column + below], band.order[column], matrix[column, below]
+    aside = below > 0
+    both = (np.append(rows, columns[aside]), np.append(columns, rows[aside]))
+    return sp.csc_array(sp.coo_array((np.append(values, values[aside]), both), shape=(n, n)))
+
+
+def ordered(rows: np.ndarray, columns: np.ndarray, n: int) -> tuple[np.ndarray, int]:
+    """The order (n,) of an n × n matrix with entries (row, column), both triangles, and its bandwidth: as the
+    unknowns are numbered, along the rows of the grid, or reverse Cuthill–McKee where that is narrower."""
+    order = np.arange(n)
+    width = int(np.abs(rows - columns).max(initial=0))
+    if not 0 < n <= TRY_OTHER_ORDER:
+        return order, width
+    graph = sp.csr_array((np.ones(len(rows), np.int8), (rows, columns)), shape=(n, n))
+    other = reverse_cuthill_mckee(graph, symmetric_mode=True)
+    place = np.empty(n, int)
+    place[other] = order
+    narrower = int(np.abs(place[rows] - place[columns]).max(initial=0))
+    return (other, narrower) if narrower < width else (order, width)
+
+
+def cost(n: int, width: int) -> float:
+    """Multiplications of one factorisation, nearly."""
+    return float(n) * (width + 1.0) ** 2
+
+
+def band_of(
+    source: np.ndarray,
+    rows: np.ndarray,
+    columns: np.ndarray,
+    weight: np.ndarray,
+    order: np.ndarray,
+    width: int,
+) -> Band:
+    """Where the entries (row, column) go in this order."""
+    n = len(order)
+    place = np.empty(n, int)
+    place[order] = np.arange(n)
+    r, c = place[rows], place[columns]
+    lower = np.flatnonzero(r >= c)
+    r, c = r[lower], c[lower]
+    return Band(order.astype(np.intp), width, source[lower].astype(np.intp), c, r - c, weight[lower])
+
+
+@njit(cache=True, nogil=True)
+def stored(blocks: np.ndarray, band: Band) -> np.ndarray:
+    """The matrix of blocks (b, 3, 3) in band storage: whole panels, and zeros where the loops run over."""
+    out = np.zeros((-(-len(band.order) // PANEL) * PANEL + 2, band.width + 1 + PANEL))
+    entries = blocks.ravel()
+    for e in range(len(band.source)):
+        out[band.column[e], band.below[e]] += band.weight[e] * entries[band.source[e]]
+    return out
+
+
+@njit(cache=True, nogil=True, fastmath=REORDERED)
+def factor(band: np.ndarray, n: int, width: int) -> bool:
+    """Turn the matrix into its Cholesky factor in place; False where it is not positive definite."""
+    for j in range(n, len(band)):
+        band[j, 0] = 1.0
+    for k0 in range(0, n, PANEL):
+        for k in range(k0, k0 + PANEL):
+            pivot = band[k, 0]
+            if not (pivot > 0.0 and pivot < np.inf):
+                return False
+            own = band[k]
+            root = np.sqrt(pivot)
+            inverse = 1.0 / root
+            own[0] = root
+            for i in range(1, width + 1):
+                own[i] *= inverse
+            for j in range(k + 1, k0 + PANEL):
+                share, off, other = own[j - k], j - k, band[j]
+                for i in range(width + 1 - off):
+                    other[i] -= share * own[i + off]
+        for j in range(k0 + PANEL, min(n, k0 + PANEL + width), 2):
+            off = j - k0
+            first, second = band[j], band[j + 1]
+            l0, l1, l2 = band[k0, off:], band[k0 + 1, off - 1 :], band[k0 + 2, off - 2 :]
+            l3, l4, l5 = band[k0 + 3, off - 3 :], band[k0 + 4, off - 4 :], band[k0 + 5, off - 5 :]
+            f0, f1, f2, f3, f4, f5 = l0[0], l1[0], l2[0], l3[0], l4[0], l5[0]
+            g0, g1, g2, g3, g4, g5 = l0[1], l1[1], l2[1], l3[1], l4[1], l5[1]
+            first[0] -= f0 * f0 + f1 * f1 + f2 * f2 + f3 * f3 + f4 * f4 + f5 * f5
+            for i in range(1, width + PANEL - off):
+                m0, m1, m2, m3, m4, m5 = l0[i], l1[i], l2[i], l3[i], l4[i], l5[i]
+                first[i] -= f0 * m0 + f1 * m1 + f2 * m2 + f3 * m3 + f4 * m4 + f5 * m5
+                second[i - 1] -= g0 * m0 + g1 * m1 + g2 * m2 + g3 * m3 + g4 * m4 + g5 * m5
+    return True
+
+
+@njit(cache=True, nogil=True, fastmath=REORDERED)
+def substitute(factors: np.ndarray, n: int, width: int, x: np.ndarray) -> None:
+    """Solve with the factors in place, x in the band's order, with zeros behind it (`padded`)."""
+    last = (n - 1) // PANEL * PANEL
+    for k0 in range(0, last + 1, PANEL):
+        for k in range(k0, k0 + PANEL):
+            x[k] /= factors[k, 0]
+            for j in range(k + 1, k0 + PANEL):
+                x[j] -= x[k] * factors[k, j - k]
+        rest = x[k0 + PANEL :]
+        l0, l1, l2 = factors[k0, 6:], factors[k0 + 1, 5:], factors[k0 + 2, 4:]
+        l3, l4, l5 = factors[k0 + 3, 3:], factors[k0 + 4, 2:], factors[k0 + 5, 1:]
+        f0, f1, f2, f3, f4, f5 = x[k0], x[k0 + 1], x[k0 + 2], x[k0 + 3], x[k0 + 4], x[k0 + 5]
+        for i in range(width):
+            rest[i] -= f0 * l0[i] + f1 * l1[i] + f2 * l2[i] + f3 * l3[i] + f4 * l4[i] + f5 * l5[i]
+    for k0 in range(last, -1, -PANEL):
+        rest = x[k0 + PANEL :]
+        l0, l1, l2 = factors[k0, 6:], factors[k0 + 1, 5:], factors[k0 + 2, 4:]
+        l3, l4, l5 = factors[k0 + 3, 3:], factors[k0 + 4, 2:], factors[k0 + 5, 1:]
+        s0 = s1 = s2 = s3 = s4 = s5 = 0.0
+        for i in range(width):
+            value = rest[i]
+            s0 += l0[i] * value
+            s1 += l1[i] * value
+            s2 += l2[i] * value
+            s3 += l3[i] * value
+            s4 += l4[i] * value
+            s5 += l5[i] * value
+        for q, total in enumerate((s0, s1, s2, s3, s4, s5)):
+            x[k0 + q] -= total
+        for k in range(k0 + PANEL - 1, k0 - 1, -1):
+            for j in range(k + 1, k0 + PANEL):
+                x[k] -= x[j] * factors[k, j - k]
+            x[k] /= factors[k, 0]
+
+
+@njit(cache=True, nogil=True, fastmath=REORDERED)
+def subtract_product(matrix: np.ndarray, n: int, width: int, x: np.ndarray, out: np.ndarray) -> None:
+    """out −= A x, all in the band's order and padded."""
+    for j in range(n):
+        own, value = matrix[j], x[j]
+        rest, below = x[j + 1 :], out[j + 1 :]
+        total = own[0] * value
+        for i in range(width):
+            total += own[i + 1] * rest[i]
+            below[i] -= own[i + 1] * value
+        out[j] -= total
+
+
+@njit(cache=True, nogil=True)
+def solve(
+    matrix: np.ndarray, factors: np.ndarray, width: int, order: np.ndarray, b: np.ndarray, refinements: int
+) -> tuple[np.ndarray, float]:
+    """x with A x = b, refined, and the largest residual left over ‖A‖‖x‖ + ‖b‖ (largest entries)."""
+    n, padded = len(order), len(matrix) + width
+    right, x = np.zeros(padded), np.zeros(padded)
+    for j in range(n):
+        right[j] = b[order[j]]
+    left = right.copy()
+    for _ in range(refinements + 1):
+        substitute(factors, n, width, left)
+        x += left
+        left[:] = right
+        subtract_product(matrix, n, width, x, left)
+    largest = miss = of_x = of_b = 0.0
+    finite = True
+    out = np.empty(n)
+    for j in range(n):
+        largest = max(largest, matrix[j, 0])  # positive definite: the largest entry is on the diagonal
+        of_x, of_b, miss = max(of_x, abs(x[j])), max(of_b, abs(right[j])), max(miss, abs(left[j]))
+        finite = finite and np.isfinite(x[j])
+        out[order[j]] = x[j]
+    size = largest * of_x + of_b
+    if not finite:
+        return out, np.inf
+    return out, miss / size if size > 0.0 else 0.0

@@ -1,0 +1,98 @@
+"""The banded Cholesky factors against dense algebra, and the fused Newton correction against its parts."""
+
+import numpy as np
+import pytest
+
+import lumped
+from lumped.linear import banded
+from lumped.linear.solver import BandedFactor
+from lumped.statics.problem import Problem
+from sheetbench.scenes import load
+
+
+def positive_definite(n, width, rng):
+    """A dense matrix of this bandwidth, of moderate condition."""
+    factor = np.tril(rng.standard_normal((n, n)), 0)
+    factor[np.subtract.outer(np.arange(n), np.arange(n)) > width] = 0.0
+    np.fill_diagonal(factor, 2.0 + width)
+    return factor @ factor.T
+
+
+def band_of(matrix):
+    """Its entries as blocks' entries, in an order of its own."""
+    rows, columns = np.nonzero(matrix)
+    order, width = banded.ordered(rows, columns, len(matrix))
+    band = banded.band_of(np.arange(len(rows)), rows, columns, np.ones(len(rows)), order, width)
+    return band, matrix[rows, columns]
+
+
+@pytest.mark.parametrize("n, width", [(1, 0), (5, 2), (6, 5), (37, 11), (120, 64)])
+def test_banded_factors_solve_as_dense_ones_do(n, width):
+    rng = np.random.default_rng(n)
+    matrix, b = positive_definite(n, width, rng), rng.standard_normal(n)
+    shuffled = rng.permutation(n)
+    for a in (matrix, matrix[np.ix_(shuffled, shuffled)]):
+        band, entries = band_of(a)
+        stored = banded.stored(entries, band)
+        assert np.array_equal(banded.sparse(stored, band).toarray(), a)
+        factors = stored.copy()
+        assert banded.factor(factors, n, band.width)
+        x, miss = banded.solve(stored, factors, band.width, band.order, b, 1)
+        assert x == pytest.approx(np.linalg.solve(a, b), rel=1e-12, abs=1e-14)
+        assert miss < 1e-14  # a backward error is of the order of rounding, whatever the condition
+
+
+def test_a_shuffled_band_is_found_again():
+    matrix = positive_definite(60, 4, np.random.default_rng(0))
+    shuffled = np.random.default_rng(1).permutation(60)
+    rows, columns = np.nonzero(matrix[np.ix_(shuffled, shuffled)])
+    assert banded.ordered(rows, columns, 60)[1] == 4
+
+
+@pytest.mark.parametrize("spoilt", [-1.0, np.nan, np.inf])
+def test_what_is_not_positive_definite_has_no_factors(spoilt):
+    matrix = positive_definite(20, 3, np.random.default_rng(0))
+    matrix[13, 13] = spoilt
+    band, entries = band_of(matrix)
+    assert not banded.factor(banded.stored(entries, band), 20, band.width)
+
+
+@pytest.mark.parametrize("name", ["two-edges-clamped", "curved-edge"])
+@pytest.mark.parametrize("predict", [True, False])
+def test_the_fused_correction_is_the_sum_of_its_parts(name, predict, monkeypatch):
+    scene = load(name)
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 6))
+    problem = lumped.pose(scene, springs)
+    u = 1e-3 * problem.assembly.lattice.positions[:, ::-1] ** 2 + problem.prescribed(0.3)
+    u = np.where(problem.constraints.held, problem.prescribed(0.3), u)
+    stresses = problem.assembly.stresses(0.9 * u) if predict else None
+    unbalanced, _ = problem.residual(u, 0.3)
+    fused = problem.correction(u, 0.3, unbalanced, stresses)
+    assert isinstance(fused.factor, BandedFactor) and problem.factorisations == 1
+    monkeypatch.setattr(Problem, "_fused", lambda *_: None)
+    parts = problem.correction(u, 0.3, unbalanced, stresses)
+    assert problem.factorisations == 2
+    apart = 1e-10  # rounding times the condition number of the tangent
+    for name in ("u", "unbalanced", "blocks"):
+        found, expected = getattr(fused, name), getattr(parts, name)
+        assert np.abs(found - expected).max() <= apart * np.abs(expected).max()
+    assert (fused.length, fused.residual) == pytest.approx((parts.length, parts.residual), rel=apart)
+    assert (fused.stresses is None) == (not predict)
+    for found, expected in zip(fused.stresses or (), parts.stresses or (), strict=True):
+        assert np.abs(found - expected).max() <= apart * np.abs(expected).max()
+
+
+def test_families_together_are_the_families():
+    scene = load("two-edges-clamped")
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 9))  # long cells: strain springs too
+    assembly = lumped.pose(scene, springs).assembly
+    assert assembly.together is not None and len(assembly.springs) > 3
+    u = 1e-4 * np.random.default_rng(0).standard_normal((assembly.pattern.size, 3))
+    apart = lumped.pose(scene, springs).assembly
+    apart.together = None
+    energy, force = assembly.force(u)
+    assert energy == pytest.approx(apart.force(u)[0], rel=1e-14)
+    assert force == pytest.approx(apart.force(u)[1], rel=1e-14, abs=1e-18)
+    for found, expected in zip(assembly.extrapolated(u, u), apart.extrapolated(u, u), strict=True):
+        assert np.array_equal(found, expected)
+    assert assembly.tangent(u) == pytest.approx(apart.tangent(u), rel=1e-14)

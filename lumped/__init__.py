@@ -3,6 +3,7 @@
 from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration, given, homogenised
+from lumped.description import Description, describe
 from lumped.dynamics import (
     INTEGRATORS,
     Integrator,
@@ -39,6 +40,7 @@ __all__ = [
     "INTEGRATORS",
     "Assembly",
     "Calibration",
+    "Description",
     "FittedCalibration",
     "Identifiability",
     "Integrator",
@@ -56,6 +58,7 @@ __all__ = [
     "at_rest",
     "buckling_loads",
     "calibrate",
+    "describe",
     "follow",
     "footprint",
     "given",

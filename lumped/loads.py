@@ -87,8 +87,8 @@ class Loads:
             self._parts[history] = _Part(course, np.zeros((self._assembly.pattern.size, 3)))
         return self._parts[history]
 
-    def _followers(self, time: float | None) -> tuple[list[tuple[np.ndarray, np.ndarray, float]], float]:
-        """Edge moments and pressure at a time."""
+    def at_time(self, time: float | None) -> tuple[list[tuple[np.ndarray, np.ndarray, float]], float]:
+        """Edge moments (masses of an edge, [N·m] by column, turn) and pressure [Pa] at a time."""
         scaled = [(part.factor(time), part) for part in self._parts.values()]
         moments = [(edge, by * moment, turn) for by, part in scaled for edge, moment, turn in part.moments]
         return moments, sum(by * part.pressure for by, part in scaled)
@@ -110,7 +110,7 @@ class Loads:
         if self.conservative:
             return force
         x = self._assembly.lattice.positions + u[: self._assembly.lattice.mass_count]
-        moments, pressure = self._followers(time)
+        moments, pressure = self.at_time(time)
         for edge, moment, turn in moments:
             top, bottom, couple = self._couple(x, edge, moment, turn)[:3]
             force[top] += couple
@@ -128,7 +128,7 @@ class Loads:
         if self.conservative:
             return
         x = self._assembly.lattice.positions + u[: self._assembly.lattice.mass_count]
-        moments, pressure = self._followers(time)
+        moments, pressure = self.at_time(time)
         for edge, moment, turn in moments:
             self._add_couple_tangent(x, edge, load_factor * moment, turn, blocks)
         if pressure:

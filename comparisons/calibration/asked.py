@@ -64,6 +64,15 @@ def grading(
     return value or 0.0, why
 
 
+def exported(scene: str | None, sheet: Sheet, material: Material) -> Scene:
+    """What a lattice for another simulator is of: the named scene with this sheet and material, or the sheet
+    clamped at one edge under its own weight."""
+    from comparisons.models.training import training_scenes
+
+    named = training(scene, sheet, material)
+    return (named or training_scenes(sheet, material))[0]
+
+
 def training(scene: str | None, sheet: Sheet, material: Material) -> list[Scene] | None:
     """The named scene with this sheet and material, for a fitted method to train on."""
     if scene is None:

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.options import (
+    Export,
     Grading,
     Grid,
     Json,
@@ -51,6 +52,7 @@ def command(
     toml: Annotated[
         bool, typer.Option("--toml", help="Print the \\[springs] table for a scene file.")
     ] = False,
+    export: Export = None,
     large: Large = False,
     json: Json = False,
     out: Out = None,
@@ -60,7 +62,7 @@ def command(
 
     Give a SCENE, or --young --poisson --thickness --side; with both, the options change the scene's values.
     The fitted methods train on the SCENE; without one, on the sheet under its own weight with one edge and
-    with two adjacent edges clamped.
+    with two adjacent edges clamped. --export is of the SCENE, or of the sheet with one edge clamped.
     """
     from comparisons.calibration import asked, tables
     from comparisons.cli.finish import finish
@@ -95,4 +97,8 @@ def command(
             progress=end.progress,
         )
         found = replace(found, notes=(f"grading {graded:g}: {why}", *found.notes)) if why else found
-        end(tables.report(found, sheet, material), instead=tables.to_toml(found.as_dict()) if toml else None)
+        report = tables.report(found, sheet, material)
+        if export is not None:
+            of = asked.exported(scene, sheet, material)
+            report = end.export(export, of, found, report, overwrite)
+        end(report, instead=tables.to_toml(found.as_dict()) if toml else None)

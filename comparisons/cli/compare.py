@@ -9,6 +9,7 @@ import typer
 from comparisons.cli.options import (
     Calibration,
     Elements,
+    Export,
     Grading,
     Grid,
     Json,
@@ -51,6 +52,7 @@ def command(
         float | None,
         typer.Option(metavar="FRACTION", help="Error that --auto may make; 0.01 unless given."),
     ] = None,
+    export: Export = None,
     large: Large = False,
     json: Json = False,
     out: Out = None,
@@ -65,13 +67,17 @@ def command(
     from comparisons.comparison.comparison import compare, load_static
     from comparisons.models.candidate import parse_model
     from comparisons.models.grids import parse_elements
+    from comparisons.models.springs import scene_springs
     from comparisons.report.vtk import write_solution
+    from sheetbench.scenes.errors import BadInput
 
     asked = load_static(scene)
     size, others = parse_elements(elements), [parse_model(text) for text in model or ()]
     given = {"--lumped": lumped, "--calibration": calibration, "--k": k, "--layer-distance": layer_distance}
     given |= {"--grading": grading}
     check_auto(auto, tolerance, given)
+    if auto and export is not None:
+        raise BadInput("--export: the advisor may choose a model without springs; leave --auto out")
     named = calibration is not None or k is not None
     models = {"--reference": reference, "--calibration": "named" if named else "open", "--auto": auto}
     models |= {"--model": " ".join(model)} if model else {}
@@ -99,4 +105,9 @@ def command(
             progress=end.progress,
             finished=lambda s: end.keep(f"{s.model}.vtu", lambda path: write_solution(path, s)),
         )
-        end(found.report(advice))
+        report = found.report(advice)
+        if export is not None:
+            own = {"grading": grading, "calibration": calibration, "k": k, "layer_distance": layer_distance}
+            springs, _ = scene_springs(asked, grid=lumped, **own)
+            report = end.export(export, asked, springs, report, overwrite)
+        end(report)

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from comparisons.runs.executors import Pool
     from comparisons.runs.folder import Folder
     from comparisons.runs.store import Store
+    from lumped import Calibration
     from sheetbench.scenes import Scene
 
 NOT_CONVERGED = 3
@@ -48,6 +49,18 @@ class End:
         """Write a file of the answer as soon as it is there, if there is a folder."""
         if self._folder is not None:
             self._folder.write(name, write)
+
+    def export(
+        self, folder: str | None, scene: Scene, springs: Calibration, report: Report, overwrite: bool
+    ) -> Report:
+        """The report, with a note of what was written for other simulators, if there is a folder for them."""
+        if folder is None:
+            return report
+        from comparisons.cli.options import command_line
+        from comparisons.export.export import export
+
+        said = export(folder, scene, springs, command_line(), overwrite)
+        return replace(report, notes=(*report.notes, said))
 
     def place(self, name: str) -> Path | None:
         """The place of a file, or of a folder if the name ends in "/", that a run fills by itself."""

@@ -18,6 +18,15 @@ Out = Annotated[
     str | None,
     typer.Option("--out", metavar="DIR", help="Write files into this folder.", show_default=False),
 ]
+Export = Annotated[
+    str | None,
+    typer.Option(
+        "--export",
+        metavar="DIR",
+        help="Write the lattice for another simulator: masses, springs, supports, loads, values to check by.",
+        show_default=False,
+    ),
+]
 Grid = Annotated[
     str | None,
     typer.Option(

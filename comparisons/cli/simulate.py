@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Calibration, Grading, Grid, Json, Large, Out, Overwrite, Scene
+from comparisons.cli.options import Calibration, Export, Grading, Grid, Json, Large, Out, Overwrite, Scene
 from sheetbench.choices import INTEGRATOR, INTEGRATORS
 
 FRAMES = 100
@@ -40,6 +40,7 @@ def command(
         typer.Option(metavar="FILE", help="Measured histories, CSV: time,probe,ux,uy,uz in s and m."),
     ] = None,
     animate: Annotated[bool, typer.Option("--animate", help="Also draw an animation (with --out).")] = False,
+    export: Export = None,
     large: Large = False,
     json: Json = False,
     out: Out = None,
@@ -50,6 +51,7 @@ def command(
     from comparisons.models.candidate import Candidate
     from comparisons.models.registry import check, simulate
     from comparisons.models.sizes import size
+    from comparisons.models.springs import scene_springs
     from comparisons.motion.history import read_measured, require_within
     from comparisons.motion.tables import report
     from comparisons.report import amounts
@@ -98,4 +100,8 @@ def command(
             progress=reached,
         )
         end.place("frames/")
-        end(report(history, asked, truth, animate))
+        shown = report(history, asked, truth, animate)
+        if export is not None:
+            springs, _ = scene_springs(asked, grid=lumped, grading=grading, calibration=calibration)
+            shown = end.export(export, asked, springs, shown, overwrite)
+        end(shown)

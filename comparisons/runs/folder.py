@@ -31,7 +31,7 @@ class Folder:
 
     about: what the run is about, as {"scene": …}, the same for all runs in a folder. apart: options that
     decide which files there are, the same for all runs of a verb. Raises BadInput for a folder that cannot
-    be made, or that holds something else, unless `overwrite`.
+    be made, or that holds something else, unless `overwrite`, naming the option.
     """
 
     def __init__(
@@ -43,18 +43,19 @@ class Folder:
         about: Mapping[str, Any] | None = None,
         apart: Mapping[str, Any] | None = None,
         overwrite: bool = False,
+        option: str = "--out",
     ) -> None:
-        self.path = folder(path)
+        self.path = folder(path, option)
         self.written: list[str] = []
         self._verb = verb
         self._record = record(list(command))
         self._about, self._apart = plain(dict(about or {})), plain(dict(apart or {}))
-        self._runs = _runs(self.path)
+        self._runs = _runs(self.path, option)
         mixed = {name: said for name, run in self._runs.items() if (said := self._differences(name, run))}
         if mixed and not overwrite:
             name, said = next(iter(mixed.items()))
             raise BadInput(
-                f"--out = '{path}': holds files of another '{name}' ({said}); choose another folder, "
+                f"{option} = '{path}': holds files of another '{name}' ({said}); choose another folder, "
                 "or --overwrite"
             )
         self._stale = [name for name in {**mixed, verb: ""} if name in self._runs] if overwrite else []
@@ -85,8 +86,12 @@ class Folder:
                 missing.append(said)
             else:
                 self.written += picture.names
-        self._note(report.settings, finished=True)
+        self.finish(report.settings)
         return missing
+
+    def finish(self, settings: Mapping[str, Any]) -> None:
+        """Note in the manifest that the run has left all its files, and what it was made with."""
+        self._note(settings, finished=True)
 
     def _clear(self) -> None:
         """Remove the files of runs that this one takes the place of, once there is something to put there."""
@@ -129,7 +134,7 @@ class Folder:
         return "; ".join(said[:NAMED]) + more
 
 
-def _runs(path: Path) -> dict[str, Any]:
+def _runs(path: Path, option: str) -> dict[str, Any]:
     """What the manifest of a folder lists, by verb. Raises BadInput for a file that is none of ours."""
     try:
         found = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
@@ -139,7 +144,7 @@ def _runs(path: Path) -> dict[str, Any]:
         return {}
     except (OSError, ValueError, AttributeError, TypeError, LookupError):
         raise BadInput(
-            f"--out = '{path}': {MANIFEST} there is none that sheetbench can read; choose another folder"
+            f"{option} = '{path}': {MANIFEST} there is none that sheetbench can read; choose another folder"
         ) from None
 
 

@@ -112,12 +112,17 @@ class Cells(Family):
         """Rest diagonals."""
         return (self.diagonals,)
 
+    @property
+    def rest_area(self) -> np.ndarray:
+        """a0, (c,) [m²]."""
+        area: np.ndarray = 0.5 * np.linalg.norm(np.cross(self.diagonals[:, 0], self.diagonals[:, 1]), axis=1)
+        return area
+
     def energies(self, stress: np.ndarray) -> np.ndarray:
         """½ τ²/k a0, summed over a cell's strains where it has several."""
-        rest_area = 0.5 * np.linalg.norm(np.cross(self.diagonals[:, 0], self.diagonals[:, 1]), axis=1)
         k = self.stiffness
         density = 0.5 * np.divide(stress**2, k, out=np.zeros_like(k), where=k != 0.0)
-        return rest_area * density.reshape(len(density), -1).sum(axis=1)
+        return self.rest_area * density.reshape(len(density), -1).sum(axis=1)
 
     def by_name(self, energies: np.ndarray) -> dict[str, float]:
         """All under the one name."""

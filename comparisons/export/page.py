@@ -1,0 +1,86 @@
+"""The README of an exported lattice: how force and energy follow from the files, in a page."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from comparisons.export.arrays import NAMES
+from comparisons.report.escape import markdown
+from comparisons.runs.manifest import version
+from sheetbench.scenes import Scene
+
+if TYPE_CHECKING:
+    from lumped import Calibration, Description
+
+PAGE = """\
+# {title}
+
+{about}
+
+SI units throughout. Masses are numbered from 0. `check.csv` and `states.csv` hold {states} to test a
+program by: with these displacements it should find these forces and energies, to rounding. A corner `4+5`
+is the mean of masses 4 and 5.
+
+## Springs
+
+Energy E of all springs, force −∂E/∂x on every mass; `check.csv` has the gradient +∂E/∂x, which is what
+supports and loads balance at rest.
+
+- `links.csv`: masses a and b, rest length L, stiffness k. With r the vector from a to b, E = ½ k (|r| −
+  L)². Shares of links on the sheet's boundary are in k already.
+- `cells.csv`, kind `area`: corners 1 to 4 in turn, each a mass or the mean of several; d1 from corner 1 to
+  3, d2 from 2 to 4, c = d1 × d2, n = c/|c|, area a = ½ |c|, a0 at rest. E = ½ k1 (a/a0 − 1)² a0. With τ =
+  k1 (a/a0 − 1) the gradient is ½ τ d2 × n on corner 3, ½ τ n × d1 on corner 4, and the opposite on corners
+  1 and 2.
+- kind `strain`: sides A = (d1 − d2)/2 and B = (d1 + d2)/2, at rest A0 and B0, a0 = |A0| |B0|, and the Green
+  strains e1 = (|A|² − |A0|²)/(2 |A0|²), e2 = (|B|² − |B0|²)/(2 |B0|²), g = A·B/a0. E = ½ (k1 e1² + k2 e2² +
+  k3 g²) a0. With t = (k1 e1, k2 e2, k3 g) the gradient by A is P = a0 (t1 A/|A0|² + t3 B/a0), by B it is Q
+  = a0 (t2 B/|B0|² + t3 A/a0); on corners 1 to 4 it is ½ (−P − Q), ½ (P − Q), ½ (P + Q), ½ (Q − P).
+- What acts on a corner is shared equally by the masses it is the mean of. A stiffness may be negative: the
+  energy of all springs together is positive all the same.
+
+## Motion
+
+`nodes.csv` has the masses. Dampers resist the rates of what the springs resist: force c d|r|/dt along a
+link, the gradients above with c1 (da/dt)/a0 and (c1 de1/dt, c2 de2/dt, c3 dg/dt) in place of τ and t. Every
+mass is also dragged by {rate:g} 1/s × its mass × its velocity.
+
+## Supports and loads
+
+- `supports.csv`: the mean displacement of the masses along one component is held.
+- `loads.csv`: dead forces on masses; where a mass is not named, none.
+- `followers.csv`: `pressure` p on a cell: p/8 d1 × d2 on each corner. `moment` M of an edge, its four
+  columns a top mass, a bottom mass, and the columns before and after them: with D from bottom to top and t
+  the unit vector from the mean of the one before to that of the one after, F = M (t × D)/|D|² on the top
+  and −F on the bottom mass.
+{notes}
+## The same as arrays
+
+`lattice.npz` (NumPy) and `lattice.mat` (MATLAB, Octave: add 1 to numbers of masses), p = {layers}:
+
+{arrays}
+
+Programs in NumPy, MATLAB and C++ that read this folder and solve it: `examples/other-codes` of sheetbench.
+"""
+
+
+def page(lattice: Description, scene: Scene, calibration: Calibration) -> str:
+    """The README, in Markdown."""
+    nx, ny, layers = calibration.grid
+    sheet, material = scene.sheet, scene.material
+    about = (
+        f"{nx} × {ny} × {layers} masses of a sheet of {sheet.length_x:g} × {sheet.length_y:g} × "
+        f"{sheet.thickness:g} m, E = {material.young:g} Pa, ν = {material.poisson:g}, "
+        f"ρ = {material.density:g} kg/m³, springs by the calibration {calibration.method}. "
+        f"Written by sheetbench {version()}."
+    )
+    notes = "".join(f"- Not in here: {markdown(said)}\n" for said in lattice.notes)
+    return PAGE.format(
+        title=f"The lattice of {markdown(scene.name)}",
+        about=about,
+        states=" and ".join(f"`{state.name}` ({state.meaning})" for state in lattice.states),
+        rate=lattice.damping_rate,
+        layers=layers,
+        notes=notes,
+        arrays="\n".join(f"- `{name}` {markdown(said)}" for name, said in NAMES.items()),
+    )

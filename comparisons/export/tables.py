@@ -1,0 +1,116 @@
+"""A lattice as CSV: one table a file, SI units, all digits, the names of the columns in the first line.
+
+Masses that a corner, or what is held, is the mean of are joined by "+".
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from lumped import Description
+
+
+ENERGIES = {"area": "0.5 k1 (a/a0 - 1)^2 a0", "strain": "0.5 (k1 e1^2 + k2 e2^2 + k3 g^2) a0"}
+FORMULA = "; ".join(f"{kind}: E = {energy}" for kind, energy in ENERGIES.items()) + "; force -dE/dx"
+AXES = "xyz"
+
+
+def tables(lattice: Description) -> dict[str, str]:
+    """The text of every file by its name."""
+    x, y, z = (f"u{axis}" for axis in AXES)
+    return {
+        "nodes.csv": _csv(
+            ["number", "i", "j", "k", "x", "y", "z", "mass"],
+            (
+                [number, *index, *position, mass]
+                for number, (index, position, mass) in enumerate(
+                    zip(
+                        lattice.index.tolist(), lattice.positions.tolist(), lattice.mass.tolist(), strict=True
+                    )
+                )
+            ),
+        ),
+        "links.csv": _csv(
+            ["a", "b", "family", "rest_length", "stiffness", "damping"],
+            (
+                [*pair, *rest]
+                for pair, *rest in zip(
+                    *(values.tolist() for values in vars(lattice.links).values()), strict=True
+                )
+            ),
+        ),
+        "cells.csv": _csv(
+            [
+                "kind",
+                *(f"corner_{n}" for n in range(1, 5)),
+                "rest_area",
+                *(f"stiffness_{n}" for n in range(1, 4)),
+                *(f"damping_{n}" for n in range(1, 4)),
+                FORMULA,
+            ],
+            (
+                [table.kind, *map(_joined, corners), area, *stiffness, *damping, ENERGIES[table.kind]]
+                for table in lattice.cells
+                for corners, area, stiffness, damping in zip(
+                    table.corners.tolist(),
+                    table.rest_area.tolist(),
+                    table.stiffness.tolist(),
+                    table.damping.tolist(),
+                    strict=True,
+                )
+            ),
+        ),
+        "supports.csv": _csv(
+            ["edge", "masses", "component", "displacement"],
+            ([h.edge, _joined(h.masses), AXES[h.axis], h.displacement] for h in lattice.holds),
+        ),
+        "loads.csv": _csv(
+            ["number", "fx", "fy", "fz"],
+            ([n, *force] for n, force in enumerate(lattice.dead.tolist()) if any(force)),
+        ),
+        "followers.csv": _csv(["kind", *(f"corner_{n}" for n in range(1, 5)), "value"], _followers(lattice)),
+        "check.csv": _csv(
+            ["state", "number", x, y, z, "fx", "fy", "fz"],
+            (
+                [state.name, number, *displacement, *force]
+                for state in lattice.states
+                for number, (displacement, force) in enumerate(
+                    zip(state.displacement.tolist(), state.force.tolist(), strict=True)
+                )
+            ),
+        ),
+        "states.csv": _csv(
+            ["state", "energy", "meaning"], ([s.name, s.energy, s.meaning] for s in lattice.states)
+        ),
+    }
+
+
+def _followers(lattice: Description) -> Iterable[list[Any]]:
+    """Loads that follow the sheet: pressed cells, and the couples of edges by their four groups of masses."""
+    for corners in lattice.pressed.tolist():
+        yield ["pressure", *map(_joined, corners), lattice.pressure]
+    for couple in lattice.couples:
+        yield [
+            "moment",
+            couple.top,
+            couple.bottom,
+            _joined(couple.before),
+            _joined(couple.after),
+            couple.moment,
+        ]
+
+
+def _joined(masses: Sequence[int]) -> str:
+    return "+".join(map(str, masses))
+
+
+def _csv(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows(rows)
+    return text.getvalue()

@@ -1,0 +1,74 @@
+function read_lattice(folder, steps)
+  % A lattice that `sheetbench ... --export DIR` wrote, in MATLAB or Octave: force, statics by Newton.
+  %
+  %   octave --quiet --eval "read_lattice('DIR')"        steps of the load: 1 unless given
+  if nargin < 2, steps = 1; end
+  lattice = load([folder '/lattice.mat']);
+  if lattice.pressure ~= 0 || ~isempty(lattice.couple_moment), error('dead loads only'); end
+  along = differences(lattice);
+  largest = 0;
+  for state = 1:numel(lattice.state_energy)
+    truth = squeeze(lattice.state_displacement(state, :, :));
+    force = squeeze(lattice.state_force(state, :, :));
+    largest = max(largest, norm(gradient_of(lattice, along, truth) - force, inf) / norm(force, inf));
+  end
+  off = norm(equilibrium(lattice, along, steps) - truth, inf) / norm(truth, inf);
+  fprintf('forces of %d states off by %.1e, displacements at rest by %.1e\n', state, largest, off);
+  if ~(largest < 1e-9 && off < 1e-6), error('this is not the lattice of the folder'); end
+end
+
+function along = differences(lattice)
+  % Matrices that take positions (n, 3) to the vectors that springs see: along links, across cells.
+  of = speye(size(lattice.positions, 1));
+  ends = double(lattice.link_masses) + 1;  % numbers count from 0 in the file
+  along.link = of(ends(:, 2), :) - of(ends(:, 1), :);
+  for kind = {'area', 'strain'}
+    corners = double(lattice.([kind{1} '_corners'])) + 1;
+    [first, second, p] = deal(0, 0, size(corners, 3));
+    for mass = 1:p  % a corner is the mean of one mass or several
+      first = first + (of(corners(:, 3, mass), :) - of(corners(:, 1, mass), :)) / p;
+      second = second + (of(corners(:, 4, mass), :) - of(corners(:, 2, mass), :)) / p;
+    end
+    along.(kind{1}) = {first, second, (first - second) / 2, (first + second) / 2};
+  end
+end
+
+function g = gradient_of(lattice, along, u)
+  % Gradient (n, 3) [N] of the energy of all springs at displacements u (n, 3) [m].
+  [rest, x] = deal(lattice.positions, lattice.positions + u);
+  r = along.link * x;
+  g = along.link' * (lattice.link_stiffness .* (1 - lattice.link_rest_length ./ sqrt(sum(r .^ 2, 2))) .* r);
+
+  [d1, d2] = deal(along.area{1} * x, along.area{2} * x);
+  c = cross(d1, d2, 2);
+  turned = 0.5 * lattice.area_stiffness .* (0.5 ./ lattice.area_rest - 1 ./ sqrt(sum(c .^ 2, 2))) .* c;
+  g = g + along.area{1}' * cross(d2, turned, 2) + along.area{2}' * cross(turned, d1, 2);
+
+  [over_a, over_b, k, a0] = deal(along.strain{3:4}, lattice.strain_stiffness, lattice.strain_rest);
+  [a, b, aa, bb] = deal(over_a * x, over_b * x, sum((over_a * rest) .^ 2, 2), sum((over_b * rest) .^ 2, 2));
+  t1 = k(:, 1) .* (sum(a .^ 2, 2) ./ aa - 1) / 2;
+  t2 = k(:, 2) .* (sum(b .^ 2, 2) ./ bb - 1) / 2;
+  t3 = k(:, 3) .* sum(a .* b, 2) ./ a0;
+  g = g + over_a' * (t1 .* a0 ./ aa .* a + t3 .* b) + over_b' * (t2 .* a0 ./ bb .* b + t3 .* a);
+end
+
+function u = equilibrium(lattice, along, steps)
+  % Displacements (n, 3) at rest: Newton, the tangent by differences, supports by multipliers.
+  [n, holds, p] = deal(size(lattice.positions, 1), numel(lattice.hold_axis), size(lattice.hold_masses, 2));
+  places = double(lattice.hold_axis) * n + double(lattice.hold_masses) + 1;
+  held = sparse(repmat((1:holds)', 1, p), places, 1 / p, holds, 3 * n);
+  [u, push, h] = deal(zeros(3 * n, 1), zeros(holds, 1), 1e-7 * max(lattice.link_rest_length));
+  force_at = @(u) reshape(gradient_of(lattice, along, reshape(u, n, 3)), [], 1);
+  for part = (1:steps) / steps
+    for iteration = 1:40
+      [force, tangent, shift] = deal(force_at(u), zeros(3 * n), h * eye(3 * n));
+      for column = 1:3 * n, tangent(:, column) = (force_at(u + shift(:, column)) - force) / h; end
+      unbalanced = part * lattice.load(:) - force - held' * push;
+      missing = part * lattice.hold_displacement - held * u;
+      step = [tangent, held'; held, zeros(holds)] \ [unbalanced; missing];
+      [u, push] = deal(u + step(1:3 * n), push + step(3 * n + 1:end));
+      if norm(step(1:3 * n), inf) < 1e-9 * norm(u, inf), break; end
+    end
+  end
+  u = reshape(u, n, 3);
+end

@@ -1,0 +1,253 @@
+"""A lattice in plain arrays: all that another program needs to build it, and states to check itself by.
+
+Masses are numbered from 0 throughout. A spring's damper has the coefficient [N·s/m] in place of its stiffness
+and resists the rate of what the spring resists. Loads and supports are those of statics, at the full load.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lumped.assembly import Assembly
+from lumped.calibration import Calibration
+from lumped.lattice import Lattice
+from lumped.loads import Loads
+from lumped.masses import masses
+from lumped.springs.families import AreaSprings, Cells, Links, StrainSprings, table_dampers
+from lumped.statics.problem import Problem
+from lumped.statics.solver import pose, solve
+from sheetbench.scenes import Scene, Status, free_rigid_motions
+from sheetbench.scenes.errors import BadInput
+
+STRETCH, WARP, TURN = 0.02, 0.05, 2.0  # of the imposed states: strain, height over length, rad in all
+
+
+@dataclass(frozen=True)
+class LinkTable:
+    """masses: (m, 2); family: (m,) names; rest_length: (m,) [m]; stiffness: (m,) [N/m]; damping: (m,)
+    [N·s/m]."""
+
+    masses: np.ndarray
+    family: np.ndarray
+    rest_length: np.ndarray
+    stiffness: np.ndarray
+    damping: np.ndarray
+
+
+@dataclass(frozen=True)
+class CellTable:
+    """Springs of one kind, "area" or "strain": corners (c, 4, p), the masses whose mean each corner is;
+    rest_area (c,) [m²]; stiffness (c, 3) [N/m], of area springs the first alone; damping (c, 3) [N·s/m]."""
+
+    kind: str
+    corners: np.ndarray
+    rest_area: np.ndarray
+    stiffness: np.ndarray
+    damping: np.ndarray
+
+
+@dataclass(frozen=True)
+class Hold:
+    """The mean of the masses' displacements along an axis, 0 to 2, is held at `displacement` [m]."""
+
+    edge: str
+    masses: tuple[int, ...]
+    axis: int
+    displacement: float
+
+
+@dataclass(frozen=True)
+class Couple:
+    """An edge moment [N·m]: F = moment (t × D)/|D|² on the mass `top` and −F on `bottom`, D from bottom to
+    top, t the direction from the mean of the column `before` to that of `after`."""
+
+    top: int
+    bottom: int
+    before: tuple[int, ...]
+    after: tuple[int, ...]
+    moment: float
+
+
+@dataclass(frozen=True)
+class State:
+    """A state to check by: displacement (n, 3) [m], gradient of the elastic energy (n, 3) [N], energy [J]."""
+
+    name: str
+    meaning: str
+    displacement: np.ndarray
+    force: np.ndarray
+    energy: float
+
+
+@dataclass(frozen=True)
+class Description:
+    """index: (n, 3) of each mass along x, along y and through the thickness; positions: (n, 3) [m]; mass:
+    (n,) [kg]; damping_rate: [1/s], of the masses; dead: (n, 3) [N]; pressure: [Pa], on the cells
+    `pressed` (c, 4, p) of the mid-surface; notes: what of the scene is not in here."""
+
+    index: np.ndarray
+    positions: np.ndarray
+    mass: np.ndarray
+    damping_rate: float
+    links: LinkTable
+    cells: tuple[CellTable, ...]
+    holds: tuple[Hold, ...]
+    dead: np.ndarray
+    pressure: float
+    pressed: np.ndarray
+    couples: tuple[Couple, ...]
+    states: tuple[State, ...]
+    notes: tuple[str, ...] = ()
+
+
+def describe(scene: Scene, calibration: Calibration) -> Description:
+    """The lattice of a scene in plain arrays.
+
+    Raises BadInput for actuators, whose chains are no springs between masses, and for the seed's
+    per-direction springs, which have no energy.
+    """
+    if scene.actuators:
+        raise BadInput("export: actuators are not springs between masses; export a scene without them")
+    problem = pose(scene, calibration)
+    assembly, lattice = problem.assembly, problem.assembly.lattice
+    if not assembly.conservative:
+        raise BadInput("export: per-direction springs have no energy, and no stiffness along their links")
+    nx, ny, layers = lattice.grid
+    j, i, k = (at.ravel() for at in np.meshgrid(*map(np.arange, (ny, nx, layers)), indexing="ij"))
+    moments, pressure = problem.loads.at_time(None)
+    (pressed,) = (cells.nodes for cells in lattice.cells if cells.name == "mid_area")
+    couples = tuple(c for edge, moment, turn in moments for c in _couples(edge, turn * moment))
+    states, why = _states(scene, calibration, assembly)
+    return Description(
+        index=np.stack([i, j, k], axis=1),
+        positions=lattice.positions,
+        mass=masses(scene, lattice, assembly.distribution),
+        damping_rate=scene.material.damping_rate,
+        links=_links(scene, assembly),
+        cells=tuple(_cells(scene, family) for family in assembly.springs if isinstance(family, Cells)),
+        holds=_holds(problem),
+        dead=_constant(problem.loads),
+        pressure=pressure,
+        pressed=pressed if pressure else pressed[:0],
+        couples=couples,
+        states=states,
+        notes=(*_left_out(scene), *why),
+    )
+
+
+def _links(scene: Scene, assembly: Assembly) -> LinkTable:
+    """The links, also those that have only a damper of the scene's own table."""
+    springs = assembly.links
+    table = _table(springs, springs.stiffness, scene.material.damping_time * springs.stiffness)
+    if scene.dampers is None:
+        return table
+    own = table_dampers(assembly.lattice, assembly.pattern, scene.dampers).family
+    assert isinstance(own, Links)  # along the links, as the table has it
+    beside = _table(own, np.zeros(len(own)), own.stiffness)
+    places = {tuple(pair): row for row, pair in enumerate(table.masses.tolist())}
+    at = np.array([places.get(tuple(pair), -1) for pair in beside.masses.tolist()], dtype=int)
+    damping = np.zeros(len(springs))
+    damping[at[at >= 0]] = beside.damping[at >= 0]
+    joined = zip(vars(replace(table, damping=damping)).values(), vars(beside).values(), strict=True)
+    return LinkTable(*(np.concatenate([first, second[at < 0]]) for first, second in joined))
+
+
+def _table(links: Links, stiffness: np.ndarray, damping: np.ndarray) -> LinkTable:
+    names = np.array(links.names)[links.kind]
+    return LinkTable(links.nodes, names, links.rest_length, stiffness, damping)
+
+
+def _cells(scene: Scene, family: Cells) -> CellTable:
+    kinds = {AreaSprings: "area", StrainSprings: "strain"}
+    stiffness = np.zeros((len(family), 3))
+    stiffness[:, : family.stiffness[0].size] = family.stiffness.reshape(len(family), -1)
+    time = 0.0 if scene.dampers is not None else scene.material.damping_time
+    return CellTable(kinds[type(family)], family.nodes, family.rest_area, stiffness, time * stiffness)
+
+
+def _holds(problem: Problem) -> tuple[Hold, ...]:
+    """What is held, once each; a corner's under the support that comes first."""
+    constraints, place = problem.constraints, problem.prescribed(1.0)
+    found: dict[tuple[tuple[int, ...], int], Hold] = {}
+    for edge, (columns, axes) in constraints.holders.items():
+        for column in columns.tolist():
+            for axis in axes:
+                fixed = constraints.fixed[column[0], axis]
+                for together in [(mass,) for mass in column] if fixed else [tuple(column)]:
+                    mean = float(place[list(together), axis].mean())
+                    found.setdefault((together, axis), Hold(edge, together, axis, mean))
+    return tuple(found.values())
+
+
+def _couples(edge: np.ndarray, moment: np.ndarray) -> list[Couple]:
+    last = len(edge) - 1
+    return [
+        Couple(
+            int(column[-1]),
+            int(column[0]),
+            tuple(edge[max(at - 1, 0)].tolist()),
+            tuple(edge[min(at + 1, last)].tolist()),
+            float(moment[at]),
+        )
+        for at, column in enumerate(edge)
+    ]
+
+
+def _constant(loads: Loads) -> np.ndarray:
+    """The dead loads with the last factors of their histories."""
+    rest = np.zeros_like(loads.dead)
+    return loads.force(rest) - loads.followers(rest)
+
+
+def _states(
+    scene: Scene, calibration: Calibration, assembly: Assembly
+) -> tuple[tuple[State, ...], tuple[str, ...]]:
+    """Two imposed states and the equilibrium, and why there is none."""
+    shapes = [
+        ("stretched", f"stretched and warped by {STRETCH:g} and {WARP:g}", _stretched(assembly.lattice)),
+        ("rolled", f"rolled about y by {TURN:g} rad, the layers along", _rolled(assembly.lattice)),
+    ]
+    why: tuple[str, ...] = ()
+    if free := free_rigid_motions(scene):
+        why = (f"no equilibrium to check by: nothing stops {', '.join(free)}",)
+    else:
+        solution = solve(scene, calibration)
+        if solution.status is Status.CONVERGED:
+            found = solution.mesh.point_data["displacement"]
+            shapes.append(("equilibrium", "under supports and loads", found))
+        else:
+            why = (f"no equilibrium to check by: {solution.status}: {solution.message}",)
+    states = []
+    for name, meaning, displacement in shapes:
+        energy, force = assembly.force(displacement)
+        states.append(State(name, meaning, displacement, force, energy))
+    return tuple(states), why
+
+
+def _stretched(lattice: Lattice) -> np.ndarray:
+    x, y, z = lattice.positions.T
+    lx, ly = (lines.at[-1] for lines in lattice.lines)
+    a, b = x / lx, y / ly
+    along = STRETCH * np.stack([lx * (a + 0.5 * a * b), ly * (0.3 * a**2 - 0.4 * b)])
+    lift = WARP * min(lx, ly) * (a * b + a**2) + STRETCH * z * (1.0 - a)
+    return np.stack([*along, lift], axis=1)
+
+
+def _rolled(lattice: Lattice) -> np.ndarray:
+    x, y, z = lattice.positions.T
+    radius = lattice.lines[0].at[-1] / TURN
+    turn = x / radius
+    rolled = np.stack([(radius - z) * np.sin(turn), y, radius - (radius - z) * np.cos(turn)], axis=1)
+    return rolled - lattice.positions
+
+
+def _left_out(scene: Scene) -> tuple[str, ...]:
+    """What of the scene these arrays do not say."""
+    moving = [support.edge for support in scene.supports if support.motion is not None]
+    courses = [*scene.loads, *([scene.gravity] if scene.gravity is not None else [])]
+    said = [f"the motion of the support on edge {edge} over time is left out" for edge in moving]
+    if any(load.history is not None for load in courses):
+        said.append("loads change over time in this scene; here they have their last values")
+    return tuple(said)

@@ -68,6 +68,10 @@ SMALL = {
         *("transfer", "--methods", "consistent,uniform", "--grids", "5,9", "--scenes", "one-edge-clamped"),
         *("--part", "static", "--elements", "4", "--workers", "1", "--out", "transfer"),
     ],
+    "crosscheck": [
+        *("crosscheck", SEED, "--lumped", "3,5", "--plate", "", "--shell", "2,3", "--solid", ""),
+        *("--judges", "", "--workers", "1", "--out", "crosscheck"),
+    ],
     "advise": ["advise", "one-edge-clamped", "--tolerance", "0.2"],
     "stability": ["stability", "--study", "mass", "--workers", "1", "--out", "stability"],
     "verify": ["verify", "--case", "patch"],

@@ -13,6 +13,7 @@ from typing import Any
 TASKS = {
     "timing": "comparisons.tradeoff.timing:measure",
     "motion": "comparisons.tradeoff.motion:measure",
+    "crosscheck": "comparisons.crosscheck.task:answer",
     "advice.truth": "comparisons.advice.validation:truth",
     "advice.advice": "comparisons.advice.validation:advice",
     "transfer.lattice": "comparisons.transfer.tasks:lattice",

@@ -1,0 +1,89 @@
+"""`sheetbench crosscheck SCENE…`: lattice, references and other people's programs side by side."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from comparisons.cli.options import Calibration, Grading, Json, Large, Out, Overwrite, Retry, Workers
+from sheetbench.choices import REFERENCES
+
+
+def command(
+    scenes: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="SCENES",
+            help="Catalogue names or paths to TOML files; all: the catalogue.",
+            show_default=False,
+        ),
+    ],
+    lumped: Annotated[
+        str,
+        typer.Option(
+            "--lumped",
+            "--grid",
+            metavar="N,N,N",
+            help="Masses of the lattice along the shorter side, rising.",
+        ),
+    ] = "9,13,17",
+    calibration: Calibration = None,
+    grading: Grading = None,
+    plate: Annotated[
+        str, typer.Option(metavar="N,N,N", help="Elements of the linear plate, rising.")
+    ] = "8,12,16",
+    shell: Annotated[str, typer.Option(metavar="N,N,N", help="Elements of the nonlinear shell.")] = "8,12,16",
+    solid: Annotated[str, typer.Option(metavar="N,N,N", help="Elements of the nonlinear solid.")] = "6,8,12",
+    judges: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAMES",
+            help="Other people's programs, with commas, or FILE.py:OBJECT; all that are here unless given.",
+            show_default=False,
+        ),
+    ] = None,
+    meshes: Annotated[
+        str | None,
+        typer.Option(
+            metavar="N,N,N", help="Elements of the judges; each one's own unless given.", show_default=False
+        ),
+    ] = None,
+    workers: Workers = None,
+    retry: Retry = False,
+    large: Large = False,
+    json: Json = False,
+    out: Out = None,
+    overwrite: Overwrite = False,
+) -> None:
+    """Hold every model against other people's programs, each with its own mesh convergence and error bar.
+
+    Give an empty list to leave a model or all judges out (--solid ""). An interrupted run can be resumed.
+    """
+    import os
+
+    from comparisons.cli.finish import finish
+    from comparisons.crosscheck import asked
+    from comparisons.crosscheck.study import crosscheck
+    from comparisons.judges.found import look
+    from comparisons.models.candidate import items
+
+    chosen = asked.scenes(scenes)
+    found = look(None if judges is None else items(judges))
+    references = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
+    models = asked.models(lumped, calibration, grading, references, found, meshes)
+    about = {"scenes": [scene.document() for scene in chosen]}
+    with finish("crosscheck", json, out, overwrite, about=about) as end:
+        with end.campaign() as (store, pool, progress):
+            checked = crosscheck(
+                chosen,
+                store,
+                models=models,
+                judges=found,
+                workers=workers or os.cpu_count() or 1,
+                pool=pool,
+                retry=retry,
+                large=large,
+                progress=progress,
+            )
+        end(checked.report())

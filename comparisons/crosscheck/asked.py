@@ -1,0 +1,77 @@
+"""What is to be checked, from lists as people write them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from comparisons.judges.found import Found
+from comparisons.models.candidate import Candidate, items
+from comparisons.models.grading import Grading
+from comparisons.models.grids import parse_elements
+from sheetbench.scenes import Scene, catalogue, load
+from sheetbench.scenes.errors import BadInput, SceneError
+from sheetbench.scenes.scene import require_static
+
+ALL = "all"
+
+
+def scenes(names: Sequence[str]) -> list[Scene]:
+    """The scenes of names and files, `all` for the catalogue. Raises BadInput for one that is not, that has
+    no static answer, or that shares its name with another."""
+    found: dict[str, Scene] = {}
+    for name in names:
+        for each in catalogue() if name == ALL else [name]:
+            scene = load(each)
+            try:
+                require_static(scene)
+            except SceneError as error:
+                raise SceneError(f"{each}: {error}") from None
+            if found.setdefault(scene.name, scene) != scene:
+                raise BadInput(f"{each}: another scene has its name, '{scene.name}', already")
+    return list(found.values())
+
+
+def models(
+    grids: str,
+    calibration: str | None,
+    grading: Grading,
+    meshes: Mapping[str, str],
+    judges: Sequence[Found],
+    judges_meshes: str | None,
+) -> dict[str, list[Candidate]]:
+    """Lattice, references and judges that are here, each on its meshes, coarsest first.
+
+    judges_meshes: instead of each one's own. Raises BadInput for what cannot be read and for nothing at all.
+    """
+    found: dict[str, list[Candidate]] = {}
+    own = {"calibration": calibration, "grading": grading}
+    lattice = {key: value for key, value in own.items() if value is not None}
+    if sizes := _numbers("--lumped", grids, 3):
+        found["lumped"] = [Candidate("lumped", {"grid": n, **lattice}) for n in sizes]
+    for name, text in meshes.items():
+        if sizes := _numbers(f"--{name}", text, 1):
+            found[name] = [Candidate(name, {"elements": n}) for n in sizes]
+    for judge in judges:
+        if judge.version is not None:
+            sizes = (
+                list(judge.judge.meshes) if judges_meshes is None else _numbers("--meshes", judges_meshes, 1)
+            )
+            found[judge.judge.name] = [Candidate(judge.asked, {"elements": n}) for n in sizes]
+    if not found:
+        raise BadInput("no model left to check")
+    return found
+
+
+def _numbers(option: str, text: str, least: int) -> list[int]:
+    """Sizes along the shorter side, rising. Raises BadInput, for one alone too: two at least show a
+    change."""
+    sizes = [parse_elements(part, option) for part in items(text)]
+    numbers = [size for size in sizes if isinstance(size, int)]
+    fine = (
+        len(numbers) == len(sizes) != 1
+        and numbers == sorted(set(numbers))
+        and min(numbers, default=3) >= least
+    )
+    if not fine:
+        raise BadInput(f"{option} = '{text}': two sizes or three along the shorter side, rising, as 8,12,16")
+    return numbers

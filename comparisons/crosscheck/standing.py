@@ -1,0 +1,103 @@
+"""What a model says of a scene with its own error bar, and whether two models can be told apart.
+
+A model answers on three meshes. With f its Richardson limit at the probes and U the bar of its grid
+convergence index (`fem_reference.uncertainty`), two models a and b are told apart where at some probe
+
+    |f_a − f_b| > |U_a| + |U_b|
+
+and more than `DIGITS` of the largest displacement, which is what programs print and where iterations end.
+What is not told apart may be the same or may not: finer meshes would say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from fem_reference.uncertainty import Uncertainty, estimate
+from sheetbench.scenes import Status, comparable
+
+DIGITS = 1e-5  # of the largest displacement
+
+
+@dataclass(frozen=True)
+class Standing:
+    """A model on its meshes, coarsest first: `rows` as `comparisons.crosscheck.task.answer` has them, with a
+    status and a message where there is no more. uncertainty: of the finest answers, None below two of
+    them."""
+
+    scene: str
+    name: str
+    version: str | None
+    rows: tuple[dict[str, Any], ...]
+    uncertainty: Uncertainty | None
+
+    @classmethod
+    def of(cls, scene: str, name: str, version: str | None, rows: Sequence[dict[str, Any]]) -> Standing:
+        """The standing of a model's rows."""
+        usable = sorted((row for row in rows if _answered(row)), key=lambda row: float(row["size"]))
+        bar = None
+        if len(usable) >= 2:
+            sizes = [float(row["size"]) for row in usable[:3]]
+            bar = estimate([np.array(row["displacement"], dtype=float) for row in usable[:3]], sizes)
+        return cls(scene, name, version, tuple(rows), bar)
+
+    @property
+    def finest(self) -> dict[str, Any]:
+        """The row of the finest mesh that has an answer, else the last."""
+        usable = [row for row in self.rows if _answered(row)]
+        return min(usable, key=lambda row: float(row["size"])) if usable else self.rows[-1]
+
+    @property
+    def refused(self) -> bool:
+        """Whether the model does not take the scene."""
+        return all(row["status"] == Status.REFUSED for row in self.rows)
+
+    @property
+    def failures(self) -> list[str]:
+        """What went wrong on a mesh, a clause each; refusals are no failures."""
+        lost = [row for row in self.rows if not _answered(row) and row["status"] != Status.REFUSED]
+        return [": ".join(filter(None, [row["label"], row["status"], row["message"]])) for row in lost]
+
+    @property
+    def meshes(self) -> str:
+        """The meshes that have an answer, in words."""
+        counts = [
+            row["settings"].get("elements") or row["settings"]["grid"] for row in self.rows if _answered(row)
+        ]
+        return ", ".join(str(min(count[:2])) for count in counts)
+
+
+def _answered(row: dict[str, Any]) -> bool:
+    return "displacement" in row and comparable(row["status"], row["load_factor"])
+
+
+@dataclass(frozen=True)
+class Pair:
+    """How far b is from a: the largest component of their difference, as a fraction of a's largest
+    displacement; bars: both bars of that component, likewise; apart: the probes where they are told apart."""
+
+    a: str
+    b: str
+    difference: float
+    bars: float
+    apart: tuple[str, ...]
+
+
+def pair(a: Standing, b: Standing, probes: Sequence[str]) -> Pair | None:
+    """Two models of a scene beside each other, where both have bars."""
+    if a.uncertainty is None or b.uncertainty is None:
+        return None
+    size = float(np.max(np.abs(a.uncertainty.extrapolated)))
+    if not size > 0.0:
+        return None
+    off = b.uncertainty.extrapolated - a.uncertainty.extrapolated
+    both = [np.linalg.norm(of.bar, axis=1) for of in (a.uncertainty, b.uncertainty)]
+    apart = np.linalg.norm(off, axis=1) > np.maximum(both[0] + both[1], DIGITS * size)
+    at = np.unravel_index(np.argmax(np.abs(off)), off.shape)
+    bars = a.uncertainty.bar[at] + b.uncertainty.bar[at]
+    names = tuple(name for name, told in zip(probes, apart, strict=True) if told)
+    return Pair(a.name, b.name, float(np.abs(off[at])) / size, float(bars) / size, names)

@@ -1,0 +1,146 @@
+"""Scenes × models and judges × meshes, through a campaign's store: one standing a scene and model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from itertools import combinations
+from typing import Any
+
+from comparisons.crosscheck import tables
+from comparisons.crosscheck.standing import Pair, Standing, pair
+from comparisons.judges.found import Found
+from comparisons.models import plugins
+from comparisons.models.candidate import Candidate
+from comparisons.models.registry import check
+from comparisons.report.report import Report
+from comparisons.runs.campaign import Progress, Run, carry_out
+from comparisons.runs.executors import Pool, processes
+from comparisons.runs.store import Finished, Store
+from sheetbench.choices import REFERENCE
+from sheetbench.scenes import Scene, Status
+
+
+@dataclass(frozen=True)
+class Crosscheck:
+    """The standings of every scene by its name, the models in one order; judges: that were looked for."""
+
+    scenes: tuple[Scene, ...]
+    standings: dict[str, tuple[Standing, ...]]
+    judges: tuple[Found, ...]
+
+    def against(self, scene: str) -> Standing | None:
+        """The standing that the others of a scene are held against: the shell's, else the first with a
+        bar."""
+        with_bar = [one for one in self.standings[scene] if one.uncertainty is not None]
+        return next((one for one in with_bar if one.name == REFERENCE), with_bar[0] if with_bar else None)
+
+    def pairs(self, scene: Scene) -> list[Pair]:
+        """Every two models of a scene that have bars."""
+        both = combinations(self.standings[scene.name], 2)
+        found = (pair(a, b, list(scene.probes)) for a, b in both)
+        return [one for one in found if one is not None]
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench crosscheck`: metres, seconds, fractions."""
+        return {
+            "solutions": [
+                _document(scene, one) for scene in self.scenes for one in self.standings[scene.name]
+            ],
+            "pairs": [
+                {"scene": scene.name, **asdict(one)} for scene in self.scenes for one in self.pairs(scene)
+            ],
+            "judges": [
+                {
+                    "name": found.judge.name,
+                    "version": found.version,
+                    "status": "absent" if found.version is None else "found",
+                    "needs": found.judge.needs,
+                }
+                for found in self.judges
+            ],
+            "failed": self.failures,
+        }
+
+    @property
+    def failures(self) -> list[str]:
+        """A sentence for every mesh that has no answer without having been refused."""
+        every = (one for of in self.standings.values() for one in of)
+        return [f"{one.scene}, {one.name}: {said}" for one in every for said in one.failures]
+
+    def report(self) -> Report:
+        """What is shown of it."""
+        return tables.report(self)
+
+
+def _document(scene: Scene, one: Standing) -> dict[str, Any]:
+    """A model's finest answer as `compare` has it, with its bars."""
+    row = {
+        key: value for key, value in one.finest.items() if key not in ("displacement", "size", "traceback")
+    }
+    row |= {"scene": scene.name, "model": one.name, "version": one.version, "meshes": one.meshes}
+    row |= {"failed": one.failures}
+    if "displacement" in one.finest:
+        row["probes"] = dict(zip(scene.probes, one.finest["displacement"], strict=True))
+    if (bar := one.uncertainty) is not None:
+        row["uncertainty"] = dict(zip(scene.probes, bar.bar, strict=True))
+        row["extrapolated"] = dict(zip(scene.probes, bar.extrapolated, strict=True))
+        row["order"] = bar.overall_order
+    return row
+
+
+def crosscheck(
+    scenes: Sequence[Scene],
+    store: Store,
+    *,
+    models: Mapping[str, Sequence[Candidate]],
+    judges: Sequence[Found] = (),
+    workers: int = 1,
+    pool: Pool = processes,
+    retry: bool = False,
+    large: bool = False,
+    progress: Callable[[Progress], None] = lambda progress: None,
+) -> Crosscheck:
+    """Carry out what the store does not have, and put the standings together.
+
+    models: candidates by what tables call them, coarsest mesh first, those of the judges among them; judges:
+    that were looked for, absent ones too. Raises BadInput, before the first run, for candidates that cannot
+    be and unless `large` for those that take more memory than there is.
+    """
+    for scene in scenes:
+        for candidate in (c for of in models.values() for c in of):
+            check(scene, candidate, large)
+    versions = {found.asked: found.version for found in judges}
+    runs = {
+        (scene.name, name): [_run(scene, name, candidate, versions.get(candidate.model)) for candidate in of]
+        for scene in scenes
+        for name, of in models.items()
+    }
+    every = [run for of in runs.values() for run in of]
+    done = carry_out(every, store, workers=workers, pool=pool, retry=retry, progress=progress)
+    rows = {run.key: _row(run, outcome) for run, outcome in zip(every, done, strict=True)}
+    called = {name: versions.get(of[0].model) for name, of in models.items()}
+    standings = {
+        scene.name: tuple(
+            Standing.of(scene.name, name, called[name], [rows[run.key] for run in runs[scene.name, name]])
+            for name in models
+        )
+        for scene in scenes
+    }
+    return Crosscheck(tuple(scenes), standings, tuple(judges))
+
+
+def _run(scene: Scene, name: str, candidate: Candidate, version: str | None) -> Run:
+    arguments = {"scene": scene.document(), "model": candidate.model, "settings": candidate.settings}
+    digest = plugins.digest(candidate.model)
+    arguments |= {key: said for key, said in (("version", version), ("digest", digest)) if said is not None}
+    size = candidate.settings.get("elements") or candidate.settings["grid"]
+    counts = "×".join(map(str, size)) if isinstance(size, list | tuple) else str(size)
+    return Run("crosscheck", arguments, f"{scene.name}, {name} {counts}")
+
+
+def _row(run: Run, outcome: Finished) -> dict[str, Any]:
+    """What a run found; what one without an answer leaves."""
+    said = {"status": outcome.status, "message": outcome.message}
+    refused = {"label": run.label, "settings": run.arguments["settings"], "advice": Status.REFUSED.advice}
+    return {**(refused if outcome.status == Status.REFUSED else {"label": run.label}), **outcome.row, **said}

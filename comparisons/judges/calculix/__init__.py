@@ -1,0 +1,1 @@
+"""CalculiX, run as the program `ccx`: the deck it is given, the results it leaves, the model of both."""

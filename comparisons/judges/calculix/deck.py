@@ -1,0 +1,79 @@
+"""The input deck: 20-node bricks with reduced integration (C3D20R), one static step under the whole load.
+
+NLGEOM makes the step geometrically nonlinear: total Lagrangian, the linear-elastic law between Green strain
+and second Piola–Kirchhoff stress (St Venant–Kirchhoff's). Its usual tolerances (residual 5e-3 of the mean
+force, correction 1e-2 of the displacement) are far coarser than the differences looked for, so the deck
+tightens them. Pressure acts half on the lower and half on the upper face and follows both.
+
+Source: CalculiX CrunchiX user's manual 2.20, sections on *STATIC, *CONTROLS, *DLOAD, *TRANSFORM, *NODE PRINT.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from comparisons.judges.bricks import Bricks, forces, held
+from sheetbench.scenes import Pressure, Scene
+
+RESIDUAL, CORRECTION = 1e-7, 1e-7  # of the mean force, of the displacement: where an increment ends
+FIRST, LEAST, LARGEST = 1.0, 1e-6, 1.0
+BELOW, ABOVE = "P1", "P2"  # faces of a brick
+
+
+def deck(scene: Scene, bricks: Bricks, linear: bool) -> str:
+    """The text of the deck; linear: without NLGEOM."""
+    material, supports = scene.material, held(scene, bricks, linear)
+    pull = np.einsum("nrc,nc->nr", supports.axes, forces(scene, bricks))
+    lines = ["*NODE, NSET=NALL", *_rows(bricks.positions, 1)]
+    lines += ["*ELEMENT, TYPE=C3D20R, ELSET=EALL", *_elements(bricks.elements)]
+    lines += ["*MATERIAL, NAME=SHEET", "*ELASTIC", f"{material.young!r}, {material.poisson!r}"]
+    lines += ["*DENSITY", f"{material.density!r}", "*SOLID SECTION, ELSET=EALL, MATERIAL=SHEET"]
+    for node in np.flatnonzero(supports.turned):
+        along, across = supports.axes[node, :2]
+        lines += [f"*NSET, NSET=AT{node + 1}", f"{node + 1}", f"*TRANSFORM, NSET=AT{node + 1}, TYPE=R"]
+        lines += [", ".join(f"{c:.12e}" for c in (*along, *across))]
+    if linear:
+        lines += ["*STEP", "*STATIC"]
+    else:
+        lines += ["*STEP, NLGEOM, INC=1000", "*STATIC", f"{FIRST}, 1.0, {LEAST}, {LARGEST}"]
+        lines += ["*CONTROLS, PARAMETERS=FIELD", f"{RESIDUAL}, {CORRECTION}, , , {RESIDUAL}, 1e-9, 1e-9"]
+        lines += ["*CONTROLS, PARAMETERS=TIME INCREMENTATION", "8, 12, 9, 40, 20, 8"]
+    lines += ["*BOUNDARY"]
+    for node, axis in zip(*np.nonzero(supports.fixed), strict=True):
+        lines.append(f"{node + 1}, {axis + 1}, {axis + 1}, {supports.value[node, axis]:.12e}")
+    lines += _loads(scene, pull, len(bricks.elements), bricks)
+    lines += ["*NODE PRINT, NSET=NALL, GLOBAL=YES, FREQUENCY=1000", "U", "*END STEP", ""]
+    return "\n".join(lines)
+
+
+def _loads(scene: Scene, pull: np.ndarray, count: int, bricks: Bricks) -> list[str]:
+    lines = []
+    if pull.any():
+        lines.append("*CLOAD")
+        for node, axis in zip(*np.nonzero(pull), strict=True):
+            lines.append(f"{node + 1}, {axis + 1}, {pull[node, axis]:.12e}")
+    if scene.gravity is not None:
+        acceleration = np.array(scene.gravity.last_acceleration)
+        if size := float(np.linalg.norm(acceleration)):
+            along = ", ".join(f"{c:.12e}" for c in acceleration / size)
+            lines += ["*DLOAD", f"EALL, GRAV, {size!r}, {along}"]
+    pressure = sum(load.last_factor * load.value for load in scene.loads if isinstance(load, Pressure))
+    if pressure:
+        layer = count // bricks.shape[2]
+        lines.append("*DLOAD")
+        lines += [f"{e + 1}, {BELOW}, {0.5 * pressure!r}" for e in range(layer)]
+        lines += [f"{e + 1}, {ABOVE}, {-0.5 * pressure!r}" for e in range(count - layer, count)]
+    return lines
+
+
+def _rows(values: np.ndarray, first: int) -> Iterable[str]:
+    return (f"{i}, " + ", ".join(f"{c:.12e}" for c in row) for i, row in enumerate(values, first))
+
+
+def _elements(elements: np.ndarray) -> Iterable[str]:
+    """Each over two lines: sixteen entries are the most that one may have."""
+    for i, nodes in enumerate((elements + 1).tolist(), 1):
+        yield ", ".join(map(str, [i, *nodes[:15]])) + ","
+        yield ", ".join(map(str, nodes[15:]))

@@ -1,0 +1,116 @@
+"""CalculiX as a model: the sheet as 20-node bricks, two layers through the thickness.
+
+A program of its own (Debian: calculix-ccx), found as `ccx` on the PATH, given a deck and asked for its
+results in a folder that is gone afterwards. Everything of a scene but chains and edge moments.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import perf_counter
+from typing import Any, ClassVar
+
+import numpy as np
+
+from comparisons.judges.answer import answered, require
+from comparisons.judges.bricks import GRADINGS, Bricks
+from comparisons.judges.calculix import results
+from comparisons.judges.calculix.deck import deck
+from comparisons.judges.program import Failed, run
+from sheetbench.scenes import Chain, EdgeLoad, Scene, Solution, Status
+from sheetbench.scenes.errors import BadInput
+
+PROGRAM, JOB = "ccx", "sheet"
+SAYS_ITS_VERSION = 201  # its exit status after `ccx -v`
+
+
+@dataclass(frozen=True)
+class CalculiX:
+    """The plug-in.
+
+    settings: elements along the shorter side, near-square; layers of bricks, an even number; grading "edges"
+    or "uniform"; linear: without NLGEOM; time_limit [s].
+    """
+
+    name: str = "calculix"
+    called: str = "CalculiX"
+    needs: str = "the program ccx on the PATH (Debian: calculix-ccx)"
+    meshes: tuple[int, ...] = (6, 8, 12)
+    settings: ClassVar[dict[str, Any]] = {
+        "elements": 8,
+        "layers": 2,
+        "grading": "edges",
+        "linear": False,
+        "time_limit": 600.0,
+    }
+
+    def version(self) -> str | None:
+        """The program's, None where it is not there."""
+        return _version(shutil.which(PROGRAM))
+
+    def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
+        """The static answer. Raises BadInput without the program or for settings it cannot use."""
+        require(settings["elements"], settings["layers"], settings["grading"], GRADINGS)
+        program = shutil.which(PROGRAM)
+        if program is None:
+            raise BadInput(f"model = 'calculix': needs {self.needs}")
+        bricks = Bricks.of(scene.sheet, settings["elements"], settings["layers"], settings["grading"])
+        began = perf_counter()
+        displacement, load_factor, iterations, note = np.zeros_like(bricks.positions), 0.0, 0, refusal(scene)
+        ready, status = began, Status.REFUSED
+        if not note:
+            with TemporaryDirectory(prefix="sheetbench-ccx-") as kept:
+                folder = Path(kept)
+                text = deck(scene, bricks, settings["linear"])
+                (folder / f"{JOB}.inp").write_text(text, encoding="ascii")
+                ready = perf_counter()
+                try:
+                    run([program, JOB], folder, settings["time_limit"])
+                    load_factor, displacement = results.displacements(_read(folder, "dat"), len(displacement))
+                    status = Status.CONVERGED if load_factor == 1.0 else Status.DIVERGED
+                    if not np.isfinite(displacement).all():
+                        status, displacement = Status.NON_FINITE, np.nan_to_num(displacement)
+                except Failed as error:
+                    status, note = Status.DIVERGED, f"CalculiX: {error}"
+                iterations = results.iterations(_read(folder, "sta"))
+        seconds = (ready - began, perf_counter() - ready)
+        return answered(
+            self, scene, settings, bricks, displacement, status, load_factor, note, iterations, seconds
+        )
+
+
+def _read(folder: Path, ending: str) -> str:
+    try:
+        return (folder / f"{JOB}.{ending}").read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return ""
+
+
+@cache
+def _version(program: str | None) -> str | None:
+    if program is None:
+        return None
+    try:
+        said = run([program, "-v"], Path.cwd(), 10.0, fine=(0, SAYS_ITS_VERSION))
+    except Failed:
+        return None
+    found = re.search(r"Version +(\S+)", said, re.IGNORECASE)
+    return found.group(1) if found else "of unknown version"
+
+
+def refusal(scene: Scene) -> str:
+    """What it cannot take of a scene, in a sentence, if anything."""
+    if any(isinstance(actuator, Chain) for actuator in scene.actuators):
+        return "the deck has no chains of rigid segments"
+    if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):
+        return "loads on bricks do not follow the edge as a moment does"
+    return ""
+
+
+MODEL = CalculiX()

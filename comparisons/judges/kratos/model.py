@@ -1,0 +1,123 @@
+"""Kratos' thin shell as a model: `ShellThinElementCorotational3D3N`, Kirchhoff's, with drilling rotations.
+
+It knows no transverse shear, so that edges along which nothing holds the director keep the twist that a plate
+with shear lets go within about its thickness: it is stiffer than our shell, by a share of h over the length.
+
+Kratos solves in a process of its own (`process`). A load in one step, in 4 if that does not converge, in 16
+if that does not. Everything of a scene but chains and edge moments. Needs the extra [kratos].
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import perf_counter
+from typing import Any, ClassVar
+
+import numpy as np
+
+from comparisons.judges.kratos.problem import Triangles, problem
+from comparisons.judges.program import Failed, run
+from sheetbench.scenes import Chain, EdgeLoad, FieldMesh, Scene, Solution, Status
+from sheetbench.scenes.errors import BadInput
+
+STEPS = (1, 4, 16)
+PACKAGES = (
+    "KratosMultiphysics",
+    "KratosStructuralMechanicsApplication",
+    "KratosLinearSolversApplication",
+)
+
+
+@dataclass(frozen=True)
+class Kratos:
+    """The plug-in.
+
+    settings: elements along the shorter side, near-square, each two triangles; time_limit [s] of every
+    attempt.
+    """
+
+    name: str = "kratos"
+    called: str = "Kratos' thin shell"
+    needs: str = "the wheels of Kratos; pip install 'sheetbench[kratos]'"
+    meshes: tuple[int, ...] = (8, 12, 16)
+    settings: ClassVar[dict[str, Any]] = {"elements": 16, "time_limit": 600.0}
+
+    def version(self) -> str | None:
+        """Of the wheels, None where one is missing."""
+        try:
+            return {metadata.version(package) for package in PACKAGES}.pop()
+        except metadata.PackageNotFoundError:
+            return None
+
+    def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
+        """The static answer. Raises BadInput without Kratos or for settings it cannot use."""
+        elements = settings["elements"]
+        if type(elements) is not int or elements < 1:
+            raise BadInput(f"elements = {elements!r}: a whole number along the shorter side, at least 1")
+        if self.version() is None:
+            raise BadInput(f"model = 'kratos': needs {self.needs}")
+        mesh = Triangles.of(scene.sheet, elements)
+        displacement, load_factor, iterations, note = np.zeros_like(mesh.positions), 0.0, 0, refusal(scene)
+        began, status = perf_counter(), Status.REFUSED
+        for steps in () if note else STEPS:
+            given = problem(scene, mesh, np.arange(1, steps + 1) / steps)
+            try:
+                found = _solved(given, settings["time_limit"])
+            except Failed as error:
+                status, note = Status.DIVERGED, f"Kratos: {error}"
+                break
+            displacement, load_factor = found["displacement"], float(found["load_factor"])
+            iterations += int(found["iterations"])
+            status = Status.CONVERGED if load_factor == 1.0 else Status.DIVERGED
+            if not np.isfinite(displacement).all():
+                status, displacement = Status.NON_FINITE, np.nan_to_num(displacement)
+            if status is Status.CONVERGED:
+                break
+        held = 0 if note else int(given["held"].sum())
+        return Solution(
+            model=self.name,
+            label=f"{self.called} {' × '.join(map(str, mesh.shape))} × 2 triangles",
+            settings={**settings, "elements": list(mesh.shape)},
+            status=status,
+            unknowns=2 * displacement.size - held,
+            iterations=iterations,
+            setup_seconds=0.0,
+            solve_seconds=perf_counter() - began,
+            sample=lambda points: mesh.sample(displacement, points),
+            reactions={},
+            energies={},
+            mesh=FieldMesh(mesh.positions, [("triangle", mesh.elements)], {"displacement": displacement}),
+            load_factor=load_factor,
+            notes=(note,) if note else (),
+        )
+
+
+def _solved(given: Mapping[str, Any], limit: float) -> dict[str, np.ndarray]:
+    """What the process answers. Raises Failed where it does not."""
+    with TemporaryDirectory(prefix="sheetbench-kratos-") as kept:
+        question, answer = Path(kept) / "problem.npz", Path(kept) / "answer.npz"
+        np.savez(question, **given)
+        module = "comparisons.judges.kratos.process"
+        run([sys.executable, "-m", module, str(question), str(answer)], Path(kept), limit)
+        try:
+            with np.load(answer) as found:
+                return dict(found)
+        except (OSError, ValueError) as error:
+            raise Failed(f"left no answer that can be read ({error})") from None
+
+
+def refusal(scene: Scene) -> str:
+    """What it cannot take of a scene, in a sentence, if anything."""
+    if any(isinstance(actuator, Chain) for actuator in scene.actuators):
+        return "Kratos is given no chains of rigid segments"
+    if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):
+        return "moments on Kratos' nodes do not follow the edge"
+    return ""
+
+
+MODEL = Kratos()

@@ -1,0 +1,109 @@
+"""The process in which Kratos solves: `python -m comparisons.judges.kratos.process PROBLEM ANSWER`.
+
+Apart from ours, for Kratos prints as it is imported, and a fault in it takes its process down. Reads arrays
+of the file PROBLEM (`comparisons.judges.kratos.problem`), and leaves in ANSWER displacement (n, 3) [m], the
+load factor of the last step that converged, and the number of iterations, each one factorisation.
+
+Newton's method at rising load factors, from where the last one ended.
+"""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+import numpy as np
+
+CORRECTION = 1e-8  # of the displacement, with which a step ends: the residual is rounding by then
+ITERATIONS = 25  # of a step
+COMPONENTS = "XYZ"
+
+
+def solve(problem: Any) -> dict[str, Any]:
+    """The answer to the problem's arrays."""
+    import KratosMultiphysics as kratos
+    import KratosMultiphysics.StructuralMechanicsApplication as mechanics
+
+    kratos.Logger.GetDefaultOutput().SetSeverity(kratos.Logger.Severity.WARNING)
+    part = kratos.Model().CreateModelPart("sheet", 2)
+    part.ProcessInfo[kratos.DOMAIN_SIZE] = 3
+    for variable in (kratos.DISPLACEMENT, kratos.ROTATION, kratos.REACTION, kratos.REACTION_MOMENT):
+        part.AddNodalSolutionStepVariable(variable)
+    for variable in (kratos.VOLUME_ACCELERATION, mechanics.POINT_LOAD, mechanics.SURFACE_LOAD):
+        part.AddNodalSolutionStepVariable(variable)
+    for variable in (kratos.POSITIVE_FACE_PRESSURE, kratos.NEGATIVE_FACE_PRESSURE):
+        part.AddNodalSolutionStepVariable(variable)
+    nodes = [part.CreateNewNode(i, *map(float, at)) for i, at in enumerate(problem["positions"], 1)]
+    of = part.CreateNewProperties(1)
+    young, poisson, density, thickness = map(float, problem["material"])
+    of[kratos.YOUNG_MODULUS], of[kratos.POISSON_RATIO] = young, poisson
+    of[kratos.DENSITY], of[kratos.THICKNESS] = density, thickness
+    of[kratos.CONSTITUTIVE_LAW] = mechanics.LinearElasticPlaneStress2DLaw()
+    corners = (problem["elements"] + 1).tolist()
+    kind = f"ShellThinElementCorotational3D{len(corners[0])}N"
+    for i, corner in enumerate(corners, 1):
+        part.CreateNewElement(kind, i, corner, of)
+    pulled = np.flatnonzero(problem["force"].any(axis=1))
+    for i, node in enumerate(pulled.tolist(), 1):
+        part.CreateNewCondition("PointLoadCondition3D1N", i, [node + 1], of)
+    pressure = float(problem["pressure"])
+    if pressure:
+        for i, corner in enumerate(corners, len(pulled) + 1):
+            part.CreateNewCondition(f"SurfaceLoadCondition3D{len(corner)}N", i, corner, of)
+
+    def motion(name: str) -> list[Any]:
+        return [kratos.KratosGlobals.GetVariable(f"{name}_{axis}") for axis in COMPONENTS]
+
+    moving = [*motion("DISPLACEMENT"), *motion("ROTATION")]
+    for variable, reaction in zip(moving, [*motion("REACTION"), *motion("REACTION_MOMENT")], strict=True):
+        kratos.VariableUtils().AddDof(variable, reaction, part)
+    held = problem["held"]
+    for node, unknown in np.argwhere(held):
+        nodes[node].Fix(moving[unknown])
+    from KratosMultiphysics import python_linear_solver_factory as factory
+
+    parameters = kratos.Parameters('{"solver_type": "LinearSolversApplication.sparse_lu"}')
+    strategy = kratos.ResidualBasedNewtonRaphsonStrategy(
+        part,
+        kratos.ResidualBasedIncrementalUpdateStaticScheme(),
+        kratos.DisplacementCriteria(CORRECTION, 1e-15),
+        kratos.ResidualBasedBlockBuilderAndSolver(factory.ConstructSolver(parameters)),
+        ITERATIONS,
+        False,
+        False,
+        True,
+    )
+    strategy.SetEchoLevel(0)
+    strategy.Initialize()
+    reached, iterations = 0.0, 0
+    answer = np.zeros_like(problem["positions"])
+    for step, load_factor in enumerate(problem["load_factors"].tolist(), 1):
+        part.CloneTimeStep(float(step))
+        part.ProcessInfo[kratos.STEP] = step
+        acceleration = kratos.Array3([load_factor * float(c) for c in problem["acceleration"]])
+        for node in nodes:
+            node.SetSolutionStepValue(kratos.VOLUME_ACCELERATION, acceleration)
+            if pressure:
+                node.SetSolutionStepValue(kratos.NEGATIVE_FACE_PRESSURE, load_factor * pressure)
+        for node in pulled.tolist():
+            force = kratos.Array3([load_factor * float(c) for c in problem["force"][node]])
+            nodes[node].SetSolutionStepValue(mechanics.POINT_LOAD, force)
+        for node, unknown in np.argwhere(held):
+            value = float(problem["value"][step - 1, node, unknown])
+            nodes[node].SetSolutionStepValue(moving[unknown], value)
+        strategy.InitializeSolutionStep()
+        strategy.Predict()
+        converged = strategy.SolveSolutionStep()
+        strategy.FinalizeSolutionStep()
+        iterations += int(part.ProcessInfo[kratos.NL_ITERATION_NUMBER])
+        if not converged:
+            break
+        reached = load_factor
+        answer = np.array([list(node.GetSolutionStepValue(kratos.DISPLACEMENT)) for node in nodes])
+    return {"displacement": answer, "load_factor": reached, "iterations": iterations}
+
+
+if __name__ == "__main__":
+    with np.load(sys.argv[1]) as given:
+        found = solve(dict(given))
+    np.savez(sys.argv[2], **found)

@@ -1,0 +1,207 @@
+"""Who is told apart from whom: judges with known errors, and the verb with them."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from commands import one_line, run
+
+from comparisons.crosscheck.standing import Standing, pair
+from sheetbench.scenes import load
+
+SEED = load("two-edges-clamped")
+
+FAKE = '''
+import numpy as np
+from pathlib import Path
+from sheetbench.scenes import BadInput, Chain, FieldMesh, Solution, Status
+
+
+class Fake:
+    """Answers limit + error h² at every point; counts its solves."""
+
+    called, needs, meshes = "a fake", "nothing", (4, 6, 8)
+    settings = {"elements": 4}
+    limit, error, fails = -0.01, 0.001, ""
+
+    def __init__(self, name, **own):
+        self.name = name
+        vars(self).update(own)
+
+    def version(self):
+        return "1.0"
+
+    def solve(self, scene, settings):
+        with open(Path(__file__).with_name("solves"), "a") as kept:
+            kept.write(f"{self.name} {settings['elements']}\\n")
+        n = settings["elements"]
+        u = np.array([0.1, 0.2, 1.0]) * (self.limit + self.error / n**2)
+        status = Status.CONVERGED
+        if self.fails == "refuses" or scene.actuators:
+            status = Status.REFUSED
+        elif self.fails == "raises":
+            raise RuntimeError("out of luck")
+        elif self.fails == "diverges" and n == 8:
+            status = Status.DIVERGED
+        mesh = FieldMesh(np.zeros((1, 3)), [("vertex", np.array([[0]]))], {"displacement": np.zeros((1, 3))})
+        return Solution(
+            self.name, f"{self.name} {n}", {"elements": [n, n]}, status, 0, 1, 0.0, 0.0,
+            lambda points: np.tile(u, (len(points), 1)), {}, {}, mesh,
+            load_factor=1.0 * (status == "converged"),
+            notes=("takes no such scene",) if status is Status.REFUSED else (),
+        )
+
+
+EXACT = Fake("exact")
+SAME = Fake("same", error=-0.002)
+OTHER = Fake("other", limit=-0.0102)
+REFUSES = Fake("refuses", fails="refuses")
+RAISES = Fake("raises", fails="raises")
+DIVERGES = Fake("diverges", fails="diverges")
+
+
+class Absent(Fake):
+    def version(self):
+        return None
+
+
+ABSENT = Absent("absent", needs="luck")
+'''
+NONE = ("--lumped", "", "--plate", "", "--shell", "", "--solid", "")
+
+
+@pytest.fixture
+def fakes(tmp_path: Path, in_process: None) -> Any:
+    """The judges' names as options: `fakes("EXACT", "SAME")`."""
+    file = tmp_path / "fakes.py"
+    file.write_text(FAKE, encoding="utf-8")
+    return lambda *names: ("--judges", ",".join(f"{file}:{name}" for name in names))
+
+
+def standing(name: str, limit: float, error: float, meshes: tuple[int, ...] = (4, 6, 8)) -> Standing:
+    """A model whose every displacement is limit + error h² [m], its cells of size h = 1/n."""
+    rows = [
+        {
+            "status": "converged",
+            "load_factor": 1.0,
+            "settings": {"elements": [n, n]},
+            "size": 1.0 / n,
+            "displacement": np.full((4, 3), limit + error / n**2),
+        }
+        for n in meshes
+    ]
+    return Standing.of("sheet", name, None, rows)
+
+
+def test_a_standing_has_the_limit_and_a_bar_that_holds_it() -> None:
+    one = standing("one", -0.01, 0.002)
+    assert one.uncertainty is not None and one.meshes == "4, 6, 8"
+    np.testing.assert_allclose(one.uncertainty.extrapolated, -0.01, rtol=1e-9)
+    np.testing.assert_allclose(one.uncertainty.order, 2.0, atol=1e-6)
+    np.testing.assert_allclose(one.uncertainty.bar, 1.25 * 0.002 / 64, rtol=1e-6)
+
+
+def test_models_are_told_apart_by_more_than_both_bars_alone() -> None:
+    error = 0.002
+    bars = 2 * 1.25 * error / 64
+    here = standing("here", -0.01, error)
+    for share, apart in ((0.9, ()), (1.1, ("P1", "P2", "P3", "P4"))):
+        there = pair(here, standing("there", -0.01 - share * bars, error), list(SEED.probes))
+        assert there is not None and there.apart == apart
+        assert there.difference == pytest.approx(share * bars / 0.01, rel=1e-6)
+        assert there.bars == pytest.approx(bars / 0.01, rel=1e-6)
+
+
+def test_rounding_tells_nothing_apart() -> None:
+    """Two answers that no mesh changes have no bar; what programs print ends somewhere."""
+    here = standing("here", -0.01, 0.0)
+    near, far = (standing("there", -0.01 * (1 + off), 0.0) for off in (4e-6, 4e-5))
+    told = [pair(here, there, list(SEED.probes)) for there in (near, far)]
+    assert [bool(one and one.apart) for one in told] == [False, True]
+
+
+def test_one_mesh_has_no_bar_and_two_have_a_cautious_one() -> None:
+    one, two = standing("one", -0.01, 0.002, (8,)), standing("two", -0.01, 0.002, (6, 8))
+    assert one.uncertainty is None and pair(one, two, list(SEED.probes)) is None
+    assert two.uncertainty is not None
+    np.testing.assert_allclose(two.uncertainty.bar, 3.0 * 0.002 / 64, rtol=1e-6)
+
+
+def test_judges_side_by_side(fakes: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("crosscheck", "two-edges-clamped", *NONE, *fakes("EXACT", "SAME", "OTHER"), "--json") == 0
+    document = json.loads(capsys.readouterr().out)
+    assert [one["model"] for one in document["solutions"]] == ["exact", "same", "other"]
+    exact = document["solutions"][0]
+    assert (
+        exact["meshes"] == "4, 6, 8" and exact["version"] == "1.0" and exact["settings"]["elements"] == [8, 8]
+    )
+    assert exact["extrapolated"]["P4"][2] == pytest.approx(-0.01)
+    assert exact["uncertainty"]["P4"][2] == pytest.approx(1.25 * 0.001 / 64)
+    apart = {(one["a"], one["b"]): one["apart"] for one in document["pairs"]}
+    assert apart["exact", "same"] == [] and apart["exact", "other"] == ["P1", "P2", "P3", "P4"]
+    assert [judge["status"] for judge in document["judges"]] == ["found"] * 3
+
+
+def test_what_a_judge_refuses_or_fails_at_is_a_row_of_its_own(
+    fakes: Any, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert (
+        run("crosscheck", "two-edges-clamped", *NONE, *fakes("EXACT", "REFUSES", "DIVERGES"), "--json") == 0
+    )
+    captured = capsys.readouterr()
+    exact, refuses, diverges = json.loads(captured.out)["solutions"]
+    assert refuses["status"] == "refused" and refuses["message"] == "takes no such scene"
+    assert "uncertainty" not in refuses and refuses["failed"] == []
+    assert diverges["meshes"] == "4, 6" and "diverges 8: diverged" in diverges["failed"][0]
+    assert "uncertainty" in diverges and exact["failed"] == []
+    assert "diverges 8: diverged" in captured.err
+    assert run("crosscheck", "two-edges-clamped", *NONE, *fakes("EXACT", "RAISES")) == 3
+    captured = capsys.readouterr()
+    assert "no answer" in captured.out and "out of luck" in captured.err
+
+
+def test_an_interrupted_crosscheck_is_resumed(fakes: Any, tmp_path: Path) -> None:
+    asked = ("crosscheck", "two-edges-clamped", *NONE, "--out", str(tmp_path / "out"))
+    solves = tmp_path / "solves"
+    assert run(*asked, *fakes("EXACT")) == 0
+    assert solves.read_text().split("\n")[:-1] == ["exact 4", "exact 6", "exact 8"]
+    assert run(*asked, *fakes("EXACT"), "--meshes", "6,8,12") == 0
+    assert solves.read_text().split("\n")[3:-1] == ["exact 12"]
+    assert (tmp_path / "out" / "pairs.csv").is_file() and (tmp_path / "out" / "crosscheck.tex").is_file()
+
+
+def test_scenes_stand_in_one_table_and_their_refusals_in_one_sentence(
+    fakes: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "160")
+    scenes = ("two-edges-clamped", "one-edge-clamped", "actuated-edge")
+    assert run("crosscheck", *scenes, *NONE, *fakes("EXACT", "REFUSES")) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "exact leaves out actuated-edge: takes no such scene." in said
+    assert (
+        "refuses leaves out two-edges-clamped, one-edge-clamped, actuated-edge: takes no such scene." in said
+    )
+
+
+@pytest.mark.parametrize(
+    ("options", "named"),
+    [
+        (("--lumped", "9"), ["--lumped = '9'", "rising"]),
+        (("--shell", "8,6"), ["--shell = '8,6'", "rising"]),
+        (("--solid", "4x4,8x8"), ["--solid"]),
+        ((*NONE, "--judges", ""), ["no model left"]),
+        (("--judges", "ABSENT"), ["needs luck"]),
+        (("--judges", "astrology"), ["--judges", "astrology"]),
+    ],
+)
+def test_what_cannot_be_is_refused_in_a_line(
+    fakes: Any, options: tuple[str, ...], named: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    asked = (*options[:-1], fakes("ABSENT")[1]) if options[-1] == "ABSENT" else options
+    assert run("crosscheck", "two-edges-clamped", *asked) == 2
+    said = one_line(capsys)
+    assert all(part in said for part in named)

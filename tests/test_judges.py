@@ -1,0 +1,239 @@
+"""Other people's programs: what they are given, what is read of them, how they fail, and what they answer."""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from comparisons.judges import found, program
+from comparisons.judges.answer import Judge
+from comparisons.judges.bricks import Bricks, forces, held
+from comparisons.judges.calculix import results
+from comparisons.judges.calculix.deck import deck
+from comparisons.judges.calculix.model import MODEL as CALCULIX
+from comparisons.judges.kratos.model import MODEL as KRATOS
+from comparisons.judges.kratos.problem import Triangles, problem
+from comparisons.judges.program import Failed
+from sheetbench.scenes import (
+    Chain,
+    Clamped,
+    Curved,
+    EdgeLoad,
+    Hinged,
+    PointLoad,
+    Pressure,
+    Scene,
+    Status,
+    load,
+)
+from sheetbench.scenes.errors import BadInput
+
+JUDGES: tuple[Judge, ...] = (CALCULIX, KRATOS)
+SEED = load("two-edges-clamped")
+
+
+def changed(**changes: Any) -> Scene:
+    return SEED.model_copy(update=changes)
+
+
+def needed(judge: Judge) -> None:
+    if judge.version() is None:
+        pytest.skip(f"needs {judge.needs}")
+
+
+@pytest.fixture(scope="module")
+def bricks() -> Bricks:
+    return Bricks.of(SEED.sheet, 4, 2, "edges")
+
+
+def test_bricks_are_upright_and_fill_the_sheet(bricks: Bricks) -> None:
+    corners = bricks.positions[bricks.elements]
+    along, across, up = (corners[:, i] - corners[:, 0] for i in (1, 3, 4))
+    volume = np.einsum("mc,mc->m", np.cross(along, across), up)
+    assert np.all(volume > 0) and np.sum(volume) == pytest.approx(0.188**2 * 0.003)
+    for middle, (a, b) in zip(range(8, 20), Bricks.BETWEEN, strict=True):
+        np.testing.assert_allclose(corners[:, middle], 0.5 * (corners[:, a] + corners[:, b]), atol=1e-15)
+
+
+def test_the_mid_surface_of_a_quadratic_field_is_sampled_exactly(bricks: Bricks) -> None:
+    def field(at: np.ndarray) -> np.ndarray:
+        x, y = at[:, 0], at[:, 1]
+        return np.column_stack([x * y, x**2 - 3 * y, 2 * y**2 + x + 1])
+
+    points = np.random.default_rng(1).uniform(0.0, 0.188, (50, 2))
+    np.testing.assert_allclose(bricks.sample(field(bricks.positions), points), field(points), atol=1e-14)
+
+
+def test_forces_add_up_and_act_where_they_should(bricks: Bricks) -> None:
+    point = PointLoad(at=(0.11, 0.07), force=(1.0, 2.0, 3.0))
+    line = EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, 5.0))
+    for scene, total, at in (
+        (changed(loads=(point,)), (1.0, 2.0, 3.0), (0.11, 0.07)),
+        (changed(loads=(line,)), (0.0, 0.0, 5.0 * 0.188), (0.188, 0.094)),
+    ):
+        pull = forces(scene, bricks)
+        np.testing.assert_allclose(pull.sum(axis=0), total, atol=1e-12)
+        middle = pull[:, 2] @ bricks.positions / pull[:, 2].sum()
+        np.testing.assert_allclose(middle, (*at, 0.0), atol=1e-12)
+    triangles = Triangles.of(SEED.sheet, 4)
+    for one in (point, line):
+        pull = problem(changed(loads=(one,)), triangles, np.ones(1))["force"]
+        np.testing.assert_allclose(pull.sum(axis=0), forces(changed(loads=(one,)), bricks).sum(axis=0))
+
+
+def test_a_clamp_lets_a_column_stretch_along_its_director_alone(bricks: Bricks) -> None:
+    curved = changed(supports=(Curved(edge="x0", curvature=4.0),))
+    for scene in (SEED, curved, changed(supports=(Clamped(edge="x0", tilt=0.3),))):
+        rows = held(scene, bricks)
+        nodes = bricks.edge("x0")
+        middle = bricks.sites[nodes, 2] == bricks.middle
+        assert np.all(rows.fixed[nodes][:, :2]) and np.all(rows.fixed[nodes, 2] == middle)
+        np.testing.assert_allclose(
+            rows.axes @ np.swapaxes(rows.axes, 1, 2), np.tile(np.eye(3), (len(rows.axes), 1, 1)), atol=1e-12
+        )
+    # where the whole column is put by its middle and director, the held components are met
+    rows, at = held(curved, bricks), bricks.positions[bricks.edge("x0")]
+    s = at[:, 1] - 0.094
+    director = np.column_stack([0 * s, -np.sin(4 * s), np.cos(4 * s)])
+    put = np.column_stack([0 * s, np.sin(4 * s) / 4 - s, (1 - np.cos(4 * s)) / 4])
+    put = put + at[:, 2:] * (director - [0.0, 0.0, 1.0])
+    own = np.einsum("krc,kc->kr", rows.axes[bricks.edge("x0")], put)
+    np.testing.assert_allclose(own, rows.value[bricks.edge("x0")], atol=1e-15)
+
+
+def test_a_hinge_holds_the_middle_of_its_columns(bricks: Bricks) -> None:
+    rows = held(changed(supports=(Hinged(edge="y1"),)), bricks)
+    expected = np.isin(np.arange(len(bricks.positions)), bricks.edge("y1")) & (bricks.positions[:, 2] == 0.0)
+    assert np.all(rows.fixed == expected[:, None])
+
+
+def test_a_deck_has_a_line_for_all_that_is_asked(bricks: Bricks) -> None:
+    asked = changed(loads=(Pressure(value=20.0), PointLoad(at=(0.188, 0.188), force=(0.0, 0.0, 1.0))))
+    text = deck(asked, bricks, linear=False)
+    assert "*STEP, NLGEOM" in text and "GRAV, 9.81, 0.0" in text and "*TRANSFORM" not in text
+    assert text.count(", P1, 10.0\n") == text.count(", P2, -10.0\n") == 16
+    assert max(map(len, text.splitlines())) < 132
+    assert "NLGEOM" not in deck(asked, bricks, linear=True)
+    assert "*TRANSFORM" in deck(load("curved-edge"), bricks, linear=False)
+
+
+DAT = """
+ displacements (vx,vy,vz) for set NALL and time  0.5000000E+00
+
+         1  1.0E-03 0.0 0.0
+         2  2.0E-03 0.0 0.0
+
+ displacements (vx,vy,vz) for set NALL and time  0.1000000E+01
+
+         1  3.0E-03 1.0E-01 0.0
+         2  4.0E-03 0.0 -2.0E+00
+"""
+
+
+def test_the_last_increment_is_read() -> None:
+    load_factor, displacement = results.displacements(DAT, 2)
+    assert load_factor == 1.0
+    np.testing.assert_array_equal(displacement, [[3e-3, 0.1, 0.0], [4e-3, 0.0, -2.0]])
+    sta = " SUMMARY OF JOB INFORMATION\n  STEP  INC  ATT  ITRS  TOT TIME  STEP TIME  INC TIME\n"
+    assert results.iterations(sta + "  1  1  1  12  0.5E+00  0.5E+00  0.5E+00\n 1 2 1 5 1.0 1.0 0.5\n") == 17
+    assert results.iterations("") == 1
+
+
+@pytest.mark.parametrize(
+    "damage", ["", DAT.replace("-2.0E+00", "garbage"), DAT.replace("\n         2", "\n  9")]
+)
+def test_results_that_cannot_be_read_are_one_line(damage: str) -> None:
+    with pytest.raises(Failed, match=r"its \.dat file"):
+        results.displacements(damage, 2)
+
+
+@pytest.mark.parametrize(
+    ("code", "said"),
+    [
+        ("import sys; print(' *ERROR in sheet: no good'); sys.exit(3)", "exit status 3: .*no good"),
+        ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "ended by signal 11"),
+        ("import time; time.sleep(60)", "stopped after 0.5 s, its time limit"),
+    ],
+)
+def test_a_program_that_fails_says_so_in_a_line(tmp_path: Path, code: str, said: str) -> None:
+    with pytest.raises(Failed, match=said) as caught:
+        program.run([sys.executable, "-c", code], tmp_path, 0.5 if "sleep" in code else 20.0)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_program_that_is_not_there_cannot_be_started(tmp_path: Path) -> None:
+    with pytest.raises(Failed, match="cannot be started: No such file"):
+        program.run([str(tmp_path / "none")], tmp_path, 1.0)
+
+
+def fake_program(folder: Path, monkeypatch: pytest.MonkeyPatch, script: str) -> None:
+    """A `ccx` of one's own, first on the PATH."""
+    file = folder / "ccx"
+    file.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
+    file.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{folder}:/usr/bin:/bin")
+
+
+@pytest.mark.parametrize(
+    ("script", "said"),
+    [
+        ("echo '*ERROR in gen3delem: boom'; exit 201", "CalculiX: left with exit status 201: .*boom"),
+        ("echo nonsense > sheet.dat", "CalculiX: its .dat file has no displacements"),
+        ("kill -9 $$", "CalculiX: ended by signal 9"),
+    ],
+)
+def test_a_judge_that_fails_is_an_answer_with_a_status(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, script: str, said: str
+) -> None:
+    fake_program(tmp_path, monkeypatch, script)
+    solution = CALCULIX.solve(SEED, {**CALCULIX.settings, "elements": 2})
+    assert solution.status is Status.DIVERGED and solution.load_factor == 0.0
+    assert np.all(solution.displacement(SEED.probe_points()) == 0.0)
+    (note,) = solution.notes
+    assert re.fullmatch(said, note), note
+
+
+def test_a_judge_that_is_not_here_says_what_it_needs(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", "")
+    assert CALCULIX.version() is None
+    with pytest.raises(BadInput, match="calculix-ccx"):
+        CALCULIX.solve(SEED, CALCULIX.settings)
+    monkeypatch.setattr(type(KRATOS), "version", lambda self: None)
+    with pytest.raises(BadInput, match=r"sheetbench\[kratos\]"):
+        KRATOS.solve(SEED, KRATOS.settings)
+
+
+@pytest.mark.parametrize("judge", JUDGES, ids=lambda judge: judge.name)
+def test_a_judge_refuses_what_it_cannot_take_in_a_sentence(judge: Judge) -> None:
+    needed(judge)
+    chain = Chain(edge="x1", segments=2, bending_stiffness=1.0, line_density=1.0, radius=1e-3)
+    for scene in (
+        changed(actuators=(chain,)),
+        changed(loads=(EdgeLoad(edge="x1", moment_per_length=0.1),)),
+    ):
+        solution = judge.solve(scene, judge.settings)
+        assert solution.status is Status.REFUSED and len(solution.notes) == 1
+
+
+@pytest.mark.parametrize("judge", JUDGES, ids=lambda judge: judge.name)
+def test_settings_that_make_no_mesh_are_refused(judge: Judge) -> None:
+    for wrong in (0, 2.5, "many"):
+        with pytest.raises(BadInput, match="elements = "):
+            judge.solve(SEED, {**judge.settings, "elements": wrong})
+    with pytest.raises(BadInput, match="layers = 3"):
+        CALCULIX.solve(SEED, {**CALCULIX.settings, "layers": 3})
+
+
+def test_judges_are_found_among_the_plug_ins() -> None:
+    assert isinstance(CALCULIX, Judge) and isinstance(KRATOS, Judge)
+    looked = {one.judge.name: one.version for one in found.look()}
+    assert "mujoco" not in looked
+    for name, version in looked.items():
+        assert version == found.installed()[name].version()
+    with pytest.raises(BadInput, match="--judges"):
+        found.look(["mujoco"])

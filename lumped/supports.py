@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
@@ -46,16 +47,23 @@ class Constraints:
                 exerted = residual[place] + body.binding.T @ residual[body.masses]
                 residual[column] += body.corner_force(end, exerted) / len(column)
         on_masses = np.where(self.held, residual, 0.0)
-        holders = np.zeros_like(residual)
-        for masses, axes in self.holders.values():
-            holders[masses.reshape(-1, 1), list(axes)] += 1.0
         per_edge = {}
-        for edge, (masses, axes) in self.holders.items():
+        for edge, (block, axes, weight) in self._shares.items():
             share = np.zeros(3)
-            block = (masses.reshape(-1, 1), list(axes))
-            share[list(axes)] = (on_masses[block] / holders[block]).sum(axis=0)
+            share[axes] = (on_masses[block] * weight).sum(axis=0)
             per_edge[edge] = share
         return per_edge, on_masses
+
+    @cached_property
+    def _shares(self) -> dict[str, tuple[tuple[np.ndarray, list[int]], list[int], np.ndarray]]:
+        """Of every edge: its block of components, its axes, and what share of each component is its own."""
+        blocks = {
+            e: ((rows.reshape(-1, 1), list(axes)), list(axes)) for e, (rows, axes) in self.holders.items()
+        }
+        holders = np.zeros(self.held.shape)
+        for block, _ in blocks.values():
+            holders[block] += 1.0
+        return {edge: (block, axes, 1.0 / holders[block]) for edge, (block, axes) in blocks.items()}
 
 
 def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) -> Constraints:

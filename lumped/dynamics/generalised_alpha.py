@@ -17,7 +17,8 @@ from typing import Any
 
 import numpy as np
 
-from lumped.dynamics.integrator import Advance, Integrator, Newton, StepFailed
+from lumped.dynamics.integrator import Advance, Integrator, StepFailed
+from lumped.dynamics.newton import Motion, Newton
 from lumped.dynamics.system import State, System
 from lumped.linear.solver import SingularMatrixError
 from sheetbench.scenes.errors import BadInput
@@ -42,6 +43,7 @@ class GeneralisedAlpha(Integrator):
         self._newton = Newton(system, CLOSE)
         self._algorithm: np.ndarray | None = None
         self._largest = 0.0
+        self._taken: tuple[State | None, float] = None, 0.0  # the power of the dampers at the last state
 
     def forget(self) -> None:
         """Drop the factors."""
@@ -88,8 +90,10 @@ class GeneralisedAlpha(Integrator):
             self._largest = largest
             break
         self._algorithm = algorithm
-        before, _ = self.system.damping_force(state.u, state.v)
-        power, _ = self.system.damping_force(after.u, after.v)
+        if self._taken[0] is not state:
+            self._taken = state, self.system.damping_force(state.u, state.v)[0]
+        before, power = self._taken[1], self.system.damping_force(after.u, after.v)[0]
+        self._taken = after, power
         return Advance(after, 0.5 * h * (before + power), self.system.work(state, after))
 
     @property
@@ -108,28 +112,10 @@ class GeneralisedAlpha(Integrator):
         base_v = state.v + h * ((1.0 - gamma) * old + gamma * start) + turn
         by_u, by_v = 1.0 / (h * h * beta * share), gamma / (h * beta)
 
-        def motion(u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-            change = np.where(self._algebraic, 0.0, u - base_u)
-            return base_v + by_v * change, by_u * change
-
-        def residual(u: np.ndarray) -> np.ndarray:
-            v, a = motion(u)
-            inertia: np.ndarray = (system.mass @ a.ravel()).reshape(-1, 3)
-            return inertia - system.unbalanced(u, v, time)
-
-        def blocks(u: np.ndarray) -> np.ndarray:
-            return system.matrix(u, motion(u)[0], time, by_u, by_v, 1.0)
-
+        motion = Motion(time, base_u, base_v, by_u, by_v)
         try:
-            guess = base_u + state.a / by_u
-            u = self._newton.solve(h, residual, blocks, guess, lambda correction: correction)
+            u = self._newton.solve_motion(motion, base_u + state.a / by_u)
         except StepFailed:  # after a jump the old acceleration leads nowhere
-            guess = state.u + held + h * state.v
-            u = self._newton.solve(h, residual, blocks, guess, lambda correction: correction)
-        v, a = motion(u)
+            u = self._newton.solve_motion(motion, state.u + held + h * state.v)
+        v, a = self._newton.state(motion, u)
         return State(time, u, v, a), start + share * a
-
-    @property
-    def _algebraic(self) -> np.ndarray:
-        coupling = self.system.coupling
-        return coupling.algebraic if coupling is not None else np.zeros((1, 1), dtype=bool)

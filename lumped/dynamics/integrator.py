@@ -1,21 +1,15 @@
-"""What every integrator offers, and the Newton iteration that the implicit ones share."""
+"""What every integrator offers."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-import numpy as np
-
 from lumped.dynamics.step_limit import StepLimit
 from lumped.dynamics.system import State, System
-from lumped.linear.solver import Factor
 
 STEPS_PER_PERIOD = 200  # by default
-CORRECTIONS = 20
-STALE = 0.2  # ratio of successive corrections above which the factors are made anew
 
 
 class StepFailed(ArithmeticError):
@@ -67,51 +61,3 @@ class Integrator(ABC):
 
     def recall(self, memory: dict[str, Any]) -> None:  # noqa: B027
         """Take up what `memory` gave."""
-
-
-class Newton:
-    """Newton's iteration with factors kept from step to step while corrections shrink fast enough."""
-
-    def __init__(self, system: System, tolerance: float):
-        self._system, self._tolerance = system, tolerance * system.problem.size
-        self._factor: Factor | None = None
-        self._key: Any = None
-        multipliers = system.coupling.algebraic if system.coupling is not None else np.zeros((1, 3), bool)
-        size = (system.assembly.pattern.size, 3)
-        self._placed = ~np.broadcast_to(multipliers, size)  # multipliers carry the rounding of inertia forces
-
-    def forget(self) -> None:
-        """Drop the factors."""
-        self._factor = None
-
-    def solve(
-        self,
-        key: Any,
-        residual: Callable[[np.ndarray], np.ndarray],
-        blocks: Callable[[np.ndarray], np.ndarray],
-        guess: np.ndarray,
-        weigh: Callable[[np.ndarray], np.ndarray],
-    ) -> np.ndarray:
-        """u with Tᵀ residual(u) = 0. key: factors of another key do not serve; weigh: the correction
-        (size, 3) from the solution of the linear system. Raises StepFailed."""
-        problem = self._system.problem
-        u, last, fresh = guess, np.inf, False
-        if key != self._key:
-            self._factor, self._key = None, key
-        for _ in range(CORRECTIONS):
-            if self._factor is None:
-                self._factor, fresh = problem.factor(blocks(u)), True
-            correction = weigh(problem.expand(self._factor.solve(-problem.reduce(residual(u)))))
-            u = u + correction
-            length = float(np.abs(correction[self._placed]).max())
-            if not np.isfinite(length):
-                break
-            if length < self._tolerance:
-                return u
-            if length > problem.size:
-                break
-            if length > STALE * last and not fresh:
-                self._factor = None
-            last, fresh = length, False
-        self._factor = None
-        raise StepFailed("the time step's equations did not converge: use smaller steps")

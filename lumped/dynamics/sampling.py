@@ -32,8 +32,8 @@ class Sampling:
     def row(self, state: State, dissipated: float, work: float) -> np.ndarray:
         """The sample of a state, (width,)."""
         system = self._system
-        energies = {**system.energies(state), "dissipated": dissipated, "work": work}
-        exerted = system.exerted(state)
+        energies, exerted = system.balance(state)
+        energies |= {"dissipated": dissipated, "work": work}
         reactions, _ = system.problem.constraints.reactions(exerted)
         parts = [
             np.array([state.time, *(energies[name] for name in ENERGIES)]),

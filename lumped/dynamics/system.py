@@ -10,7 +10,7 @@ M is diagonal on the lattice and constant throughout. Units: m, s, N, kg, J.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -175,9 +175,9 @@ class System:
     ) -> np.ndarray:
         """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once."""
         both = stiffness + damping * self.damping.time  # dampers in proportion stand where the springs do
-        blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
-        for family, stress in zip(self.assembly.springs, self.assembly.stresses(u), strict=True):
-            replace(family, stiffness=both * family.stiffness).add_tangent(u, stiffness * stress, blocks)
+        share = stiffness / both if both else 0.0
+        blocks = self.assembly.tangent(u, tuple(share * stress for stress in self.assembly.stresses(u)))
+        blocks *= both
         self.problem.loads.add_tangent(u, stiffness, blocks, time)
         if not self.problem.conservative or self.coupling is not None:
             others = np.zeros_like(blocks)
@@ -207,20 +207,22 @@ class System:
         """T M⁻¹ Tᵀ f, (size, 3) [m/s²]."""
         return self.expand(self.solve_mass(self.reduce(force)))
 
-    def energies(self, state: State) -> dict[str, float]:
-        """Kinetic, elastic and potential energy [J]; only constant dead loads have a potential."""
-        elastic, _ = self.elastic(state.u, state.time)
+    def balance(self, state: State) -> tuple[dict[str, float], np.ndarray]:
+        """Kinetic, elastic and potential energy [J], of which only constant dead loads have the last; and
+        M a + f_int + f_damp − f_ext, (size, 3): what supports and actuators exert on their masses."""
+        elastic, _, force = self.internal(state.u, state.v, state.time)
         v = state.v.ravel()
-        return {
+        energies = {
             "kinetic": 0.5 * float(v @ (self.mass @ v)),
             "elastic": elastic,
             "potential": -float(np.sum(self.problem.loads.dead * state.u)),
         }
+        inertia: np.ndarray = (self.mass @ state.a.ravel()).reshape(-1, 3)
+        return energies, inertia + force - self.external(state.u, state.time)
 
     def exerted(self, state: State) -> np.ndarray:
-        """M a + f_int + f_damp − f_ext, (size, 3): what supports and actuators exert on their masses."""
-        inertia: np.ndarray = (self.mass @ state.a.ravel()).reshape(-1, 3)
-        return inertia - self.unbalanced(state.u, state.v, state.time)
+        """What supports and actuators exert on their masses, (size, 3)."""
+        return self.balance(state)[1]
 
     def kinetic_of_placed(self, state: State) -> float:
         """Kinetic energy [J] of what is prescribed, whose gain is work done on the masses: all but that of

@@ -13,6 +13,7 @@ import numpy as np
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
 from lumped.springs.families import Links
+from lumped.statics.soundness import long_enough, upright
 from sheetbench.scenes import Status
 
 COLLAPSED = 1e-6  # of a link's rest length
@@ -29,6 +30,8 @@ def broken(assembly: Assembly, u: np.ndarray) -> Fault | None:
     """The first of: a number that is not finite, a collapsed link, an inverted cell; u: (n, 3) [m]."""
     lattice = assembly.lattice
     masses = u[: lattice.mass_count]
+    if _sound(assembly, u):
+        return None
     finite = np.isfinite(masses).all(axis=1)
     if not finite.all():
         where = place(lattice, int(np.argmin(finite)))
@@ -46,6 +49,15 @@ def broken(assembly: Assembly, u: np.ndarray) -> Fault | None:
         where = place(lattice, int(lattice.columns()[j, i, 0]))
         return Fault(Status.INVERTED, f"the cell at {where} has turned inside out: refine the grid")
     return None
+
+
+def _sound(assembly: Assembly, u: np.ndarray) -> bool:
+    """Whether nothing is wrong, by compiled loops: a run looks at every sample."""
+    lattice = assembly.lattice
+    if not upright(lattice.columns(), lattice.positions, lattice.cell_areas, u):
+        return False
+    links = (links for links in assembly.springs if isinstance(links, Links))
+    return all(long_enough(u, each.nodes, each.offset, each.rest_length, COLLAPSED) for each in links)
 
 
 def place(lattice: Lattice, mass: int) -> str:

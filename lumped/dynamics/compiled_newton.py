@@ -1,0 +1,144 @@
+"""Newton's iteration for the equation of an implicit step, compiled: small lattices without chains.
+
+The force of all springs and dampers, the residual, the substitution with kept factors and the norm of the
+correction are one call that allocates nothing; Python makes the factors, where the tangent is put together.
+What it solves, and when it gives up, is as in `lumped.dynamics.newton`.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from lumped.dynamics.system import System
+from lumped.linear import banded
+from lumped.linear.maps import Rows, rows
+from lumped.springs.all_forces import add_forces
+from lumped.springs.packing import Packing, Scratch
+
+CONVERGED, STALE, LOST = range(3)
+
+
+class Arrays(NamedTuple):
+    """The equations of motion: springs and dampers, mass-proportional damping (n,) [kg/s], M, T, the place of
+    every unknown in the band, and its width."""
+
+    packing: Packing
+    scratch: Scratch
+    rate: np.ndarray
+    mass: Rows
+    free: Rows
+    place: np.ndarray
+    width: int
+
+
+class CompiledNewton:
+    """The iteration for a system that `serves`."""
+
+    def __init__(self, system: System):
+        band = system.problem.system.band
+        assert band is not None
+        self._system, self._band = system, band
+        self._arrays = Arrays(
+            system.packing,
+            system.scratch,
+            system.damping.rate,
+            rows(system.mass),
+            rows(system.transform),
+            np.argsort(band.order),
+            band.width,
+        )
+        size = system.assembly.pattern.size
+        self._force, self._velocity = np.zeros((size, 3)), np.zeros((size, 3))
+        self._factors = np.empty((0, 0))
+        self._right = np.empty(0)
+
+    @staticmethod
+    def serves(system: System) -> bool:
+        """Whether forces are all compiled, and factors lie in a band."""
+        plain = system.coupling is None and system.assembly.precision == "double"
+        return plain and system.problem.conservative and system.problem.system.band is not None
+
+    def factorise(self, blocks: np.ndarray) -> bool:
+        """Keep the factors of a tangent; False where it is not positive definite."""
+        factors = banded.stored(blocks, self._band)
+        self._system.problem.factorisations += 1
+        if not banded.factor(factors, len(self._band.order), self._band.width):
+            return False
+        self._factors = factors
+        self._right = np.zeros(len(factors) + self._band.width)
+        return True
+
+    def iterate(
+        self,
+        u: np.ndarray,
+        base: tuple[np.ndarray, np.ndarray],
+        by: tuple[float, float],
+        external: np.ndarray,
+        tolerance: float,
+        stale: float,
+        corrections: int,
+    ) -> tuple[int, int]:
+        """Correct u (n, 3) in place with the factors kept; how that ended, and after how many corrections."""
+        found: tuple[int, int] = _iterate(
+            u, *base, *by, external, tolerance, self._system.problem.size, stale, corrections,
+            self._arrays, self._factors, self._force, self._velocity, self._right,
+        )  # fmt: skip
+        return found
+
+
+@njit(cache=True)
+def _iterate(
+    u: np.ndarray,
+    base_u: np.ndarray,
+    base_v: np.ndarray,
+    by_u: float,
+    by_v: float,
+    external: np.ndarray,
+    tolerance: float,
+    largest: float,
+    stale: float,
+    corrections: int,
+    arrays: Arrays,
+    factors: np.ndarray,
+    force: np.ndarray,
+    velocity: np.ndarray,
+    right: np.ndarray,
+) -> tuple[int, int]:
+    last, n = np.inf, len(arrays.place)
+    mass, free = arrays.mass, arrays.free
+    moved, held, began = u.reshape(-1), base_u.reshape(-1), base_v.reshape(-1)
+    pull, speed, acting = force.reshape(-1), velocity.reshape(-1), external.reshape(-1)
+    for done in range(1, corrections + 1):
+        for row in range(len(moved)):
+            speed[row] = began[row] + by_v * (moved[row] - held[row])
+            inertia = 0.0
+            for e in range(mass.pointers[row], mass.pointers[row + 1]):
+                inertia += mass.values[e] * (moved[mass.columns[e]] - held[mass.columns[e]])
+            pull[row] = by_u * inertia - acting[row]
+        for i in range(len(arrays.rate)):
+            for q in range(3):
+                force[i, q] += arrays.rate[i] * velocity[i, q]
+        add_forces(u, velocity, True, arrays.packing.damped, arrays.packing, arrays.scratch, force)
+        right[:] = 0.0
+        for row in range(len(moved)):
+            for e in range(free.pointers[row], free.pointers[row + 1]):
+                right[arrays.place[free.columns[e]]] -= free.values[e] * pull[row]
+        banded.substitute(factors, n, arrays.width, right)
+        length = 0.0
+        for row in range(len(moved)):
+            change = 0.0
+            for e in range(free.pointers[row], free.pointers[row + 1]):
+                change += free.values[e] * right[arrays.place[free.columns[e]]]
+            moved[row] += change
+            length = max(length, abs(change)) if np.isfinite(change) else np.inf
+        if length < tolerance:
+            return CONVERGED, done
+        if not length <= largest:
+            return LOST, done
+        if length > stale * last:
+            return STALE, done
+        last = length
+    return STALE, corrections

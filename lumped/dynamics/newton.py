@@ -1,0 +1,143 @@
+"""Newton's iteration for implicit integrators, with factors kept from step to step.
+
+`solve` takes any equation of a system. `solve_motion` takes that of a step or a stage,
+
+    M c₂ (u − û) + f(u, v, t) = 0,   v = v̂ + c₁ (u − û),
+
+multipliers' rows of û and v̂ apart, and does it compiled where it can.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from lumped.dynamics import compiled_newton
+from lumped.dynamics.compiled_newton import CompiledNewton
+from lumped.dynamics.integrator import StepFailed
+from lumped.dynamics.system import System
+from lumped.linear.solver import Factor
+
+CORRECTIONS = 20
+STALE = 0.2  # ratio of successive corrections above which the factors are made anew
+NEAR = 0.2  # relative change of c₂ within which factors serve
+UNSOLVED = "the time step's equations did not converge: use smaller steps"
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The equation of a step or stage: time t [s], û and v̂ (size, 3), c₂ [1/s²], c₁ [1/s]."""
+
+    time: float
+    base_u: np.ndarray
+    base_v: np.ndarray
+    by_u: float
+    by_v: float
+
+
+class Newton:
+    """The iteration; factors are made anew where corrections do not shrink fast enough."""
+
+    def __init__(self, system: System, tolerance: float):
+        self._system, self.tolerance = system, tolerance * system.problem.size
+        self._factor: Factor | None = None
+        self._key: Any = None
+        multipliers = system.coupling.algebraic if system.coupling is not None else np.zeros((1, 3), bool)
+        size = (system.assembly.pattern.size, 3)
+        self.algebraic = multipliers
+        self._placed = ~np.broadcast_to(multipliers, size)  # multipliers carry the rounding of inertia forces
+        self._compiled = CompiledNewton(system) if CompiledNewton.serves(system) else None
+        self._factored: float | None = None  # c₂ of the compiled iteration's factors
+
+    def forget(self) -> None:
+        """Drop the factors."""
+        self._factor = self._factored = None
+
+    def solve(
+        self,
+        key: Any,
+        residual: Callable[[np.ndarray], np.ndarray],
+        blocks: Callable[[np.ndarray], np.ndarray],
+        guess: np.ndarray,
+        weigh: Callable[[np.ndarray], np.ndarray] = lambda correction: correction,
+        tolerance: float | None = None,
+    ) -> np.ndarray:
+        """u with Tᵀ residual(u) = 0. key: factors of another key do not serve; weigh: the correction
+        (size, 3) from the solution of the linear system. Raises StepFailed."""
+        problem = self._system.problem
+        small = self.tolerance if tolerance is None else tolerance
+        u, last, fresh = guess, np.inf, False
+        if key != self._key:
+            self._factor, self._key = None, key
+        for _ in range(CORRECTIONS):
+            if self._factor is None:
+                self._factor, fresh = problem.factor(blocks(u)), True
+            correction = weigh(problem.expand(self._factor.solve(-problem.reduce(residual(u)))))
+            u = u + correction
+            length = float(np.abs(correction[self._placed]).max())
+            if not np.isfinite(length):
+                break
+            if length < small:
+                return u
+            if length > problem.size:
+                break
+            if length > STALE * last and not fresh:
+                self._factor = None
+            last, fresh = length, False
+        self._factor = None
+        raise StepFailed(UNSOLVED)
+
+    def state(self, motion: Motion, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """v and c₂ (u − û), zero for multipliers."""
+        change = u - motion.base_u
+        if self._system.coupling is not None:
+            change = np.where(self.algebraic, 0.0, change)
+        return motion.base_v + motion.by_v * change, motion.by_u * change
+
+    def solve_motion(self, motion: Motion, guess: np.ndarray, tolerance: float | None = None) -> np.ndarray:
+        """u of the equation. tolerance [m]: of the last correction, else the iteration's own.
+        Raises StepFailed, or SingularMatrixError."""
+        small = self.tolerance if tolerance is None else tolerance
+        if self._compiled is not None:
+            u = self._solve_compiled(self._compiled, motion, guess, small)
+            if u is not None:
+                return u
+        system = self._system
+
+        def residual(u: np.ndarray) -> np.ndarray:
+            v, a = self.state(motion, u)
+            inertia: np.ndarray = (system.mass @ a.ravel()).reshape(-1, 3)
+            return inertia - system.unbalanced(u, v, motion.time)
+
+        key = (motion.by_u, motion.by_v)
+        return self.solve(key, residual, lambda u: self._blocks(motion, u), guess, tolerance=small)
+
+    def _blocks(self, motion: Motion, u: np.ndarray) -> np.ndarray:
+        v, _ = self.state(motion, u)
+        return self._system.matrix(u, v, motion.time, motion.by_u, motion.by_v, 1.0)
+
+    def _solve_compiled(
+        self, compiled: CompiledNewton, motion: Motion, guess: np.ndarray, small: float
+    ) -> np.ndarray | None:
+        """u, or None where the tangent is not positive definite."""
+        u = np.array(guess)
+        external = self._system.external(u, motion.time)
+        base, by = (motion.base_u, motion.base_v), (motion.by_u, motion.by_v)
+        left, status = CORRECTIONS, compiled_newton.STALE
+        if self._factored is not None and abs(motion.by_u / self._factored - 1.0) < NEAR:
+            status, done = compiled.iterate(u, base, by, external, small, STALE, left)
+            left -= done
+        while status == compiled_newton.STALE and left > 0:
+            self._factored = None
+            if not compiled.factorise(self._blocks(motion, u)):
+                return None
+            self._factored = motion.by_u
+            status, done = compiled.iterate(u, base, by, external, small, STALE, left)
+            left -= done
+        if status != compiled_newton.CONVERGED:
+            self._factored = None
+            raise StepFailed(UNSOLVED)
+        return u

@@ -1,0 +1,51 @@
+"""Implicit steps done by one compiled call: the same states as call by call, to the iteration's tolerance."""
+
+import numpy as np
+import pytest
+from dynamic_cases import ROD, run, scene, system
+
+from lumped.dynamics import INTEGRATORS
+from lumped.dynamics.compiled_newton import CompiledNewton
+from sheetbench import scenes
+
+HINGED = [{"edge": "x0", "kind": "hinged"}, {"edge": "x1", "kind": "held", "components": ["z"]}]
+MOVED = [
+    {"edge": "x0", "kind": "clamped", "motion": {"time": [0, 1], "displacement": [[0, 0, 0], [0, 0, 1]]}}
+]
+TABLE = scenes.DamperSet.model_validate({"axial": 0.3, "vertical": 1.0, "cross": {"x": 0.2, "y": 0.1}})
+CASES = {
+    "dampers in proportion": scene(damping_time=1e-3),
+    "dampers of a table, and of masses": scene(damping_rate=3.0).replace(dampers=TABLE),
+    "supports that hold means": scene(supports=HINGED),
+    "a moving support": scene("one-edge-clamped", supports=MOVED, damping_time=1e-3),
+}
+
+
+@pytest.mark.parametrize("asked", CASES.values(), ids=CASES)
+def test_the_compiled_iteration_takes_the_steps_of_the_general_one(asked):
+    equations, rest = system(asked, 4)
+    ends = []
+    for compiled in (True, False):
+        method = INTEGRATORS["generalised-alpha"](equations, 1e-3)
+        assert method._newton._compiled is not None
+        if not compiled:
+            method._newton._compiled = None
+        states, dissipated = run(method, rest, 1e-3, 12)
+        ends.append((states[-1], dissipated))
+    (one, lost), (other, spent) = ends
+    # both stop at corrections below 1e-11 of the side, kept factors shrinking them by 5 or more a time
+    size = equations.problem.size
+    np.testing.assert_allclose(one.u, other.u, rtol=0.0, atol=1e-9 * size)
+    np.testing.assert_allclose(lost, spent, rtol=1e-5, atol=1e-15)
+    assert np.abs(one.u).max() > 1e-4 * size
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        scene("one-edge-clamped", actuators=[ROD]),
+        scene("one-edge-clamped", loads=[{"kind": "pressure", "value": 1.0}]),
+    ],
+)
+def test_chains_and_followers_are_solved_call_by_call(asked):
+    assert not CompiledNewton.serves(system(asked, 4)[0])

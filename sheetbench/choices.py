@@ -29,8 +29,8 @@ class Method:
 CALIBRATION = "consistent"  # unless asked for another
 GRADED: tuple[Option, ...] = ("layer_distance", "grading")
 CALIBRATIONS: dict[str, Method] = {
-    "consistent": Method("every modulus met, in closed form where links allow it", GRADED),
-    "consistent-edges": Method("the same, with the twist that free edges let go", GRADED),
+    "consistent": Method("every modulus met, and the twist that free edges let go", GRADED),
+    "consistent-interior": Method("the moduli alone, edges like the interior", GRADED),
     "moduli": Method("bounded least squares on the moduli"),
     "fit-static": Method("fitted to displacements", (*GRADED, "targets")),
     "fit-modal": Method("fitted to natural frequencies", ("layer_distance", "targets")),

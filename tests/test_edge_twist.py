@@ -12,8 +12,18 @@ from lumped.calibration.edge_twist import edge_factor, layer_width
 from sheetbench.scenes import Clamped, Material, PointLoad, Scene, Sheet, SpringSet, load
 
 SEED = load("two-edges-clamped")
-# Linear Mindlin plate of the seed's sheet, converged on meshes graded to the edges [m].
-CENTRE, CORNER = -3.7224e-3, -19.835e-3
+# uz [m] at P1 to P4 of the seed's sheet by a linear Mindlin plate of 80 elements a side, graded to its edges
+# (fem_reference, model="plate"; 64 are within 8 nm of it).
+LINEAR = np.array([-3.72242, -8.72478, -8.72478, -19.83504]) * 1e-3
+# u [m] there by the nonlinear shell of 48 elements a side, 32 within 0.1 µm of it: 0.0007 %.
+NONLINEAR = np.array(
+    [
+        [-0.048446, -0.048446, -2.456198],
+        [-0.141477, -0.132665, -6.102397],
+        [-0.132665, -0.141477, -6.102397],
+        [-0.405408, -0.405408, -13.505501],
+    ]
+) * 1e-3  # fmt: skip
 
 
 def factor(cells: int, both: bool) -> float:
@@ -43,26 +53,42 @@ def test_a_half_strip_up_to_its_plane_of_symmetry_has_the_whole_strips_factor() 
     assert half is not None and half == pytest.approx(whole, rel=1e-12)
 
 
-@pytest.mark.parametrize("masses, held", [(9, 4e-3), (17, 1e-3), (33, 2.5e-4), (65, 7e-5)])
-def test_the_seeds_sheet_converges(masses: int, held: float) -> None:
-    """Linear, of the largest deflection: a quarter from grid to grid, as second order has it. Without the
-    edges it stalls at 0.2 to 0.3 %."""
-    springs = lumped.calibrate(SEED.sheet, SEED.material, (masses, masses), "consistent-edges")
-    found = lumped.solve(SEED, springs, linear=True).displacement(SEED.probe_points())[:, 2]
-    assert max(abs(found[0] - CENTRE), abs(found[3] - CORNER)) < held * abs(CORNER)
+def error(masses: int, linear: bool) -> float:
+    """Worst of the probes' components, of the largest displacement there."""
+    springs = lumped.calibrate(SEED.sheet, SEED.material, masses)
+    found = lumped.solve(SEED, springs, linear=linear).displacement(SEED.probe_points())
+    missed = found[:, 2] - LINEAR if linear else found - NONLINEAR
+    return float(np.abs(missed).max() / np.abs(LINEAR if linear else NONLINEAR).max())
+
+
+def test_the_seeds_sheet_converges() -> None:
+    """Linear: 0.30, 0.114, 0.035, 0.0096 % at 9, 17, 33 and 65 masses a side, where the interior's springs
+    alone stall at 0.2 to 0.3 %. Second order, reached from below: a term in l³ of the other sign, of free
+    corners and ends of clamps, still shows (orders 1.71, 1.85 and, to 129 masses, 1.9)."""
+    errors = [error(masses, linear=True) for masses in (9, 17, 33, 65)]
+    assert all(found < held for found, held in zip(errors, (4e-3, 1.5e-3, 5e-4, 2e-4), strict=True))
+    assert np.log2(errors[1] / errors[3]) / 2 > 1.75 and np.log2(errors[2] / errors[3]) > 1.8
+
+
+@pytest.mark.parametrize(
+    "masses, held", [(9, 5e-3), (17, 2e-3), (33, 6e-4), pytest.param(65, 3e-4, marks=pytest.mark.slow)]
+)
+def test_the_seeds_sheet_converges_at_large_displacements(masses: int, held: float) -> None:
+    """0.444, 0.171, 0.043, 0.005 %."""
+    assert error(masses, linear=False) < held
 
 
 @pytest.mark.parametrize("masses", [3, 6])
-@pytest.mark.parametrize("slenderness", [0.01, 0.025, 0.1, 0.25])
+@pytest.mark.parametrize("slenderness", [0.01, 0.025, 0.1, 0.25, 0.3])
 def test_torsion_of_a_strip(masses: int, slenderness: float) -> None:
-    """Saint-Venant's b h³/3 (1 − 0.63 h/b), whose 0.63 is rounded: 0.1 % of h/b = 0.25."""
+    """Saint-Venant's b h³/3 (1 − 0.63 h/b), whose 0.63 is rounded: 0.1 % of h/b = 0.3."""
     length, width, force = 1.2, 0.12, 1e-9
     sheet = Sheet(length_x=length, length_y=width, thickness=slenderness * width)
     material = Material(young=1e6, poisson=0.3, density=1.0)
     pair = [PointLoad(at=(length, y), force=(0.0, 0.0, sign * force)) for y, sign in ((0, -1), (width, 1))]
     clamp = (Clamped(edge="x0"),)
     scene = Scene(name="strip", sheet=sheet, material=material, load=tuple(pair), support=clamp)
-    springs = lumped.calibrate(sheet, material, (10 * (masses - 1) + 1, masses), "consistent-edges")
+    springs = lumped.calibrate(sheet, material, (10 * (masses - 1) + 1, masses), "consistent")
     at = np.array([[x, y] for x in (0.48, 0.84) for y in (0.0, width)])
     heights = lumped.solve(scene, springs, linear=True).displacement(at)[:, 2].reshape(2, 2)
     rate = np.diff(np.diff(heights, axis=1)[:, 0])[0] / width / 0.36
@@ -74,7 +100,7 @@ def test_torsion_of_a_strip(masses: int, slenderness: float) -> None:
 def test_a_symmetric_sheet_is_twice_its_half() -> None:
     """A plate held along x0 alone, by halves across y: to rounding."""
     scene = load("one-edge-clamped")
-    asked = {"grid": (5, 5, 2), "calibration": "consistent-edges"}
+    asked = {"grid": (5, 5, 2), "calibration": "consistent"}
     whole, half = (solve(scene, "lumped", symmetry=cut, **asked) for cut in (False, True))
     points = scene.probe_points()
     assert half.settings["symmetry"] == ["y"]
@@ -83,7 +109,7 @@ def test_a_symmetric_sheet_is_twice_its_half() -> None:
 
 @pytest.mark.parametrize("grid", [(9, 9), (5, 9), (4, 9)])
 def test_the_springs_of_a_scene_file_are_the_calibrations(grid: tuple[int, int]) -> None:
-    springs = lumped.calibrate(SEED.sheet, SEED.material, grid, "consistent-edges")
+    springs = lumped.calibrate(SEED.sheet, SEED.material, grid, "consistent")
     written = springs.as_dict()
     table = {**written["springs"], "layer_distance": written["layer_distance"]}
     assert SpringSet.model_validate(table) == springs.springs
@@ -92,7 +118,7 @@ def test_the_springs_of_a_scene_file_are_the_calibrations(grid: tuple[int, int])
 
 def test_membrane_and_bending_are_untouched() -> None:
     """The edge's springs do nothing when layers stretch alike, nor in cylindrical bending."""
-    springs = lumped.calibrate(SEED.sheet, SEED.material, (5, 5), "consistent-edges")
+    springs = lumped.calibrate(SEED.sheet, SEED.material, (5, 5), "consistent")
     every = frozenset({"x0", "x1", "y0", "y1"})
     with_edges, without = (Assembly(SEED.sheet, springs, twisting=edges) for edges in (every, frozenset()))
     x, y, z = with_edges.lattice.positions.T

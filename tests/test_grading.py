@@ -110,11 +110,11 @@ def test_a_scene_file_brings_its_grading(tmp_path, capsys) -> None:
     path = tmp_path / "own.toml"
     load("one-edge-clamped").save(path)
     springs = ("--grid", "5", "--grading", "0.7")
-    assert run("calibrate", str(path), *springs, "--method", "consistent-edges", "--toml") == 0
+    assert run("calibrate", str(path), *springs, "--method", "consistent", "--toml") == 0
     with path.open("a") as file:
         file.write(capsys.readouterr().out)
     scene = load(path)
-    own = lumped.calibrate(scene.sheet, scene.material, 5, "consistent-edges", grading=0.7)
+    own = lumped.calibrate(scene.sheet, scene.material, 5, "consistent", grading=0.7)
     points = scene.probe_points()
     for asked in ({}, {"grading": 0.7}, {"grading": "auto"}):
         found = solve(scene, "lumped", **asked)

@@ -130,7 +130,26 @@ def moduli(calibration: dict[str, Any]) -> Table:
         "S: the sheet has κGh; cells of length l bend as it does with S*, 1/S* = 1/κGh + l²/12D11, "
         "which is what is asked of the springs"
     )
-    return Table("Moduli of the sheet and of the lattice", columns, tuple(rows), "moduli", text=said)
+    return Table(
+        "Moduli of the sheet and of the lattice",
+        columns,
+        tuple(rows),
+        "moduli",
+        text=said + _edges(calibration),
+    )
+
+
+def _edges(calibration: dict[str, Any]) -> str:
+    """What cells along edges that let twist go have of D66, as the end of a sentence."""
+    shear, layers = calibration["springs"].get("edge_shear"), calibration["grid"][2]
+    if not shear:
+        return ""
+    square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * calibration["layer_distance"] ** 2
+    (twisting,) = (row["got"] for row in calibration["moduli"] if row["name"] == "D66")
+    cells = np.hstack([*shear.values()]) if isinstance(shear, dict) else shear
+    shares = sorted({f"{1.0 + k * square / twisting:.3f}" for k in (np.min(cells), np.max(cells))})
+    share = " to ".join(shares)
+    return f"; D66: cells along a free, hinged or held edge have {share} of it, as a strip's torsion asks"
 
 
 def to_toml(calibration: dict[str, Any]) -> str:

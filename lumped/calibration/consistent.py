@@ -1,4 +1,5 @@
-"""Every modulus met: the closed form where its links are nonnegative, bounded least squares elsewhere.
+"""Every modulus met: the closed form where its links are nonnegative, bounded least squares elsewhere; and
+along free, hinged and held edges the twist that a plate lets go there (`lumped.calibration.edge_twist`).
 
 Of a graded grid every cell has its closed form (`lumped.calibration.cell_by_cell`).
 """
@@ -26,8 +27,25 @@ def consistent(
     layer_distance: float | None = None,
     grading: float = 0.0,
 ) -> Calibration:
-    """The closed form; with a given layer distance, or where it would need a negative link, bounded least
-    squares on the same moduli. grading: of the grid (`lumped.grid_lines`), in closed form only.
+    """The moduli of the sheet, and the twist of its edges: of second order in the size of the cells.
+
+    Raises BadInput as `consistent_interior`.
+    """
+    found = consistent_interior(sheet, material, grid, layer_distance, grading)
+    springs, notes = with_edges(sheet, grid, found.springs, grading)
+    return replace(found, method="consistent", springs=springs, notes=(*found.notes, *notes))
+
+
+def consistent_interior(
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    layer_distance: float | None = None,
+    grading: float = 0.0,
+) -> Calibration:
+    """The moduli alone, cells along edges like those inside: the closed form; with a given layer distance, or
+    where it would need a negative link, bounded least squares on the same moduli. grading: of the grid
+    (`lumped.grid_lines`), in closed form only.
 
     Raises BadInput where area springs would leave a cell without positive energy, and for a graded grid whose
     cells have no closed form.
@@ -41,7 +59,7 @@ def consistent(
         springs = None
     if springs is None:
         springs = bounded_least_squares(sheet, material, grid, layer_distance)
-    return report("consistent", sheet, material, grid, springs, grading)
+    return report("consistent-interior", sheet, material, grid, springs, grading)
 
 
 def _graded(
@@ -58,20 +76,3 @@ def _graded(
         return springs
 
     return cell_by_cell(of_cell, sheet, grid, grading, layer_distance)
-
-
-def consistent_edges(
-    sheet: Sheet,
-    material: Material,
-    grid: Grid,
-    layer_distance: float | None = None,
-    grading: float = 0.0,
-) -> Calibration:
-    """The springs of `consistent`, and the twist of the cells along free, hinged and held edges as a plate
-    has it (`lumped.calibration.edge_twist`): of second order in the size of the cells.
-
-    Raises BadInput as `consistent`.
-    """
-    found = consistent(sheet, material, grid, layer_distance, grading)
-    springs, notes = with_edges(sheet, grid, found.springs, grading)
-    return replace(found, method="consistent-edges", springs=springs, notes=(*found.notes, *notes))

@@ -15,8 +15,10 @@ minimises
 
     Σ_c ½ f_c D66 b ((ψ_{c+1} − ψ_c)/b − 1)² + Σ_c ½ S b [(1 − s)(ψ_c² + ψ_{c+1}²)/2 + s ((ψ_c + ψ_{c+1})/2)²]
 
-and loses the width Σ_c [b − f_c (b − (ψ_{c+1} − ψ_c))]. Both edges free: f_0 = f_{n−1} = f (of a single cell
-both reductions add) and 2 λ is lost; else ψ_n = 0 at the far edge and λ is lost. Derived for this project
+and loses the width Σ_c [b − f_c (b − (ψ_{c+1} − ψ_c))], which is Σ_c b − 2 E/D66 at the least energy E. Both
+edges free: f_0 = f_{n−1} = f (of a single cell both reductions add) and 2 λ is lost; else ψ_n = 0 at the far
+edge and λ is lost. An edge's cell is a spring f D66/b in series with the rest of the strip, whose energy is
+quadratic in ψ_1 − ψ_0 alone, so f follows from one solution for the rest. Derived for this project
 (`docs/theory.md`); the thin strip's torsion constant is Saint-Venant's.
 """
 
@@ -28,7 +30,6 @@ from typing import Any
 
 import numpy as np
 from scipy.linalg import solveh_banded
-from scipy.optimize import brentq
 
 from lumped import moduli
 from lumped.calibration.calibration import either
@@ -70,13 +71,13 @@ def with_edges(
             taken = []
             for place, (twisting, shear, shares) in zip(places, cells, strict=True):
                 lost = layer_width(sheet.thickness)
-                factor = edge_factor(len(twisting), across.widths, twisting, shear, shares, lost, both)
+                factor = edge_factor(len(across.widths), across.widths, twisting, shear, shares, lost, both)
                 if factor is None:
                     notes.append(f"no twisting stiffness of the cells along {name}0 makes their edge right")
                     factor = MOST if unequal else 1.0
                 if place in (0, len(along.widths) - 1) or not unequal:
                     factor = max(factor, AT_CORNERS)
-                taken.append(-(1.0 - factor) * float(twisting[0]) / square)
+                taken.append((factor - 1.0) * float(twisting[0]) / square)
             values.append(tuple(taken) if unequal else taken[0])
     edges = {"edge_shear": either(*found[False]), "strip_shear": either(*found[True])}
     return springs.model_copy(update=edges), list(dict.fromkeys(notes))
@@ -86,11 +87,12 @@ def _strip(
     springs: SpringSet, lines: tuple[Lines, Lines], axis: int, place: int, layers: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Of the cells across the sheet along `axis`, at a place along its edge: D66 [N·m], S along the edge
-    [N/m] and the share of it in the furthest diagonals, (n,) each."""
+    [N/m] and the share of it in the furthest diagonals, (n,) each; (1,) where all cells are alike."""
     rows = []
-    for cell in range(len(lines[axis].widths)):
+    unequal = by_cell.varies(springs)
+    for cell in range(len(lines[axis].widths)) if unequal else range(1):
         column, row = (cell, place) if axis == 0 else (place, cell)
-        own = by_cell.of_cell(springs, row, column)
+        own = by_cell.of_cell(springs, row, column) if unequal else springs
         sides = (float(lines[0].widths[column]), float(lines[1].widths[row]), springs.layer_distance)
         twisting, shear, shares = _of_cell(own, sides, layers)
         rows.append((twisting, shear[1 - axis], shares[1 - axis]))
@@ -121,45 +123,45 @@ def edge_factor(
     """f of the cells along one edge, or along both; None where no factor makes the strip lose that width.
 
     cells: of `width` [m] across the strip; twisting: D66 [N·m]; shear: S along the edge [N/m], by_diagonals:
-    the share of it in the cells' diagonals, each of all cells or (n,); lost: λ [m].
+    the share of it in the cells' diagonals, each of all cells or (n,), the same from either edge of a strip
+    with both; lost: λ [m].
     """
-
-    def excess(factor: float) -> float:
-        factors = _factors(cells, factor, both)
-        return width_lost(factors, width, twisting, shear, by_diagonals, both) - (2.0 if both else 1.0) * lost
-
-    lowest = 0.5 + 1e-6 if both and cells == 1 else 1e-6  # the cell's own factor stays above zero
-    if excess(lowest) * excess(MOST) > 0.0:
+    width, twisting, shear, by_diagonals = np.broadcast_arrays(
+        *(np.asarray(value, dtype=float) for value in (width, twisting, shear, by_diagonals)), np.empty(cells)
+    )[:4]
+    edges = (0, cells - 1) if both else (0,)
+    rest = np.ones(cells)
+    rest[list(edges)] = 0.0
+    pulls = np.zeros((cells + 1, 2))  # by the twist of the cells inside; by the edges' cells
+    pulls[1:, 0] += rest * twisting
+    pulls[:-1, 0] -= rest * twisting
+    for edge in edges:
+        pulls[edge + 1, 1] += 1.0 / len(edges)
+        pulls[edge, 1] -= 1.0 / len(edges)
+    free = slice(None) if both else slice(None, -1)
+    sheared_by = shear * width
+    bands = _bands(rest * twisting / width, (1.0 - by_diagonals) * sheared_by, by_diagonals * sheared_by)
+    bands = bands[:, free][-len(pulls[free]) :]  # a single unknown has no second band
+    sheared = solveh_banded(bands, pulls[free])
+    alone = 0.5 * (rest @ (twisting * width) - pulls[free, 0] @ sheared[:, 0])  # the energy of the rest
+    opening, yielding = pulls[free, 1] @ sheared  # ψ_1 − ψ_0 of the rest, and by a unit pull of the edges'
+    number = 1 if cells == 1 else len(edges)
+    wanted = 0.5 * twisting[0] * (width.sum() - len(edges) * lost) - alone
+    if wanted <= 0.0:
         return None
-    return float(brentq(excess, lowest, MOST, xtol=1e-15, rtol=1e-14))
+    compliance = 0.5 * (width[0] - opening) ** 2 / wanted - yielding
+    if compliance <= 0.0:
+        return None
+    own = width[0] / (number * twisting[0] * compliance)  # all factors of an edge's cell together
+    factor = 1.0 - (1.0 - own) / (2 if both and cells == 1 else 1)
+    return float(factor) if factor <= MOST else None
 
 
-def _factors(cells: int, factor: float, both: bool) -> np.ndarray:
-    factors = np.ones(cells)
-    factors[0] -= 1.0 - factor
-    if both:
-        factors[-1] -= 1.0 - factor
-    return factors
-
-
-def width_lost(
-    factors: np.ndarray, width: Each, twisting: Each, shear: Each, by_diagonals: Each, both: bool
-) -> float:
-    """The width [m] by which the strip of `edge_factor` twists as if it were narrower; factors: (n,)."""
-    twist = factors * twisting / width
-    trapezoid = 0.5 * (1.0 - by_diagonals) * shear * width
-    middle = 0.25 * by_diagonals * shear * width
-    diagonal, beside = np.zeros(len(factors) + 1), middle - twist
+def _bands(twist: np.ndarray, trapezoid: np.ndarray, middle: np.ndarray) -> np.ndarray:
+    """The strip's matrix, upper bands (2, n + 1), from its cells' D66/b, and S b by trapezium and in the
+    middle, (n,) each."""
+    bands = np.zeros((2, len(twist) + 1))
+    bands[0, 1:] = 0.25 * middle - twist
     for end in (slice(None, -1), slice(1, None)):
-        diagonal[end] += twist + trapezoid + middle
-    load = np.zeros(len(factors) + 1)
-    load[1:] += factors * twisting
-    load[:-1] -= factors * twisting
-    if not both:
-        diagonal, beside, load = diagonal[:-1], beside[:-1], load[:-1]
-    bands = np.zeros((2, len(diagonal)))
-    bands[0, 1:], bands[1] = beside, diagonal
-    sheared = solveh_banded(bands, load)
-    if not both:
-        sheared = np.append(sheared, 0.0)
-    return float(np.sum(width - factors * (width - np.diff(sheared))))
+        bands[1, end] += twist + 0.5 * trapezoid + 0.25 * middle
+    return bands

@@ -1,8 +1,8 @@
 """Springs fitted to data: fit-static to displacement fields, fit-modal to natural frequencies.
 
 Both start from the springs of `consistent` and vary the logarithms of the spring constants (positive links)
-and the area springs as shares of the axial ones, layer distance and kz kept; on a graded grid the cells'
-springs of a family grow alike. Gauss–Newton with exact
+and the area springs as shares of the axial ones; layer distance, kz and the edges' twist are kept; on a
+graded grid the cells' springs of a family grow alike. Gauss–Newton with exact
 Jacobians: of displacements from `lumped.sensitivity`; of frequencies from Rayleigh's quotient,
 dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M φ). Residuals are relative: displacements to the largest of their field,
 frequencies to themselves. A pull towards the start (PRIOR, in units of the residuals) keeps what the data do
@@ -34,7 +34,7 @@ from sheetbench.scenes import Material, Sheet
 from sheetbench.scenes.errors import BadInput
 
 PRIOR = {"fit-static": 1e-3, "fit-modal": 1e-1}
-KEPT = ("vertical", "layer_distance")
+KEPT = ("vertical", "layer_distance", "edge_shear", "strip_shear")
 
 
 @dataclass(frozen=True)

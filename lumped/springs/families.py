@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from lumped.lattice import CellFamily, Lattice
+from lumped.lattice import Lattice
 from lumped.pattern import Pattern
 from lumped.springs import (
     area_dampers,
@@ -102,10 +102,12 @@ class DirectionalLinks(Links):
 
 @dataclass(frozen=True, eq=False)
 class Cells(Family):
-    """Springs of one kind on cells: nodes (c, 4, p), rest diagonals (c, 2, 3) [m]."""
+    """Springs of one kind on cells: nodes (c, 4, p), rest diagonals (c, 2, 3) [m], and which of the lattice's
+    cells of that kind they are on, (all of them,)."""
 
     diagonals: np.ndarray
     name: str
+    on: np.ndarray
 
     @property
     def geometry(self) -> tuple[np.ndarray, ...]:
@@ -205,8 +207,9 @@ def area_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iter
     for cells in lattice.cells:
         stiffness = by_cell.of_cells(getattr(springs, cells.name), count)
         if stiffness.any():
-            stiffness = np.tile(stiffness, len(cells.nodes) // count)
-            yield AreaSprings(cells.nodes, stiffness, *_on_cells(lattice, pattern, cells), cells.name)
+            nodes, every = cells.nodes, np.full(len(cells.nodes), True)
+            stiffness = np.tile(stiffness, len(nodes) // count)
+            yield AreaSprings(nodes, stiffness, *_on_cells(lattice, pattern, nodes), cells.name, every)
 
 
 def strain_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[StrainSprings]:
@@ -220,15 +223,17 @@ def strain_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> It
             stiffness = np.tile(stiffness, (layers, 1))
         else:
             stiffness[:, 2] -= layers * twist
-        if stiffness.any():
-            yield StrainSprings(cells.nodes, stiffness, *_on_cells(lattice, pattern, cells), name)
+        stiff = np.any(stiffness != 0.0, axis=1)  # edges stiffen the cells along them alone
+        if stiff.any():
+            chosen = cells.nodes[stiff]
+            yield StrainSprings(chosen, stiffness[stiff], *_on_cells(lattice, pattern, chosen), name, stiff)
 
 
-def _on_cells(lattice: Lattice, pattern: Pattern, cells: CellFamily) -> tuple[np.ndarray, np.ndarray]:
-    """Slots and rest diagonals of cells."""
-    corners = lattice.positions[cells.nodes].mean(axis=2)
+def _on_cells(lattice: Lattice, pattern: Pattern, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Slots and rest diagonals of cells with these nodes (c, 4, p)."""
+    corners = lattice.positions[nodes].mean(axis=2)
     diagonals = np.stack([corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]], axis=1)
-    return pattern.among(cells.nodes.reshape(len(cells.nodes), -1)), diagonals
+    return pattern.among(nodes.reshape(len(nodes), -1)), diagonals
 
 
 FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] = (

@@ -31,7 +31,8 @@ def field_mesh(
     cell_energy = np.zeros(quads)
     for family, stress in zip(assembly.springs, stresses, strict=True):
         if isinstance(family, Cells):
-            energy = family.energies(stress)
+            energy = np.zeros(len(family.on))
+            energy[family.on] = family.energies(stress)
             layers = quads // len(energy)
             cell_energy += np.tile(energy / layers, layers)
     tension = stresses[0]

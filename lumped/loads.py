@@ -26,7 +26,7 @@ from sheetbench.scenes import EDGES, EdgeLoad, FactorTable, PiecewiseLinear, Poi
 
 
 @dataclass
-class _Part:
+class Part:
     """Loads that share a history, if they have one.
 
     dead: (n, 3) [N]; moments: masses of an edge, [N·m] by column, turn; pressure: [Pa].
@@ -52,7 +52,7 @@ class Loads:
     def __init__(self, scene: Scene, assembly: Assembly):
         self._assembly = assembly
         lattice = assembly.lattice
-        self._parts: dict[FactorTable | None, _Part] = {}
+        self._parts: dict[FactorTable | None, Part] = {}
         self.dead = self._part(None).dead
         if scene.gravity is not None:
             acceleration = np.array(scene.gravity.acceleration)
@@ -80,11 +80,16 @@ class Loads:
         self.conservative = not any(part.moments or part.pressure for part in self._parts.values())
         self.potential = self.conservative and len(self._parts) == 1
 
-    def _part(self, history: FactorTable | None) -> _Part:
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """Loads by history, those without one first."""
+        return tuple(self._parts.values())
+
+    def _part(self, history: FactorTable | None) -> Part:
         """The part with this history, made when it is first asked for."""
         if history not in self._parts:
             course = None if history is None else PiecewiseLinear(history.time, history.factor)
-            self._parts[history] = _Part(course, np.zeros((self._assembly.pattern.size, 3)))
+            self._parts[history] = Part(course, np.zeros((self._assembly.pattern.size, 3)))
         return self._parts[history]
 
     def at_time(self, time: float | None) -> tuple[list[tuple[np.ndarray, np.ndarray, float]], float]:

@@ -52,6 +52,11 @@ class Integrator(ABC):
     def advance(self, state: State, at_most: float) -> Advance:
         """One step, no longer than `at_most` [s]. Raises StepFailed."""
 
+    def march(self, state: State, step: float, most: int) -> tuple[Advance, int]:
+        """Steps of the same length [s], at least one and `most` at most: where they lead, and how many, in
+        well under a second. Raises StepFailed for the first of them."""
+        return self.advance(state, step), 1
+
     def forget(self) -> None:  # noqa: B027  # most integrators keep nothing
         """Drop what was kept only for speed, so that a resumed run goes on exactly as one never stopped."""
 

@@ -87,13 +87,16 @@ class Run:
         plan, reached, taken = self._plan, self.reached, 0
         goal = (reached.samples + 1) * plan.every
         while (goal - reached.state.time > 1e-9 * plan.every) if plan.adapts else (taken < plan.steps):
-            at_most = goal - reached.state.time if plan.adapts else plan.every / plan.steps
             try:
-                advance = self._method.advance(reached.state, at_most)
+                if plan.adapts:
+                    advance, steps = self._method.advance(reached.state, goal - reached.state.time), 1
+                else:
+                    step, left = plan.every / plan.steps, plan.steps - taken
+                    advance, steps = self._method.march(reached.state, step, left)
             except StepFailed as failure:
                 return Fault(Status.DIVERGED, f"at {reached.state.time:.6g} s: {failure}")
-            reached.state, taken = advance.state, taken + 1
-            reached.steps += 1
+            reached.state, taken = advance.state, taken + steps
+            reached.steps += steps
             reached.dissipated += advance.dissipated
             reached.work += advance.work
             stuck = watchdog.stagnates(reached.state, taken) if plan.adapts else None

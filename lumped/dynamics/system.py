@@ -87,6 +87,16 @@ class System:
         """Whether there are multipliers."""
         return bool(self.algebraic.any())
 
+    @property
+    def driven(self) -> np.ndarray:
+        """Components (size, 3) bool that g(t) moves."""
+        driven = np.zeros(self._still.shape, dtype=bool)
+        for moved, axis, _ in self._motions:
+            driven[moved, axis] = True
+        if self.coupling is not None:
+            driven[: self.coupling.masses][self.coupling.moved] = True
+        return driven
+
     def drive(self, time: float) -> Drive:
         """The actuators' commands at a time."""
         return Drive(1.0, time)

@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.dynamics.constraints import Projection
+from lumped.dynamics.flat_system import FlatSystem
 from lumped.dynamics.integrator import Advance, Integrator, StepFailed
 from lumped.dynamics.system import State, System
 
@@ -24,6 +25,12 @@ class Verlet(Integrator):
     def __init__(self, system: System, step: float):
         super().__init__(system, step)
         self._projection = Projection(system)
+        chains = system.coupling is not None and system.coupling.bodies
+        self._flat = None if chains else FlatSystem(system)
+
+    def march(self, state: State, step: float, most: int) -> tuple[Advance, int]:
+        """Steps in one compiled call; one at a time where there are chains. Raises StepFailed."""
+        return self._flat.march(state, step, most) if self._flat else super().march(state, step, most)
 
     def advance(self, state: State, at_most: float) -> Advance:
         """One explicit step. Raises StepFailed when a number overflows or constraints find no solution."""

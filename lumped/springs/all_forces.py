@@ -64,10 +64,10 @@ def add_at_places(
 ) -> tuple[float, float]:
     """The same with u, v and force at the places of a packing, flat. The mid-surface's are written to."""
     if packing.mid:
-        _average(packing, u)
+        average(packing, u)
         if damped:
-            _average(packing, v)
-        _clear(packing, force)
+            average(packing, v)
+        clear(packing, force)
     size = (packing.layers + ONE) * packing.plane
     past = size + size
     energy = power = 0.0
@@ -116,12 +116,12 @@ def add_at_places(
         spread_sides(tile, R13, a + size, b + size, c + size, d + size, count, force)
         spread_sides(tile, R14, a + past, b + past, c + past, d + past, count, force)
     if packing.mid:
-        _share(packing, force)
+        share(packing, force)
     return energy, power
 
 
 @njit(**OPTIONS)
-def _average(packing: Packing, x: np.ndarray) -> None:
+def average(packing: Packing, x: np.ndarray) -> None:
     """Put the layers' mean in the mid-surface's places."""
     plane, mid = packing.plane, packing.layers * packing.plane
     part = x.dtype.type(1.0) / x.dtype.type(packing.layers)
@@ -137,7 +137,7 @@ def _average(packing: Packing, x: np.ndarray) -> None:
 
 
 @njit(**OPTIONS)
-def _clear(packing: Packing, force: np.ndarray) -> None:
+def clear(packing: Packing, force: np.ndarray) -> None:
     """No force on the mid-surface."""
     plane, mid = packing.plane, packing.layers * packing.plane
     for q in range(3):
@@ -147,7 +147,7 @@ def _clear(packing: Packing, force: np.ndarray) -> None:
 
 
 @njit(**OPTIONS)
-def _share(packing: Packing, force: np.ndarray) -> None:
+def share(packing: Packing, force: np.ndarray) -> None:
     """Give the force on the mid-surface to the layers, equally."""
     plane, mid = packing.plane, packing.layers * packing.plane
     part = force.dtype.type(1.0) / force.dtype.type(packing.layers)

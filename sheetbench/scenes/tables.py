@@ -27,16 +27,18 @@ class PiecewiseLinear:
         outside = np.zeros_like(self._values[:1])
         self._slopes = np.concatenate([outside, np.diff(self._values, axis=0) / apart, outside])
 
-    def at(self, time: float | None = None) -> np.ndarray:
-        """The value at a time [s]; without one the last, as statics take it."""
+    def at(self, time: float | np.ndarray | None = None) -> np.ndarray:
+        """The value at a time [s], or those at times (k,), (k, …); without one the last, as statics take
+        it."""
         if time is None:
             return np.asarray(self._values[-1])
-        passed = int(np.searchsorted(self._time, time, side="right"))
-        before = max(passed - 1, 0)
-        value: np.ndarray = self._values[before] + (time - self._time[before]) * self._slopes[passed]
+        passed = np.searchsorted(self._time, time, side="right")
+        before = np.maximum(passed - 1, 0)
+        since = np.reshape(time - self._time[before], (*np.shape(time), *(1,) * (self._values.ndim - 1)))
+        value: np.ndarray = self._values[before] + since * self._slopes[passed]
         return value
 
-    def slope(self, time: float) -> np.ndarray:
+    def slope(self, time: float | np.ndarray) -> np.ndarray:
         """Its derivative [1/s] from a time [s] on."""
         return np.asarray(self._slopes[np.searchsorted(self._time, time + INSTANT, side="right")])
 

@@ -1,0 +1,239 @@
+"""Steps of velocity Verlet in one compiled call, as `lumped.dynamics.verlet` has them, nothing allocated.
+
+Vectors are flat, at the places of a `lumped.springs.packing.Packing`. With the predicted velocity
+w = v₀ + h a₀ and the damping matrix D at u₁, which is symmetric, what D v₁ is beyond D w comes from one more
+pass over the dampers, and the power at a step's start is that at the end of the step before:
+
+    D v₁ = D w + D δ,   v₁·D v₁ = w·D w + 2 w·D δ + δ·D δ,   δ = v₁ − w.
+
+What is prescribed over time comes in tables, a row a moment.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from lumped.dynamics.follower_loads import Followers, add_followers
+from lumped.springs.all_forces import add_at_places
+from lumped.springs.packing import Packing
+from lumped.springs.tiles import OPTIONS
+
+
+class Motion(NamedTuple):
+    """What stays the same from step to step, at s places. mass, inverse_mass: (3 s,) [kg], the latter zero
+    where supports hold; rate: (3 s,) or empty, damping of each mass [N·s/m]; columns: (h, layers) places
+    whose mean is held; dead: (parts, 3 s) loads [N] to be scaled by each history, the first by none; driven:
+    places that g(t) moves. damped, working: whether anything takes energy, whether loads change or follow;
+    single: whether forces are computed in single precision."""
+
+    packing: Packing
+    mass: np.ndarray
+    inverse_mass: np.ndarray
+    rate: np.ndarray
+    columns: np.ndarray
+    dead: np.ndarray
+    followers: Followers
+    driven: np.ndarray
+    damped: bool
+    working: bool
+    single: bool
+
+
+class Room(NamedTuple):
+    """What steps are computed in. In the precision of the forces: displacement x, predicted velocity w, its
+    correction d, force and damping force, a tile. In double: loads at the end of a step and at its start,
+    what the masses moved (3 s,), and what is exerted on the driven places."""
+
+    x: np.ndarray
+    w: np.ndarray
+    d: np.ndarray
+    force: np.ndarray
+    damping: np.ndarray
+    tile: np.ndarray
+    load: np.ndarray
+    load_before: np.ndarray
+    moved: np.ndarray
+    exerted: np.ndarray
+
+
+@njit(**OPTIONS)
+def march(
+    steps: int,
+    h: float,
+    motion: Motion,
+    factors: np.ndarray,
+    place: np.ndarray,
+    place_rate: np.ndarray,
+    u: np.ndarray,
+    v: np.ndarray,
+    a: np.ndarray,
+    room: Room,
+) -> tuple[int, float, float]:
+    """Take u, v and a (3 s,) `steps` steps of h [s] on. factors: (steps + 1, parts) of the loads' histories;
+    place and place_rate: (steps + 1, driven) [m], [m/s].
+
+    The steps taken, fewer where a number overflowed, with u, v and a then spoilt; the energy that dampers
+    took and the work done [J].
+    """
+    packing, driven, rate = motion.packing, motion.driven, motion.rate
+    x, w, d, force, damping, load = room.x, room.w, room.d, room.force, room.damping, room.load
+    taken = work = power = 0.0
+    _external(motion, factors[0], u, load)
+    if motion.damped or len(driven):
+        _copy(motion, u, x)
+        w[:] = v
+        force[:] = 0.0
+        _, power = add_at_places(x, w, True, packing.damped, packing, force, room.tile)
+        power += _resist(rate, w, force)
+        for i in range(len(driven)):
+            room.exerted[i] = _exerted(motion, driven[i], a, force, load)
+    for n in range(steps):
+        _predict(h, motion, u, v, a, w, room.moved)
+        for i in range(len(driven)):
+            p, jump = driven[i], place[n + 1, i] - place[n, i] - h * place_rate[n, i]
+            u[p] += jump
+            room.moved[p] += jump
+            v[p] += place_rate[n + 1, i] - place_rate[n, i]
+        if motion.working:
+            room.load_before[:] = load
+            _external(motion, factors[n + 1], u, load)
+        _copy(motion, u, x)
+        force[:] = 0.0
+        _, now = add_at_places(x, w, True, packing.damped, packing, force, room.tile)
+        now += _resist(rate, w, force)
+        if not _accelerate(0.5 * h, motion, load, force, a, v):
+            return n, taken, work
+        if motion.damped:
+            for i in range(len(d)):
+                d[i] = v[i] - w[i]
+            damping[:] = 0.0
+            _, beyond = add_at_places(x, d, False, packing.damped, packing, damping, room.tile)
+            beyond += _resist(rate, d, damping)
+            now += 2.0 * _correct(motion, w, damping, force) + beyond
+            taken += 0.5 * h * (power + now)
+            power = now
+            if not _accelerate(0.0, motion, load, force, a, v):
+                return n, taken, work
+        if motion.working:
+            work += _work_of_loads(motion, room.load_before, load, room.moved)
+        for i in range(len(driven)):
+            exerted, r0, r1 = (
+                _exerted(motion, driven[i], a, force, load),
+                place_rate[n, i],
+                place_rate[n + 1, i],
+            )
+            work += 0.5 * (room.exerted[i] + exerted) * (place[n + 1, i] - place[n, i])
+            work += 0.5 * motion.mass[driven[i]] * (r1 * r1 - r0 * r0)
+            room.exerted[i] = exerted
+    return steps, taken, work
+
+
+@njit(**OPTIONS)
+def _copy(motion: Motion, u: np.ndarray, x: np.ndarray) -> None:
+    """Displacements in single precision; in double x is u."""
+    if motion.single:
+        x[:] = u
+
+
+@njit(**OPTIONS)
+def _predict(
+    h: float, motion: Motion, u: np.ndarray, v: np.ndarray, a: np.ndarray, w: np.ndarray, moved: np.ndarray
+) -> None:
+    """w = v + h a where there are dampers, v half a step and u a step on; what u moved where loads work."""
+    count = motion.packing.layers * motion.packing.plane
+    size = count + motion.packing.plane
+    for q in range(3):
+        first = np.uint64(q) * size
+        if motion.damped:
+            for i in range(count):
+                w[first + i] = v[first + i] + h * a[first + i]
+        for i in range(count):
+            half = v[first + i] + 0.5 * h * a[first + i]
+            v[first + i] = half
+            u[first + i] += h * half
+        if motion.working:
+            for i in range(count):
+                moved[first + i] = h * v[first + i]
+
+
+@njit(**OPTIONS)
+def _accelerate(
+    half: float, motion: Motion, load: np.ndarray, force: np.ndarray, a: np.ndarray, v: np.ndarray
+) -> bool:
+    """a = T M⁻¹ Tᵀ (load − force), and v by half a step [s] of it; whether all is finite."""
+    count = motion.packing.layers * motion.packing.plane
+    size, inverse = count + motion.packing.plane, motion.inverse_mass
+    lost = 0.0
+    for q in range(3):
+        first = np.uint64(q) * size
+        for i in range(count):
+            gained = (load[first + i] - force[first + i]) * inverse[first + i]
+            a[first + i] = gained
+            v[first + i] += half * gained
+            lost += 0.0 * gained  # not a number if any is not finite
+    for c in range(len(motion.columns)):
+        mean = weight = 0.0
+        for p in motion.columns[c]:
+            mean += a[p]
+            weight += inverse[p]
+        for p in motion.columns[c]:
+            back = mean / weight * inverse[p]
+            a[p] -= back
+            v[p] -= half * back
+    return lost == 0.0
+
+
+@njit(**OPTIONS)
+def _resist(rate: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
+    """Add the forces of the masses' own damping, if there is any; the power taken [W]."""
+    power = 0.0
+    for i in range(len(rate)):
+        resisting = rate[i] * v[i]
+        power += resisting * v[i]
+        force[i] += resisting
+    return power
+
+
+@njit(**OPTIONS)
+def _correct(motion: Motion, w: np.ndarray, damping: np.ndarray, force: np.ndarray) -> float:
+    """Add the correction of the damping force to the force; its power on the predicted velocity [W]."""
+    count = motion.packing.layers * motion.packing.plane
+    power = 0.0
+    for q in range(3):
+        first = np.uint64(q) * (count + motion.packing.plane)
+        for i in range(count):
+            power += w[first + i] * damping[first + i]
+            force[first + i] += damping[first + i]
+    return power
+
+
+@njit(**OPTIONS)
+def _exerted(motion: Motion, p: int, a: np.ndarray, force: np.ndarray, load: np.ndarray) -> float:
+    """What holds a place [N]."""
+    return motion.mass[p] * a[p] + force[p] - load[p]
+
+
+@njit(**OPTIONS)
+def _external(motion: Motion, factors: np.ndarray, u: np.ndarray, load: np.ndarray) -> None:
+    """The loads at displacement u, scaled by the factors of their histories."""
+    load[:] = motion.dead[0]
+    for part in range(1, len(motion.dead)):
+        for i in range(len(load)):
+            load[i] += factors[part] * motion.dead[part, i]
+    add_followers(motion.packing, motion.followers, factors, u, load)
+
+
+@njit(**OPTIONS)
+def _work_of_loads(motion: Motion, before: np.ndarray, after: np.ndarray, moved: np.ndarray) -> float:
+    """Work [J] of what loads are beyond those without a history, by the trapezoidal rule."""
+    count = motion.packing.layers * motion.packing.plane
+    work = 0.0
+    for q in range(3):
+        first = np.uint64(q) * (count + motion.packing.plane)
+        for i in range(count):
+            mean = 0.5 * (before[first + i] + after[first + i]) - motion.dead[0, first + i]
+            work += mean * moved[first + i]
+    return work

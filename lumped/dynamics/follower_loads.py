@@ -1,0 +1,74 @@
+"""Loads that follow the sheet (`lumped.loads`) at the places of a `Packing`, compiled."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from lumped.springs.all_forces import average, clear, share
+from lumped.springs.packing import Packing
+from lumped.springs.tiles import OPTIONS
+
+
+class Followers(NamedTuple):
+    """positions: (3 s,) [m] of every place, the mid-surface's too; pressure: (parts,) [Pa]; cells: (c, 4)
+    corners under it, places of the mid-surface; couples: (e, 4) top and bottom mass of a column of an edge,
+    and the mid-surface's places before and after it; moments: (e,) [N·m], signed as they turn; parts: (e,)
+    whose history scales them."""
+
+    positions: np.ndarray
+    pressure: np.ndarray
+    cells: np.ndarray
+    couples: np.ndarray
+    moments: np.ndarray
+    parts: np.ndarray
+
+
+@njit(**OPTIONS)
+def add_followers(
+    packing: Packing, followers: Followers, factors: np.ndarray, u: np.ndarray, load: np.ndarray
+) -> None:
+    """Add the loads at displacement u (3 s,) [m] to `load` (3 s,) [N], scaled by the parts' factors."""
+    cells, couples = followers.cells, followers.couples
+    if len(cells) == 0 and len(couples) == 0:
+        return
+    average(packing, u)
+    clear(packing, load)
+    size = np.uint64(len(u) // 3)
+    x = followers.positions
+    pressure = 0.0
+    for part in range(len(factors)):
+        pressure += factors[part] * followers.pressure[part]
+    for c in range(len(cells)):
+        c0, c1, c2, c3 = cells[c]
+        ax, ay, az = _apart(x, u, c0, c2, size)
+        bx, by, bz = _apart(x, u, c1, c3, size)
+        by_corner = 0.125 * pressure
+        for p in cells[c]:
+            load[p] += by_corner * (ay * bz - az * by)
+            load[p + size] += by_corner * (az * bx - ax * bz)
+            load[p + size + size] += by_corner * (ax * by - ay * bx)
+    for e in range(len(couples)):
+        top, bottom, before, after = couples[e]
+        ax, ay, az = _apart(x, u, before, after, size)
+        bx, by, bz = _apart(x, u, bottom, top, size)
+        couple = factors[followers.parts[e]] * followers.moments[e]
+        couple /= np.sqrt(ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz)
+        for p, sign in ((top, couple), (bottom, -couple)):
+            load[p] += sign * (ay * bz - az * by)
+            load[p + size] += sign * (az * bx - ax * bz)
+            load[p + size + size] += sign * (ax * by - ay * bx)
+    share(packing, load)
+    clear(packing, load)
+
+
+@njit(**OPTIONS)
+def _apart(x: np.ndarray, u: np.ndarray, a: int, b: int, size: int) -> tuple[float, float, float]:
+    """The vector from place a to place b."""
+    return (
+        x[b] + u[b] - x[a] - u[a],
+        x[b + size] + u[b + size] - x[a + size] - u[a + size],
+        x[b + size + size] + u[b + size + size] - x[a + size + size] - u[a + size + size],
+    )

@@ -1,0 +1,75 @@
+"""Compiled steps of velocity Verlet: the same states and energies as the steps one by one, to rounding."""
+
+import numpy as np
+import pytest
+
+from lumped import INTEGRATORS, System, pose, step_limit
+from lumped.dynamics.initial import initial_state
+from tests.dynamic_cases import scene, springs
+
+STEPS = 60
+HISTORY = {"time": [0.0, 1e-4, 2e-4], "factor": [0.2, 1.0, -0.5]}
+COURSE = {"time": [0.0, 1e-4, 2e-4], "displacement": [[0.0, 0.0, 0.0], [0.0, 1e-5, 2e-5], [0.0, 0.0, -1e-5]]}
+TURNED = {
+    "kind": "motion",
+    "edge": "x1",
+    "time": [0.0, 2e-4],
+    "displacement": [[0.0, 0.0, 0.0], [0.0, 0.0, 1e-5]],
+    "rotation": [[0.0, 0.0, 0.0], [0.0, 1e-3, 5e-4]],
+}
+CLAMP = {"edge": "x0", "kind": "clamped"}
+LOADS = [
+    {"kind": "point", "at": [0.1, 0.12], "force": [0.1, 0.0, 0.3], "history": HISTORY},
+    {"kind": "pressure", "value": 30.0},
+    {"kind": "pressure", "value": -10.0, "history": HISTORY},
+    {
+        "kind": "edge",
+        "edge": "x1",
+        "force_per_length": [0.0, 0.1, 0.0],
+        "moment_per_length": 0.02,
+        "history": HISTORY,
+    },
+]
+CASES = {
+    "weight": scene(),
+    "dampers": scene(damping_time=1e-5),
+    "masses damped": scene(damping_rate=30.0),
+    "both damped": scene(damping_time=1e-5, damping_rate=30.0),
+    "hinged": scene(
+        supports=[{"edge": "x0", "kind": "hinged"}, {"edge": "y0", "kind": "held", "components": ["z"]}],
+        damping_time=1e-5,
+    ),
+    "loads": scene(loads=LOADS, damping_time=1e-5),
+    "moved clamp": scene(supports=[{**CLAMP, "motion": COURSE}], damping_time=1e-5, damping_rate=30.0),
+    "moved hinge": scene(supports=[CLAMP, {"edge": "x1", "kind": "hinged", "motion": COURSE}]),
+    "turned edge": scene(supports=[CLAMP], actuators=[TURNED], damping_time=1e-5),
+}
+
+
+def start_of(asked, precision="double", n=5):
+    calibration = springs(asked, n)
+    system = System(asked, pose(asked, calibration, precision=precision))
+    return system, initial_state(system, calibration, "tributary")
+
+
+@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("precision", ["double", "single"])
+def test_compiled_steps_are_the_steps_one_by_one(name, precision):
+    system, state = start_of(CASES[name], precision)
+    step = 0.8 * step_limit(system, state.u).step
+    method = INTEGRATORS["verlet"](system, step)
+    compiled, taken = method.march(state, step, STEPS)
+    dissipated = work = 0.0
+    for _ in range(STEPS):
+        advance = method.advance(state, step)
+        state = advance.state
+        dissipated, work = dissipated + advance.dissipated, work + advance.work
+    assert taken == STEPS
+    assert compiled.state.time == state.time
+    # rounding of some thirty forces a mass and step, which the stiffest motions keep
+    tolerance = 1e3 * STEPS * float(np.finfo(np.float32 if precision == "single" else float).eps)
+    for one, other in ((compiled.state.u, state.u), (compiled.state.v, state.v), (compiled.state.a, state.a)):
+        assert np.abs(one - other).max() < tolerance * np.abs(other).max()
+    scale = max(abs(dissipated), abs(work), system.energies(state)["kinetic"])
+    assert compiled.dissipated == pytest.approx(dissipated, abs=tolerance * scale)
+    assert compiled.work == pytest.approx(work, abs=tolerance * scale)

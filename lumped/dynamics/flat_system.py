@@ -24,7 +24,9 @@ class FlatSystem:
         assembly, self._parts = system.assembly, system.problem.loads.parts
         self._system, self._shape = system, (*system.lattice_mass.shape, 3)
         single = assembly.precision == "single"
-        packing = pack(assembly.lattice, assembly.springs, system.damping.dampers, single)
+        packing = system.packing
+        if single:
+            packing = pack(assembly.lattice, assembly.springs, system.damping.dampers, single)
         count, plane = len(packing.order), int(packing.plane)
         self._order, self._count, self._size = packing.order, count, count + plane
         self._place = np.empty(count, dtype=int)

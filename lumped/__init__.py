@@ -32,6 +32,7 @@ from lumped.sensitivity import Sensitivity, gradient, sensitivity
 from lumped.statics.buckling import buckling_loads
 from lumped.statics.continuation import Path, trace
 from lumped.statics.equilibrium import at_rest, follow
+from lumped.statics.many import solve_many
 from lumped.statics.solver import pose, solve
 from lumped.vibration import Modes, modes
 
@@ -71,6 +72,7 @@ __all__ = [
     "sensitivity",
     "simulate",
     "solve",
+    "solve_many",
     "step_limit",
     "trace",
     "turn_limit",

@@ -15,7 +15,7 @@ import numpy as np
 from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
-from lumped.pattern import Pattern, neighbours
+from lumped.pattern import Pattern, neighbours, of_grid
 from lumped.springs.families import Links, families
 from lumped.springs.together import Stresses, together
 from sheetbench.scenes import Sheet
@@ -51,12 +51,12 @@ class Assembly:
             calibration.half,
         )
         self.distribution = calibration.masses
-        pairs = neighbours(self.lattice.columns())
         self.coupling = couple(self.lattice) if couple is not None else None
         if self.coupling is None:
-            self.pattern = Pattern(self.lattice.mass_count, *pairs)
+            self.pattern = of_grid(self.lattice.grid)
         else:
             own = self.coupling.pairs()
+            pairs = neighbours(self.lattice.columns())
             both = (np.concatenate(part) for part in zip(pairs, own, strict=True))
             self.pattern = Pattern(self.coupling.size, *both)
             self.coupling_slots = self.pattern.slots(*own)

@@ -18,7 +18,8 @@ around them (of equal cells ½ on edges, ¼ at corners).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from functools import lru_cache
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -28,6 +29,8 @@ from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import Grid
 
 Weights = Literal["tributary", "full"]
+
+KEPT = 3000  # masses up to which what is the same for all sheets on a grid is kept for the next one
 
 
 @dataclass(frozen=True)
@@ -154,23 +157,21 @@ def build(
     if weights == "full" and grading:
         raise BadInput(f"weights = 'full': equal masses are for equal cells, not for grading = {grading:g}")
     lines = across_x, across_y = grid_lines(sheet, grid, grading, half)
-    j, i, k = (a.ravel() for a in np.meshgrid(np.arange(ny), np.arange(nx), np.arange(layers), indexing="ij"))
+    j, i, k = _indices(grid)
     heights = (k - (layers - 1) / 2) * layer_distance
     positions = np.stack([across_x.at[i], across_y.at[j], heights], axis=1)
 
     families = []
-    for name, direction, (di, dj, dk) in STEPS:
-        inside = (i + di >= 0) & (i + di < nx) & (j + dj >= 0) & (j + dj < ny) & (k + dk < layers)
-        first = np.flatnonzero(inside)
-        second = first + (dj * nx + di) * layers + dk
-        cells, shares = _cells_of_links(i[first], j[first], (di, dj), (nx, ny))
+    for step in (_kept_steps if nx * ny * layers <= KEPT else _steps)(grid):
+        shares = step.shares
         if weights == "full":
             shares = shares / shares.sum(axis=1, keepdims=True)
-        offset = np.empty((len(first), 3))
-        offset[:, 0] = di * across_x.widths[np.minimum(i[first], i[second]).clip(max=nx - 2)]
-        offset[:, 1] = dj * across_y.widths[np.minimum(j[first], j[second]).clip(max=ny - 2)]
+        di, dj, dk = step.by
+        offset = np.empty((len(step.nodes), 3))
+        offset[:, 0] = di * across_x.widths[step.column]
+        offset[:, 1] = dj * across_y.widths[step.row]
         offset[:, 2] = dk * layer_distance
-        families.append(LinkFamily(name, direction, np.stack([first, second], axis=1), offset, cells, shares))
+        families.append(LinkFamily(step.name, step.direction, step.nodes, offset, step.cells, shares))
 
     columns = np.arange(nx * ny * layers).reshape(ny, nx, layers)
     corners = np.stack([columns[:-1, :-1], columns[:-1, 1:], columns[1:, 1:], columns[1:, :-1]], axis=2)
@@ -190,6 +191,48 @@ def build(
         share=share,
         twisting=twisting,
     )
+
+
+class _Step(NamedTuple):
+    """The links of one row of STEPS on a grid: nodes, cells and shares as `LinkFamily`; row and column: of
+    the cells whose widths they span, (m,)."""
+
+    name: str
+    direction: str
+    by: tuple[int, int, int]
+    nodes: np.ndarray
+    cells: np.ndarray
+    shares: np.ndarray
+    row: np.ndarray
+    column: np.ndarray
+
+
+def _indices(grid: Grid) -> tuple[np.ndarray, ...]:
+    """Row, column and layer of every mass."""
+    nx, ny, layers = grid
+    return tuple(
+        a.ravel() for a in np.meshgrid(np.arange(ny), np.arange(nx), np.arange(layers), indexing="ij")
+    )
+
+
+def _steps(grid: Grid) -> tuple[_Step, ...]:
+    """The links of a grid, whatever its sides."""
+    nx, ny, layers = grid
+    j, i, k = _indices(grid)
+    found = []
+    for name, direction, (di, dj, dk) in STEPS:
+        inside = (i + di >= 0) & (i + di < nx) & (j + dj >= 0) & (j + dj < ny) & (k + dk < layers)
+        first = np.flatnonzero(inside)
+        second = first + (dj * nx + di) * layers + dk
+        cells, shares = _cells_of_links(i[first], j[first], (di, dj), (nx, ny))
+        row = np.minimum(j[first], j[second]).clip(max=ny - 2)
+        column = np.minimum(i[first], i[second]).clip(max=nx - 2)
+        nodes = np.stack([first, second], axis=1)
+        found.append(_Step(name, direction, (di, dj, dk), nodes, cells, shares, row, column))
+    return tuple(found)
+
+
+_kept_steps = lru_cache(maxsize=16)(_steps)
 
 
 def _cells_of_links(

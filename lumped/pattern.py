@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
+
+from sheetbench.scenes.grid import Grid
+
+KEPT = 3000  # masses up to which a pattern is kept, and with it what is known of the systems on it
 
 
 class Pattern:
@@ -34,6 +40,21 @@ class Pattern:
     def among(self, nodes: np.ndarray) -> np.ndarray:
         """Block numbers of every pair within each row of masses (m, p): (m, p, p)."""
         return self.slots(nodes[:, :, None], nodes[:, None, :])
+
+
+def of_grid(grid: Grid) -> Pattern:
+    """The pattern of a lattice on a grid alone; that of a small one is the same object every time."""
+    nx, ny, layers = grid
+    return (_kept if nx * ny * layers <= KEPT else _of_grid)(grid)
+
+
+def _of_grid(grid: Grid) -> Pattern:
+    nx, ny, layers = grid
+    columns = np.arange(nx * ny * layers).reshape(ny, nx, layers)
+    return Pattern(columns.size, *neighbours(columns))
+
+
+_kept = lru_cache(maxsize=16)(_of_grid)
 
 
 def neighbours(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

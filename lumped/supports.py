@@ -11,7 +11,7 @@ Where bent and tilted edges are at a load factor λ is the scene's to say (`shee
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -98,6 +98,41 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
     if coupling is not None:
         fixed[lattice.mass_count :] = held[lattice.mass_count :] = ~coupling.free
     free = ~(fixed | dependent)
+    transform = _selection(free)
+    if mean_held or bindings:
+        transform = _with_dependent(free, mean_held, bindings)
+    driven = bent_or_tilted(scene.supports, scene.sheet)
+
+    def prescribed(load_factor: float) -> np.ndarray:
+        g = np.zeros((n, 3))
+        for edge in driven:
+            masses = holders[edge.edge][0].ravel()
+            rest = lattice.positions[masses]
+            g[masses] = edge.placed(rest[:, :2], load_factor).lifted(rest[:, 2])
+        if coupling is not None:
+            coupling.follow(g)
+        return g
+
+    return Constraints(transform, prescribed, holders, held, fixed, coupling)
+
+
+def _selection(free: np.ndarray) -> sp.csr_array:
+    """The transform of displacements (n, 3) that are unknowns where they are free, and nothing elsewhere."""
+    count = int(free.sum())
+    pointers = np.concatenate([[0], np.cumsum(free)]).astype(np.int32)
+    return sp.csr_array(
+        (np.ones(count), np.arange(count, dtype=np.int32), pointers), shape=(free.size, count)
+    )
+
+
+def _with_dependent(
+    free: np.ndarray,
+    mean_held: dict[tuple[int, int], np.ndarray],
+    bindings: Sequence[tuple[np.ndarray, np.ndarray, int]],
+) -> sp.csr_array:
+    """The transform where the last layer is minus the sum of the others (last mass, axis → its column), and
+    masses are bound to rows of actuators."""
+    n = len(free)
     number = np.full((n, 3), -1)
     number[free] = np.arange(free.sum())
     rows = [np.flatnonzero(free)]
@@ -115,17 +150,4 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
             columns.append(number[first + row[can], axis])
             values.append(binding[at[can], row[can]])
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-    transform = sp.csr_array(sp.coo_array(entries, shape=(3 * n, int(free.sum()))))
-    driven = bent_or_tilted(scene.supports, scene.sheet)
-
-    def prescribed(load_factor: float) -> np.ndarray:
-        g = np.zeros((n, 3))
-        for edge in driven:
-            masses = holders[edge.edge][0].ravel()
-            rest = lattice.positions[masses]
-            g[masses] = edge.placed(rest[:, :2], load_factor).lifted(rest[:, 2])
-        if coupling is not None:
-            coupling.follow(g)
-        return g
-
-    return Constraints(transform, prescribed, holders, held, fixed, coupling)
+    return sp.csr_array(sp.coo_array(entries, shape=(3 * n, int(free.sum()))))

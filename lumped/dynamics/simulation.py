@@ -146,7 +146,7 @@ def simulate(
             },
             "frame_times": plan.every * np.array(shown),
             "lattice": system.assembly.lattice,
-            "mesh": field_mesh(system.problem, start.u, np.zeros_like(start.u)),
+            "mesh": field_mesh(system.problem.assembly, start.u, np.zeros_like(start.u)),
         },
     )
 

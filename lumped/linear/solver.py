@@ -11,7 +11,7 @@ step of refinement.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ from scipy.sparse.linalg import LinearOperator, eigs, onenormest, splu
 
 from lumped.linear import banded
 from lumped.linear.saddle_point import Saddle
-from lumped.pattern import Pattern
+from lumped.pattern import KEPT, Pattern
 
 rslab: Any
 try:
@@ -219,6 +219,23 @@ class ReducedSystem:
             raise SingularMatrixError(str(error)) from None
         negative = factors.inertia[1]
         return Factor(matrix, lambda b: factors.solve(augmented(b)), negative, SADDLE_REFINEMENTS)
+
+
+def reduced(pattern: Pattern, transform: sp.csr_array, symmetric: bool) -> ReducedSystem:
+    """The system of unknowns without multipliers; the same one again where a pattern that is kept is reduced
+    the same way."""
+    if pattern.size > KEPT:
+        return ReducedSystem(pattern, transform, symmetric)
+    pointers, columns = (part.astype(np.int32).tobytes() for part in (transform.indptr, transform.indices))
+    return _kept(pattern, transform.shape, pointers, columns, transform.data.tobytes(), symmetric)
+
+
+@lru_cache(maxsize=16)
+def _kept(
+    pattern: Pattern, shape: tuple[int, int], pointers: bytes, columns: bytes, values: bytes, symmetric: bool
+) -> ReducedSystem:
+    parts = np.frombuffer(values), np.frombuffer(columns, np.int32), np.frombuffer(pointers, np.int32)
+    return ReducedSystem(pattern, sp.csr_array(parts, shape=shape), symmetric)
 
 
 def _symmetric(matrix: sp.csc_array) -> Factor:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
@@ -114,7 +115,7 @@ class Cells(Family):
         """Rest diagonals."""
         return (self.diagonals,)
 
-    @property
+    @cached_property
     def rest_area(self) -> np.ndarray:
         """a0, (c,) [m²]."""
         area: np.ndarray = 0.5 * np.linalg.norm(np.cross(self.diagonals[:, 0], self.diagonals[:, 1]), axis=1)

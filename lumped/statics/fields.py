@@ -9,21 +9,37 @@ of a plan cell's layers have equal parts).
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
+from lumped.assembly import Assembly
 from lumped.lattice import Lattice
 from lumped.springs.families import Cells
 from lumped.springs.together import Stresses
-from lumped.statics.problem import Problem
 from sheetbench.scenes import FieldMesh
 
 
+class LatticeMesh(FieldMesh):
+    """A mesh with its fields that is made when it is first looked at: most answers are asked for a few points
+    and forces only."""
+
+    def __init__(self, make: Callable[[], FieldMesh]):
+        self.__dict__["_make"] = make
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in FieldMesh.__dataclass_fields__:
+            raise AttributeError(name)
+        self.__dict__.update(vars(self.__dict__.pop("_make")()))
+        return self.__dict__[name]
+
+
 def field_mesh(
-    problem: Problem, u: np.ndarray, reactions: np.ndarray, stresses: Stresses | None = None
+    assembly: Assembly, u: np.ndarray, reactions: np.ndarray, stresses: Stresses | None = None
 ) -> FieldMesh:
     """Mesh and fields at displacement u (n, 3) [m] with the supports' forces on the masses (n, 3) [N];
     rows of actuators after those of the masses are left out. stresses: those at u unless given."""
-    assembly = problem.assembly
     links, lattice = assembly.links, assembly.lattice
     stresses = stresses or assembly.stresses(u)
     (layer_cells,) = (c.nodes[:, :, 0] for c in lattice.cells if c.name == "area")

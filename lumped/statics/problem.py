@@ -11,10 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.actuators import Drive
+from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
 from lumped.linear.maps import product, rows, transposed_product
-from lumped.linear.solver import REFINEMENTS, BandedFactor, Factor, ReducedSystem, checked
+from lumped.linear.solver import REFINEMENTS, BandedFactor, Factor, ReducedSystem, checked, reduced
 from lumped.loads import Loads
 from lumped.springs.together import Stresses
 from lumped.statics import fused
@@ -66,15 +66,16 @@ class Problem:
         self._plain = self.loads.potential and self.base is None and coupling is None and in_double
         self.multipliers = coupling.multipliers if coupling is not None else 0
         self._free = rows(self.constraints.transform)
-        self.system = ReducedSystem(
-            self.assembly.pattern, self.constraints.transform, self.conservative, self._multiplier_unknowns()
-        )
+        pattern, transform = self.assembly.pattern, self.constraints.transform
+        if coupling is None:
+            self.system = reduced(pattern, transform, self.conservative)
+        else:
+            multipliers = self._multiplier_unknowns(coupling)
+            self.system = ReducedSystem(pattern, transform, self.conservative, multipliers)
 
-    def _multiplier_unknowns(self) -> np.ndarray | None:
+    def _multiplier_unknowns(self, coupling: Coupling) -> np.ndarray:
         """Which unknowns are multipliers of the actuators' constraints, (m,) bool."""
-        if self.assembly.coupling is None:
-            return None
-        of_unknowns: np.ndarray = abs(self.constraints.transform).T @ self.assembly.coupling.algebraic.ravel()
+        of_unknowns: np.ndarray = abs(self.constraints.transform).T @ coupling.algebraic.ravel()
         return of_unknowns > 0.0
 
     @property

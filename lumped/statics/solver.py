@@ -24,7 +24,7 @@ from lumped.statics import validity
 from lumped.statics.balance import balance
 from lumped.statics.energy_descent import descend, disturbed
 from lumped.statics.equilibrium import FACTORISATIONS, State, StepFailed, at_rest, follow, predictor
-from lumped.statics.fields import field_mesh
+from lumped.statics.fields import LatticeMesh, field_mesh
 from lumped.statics.problem import Problem
 from lumped.supports import constrain
 from sheetbench.scenes import (
@@ -89,7 +89,7 @@ def solve(
     if linear and scene.actuators:
         raise BadInput("linear = True: actuators turn with the sheet; solve without")
     began = time.perf_counter()
-    _compile()
+    compile_kernels()
     calibration = calibration or default(scene)
     problem = pose(scene, calibration, weights, precision)
     problem.progress = progress
@@ -104,7 +104,7 @@ def solve(
 
 
 @cache
-def _compile() -> None:
+def compile_kernels() -> None:
     """Solve a small sheet once a process, so that no solve's time holds the loading of compiled kernels."""
     sheet = Sheet(length_x=1.0, length_y=1.0, thickness=0.05)
     material = Material(young=1e6, poisson=0.3, density=1e3)
@@ -236,6 +236,11 @@ def _solution(
 ) -> Solution:
     """The answer of an outcome; asked: the options that are not their defaults."""
     state, lattice = outcome.state, problem.assembly.lattice
+    assembly, u, stresses = (
+        problem.assembly,
+        state.u,
+        state.stresses,
+    )  # what outlives the solve: not the factors
     linear = asked.get("linear", False)
     exerted, energies = _of_small_displacements(problem, state) if linear else _at(problem, state)
     reactions, on_masses = problem.constraints.reactions(exerted)
@@ -255,10 +260,10 @@ def _solution(
         iterations=problem.factorisations,
         setup_seconds=seconds[0],
         solve_seconds=seconds[1],
-        sample=lambda points: MidSurface(lattice, points).of(state.u),
+        sample=lambda points: MidSurface(lattice, points).of(u),
         reactions=reactions,
         energies=energies,
-        mesh=field_mesh(problem, state.u, on_masses, state.stresses),
+        mesh=LatticeMesh(lambda: field_mesh(assembly, u, on_masses, stresses)),
         history=tuple(problem.history),
         load_factor=state.load_factor,
         actuators=wrenches,

@@ -14,10 +14,12 @@ from typing import Any
 
 from comparisons.models import plugins
 from comparisons.models.grids import parse_elements, parse_grid
+from comparisons.models.programs import PREFIX
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import LAYERS
 
+_PROGRAM = re.compile(rf"(?P<file>{PREFIX}[^:]+)(:(?P<rest>.*))?")
 _FROM_FILE = re.compile(r"(?P<file>.+\.py)(:(?P<object>\w+)(?![\w=]))?(:(?P<rest>.*=.*))?")
 _COUNTS = re.compile(r"\d{1,9}(x\d{1,9})+")
 
@@ -70,12 +72,13 @@ def references(model: str, elements: Iterable[str]) -> list[Candidate]:
 
 
 def parse_model(text: str) -> Candidate:
-    """The candidate of `NAME`, `FILE.py` or `FILE.py:OBJECT`, with `:key=value,key=value` after it.
+    """The candidate of `NAME`, `FILE.py`, `FILE.py:OBJECT` or `exec:PROGRAM`, and `:key=value,key=value`.
 
     Values are as in JSON, `8x4` is a list of numbers, anything else plain text. Raises BadInput.
     """
-    found = _FROM_FILE.fullmatch(text)
-    if found is not None:
+    if (found := _PROGRAM.fullmatch(text)) is not None:
+        name, rest = found["file"], found["rest"] or ""
+    elif (found := _FROM_FILE.fullmatch(text)) is not None:
         name, rest = f"{found['file']}:{found['object'] or plugins.OBJECT}", found["rest"] or ""
     else:
         name, _, rest = text.partition(":")
@@ -83,7 +86,10 @@ def parse_model(text: str) -> Candidate:
     for part in filter(None, rest.split(",")):
         key, equals, value = part.partition("=")
         if not equals:
-            raise BadInput(f"--model = '{text}': write NAME:key=value,key=value or FILE.py:CLASS:key=value")
+            raise BadInput(
+                f"--model = '{text}': write NAME:key=value,key=value, FILE.py:CLASS:key=value or "
+                "exec:PROGRAM:key=value"
+            )
         settings[key] = _value(value)
     return Candidate(name, settings)
 

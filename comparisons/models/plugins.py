@@ -7,9 +7,11 @@ a package offers under the entry-point group `sheetbench.models`:
     [project.entry-points."sheetbench.models"]
     mine = "my_package.my_module:MODEL"
 
+or as a program, `exec:PATH` (`comparisons.models.programs`).
+
 `settings` holds the defaults overridden by what the user asks (plain JSON data), and nothing that the
-defaults do not name. What `solve` raises as ValueError is bad input; a solve that does not get there says so
-in its Solution's status. docs/plugin.py is a short one.
+defaults do not name, unless the model `takes_any`. What `solve` raises as ValueError is bad input; a solve
+that does not get there says so in its Solution's status. docs/plugin.py is a short one.
 """
 
 from __future__ import annotations
@@ -25,12 +27,16 @@ from types import ModuleType
 from typing import Any, Protocol, runtime_checkable
 
 from comparisons.models import plugin_sources
+from comparisons.models.programs import PREFIX, Program
 from sheetbench.scenes import Scene, Solution
 from sheetbench.scenes.errors import BadInput
 
 GROUP = "sheetbench.models"
 OBJECT = "MODEL"  # what of a file is the model, unless said
-OWN = "A model of your own is named as FILE.py:CLASS, see docs/plugin.py, or installed with an entry point"
+OWN = (
+    "A model of your own is named as FILE.py:CLASS, see docs/plugin.py, as exec:PROGRAM, see docs/strip.sh, "
+    "or installed with an entry point"
+)
 
 
 @runtime_checkable
@@ -76,14 +82,26 @@ def from_file(name: str) -> Path | None:
     return Path(file) if colon and file.endswith(".py") else None
 
 
+def is_program(name: str) -> bool:
+    """Whether a model is a program."""
+    return name.startswith(PREFIX)
+
+
+def is_outside(name: str) -> bool:
+    """Whether a model is asked for as a file or a program, and not by the name that it is installed under."""
+    return is_program(name) or from_file(name) is not None
+
+
 def shown_name(name: str) -> str:
-    """What tables call a model: its plug-in's own name where it was asked for as a file."""
-    return plugin(name).name if from_file(name) is not None else name
+    """What tables call a model: its plug-in's own name where it was asked for as a file or a program."""
+    return plugin(name).name if is_outside(name) else name
 
 
 def digest(name: str) -> str | None:
-    """Of a plug-in's Python files, and of its distribution's name and version where it is installed: with
-    another digest it is another model. None of a model that is no plug-in."""
+    """Of a plug-in's Python files or its program, and of its distribution's name and version where it is
+    installed: with another digest it is another model. None of a model that is no plug-in."""
+    if is_program(name):
+        return Program(name.removeprefix(PREFIX)).digest()
     if (file := from_file(name)) is not None:
         return plugin_sources.digest(plugin_sources.of_file(file))
     if (entry := _found().get(name)) is None:
@@ -94,6 +112,8 @@ def digest(name: str) -> str | None:
 
 def _loaded(name: str) -> Any:
     """The object that a name or file stands for; a class is called."""
+    if is_program(name):
+        return Program(name.removeprefix(PREFIX))
     if from_file(name) is not None:
         return _of_file(name)
     found = _found()[name].load()
@@ -124,7 +144,7 @@ def _module(file: Path) -> ModuleType:
 def settings_of(model: Model, asked: Mapping[str, Any]) -> dict[str, Any]:
     """The model's defaults overridden by what is asked. Raises BadInput for a setting it does not have."""
     unknown = [key for key in asked if key not in model.settings]
-    if unknown:
+    if unknown and not getattr(model, "takes_any", False):
         known = ", ".join(model.settings) or "none"
         raise BadInput(f"model = '{model.name}': no setting '{unknown[0]}'; it has {known}")
     return {**model.settings, **asked}

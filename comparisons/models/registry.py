@@ -254,7 +254,7 @@ def _check_settings(scene: Scene, candidate: Candidate) -> None:
         check_reference(model, settings.get("elements", ELEMENTS), own)
     else:
         known = [*MODELS, *plugins.names()]
-        if model not in known and plugins.from_file(model) is None:
+        if model not in known and not plugins.is_outside(model):
             raise BadInput(f"model = '{model}': unknown, choose one of {', '.join(known)}. {plugins.OWN}")
         plugins.settings_of(plugins.plugin(model), settings)
 

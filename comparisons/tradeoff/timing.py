@@ -24,7 +24,7 @@ from comparisons.models import plugins
 from comparisons.models import registry as models
 from comparisons.runs import manifest
 from comparisons.runs.campaign import Run
-from sheetbench.scenes import Scene, Sheet, Solution
+from sheetbench.scenes import Scene, Sheet, Solution, Status
 
 SETTLED, MOST = 0.1, 25
 GAUSS_POINTS = 24  # along each side, for norms over the sheet
@@ -62,8 +62,12 @@ def measure(
 
     solution = solve()
     memory, samples = None, list[float]()
+    if solution.status is Status.FAILED:
+        repeats = 0
     if repeats:
         solution, memory = _with_peak_memory(solve)
+    if plugins.is_program(model):  # whose memory is not this process'
+        memory = None
     while len(samples) < repeats or (samples and sum(samples) < SETTLED and len(samples) < MOST):
         samples.append(solve().solve_seconds)
     if not samples:

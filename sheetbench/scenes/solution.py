@@ -35,6 +35,7 @@ class Status(StrEnum):
     INVERTED = "inverted"
     STRAIN_OUTSIDE_MODEL = "strain-outside-model"
     REFUSED = "refused"
+    FAILED = "failed"
 
     @property
     def advice(self) -> str:
@@ -53,6 +54,7 @@ _ADVICE = {
     Status.INVERTED: f"a cell or an element turned inside out: {_FINER}",
     Status.STRAIN_OUTSIDE_MODEL: "strains beyond what a linear spring or material means: not physical",
     Status.REFUSED: "the model does not support what the scene asks",
+    Status.FAILED: "a program of your own ended without an answer",
 }
 
 

@@ -1,0 +1,173 @@
+"""Models that are programs: any executable that reads a scene's JSON and writes an answer's JSON.
+
+It is asked for as `exec:PATH`, with settings after it: `exec:./mysim:seconds=5,n=9` runs `./mysim --n=9` for
+five seconds at most. On standard input it gets the scene, as "scene" in `compare --json` has it, its probes
+always there; on standard output it answers with one JSON object:
+
+    status    "converged", or another of `scenes.Status`
+    probes    {name: [ux, uy, uz]} in metres, of every probe of the scene
+    and, if it likes, solve_seconds (else the whole run counts), unknowns, iterations, load_factor, reactions
+    {edge: [Fx, Fy, Fz]}, label, message
+
+Exit status 2 with a line on standard error refuses a scene, as bad input. Any other that is not 0, a signal,
+no answer within the time, too much of it, or one that cannot be read is the status `failed` with what
+happened: it costs that row and no other. docs/strip.sh is a short one.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from collections.abc import Mapping
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from comparisons.models import memory
+from comparisons.models.running import run
+from sheetbench.scenes import FieldMesh, Scene, Solution, Status
+from sheetbench.scenes.errors import BadInput
+
+PREFIX = "exec:"
+SETTINGS = {"seconds": 60.0, "memory_mb": None}  # the limits; all others are the program's own
+REFUSED = 2  # exit status
+NUMBERS = ("solve_seconds", "unknowns", "iterations", "load_factor")
+
+
+class Program:
+    """An executable as a model (`comparisons.models.plugins.Model`)."""
+
+    settings = SETTINGS
+    takes_any = True  # settings, which are passed on
+
+    def __init__(self, path: str) -> None:
+        """Raises BadInput for what is not there or cannot be run."""
+        found = shutil.which(path) or shutil.which(path, path=os.curdir)
+        if found is None:
+            there = Path(path).is_file()
+            raise BadInput(f"{path}: " + ("not executable, see chmod +x" if there else "no such program"))
+        self.path = Path(found)
+        self.name = Path(path).stem
+
+    def digest(self) -> str:
+        """Of the program's own file."""
+        return sha256(self.path.read_bytes()).hexdigest()
+
+    def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
+        """The program's answer. Raises BadInput where it refuses the scene, or a limit is not one."""
+        seconds, most = _limits(settings)
+        own = {key: value for key, value in settings.items() if key not in SETTINGS}
+        options = [
+            f"--{key}" if value is True else f"--{key}={_written(value)}" for key, value in own.items()
+        ]
+        question = json.dumps(scene.document()).encode()
+        try:
+            ended = run([str(self.path.resolve()), *options], question, seconds, most)
+        except OSError as error:
+            raise BadInput(f"{self.path}: cannot be run: {error.strerror}") from None
+        if ended.code == REFUSED and not ended.stopped:
+            raise BadInput(f"{self.name}: {ended.complaint or 'refused, without a reason'}")
+        label = " ".join([self.name, *options])
+        found, why = {}, ended.fault
+        if not why:
+            try:
+                found = _read(scene, ended.answer)
+            except BadInput as error:
+                why = f"its answer cannot be read: {error}"
+        return _solution(scene, label, self.name, own, found, ended.seconds, why)
+
+
+def _limits(settings: Mapping[str, Any]) -> tuple[float, int | None]:
+    """Seconds, and megabytes of memory: as much as is free unless said."""
+    seconds, most = settings["seconds"], settings["memory_mb"]
+    for name, value in (("seconds", seconds), ("memory_mb", most)):
+        usual = value is None and name == "memory_mb"
+        if not usual and (isinstance(value, bool) or not isinstance(value, int | float) or not value > 0):
+            raise BadInput(f"exec: {name} = {value}: a number above 0")
+    if most is None:
+        free = memory.available()
+        return float(seconds), None if free is None else max(1, free // 2**20)
+    return float(seconds), int(most)
+
+
+def _read(scene: Scene, answer: bytes) -> dict[str, Any]:
+    """The answer, its vectors as arrays. Raises BadInput that says what is wrong with it."""
+    try:
+        found = json.loads(answer)
+    except (ValueError, RecursionError):
+        raise BadInput("not one JSON document") from None
+    if not isinstance(found, dict):
+        raise BadInput("not a JSON object")
+    probes, status = found.get("probes"), found.get("status", str(Status.CONVERGED))
+    if status not in [str(known) for known in Status]:
+        raise BadInput(f"status = {status!r}: choose from {', '.join(Status)}")
+    probes = probes if isinstance(probes, dict) else {}
+    missing = [name for name in scene.probes if name not in probes]
+    if missing:
+        raise BadInput(f"probes: {', '.join(missing)} missing")
+    read = {"probes": {name: _vector(probes[name], f"probes.{name}") for name in scene.probes}}
+    reactions = found.get("reactions") or {}
+    edges = dict(reactions) if isinstance(reactions, dict) else {}
+    told = {"reactions": {edge: _vector(force, f"reactions.{edge}") for edge, force in edges.items()}}
+    numbers = {name: _number(found[name], name) for name in NUMBERS if found.get(name) is not None}
+    texts = {name: str(found[name]) for name in ("label", "message") if found.get(name)}
+    return {**read, **told, **numbers, **texts, "status": status}
+
+
+def _vector(value: Any, name: str) -> np.ndarray:
+    numbers = isinstance(value, list) and all(type(part) in (int, float) for part in value)
+    if not numbers or len(value) != 3 or not np.all(np.isfinite(value)):
+        raise BadInput(f"{name} = {value}: three finite numbers")
+    return np.array(value, dtype=float)
+
+
+def _number(value: Any, name: str) -> float:
+    if type(value) not in (int, float) or not 0.0 <= value < np.inf:
+        raise BadInput(f"{name} = {value}: a number, not below 0")
+    return float(value)
+
+
+def _solution(
+    scene: Scene,
+    label: str,
+    name: str,
+    settings: dict[str, Any],
+    found: dict[str, Any],
+    seconds: float,
+    why: str,
+) -> Solution:
+    """The answer at the probes, none elsewhere; `why` there is none at all."""
+    nowhere = np.full(3, np.nan)
+    at = {scene.probes[probe]: u for probe, u in found.get("probes", {}).items()}
+    solving = float(found.get("solve_seconds", seconds))
+    points = scene.probe_points()
+    values = np.array([at.get(tuple(point), nowhere) for point in points.tolist()]).reshape(-1, 3)
+    return Solution(
+        model=name,
+        label=found.get("label", label),
+        settings=settings,
+        status=Status(found["status"]) if found else Status.FAILED,
+        unknowns=int(found.get("unknowns", 0)),
+        iterations=int(found.get("iterations", 0)),
+        setup_seconds=max(0.0, seconds - solving),
+        solve_seconds=solving,
+        sample=lambda asked: np.array([at.get(tuple(p), nowhere) for p in asked.tolist()]).reshape(-1, 3),
+        reactions=found.get("reactions", {}),
+        energies={},
+        mesh=FieldMesh(
+            np.column_stack([points, np.zeros(len(points))]),
+            [("vertex", np.arange(len(points))[:, None])],
+            {"displacement": values},
+        ),
+        load_factor=float(found.get("load_factor", 1.0)) if found else 0.0,
+        notes=tuple(filter(None, [why, found.get("message", "")])),
+    )
+
+
+def _written(value: Any) -> str:
+    if isinstance(value, list):
+        return "x".join(map(str, value))
+    return value if isinstance(value, str) else json.dumps(value)

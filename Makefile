@@ -9,7 +9,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
             shell_element.py shell_linear.py solid_element.py sections.py snaps.py campaign.py \
             report.py measurements.py) tests/fuzz
 
-.PHONY: docs-scene help install demo test check slow fuzz catalogue verify locking transfer tradeoff \
+.PHONY: docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer tradeoff \
         advisor-study stability wheel-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
@@ -20,6 +20,7 @@ help:
 	@echo "make catalogue the table of the catalogue's answers, tests/catalogue.json, for a change that is meant"
 	@echo "make verify    the references against published values, every row (about a minute)"
 	@echo "make locking   the locking sweeps and their picture (files in $(OUT)/)"
+	@echo "make coverage  how often the references' error bars hold, on forty drawn scenes (20 minutes; files in $(OUT)/coverage/)"
 	@echo "make transfer  every calibration on every scene of the transfer study (ten minutes; files in $(OUT)/transfer/)"
 	@echo "make tradeoff  error against time on the seed's test 1, with the picture (files in $(OUT)/)"
 	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/; up to half an hour)"
@@ -64,6 +65,9 @@ verify: install
 
 locking: install
 	@$(BIN)/sheetbench verify --locking --out $(OUT)
+
+coverage: install
+	@$(BIN)/sheetbench verify --coverage --out $(OUT)/coverage
 
 transfer: install
 	@$(BIN)/sheetbench transfer --out $(OUT)/transfer

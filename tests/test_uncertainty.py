@@ -49,10 +49,13 @@ def test_a_high_order_is_not_banked_on() -> None:
 
 
 @pytest.mark.parametrize("answers", [(1.0, 1.1, 1.0), (1.0, 1.2, 1.3), (1.0, 1.1, 1.12)])
-def test_swinging_or_growing_changes_get_three_times_their_range(answers: tuple[float, ...]) -> None:
+def test_swinging_or_growing_changes_get_twice_the_largest_of_their_pairs(answers: tuple[float, ...]) -> None:
     found = estimate([np.array([[value]]) for value in answers], SIZES)
     assert not found.trusted.any()
-    assert found.bar.item() == pytest.approx(3 * (max(answers) - min(answers)))
+    cubes = [(size / SIZES[0]) ** 3 for size in SIZES]
+    pairs = [(0, 1), (0, 2), (1, 2)]
+    each = [abs(answers[i] - answers[j]) / (cubes[j] - cubes[i]) for i, j in pairs]
+    assert found.bar.item() == pytest.approx(2.0 * max(each))
     assert found.extrapolated.item() == answers[0]
 
 
@@ -96,8 +99,8 @@ def test_a_mesh_without_an_answer_is_left_out() -> None:
     good = [fake_solutions.solution(scene, "shell", size) for size in (-0.01, -0.0101, -0.0103)]
     bad = fake_solutions.solution(scene, "shell", status=Status.DIVERGED, load_factor=0.5)
     points = scene.probe_points()
-    assert of_solutions([bad, *good[1:]], SIZES, points) is None
-    two = of_solutions([good[0], bad, good[2]], SIZES, points)
+    assert of_solutions(scene, [bad, *good[1:]], SIZES, points) is None
+    two = of_solutions(scene, [good[0], bad, good[2]], SIZES, points)
     assert two is not None and two.sizes == (SIZES[0], SIZES[2])
 
 

@@ -116,6 +116,7 @@ class Probing:
     @property
     def uncertainty(self) -> float:
         """Error bar of the judge, in the design's measure of error."""
+        from fem_reference.edge_layer import missed_by
         from fem_reference.uncertainty import estimate
 
         finest = self.judges[:-4:-1]
@@ -123,8 +124,8 @@ class Probing:
         answers = [trial.solution.displacement(self.points) for trial in trials if trial.usable]
         if len(answers) < len(finest) or len(answers) < 2:
             return float("inf")
-        bars = estimate(answers, [1.0 / cells for cells in finest])
-        return bars.error
+        layer = missed_by(self.scene, trials[0].solution.settings)
+        return estimate(answers, [1.0 / cells for cells in finest], layer).error
 
     def error(self, trial: Trial) -> float:
         """Error of a trial against the judge; infinite for an answer that is none."""

@@ -1,12 +1,15 @@
-"""`sheetbench verify`: the finite-element references against published values."""
+"""`sheetbench verify`: the finite-element references against published values, and their error bars."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, Overwrite
+from comparisons.cli.options import Json, Out, Overwrite, Retry, Workers
+
+if TYPE_CHECKING:
+    from comparisons.cli.finish import End
 
 
 def command(
@@ -22,6 +25,31 @@ def command(
     locking: Annotated[
         bool, typer.Option("--locking", help="Only the locking sweeps; with --out, their picture.")
     ] = False,
+    coverage: Annotated[
+        bool,
+        typer.Option(
+            "--coverage",
+            help="Instead: how often the references' error bars hold the error, on drawn scenes. With "
+            "--out an interrupted run is resumed.",
+        ),
+    ] = False,
+    scenes: Annotated[
+        int | None,
+        typer.Option(
+            min=1, metavar="N", help="With --coverage: scenes drawn; 40 unless given.", show_default=False
+        ),
+    ] = None,
+    model: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--model",
+            metavar="NAME",
+            help="With --coverage: only plate, shell or solid; may be repeated.",
+            show_default=False,
+        ),
+    ] = None,
+    workers: Workers = None,
+    retry: Retry = False,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -31,13 +59,42 @@ def command(
     from comparisons.verification import tables
     from fem_reference.verification import CASES, run
     from fem_reference.verification.locking import MODELS
+    from sheetbench.choices import REFERENCES
     from sheetbench.scenes.errors import BadInput, require_choice
 
     for name in case or ():
         require_choice("case", name, CASES)
-    if locking and case:
-        raise BadInput("--locking and --case: choose one")
+    for name in model or ():
+        require_choice("model", name, REFERENCES)
+    parts = {"--locking": locking, "--coverage": coverage, "--case": bool(case)}
+    if len(both := [option for option, given in parts.items() if given]) > 1:
+        raise BadInput(f"{' and '.join(both)}: choose one")
+    if not coverage and (scenes or model or workers or retry):
+        raise BadInput("--scenes, --model, --workers and --retry are of --coverage")
     chosen = list(MODELS) if locking else case
-    with finish("verify", json, out, overwrite, apart={"--locking": locking}) as end:
+    with finish("verify", json, out, overwrite, apart={"--locking": locking, "--coverage": coverage}) as end:
+        if coverage:
+            _coverage(end, scenes, model, workers, retry)
+            return
         rows = list(run(chosen, starting=lambda name: end.progress(f"verifying {name} …")))
         end(tables.report(rows, locking))
+
+
+def _coverage(
+    end: End, scenes: int | None, models: list[str] | None, workers: int | None, retry: bool
+) -> None:
+    import os
+
+    from comparisons.coverage import study
+
+    with end.campaign() as (store, pool, progress):
+        found = study.coverage(
+            store,
+            count=scenes or study.SCENES,
+            models=[name for name in study.MODELS if name in (models or study.MODELS)],
+            workers=workers or os.cpu_count() or 1,
+            pool=pool,
+            retry=retry,
+            progress=progress,
+        )
+    end(found.report())

@@ -21,6 +21,7 @@ TASKS = {
     "transfer.homogenised": "comparisons.transfer.tasks:homogenised",
     "transfer.lattice_frequencies": "comparisons.transfer.tasks:lattice_frequencies",
     "transfer.reference_frequencies": "comparisons.transfer.tasks:reference_frequencies",
+    "coverage.answer": "comparisons.coverage.tasks:answer",
     "stability.time-step": "comparisons.stability.time_step:measure",
     "stability.stiffness": "comparisons.stability.stiffness:measure",
     "stability.slenderness": "comparisons.stability.slenderness:measure",

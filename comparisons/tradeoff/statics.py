@@ -29,6 +29,7 @@ from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff import tables, timing
 from comparisons.tradeoff.pareto import error_order, front, grouped, order
 from comparisons.tradeoff.row import TradeoffRow, measured_row
+from fem_reference.edge_layer import missed_by
 from fem_reference.uncertainty import coarser, estimate, mesh_size
 from sheetbench.choices import ELEMENTS
 from sheetbench.scenes import Scene, comparable, require_static
@@ -154,19 +155,19 @@ def assemble(
     )
     meshes = [run.arguments["settings"]["elements"] for run in judges]
     sizes = [mesh_size(scene, n if isinstance(n, int) else tuple(n)) for n in meshes]
-    return Tradeoff(scene, rows, measured_row(scene, judges[0], truth), *_bars(judged, sizes, weights))
+    return Tradeoff(scene, rows, measured_row(scene, judges[0], truth), *_bars(scene, judged, sizes, weights))
 
 
 def _bars(
-    judged: Sequence[Finished], sizes: Sequence[float], weights: np.ndarray
+    scene: Scene, judged: Sequence[Finished], sizes: Sequence[float], weights: np.ndarray
 ) -> tuple[float | None, float | None]:
     """Uncertainty of the finest of the reference's answers, at the probes and over the sheet."""
     usable = [(o.row, size) for o, size in zip(judged, sizes, strict=True) if _comparable(o)]
     if len(usable) < 2 or not _comparable(judged[0]):
         return None, None
-    used = [size for _, size in usable]
-    at_probes = estimate([np.array(list(row["probes"].values())) for row, _ in usable], used)
-    field = estimate([np.array(row["field"]) for row, _ in usable], used)
+    used, layer = [size for _, size in usable], missed_by(scene, usable[0][0]["settings"])
+    at_probes = estimate([np.array(list(row["probes"].values())) for row, _ in usable], used, layer)
+    field = estimate([np.array(row["field"]) for row, _ in usable], used, layer)
     bar, size = (float(weights @ np.sum(u**2, axis=1)) for u in (field.bar, field.answer))
     return at_probes.error, float(np.sqrt(bar / size)) if size > 0.0 else None
 

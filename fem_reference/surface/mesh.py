@@ -59,11 +59,7 @@ def rectangle(
     Uniform; or graded towards all edges, where a clamp that ends at a free edge has a singularity and
     a thick sheet has boundary layers: the same number of elements, a far smaller error.
     """
-    counts = divisions(sheet, elements)
-    cut = [[name for name in cuts if EDGES[name].normal_axis == axis] for axis in (0, 1)]
-    across = min(n << len(at) for n, at in zip(counts, cut, strict=True))
-    layer = max(1, round(reach * across)) if graded else 1
-    x, y = (length * _part(n, layer, at) for length, n, at in zip(sheet.lengths, counts, cut, strict=True))
+    x, y = _lines(sheet, divisions(sheet, elements), graded, cuts, reach)
     mesh = MeshQuad.init_tensor(x, y)
     ends = {name: sheet.lengths[edge.normal_axis] * edge.far_end for name, edge in EDGES.items()}
     return mesh.with_boundaries({name: _at(EDGES[name].normal_axis, end) for name, end in ends.items()})
@@ -71,8 +67,26 @@ def rectangle(
 
 def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float = 1.0) -> MeshQuad:
     """The mesh of a scene's sheet, its planes of symmetry no edges (see `rectangle`)."""
-    cuts = [support.edge for support in scene.supports if isinstance(support, Symmetric)]
-    return rectangle(scene.sheet, elements, graded, cuts, reach)
+    return rectangle(scene.sheet, elements, graded, _cuts(scene), reach)
+
+
+def lines_of(scene: Scene, counts: tuple[int, int], graded: bool) -> tuple[np.ndarray, np.ndarray]:
+    """The lines of that mesh: their x and their y [m]."""
+    return _lines(scene.sheet, counts, graded, _cuts(scene))
+
+
+def _cuts(scene: Scene) -> list[str]:
+    return [support.edge for support in scene.supports if isinstance(support, Symmetric)]
+
+
+def _lines(
+    sheet: Sheet, counts: tuple[int, int], graded: bool, cuts: Collection[str], reach: float = 1.0
+) -> tuple[np.ndarray, np.ndarray]:
+    cut = [[name for name in cuts if EDGES[name].normal_axis == axis] for axis in (0, 1)]
+    across = min(n << len(at) for n, at in zip(counts, cut, strict=True))
+    layer = max(1, round(reach * across)) if graded else 1
+    x, y = (length * _part(n, layer, at) for length, n, at in zip(sheet.lengths, counts, cut, strict=True))
+    return x, y
 
 
 def _part(count: int, layer: int, cuts: Collection[str]) -> np.ndarray:

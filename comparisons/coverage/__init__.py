@@ -1,0 +1,1 @@
+"""Whether the references' error bars hold: scenes drawn at random, each bar against its error."""

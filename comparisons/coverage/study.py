@@ -1,0 +1,211 @@
+"""Does the error bar hold the error? How many components lie inside their bars, on drawn scenes.
+
+    error    |u − u_true| of a component of the displacement at a probe
+    bar      what `fem_reference.uncertainty` makes of the answers on n, ¾ n and ½ n elements
+    inside   error ≤ bar
+    loose    bar/error, its median over the components
+
+The truth is the same model's answer on a much finer mesh that is graded towards the edges (`TRUTH`): a bar
+speaks of the mesh, not of the model. A scene on which one of the models does not converge on every mesh is
+replaced by the next. Components below `LEAST` of the scene's largest displacement are rounding and count for
+nothing. The rule that makes the bars was set on the scenes of another seed (14) than those of `SEED`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from itertools import islice
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from comparisons.coverage import tables
+from comparisons.coverage.scenes import SEED, drawn_scenes
+from comparisons.runs.campaign import Progress, Run, carry_out
+from comparisons.runs.executors import Pool, processes
+from comparisons.runs.store import Finished, Store
+from sheetbench.scenes import Scene, Status
+
+if TYPE_CHECKING:
+    from comparisons.report.report import Report
+
+TRUTH = {"plate": 48, "shell": 32, "solid": 24}  # elements along the shorter side
+MODELS = tuple(TRUTH)
+MESHES = (8, 16)
+SCENES = 40
+GOAL, LOOSE = 0.95, 5.0  # share inside, and median of bar/error, that are asked for
+LEAST = 1e-6
+
+
+@dataclass(frozen=True)
+class Component:
+    """A component of the displacement at a probe: answer, truth and bar [m], observed order, nan if none."""
+
+    scene: str
+    model: str
+    elements: int
+    probe: str
+    component: str
+    answer: float
+    truth: float
+    bar: float
+    order: float
+
+    @property
+    def error(self) -> float:
+        """|u − u_true| [m]."""
+        return abs(self.answer - self.truth)
+
+    @property
+    def inside(self) -> bool:
+        """Whether the bar holds the error."""
+        return self.error <= self.bar
+
+
+@dataclass(frozen=True)
+class Coverage:
+    """components: of all scenes, models and meshes; scenes: their names; skipped: scenes that were replaced,
+    and why; truth: elements of the truth by model."""
+
+    components: tuple[Component, ...]
+    scenes: tuple[str, ...]
+    skipped: dict[str, str]
+    truth: Mapping[str, int]
+
+    def rows(self) -> list[dict[str, Any]]:
+        """A row per model and mesh."""
+        keys = dict.fromkeys((c.model, c.elements) for c in self.components)
+        return [_row(model, n, self.of(model, n)) for model, n in keys]
+
+    def of(self, model: str, elements: int) -> list[Component]:
+        """The components of a model on a mesh."""
+        return [c for c in self.components if (c.model, c.elements) == (model, elements)]
+
+    @property
+    def met(self) -> bool:
+        """Whether every bar holds as often as is asked for, and is no looser."""
+        return all(row["met"] for row in self.rows())
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON document: lengths in metres."""
+        return {
+            "rows": self.rows(),
+            "scenes": list(self.scenes),
+            "skipped": self.skipped,
+            "truth": dict(self.truth),
+            "components": [{**asdict(c), "inside": c.inside} for c in self.components],
+        }
+
+    def report(self) -> Report:
+        """What is shown of it."""
+        return tables.report(self)
+
+
+def _row(model: str, elements: int, found: Sequence[Component]) -> dict[str, Any]:
+    inside = float(np.mean([c.inside for c in found]))
+    ratios = [c.bar / c.error for c in found if c.error > 0.0]
+    loose = float(np.median(ratios)) if ratios else float("nan")
+    return {
+        "model": model,
+        "elements": elements,
+        "scenes": len({c.scene for c in found}),
+        "components": len(found),
+        "inside": inside,
+        "loose": loose,
+        "farthest": max((c.error / c.bar for c in found if c.bar > 0.0), default=float("nan")),
+        "met": inside >= GOAL and not loose > LOOSE,
+    }
+
+
+def coverage(
+    store: Store,
+    *,
+    count: int = SCENES,
+    models: Sequence[str] = MODELS,
+    meshes: Sequence[int] = MESHES,
+    truth: Mapping[str, int] = TRUTH,
+    seed: int = SEED,
+    workers: int = 1,
+    pool: Pool = processes,
+    retry: bool = False,
+    progress: Callable[[Progress], None] = lambda progress: None,
+) -> Coverage:
+    """Measure the bars of the models on the meshes on `count` drawn scenes, through a campaign's store.
+
+    truth: elements of the truth by model.
+    """
+    from fem_reference.uncertainty import coarser
+
+    sizes = sorted({n for mesh in meshes for n in coarser(mesh) if isinstance(n, int)})
+
+    def answers(scenes: Sequence[Scene]) -> list[dict[tuple[str, int], Finished]]:
+        """Of every scene on every mesh, the dear ones on scenes that the cheap ones have not ruled out."""
+        found: list[dict[tuple[str, int], Finished]] = [{} for _ in scenes]
+        for asked in (sizes[:1], sizes[1:], None):
+            left = [i for i, one in enumerate(found) if _failure(one) is None]
+            runs = [
+                (i, (model, n), _run(scenes[i], model, n, asked is None))
+                for i in left
+                for model in models
+                for n in ([truth[model]] if asked is None else asked)
+            ]
+            done = carry_out(
+                [run for *_, run in runs], store, workers=workers, pool=pool, retry=retry, progress=progress
+            )
+            for (i, key, _), outcome in zip(runs, done, strict=True):
+                found[i][key] = outcome
+        return found
+
+    endless, chosen, skipped = drawn_scenes(seed), list[str](), dict[str, str]()
+    components: list[Component] = []
+    while len(chosen) < count:
+        drawn = list(islice(endless, count - len(chosen)))
+        for scene, outcomes in zip(drawn, answers(drawn), strict=True):
+            if (failure := _failure(outcomes)) is not None:
+                skipped[scene.name] = failure
+                continue
+            chosen.append(scene.name)
+            for model in models:
+                of_model = {n: done.row for (name, n), done in outcomes.items() if name == model}
+                components += [c for n in meshes for c in measured(scene, model, n, of_model, truth)]
+    return Coverage(tuple(components), tuple(chosen), skipped, truth)
+
+
+def measured(
+    scene: Scene,
+    model: str,
+    elements: int,
+    rows: Mapping[int, Mapping[str, Any]],
+    truth: Mapping[str, int] = TRUTH,
+) -> Iterator[Component]:
+    """The components of a model's answers: rows of `tasks.answer` by their meshes, that of the truth too."""
+    from fem_reference.edge_layer import missed_by
+    from fem_reference.uncertainty import coarser, estimate, mesh_size
+
+    meshes = [n for n in coarser(elements) if isinstance(n, int)]
+    answers = [np.array(rows[n]["displacement"]) for n in meshes]
+    layer = missed_by(scene, rows[elements]["settings"])
+    found = estimate(answers, [mesh_size(scene, n) for n in meshes], layer)
+    fine = np.array(rows[truth[model]]["displacement"])
+    least = LEAST * float(np.max(np.abs(fine), initial=0.0))
+    for i, probe in enumerate(scene.probes):
+        for axis, name in enumerate(("ux", "uy", "uz")):
+            values = (float(a[i, axis]) for a in (found.answer, fine, found.bar, found.order))
+            one = Component(scene.name, model, elements, probe, name, *values)
+            if max(abs(one.answer), abs(one.truth)) > least:
+                yield one
+
+
+def _run(scene: Scene, model: str, elements: int, fine: bool) -> Run:
+    arguments = {"scene": scene.document(), "model": model, "elements": elements}
+    graded = {"graded": True} if fine and model == "plate" else {}  # the others are graded as they are
+    return Run("coverage.answer", arguments | graded, f"{scene.name} {model} {elements}")
+
+
+def _failure(outcomes: dict[tuple[str, int], Finished]) -> str | None:
+    """The first model and mesh without a converged answer, and how that ended."""
+    for (model, elements), done in outcomes.items():
+        if done.status != Status.CONVERGED:
+            return f"{model} on {elements} elements: {done.status}: {done.message}"
+    return None

@@ -1,0 +1,94 @@
+"""Error bars against errors: the drawn scenes, the counting, and a part of `sheetbench verify --coverage`."""
+
+from __future__ import annotations
+
+import json
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+import pytest
+from campaigns import Here
+
+from comparisons.cli import main
+from comparisons.coverage import study
+from comparisons.coverage.scenes import ARRANGEMENTS, SEED, drawn_scenes
+from comparisons.coverage.study import GOAL, LOOSE, coverage, measured
+from comparisons.runs.store import Store
+from sheetbench import scenes
+from sheetbench.scenes.scene import require_static
+
+TRUTH = {"plate": 20, "shell": 16}  # enough beside 8 elements, and quick
+
+
+def test_scenes_are_drawn_the_same_and_have_every_support_and_load() -> None:
+    drawn = list(islice(drawn_scenes(), 2 * len(ARRANGEMENTS)))
+    assert drawn == list(islice(drawn_scenes(SEED), len(drawn)))
+    assert drawn[0] != next(drawn_scenes(SEED + 1))
+    for scene in drawn:
+        require_static(scene)
+        assert 0.003 <= scene.sheet.thickness / min(scene.sheet.lengths) <= 0.05
+        assert len(scene.probes) == 6
+    held = {(support.kind, getattr(support, "tilt", 0.0) != 0.0) for s in drawn for support in s.supports}
+    assert held == {(k, False) for k in ("clamped", "hinged", "held", "curved")} | {("clamped", True)}
+    assert {load.kind for scene in drawn for load in scene.loads} == {"point", "edge", "pressure"}
+    assert any(scene.actuators for scene in drawn) and any(scene.gravity is None for scene in drawn)
+
+
+def test_a_component_is_inside_where_its_error_is_below_its_bar() -> None:
+    scene = scenes.load("two-edges-clamped")
+
+    def row(miss: float) -> dict[str, object]:
+        """A field that is off by a share at P4, in uz, and by nothing elsewhere."""
+        u = np.full((len(scene.probes), 3), 1e-3)
+        u[:, 0] = 1e-12  # below rounding
+        u[-1, 2] *= 1.0 + miss
+        return {"displacement": u, "settings": {"elements": [8, 8], "graded": True}}
+
+    def found(truth: float) -> list[bool]:
+        rows = {n: row(0.01 * (8 / n) ** 2) for n in (8, 6, 4)} | {48: row(truth)}
+        components = list(measured(scene, "plate", 8, rows))
+        assert len(components) == 2 * len(scene.probes)
+        assert {c.component for c in components} == {"uy", "uz"}
+        return [c.inside for c in components]
+
+    assert all(found(0.0)) and found(-0.1).count(False) == 1
+
+
+def test_bars_of_plate_and_shell_hold_on_six_drawn_scenes(store: Store) -> None:
+    """As many as all forty shall have, but for the three components of a hundred that chance may take."""
+    found = coverage(store, count=6, models=("plate", "shell"), meshes=(8,), truth=TRUTH, pool=Here)
+    assert len(found.scenes) == 6
+    for row in found.rows():
+        assert row["components"] > 30
+        assert row["inside"] >= GOAL - 0.03 and row["loose"] <= 1.5 * LOOSE
+
+
+def test_the_command_writes_what_it_counted(
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    in_process: None,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setitem(study.TRUTH, "plate", 20)
+    asked = ["verify", "--coverage", "--scenes", "1", "--model", "plate", "--json", "--out", str(tmp_path)]
+    with pytest.raises(SystemExit) as caught:
+        main(asked)
+    document = json.loads(capsys.readouterr().out)
+    assert caught.value.code in (0, 3) and bool(caught.value.code) is not all(
+        row["met"] for row in document["rows"]
+    )
+    assert [(row["model"], row["elements"]) for row in document["rows"]] == [("plate", 8), ("plate", 16)]
+    assert len(document["components"]) == sum(row["components"] for row in document["rows"])
+    assert {"coverage.csv", "coverage.md", "components.csv", "misses.csv"} <= {
+        p.name for p in tmp_path.iterdir()
+    }
+
+
+@pytest.mark.parametrize(
+    "wrong", [["--coverage", "--locking"], ["--scenes", "3"], ["--coverage", "--model", "lumped"]]
+)
+def test_options_that_do_not_go_together_are_refused(wrong: list[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(["verify", *wrong])
+    assert caught.value.code == 2

@@ -21,7 +21,7 @@ SHADES = "magma_r"
 
 
 if TYPE_CHECKING:
-    from comparisons.identification.identification import Identification
+    from comparisons.identification.found import Identification
 
 
 def picture(paths: Sequence[Path], found: Identification) -> None:

@@ -18,7 +18,6 @@ Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from math import inf
 from pathlib import Path
 from typing import Any
@@ -26,7 +25,8 @@ from typing import Any
 import numpy as np
 from scipy.optimize import least_squares
 
-from comparisons.identification import surface, tables
+from comparisons.identification import surface
+from comparisons.identification.found import Found, Identification
 from comparisons.identification.measurements import Displacements, Measured, Surface, read
 from comparisons.identification.misfit import Misfit, require_same_way
 from comparisons.identification.prediction import (
@@ -43,7 +43,6 @@ from comparisons.models.grids import Asked, Elements, scene_grid
 from comparisons.models.registry import check, check_reference
 from comparisons.models.sizes import has_room
 from comparisons.models.springs import check_lattice
-from comparisons.report.report import Report
 from comparisons.report.table import quantity
 from comparisons.report.work import Progress, Work, silent
 from lumped import CALIBRATIONS, Identifiability, identifiability
@@ -58,66 +57,6 @@ SMALLEST = 1e-10  # change of x, or of the sum of squares, that ends the search
 PULL = 1e-6  # residual, in units of the data, that a unit of x is worth
 EVALUATIONS = 60
 POOR = 0.05  # standard deviation of the residuals, of the largest measurement: more than noise usually is
-
-
-@dataclass(frozen=True)
-class Found:
-    """An unknown's value, its 95 % interval, the value the search started from, the unit, and about where a
-    lattice with cells half as large would put it (None: not asked)."""
-
-    value: float
-    interval: tuple[float, float]
-    start: float
-    unit: str
-    refined: float | None = None
-
-
-@dataclass(frozen=True)
-class Identification:
-    """unknowns: name → Found; residuals [m], model less measured: (n, 3) of displacements, nan where nothing
-    was measured, or (n,) along the normals at cloud points; noise: s [m]; relative: the largest residual over
-    the largest measurement; converged: whether the search ended at a minimum."""
-
-    scene: Scene
-    measured: Measured
-    model: str
-    settings: dict[str, Any]
-    unknowns: dict[str, Found]
-    residuals: np.ndarray
-    noise: float
-    relative: float
-    evaluations: int
-    converged: bool
-    warnings: tuple[str, ...]
-
-    def as_dict(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench identify`: SI units, null where nothing was measured."""
-        return {
-            "scene": self.scene.name,
-            "model": self.model,
-            "settings": self.settings,
-            "unknowns": {
-                name: {
-                    "value": u.value,
-                    "interval": list(u.interval),
-                    "refined": u.refined,
-                    "start": u.start,
-                    "unit": u.unit,
-                }
-                for name, u in self.unknowns.items()
-            },
-            "residuals": self.residuals,
-            "points": self.measured.points,
-            "noise": self.noise,
-            "relative": self.relative,
-            "evaluations": self.evaluations,
-            "converged": self.converged,
-            "warnings": list(self.warnings),
-        }
-
-    def report(self, file: str = "") -> Report:
-        """What is shown of it; file: where the measurements were read from."""
-        return tables.report(self, file)
 
 
 def identify(

@@ -15,7 +15,7 @@ from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table, unit
 
 if TYPE_CHECKING:
-    from comparisons.identification.identification import Identification
+    from comparisons.identification.found import Identification
 
 SHOWN = 20  # residuals on the terminal; all of them are in the files
 

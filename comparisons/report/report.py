@@ -76,7 +76,11 @@ class Report:
     def __repr__(self) -> str:
         heading = " ".join(filter(None, [self.title, self.subtitle]))
         return "\n".join(
-            [f"{terminal(heading)}\n", *(f"{table}" for table in self.shown), *map(terminal, self.notes)]
+            [
+                f"{terminal(heading)}\n",
+                *(f"{table}" for table in self.shown),
+                *(terminal(said, keep="\n") for said in self.notes),
+            ]
         )
 
     def _repr_html_(self) -> str:

@@ -1,0 +1,55 @@
+"""The documentation: `make docs` makes it of these pages, the docstrings and the scripts of examples/."""
+
+from __future__ import annotations
+
+import logging
+import sys
+from importlib.metadata import version as version_of
+from pathlib import Path
+from typing import Any
+
+sys.path.insert(0, str(Path(__file__).parent))
+from plain_docstrings import as_restructured
+from verb_pages import write_verb_pages
+
+logging.getLogger("skfem").setLevel(logging.WARNING)  # it tells of every basis
+
+project = "sheetbench"
+version = release = version_of("sheetbench")
+copyright = "the sheetbench developers, MIT licence"
+
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.viewcode", "sphinx_gallery.gen_gallery"]
+source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
+exclude_patterns = ["_build"]
+html_theme = "furo"
+html_title = "sheetbench"
+templates_path: list[str] = []
+
+myst_heading_anchors = 3
+myst_enable_extensions = ["dollarmath"]
+
+autodoc_typehints = "description"
+autodoc_member_order = "bysource"
+autodoc_default_options = {"members": True, "show-inheritance": False}
+
+sphinx_gallery_conf = {
+    "examples_dirs": "../examples",
+    "gallery_dirs": "examples",
+    "filename_pattern": r"/\d\d_",
+    "ignore_pattern": r"other-codes",
+    "within_subsection_order": "FileNameSortKey",
+    "abort_on_example_error": True,
+    "download_all_examples": False,
+    "show_memory": False,
+    "min_reported_time": 1e9,  # times of a loaded machine are no documentation
+}
+
+
+def _plain(app: Any, what: str, name: str, what_of: Any, options: Any, lines: list[str]) -> None:
+    lines[:] = as_restructured(lines)
+
+
+def setup(app: Any) -> None:
+    """The verbs' pages before the pages are read, and docstrings as they are written."""
+    app.connect("builder-inited", lambda built: write_verb_pages(Path(built.srcdir) / "verbs"))
+    app.connect("autodoc-process-docstring", _plain)

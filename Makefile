@@ -9,7 +9,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
             shell_element.py shell_linear.py solid_element.py sections.py snaps.py campaign.py \
             report.py measurements.py) tests/fuzz
 
-.PHONY: docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer tradeoff \
+.PHONY: docs docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer tradeoff \
         advisor-study stability wheel-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
@@ -26,6 +26,7 @@ help:
 	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/; up to half an hour)"
 	@echo "make stability where each solver holds, degrades, refuses or breaks: eight maps (six minutes; files in $(OUT)/stability/)"
 	@echo "make docs-scene  the page of every key of a scene and its sketch, docs/scene.md, from the types"
+	@echo "make docs      the documentation as a site, docs/_build/html/index.html (three minutes; a warning is an error)"
 	@echo "make wheel-check  the wheel as its users get it: installed elsewhere, run there, uninstalled without a trace"
 	@echo "make install   set up only: $(BIN)/sheetbench"
 	@echo "make clean     remove the environment and the demo's files"
@@ -85,6 +86,11 @@ stability: install
 	@$(BIN)/sheetbench stability --out $(OUT)/stability
 	@$(BIN)/python -m pytest -m slow tests/test_stability.py
 
+docs: install
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[docs]'
+	@$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going --builder html docs docs/_build/html
+	@echo "docs/_build/html/index.html"
+
 docs-scene: install
 	@$(BIN)/python docs/scene_sketch.py
 	@$(BIN)/sheetbench schema --markdown > docs/scene.md
@@ -97,4 +103,4 @@ lint: install
 	@$(BIN)/mypy
 
 clean:
-	rm -rf $(VENV) $(OUT) build *.egg-info
+	rm -rf $(VENV) $(OUT) build *.egg-info docs/_build docs/verbs docs/examples

@@ -1,0 +1,73 @@
+"""The documentation: the tutorial runs as written; commands, scenes and links name what exists."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+from commands import run
+
+from comparisons.cli.app import VERBS
+from sheetbench import scenes
+
+ROOT = Path(__file__).parent.parent
+PAGES = sorted((ROOT / "docs").glob("*.md"))
+GENERATED = ("verbs/", "examples/")  # by `make docs`
+
+
+def blocks(page: Path, languages: str) -> list[tuple[str, str]]:
+    """The fenced blocks of a page: language and text."""
+    return re.findall(rf"^```({languages})\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S)
+
+
+def commands(block: str) -> list[list[str]]:
+    """The words of every sheetbench command in a block."""
+    return [
+        shlex.split(line, comments=True)[1:] for line in block.splitlines() if line.startswith("sheetbench ")
+    ]
+
+
+def test_tutorial_runs_as_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shutil.copy(ROOT / "examples/other-codes/read_lattice.py", tmp_path)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    for language, text in blocks(ROOT / "docs/tutorial.md", "sh|python"):
+        if language == "python":
+            exec(compile(text, "tutorial.md", "exec"), {})
+            continue
+        for words in commands(text):
+            assert run(*words) == 0, words
+    sys.modules.pop("read_lattice", None)
+    off = re.search(r"off by ([\d.]+) %", capsys.readouterr().out)
+    assert off and float(off[1]) < 10.0  # of a coarse grid; without its area springs it is 40 % off
+    for name in ("mine.pdf", "trade/tradeoff.pdf", "trade/manifest.json"):
+        assert (tmp_path / name).stat().st_size > 0
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_commands_name_verbs_and_scenes_that_exist(page: Path) -> None:
+    for _, text in blocks(page, "sh"):
+        for verb, *arguments in commands(text):
+            assert verb in VERBS
+            if verb in ("compare", "simulate", "tradeoff", "advise", "modes"):
+                assert arguments[0] in scenes.catalogue() or arguments[0].endswith(".toml")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_links_lead_somewhere(page: Path) -> None:
+    for link in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
+        if "://" not in link and not link.startswith(GENERATED):
+            assert (page.parent / link).exists(), link
+
+
+def test_scenes_of_the_documentation_load(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    ((_, text),) = blocks(ROOT / "docs/first-steps.md", "toml")
+    path.write_text(text, encoding="utf-8")
+    scenes.require_static(scenes.load(path))

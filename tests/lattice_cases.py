@@ -10,13 +10,14 @@ from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
 SHEET = Sheet(length_x=0.2, length_y=0.3, thickness=0.01)
 MATERIAL = Material(young=1e6, poisson=0.3, density=1000.0)
 NONE = {"axial": 0.0, "diagonal": 0.0, "vertical": 0.0, "cross": 0.0, "cross_diagonal": 0.0}
-TERMS = [*NONE, "area", "mid_area", "shear", "mid_shear", "mid_stretch"]
+TERMS = [*NONE, "area", "mid_area", "shear", "stretch", "mid_shear", "mid_stretch"]
 ALL = {
     **dict.fromkeys(NONE, 90.0),
     "axial": PerDirection(x=100.0, y=70.0),
     "area": 40.0,
     "mid_area": -8.0,
     "shear": 30.0,
+    "stretch": PerDirection(x=35.0, y=15.0),
     "mid_shear": 20.0,
     "mid_stretch": 25.0,
 }

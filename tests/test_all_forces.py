@@ -32,7 +32,7 @@ def cases():
     yield "equal", sheet, lumped.calibrate(sheet.sheet, sheet.material, grid=(9, 9))
     yield "oblong", sheet, lumped.calibrate(sheet.sheet, sheet.material, grid=(4, 7))
     yield "long lines", sheet, lumped.calibrate(sheet.sheet, sheet.material, grid=(140, 3))
-    edges = lumped.calibrate(sheet.sheet, sheet.material, grid=(6, 5), method="consistent-edges", grading=0.5)
+    edges = lumped.calibrate(sheet.sheet, sheet.material, grid=(6, 5), method="consistent", grading=0.5)
     yield "graded, with strain springs", sheet, edges
     yield (
         "three layers",

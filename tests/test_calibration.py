@@ -53,20 +53,30 @@ def test_consistent_meets_every_modulus(grid):
         assert row["got"] == pytest.approx(row["asked"], rel=1e-10), row["name"]
 
 
-def test_consistent_is_the_printed_closed_form():
-    calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9))
+@pytest.mark.parametrize(
+    "method, share", [("consistent-interior", 1 / 3), ("consistent", 3 / (5 + 2 * SEED.material.poisson))]
+)
+def test_consistent_is_the_printed_closed_form(method, share):
+    calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), method)
     nu, spacing = 0.48, 0.188 / 8
     shear = 1 / (1 / (5 / 6 * 54.5e6 / 2 / 1.48 * 0.003) + spacing**2 / (12 * RIGIDITY))
     stretching = 12 * RIGIDITY / 0.003**2
-    lz2 = (4 * RIGIDITY + 2 / 3 * shear * spacing**2 / (1 - nu)) / stretching
+    lz2 = (4 * RIGIDITY + 2 * share * shear * spacing**2 / (1 - nu)) / stretching
     c, t = 2 * RIGIDITY / lz2, shear * spacing**2 / (2 * lz2)
     springs = calibration.springs
     assert calibration.layer_distance == pytest.approx(np.sqrt(lz2), rel=1e-12)
-    assert springs.axial == pytest.approx(c * (1 - nu), rel=1e-12)
+    if method == "consistent":
+        by_grid = shear * spacing**2 / (12 * RIGIDITY)
+        assert springs.stretch == pytest.approx(by_grid * c * (1 - nu) * (2 - nu) / 3, rel=1e-12)
+        assert springs.axial + springs.stretch == pytest.approx(c * (1 - nu), rel=1e-12)
+    else:
+        assert springs.axial == pytest.approx(c * (1 - nu), rel=1e-12)
     assert springs.diagonal == pytest.approx(c * (1 - nu) / 2, rel=1e-12)
     assert springs.area == pytest.approx(c * (3 * nu - 1) / 2, rel=1e-12)
-    assert springs.cross == pytest.approx(2 * t / 3 * (spacing**2 + lz2) / spacing**2, rel=1e-12)
-    assert springs.cross_diagonal == pytest.approx(t / 6 * (2 * spacing**2 + lz2) / spacing**2, rel=1e-12)
+    assert springs.cross == pytest.approx(t * (1 - share) * (spacing**2 + lz2) / spacing**2, rel=1e-12)
+    assert springs.cross_diagonal == pytest.approx(
+        t * share / 2 * (2 * spacing**2 + lz2) / spacing**2, rel=1e-12
+    )
     assert springs.vertical == pytest.approx(4 * c, rel=1e-12)
 
 
@@ -205,7 +215,7 @@ def test_json_document():
     document = lumped.calibrate(SEED.sheet, SEED.material, (9, 9)).as_dict()
     assert set(document["springs"]) == {
         "axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area",
-        "edge_shear", "strip_shear",
+        "stretch", "mid_stretch", "edge_shear", "strip_shear",
     }  # fmt: skip
     assert [row["name"] for row in document["moduli"]] == ["D11", "D12", "D66", "A11", "A12", "A66", "S"]
 

@@ -61,13 +61,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The seed's test 1 on 4 × 4 × 2 masses, edge twist and all."""
     made = tmp_path_factory.mktemp("lattice")
     scene = scenes.load("two-edges-clamped")
-    export(made, scene, spring_set(scene, 4, method="consistent-edges"))
+    export(made, scene, spring_set(scene, 4, method="consistent"))
     return made
 
 
 def test_the_tables_hold_what_the_lattice_is(folder: Path) -> None:
     scene = scenes.load("two-edges-clamped")
-    solution = lumped.solve(scene, spring_set(scene, 4, method="consistent-edges"))
+    solution = lumped.solve(scene, spring_set(scene, 4, method="consistent"))
     nodes, links, cells = (table(folder / f"{name}.csv") for name in ("nodes", "links", "cells"))
     assert [*nodes[0]] == ["number", "i", "j", "k", "x", "y", "z", "mass"]
     assert [*links[0]] == ["a", "b", "family", "rest_length", "stiffness", "damping"]
@@ -105,7 +105,7 @@ def test_matlab_and_numpy_files_hold_the_same(folder: Path) -> None:
     [
         (scenes.load("curved-edge"), {"grading": 0.5}),
         (HINGED, {"method": "moduli"}),
-        (HALF, {"method": "consistent-edges"}),
+        (HALF, {"method": "consistent"}),
         (scenes.load("one-edge-clamped"), {"method": "uniform"}),
     ],
     ids=["curved, graded", "hinged and held", "half, point and edge loads", "uniform"],

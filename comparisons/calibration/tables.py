@@ -27,6 +27,7 @@ _MEANINGS = {
     "area": "area spring of a cell in a layer",
     "mid_area": "area spring of a mid-surface cell",
     "shear": "strain spring of a cell in a layer, in-plane shear",
+    "stretch": "strain spring of a cell in a layer, stretching",
     "mid_shear": "strain spring of a mid-surface cell, in-plane shear",
     "edge_shear": "added to the shear of a layer's cells along a free, hinged or held edge",
     "strip_shear": "the same where the opposite edge is free, hinged or held too",

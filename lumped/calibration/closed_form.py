@@ -6,10 +6,10 @@ Square cells of side l, two layers at distance lz (docs/theory.md, section 3; S*
     p = S* l²/(3 lz²),  kdT = p (l² + lz²)/l²,  kddT = p (2 l² + lz²)/(4 l²),
     m = ν A − 2 (kd + kA) − (p − δ),      kz = 8 D/lz² (free: it sets only δ and the stiffest frequency).
 
-Here for cells of sides lx, ly (r = lx/ly) and L layers. The cross-layer links between two layers have the
-in-plane form G11 = S*x lx²/(s lz²), G22 = S*y ly²/(s lz²), G12 = G66 = P whatever their split, s the shear
-gaps of `lumped.moduli`, and a third of it at most goes to the furthest diagonals. With σ = Σ z_k²/lz² and
-σ' = Σ z_g²/lz² of layers and gaps, a layer's form is
+Here for cells of sides lx, ly (r = lx/ly) and L layers. The cross-layer links between two layers have the in-
+plane form G11 = S*x lx²/(s lz²), G22 = S*y ly²/(s lz²), G12 = G66 = P whatever their split, s the shear gaps
+of `lumped.moduli`, and a third of it at most goes to the furthest diagonals. With σ = Σ z_k²/lz² and σ' = Σ
+z_g²/lz² of layers and gaps, a layer's form is
 
     C = (D − σ' lz² (G − δ))/(σ lz²),
 
@@ -17,7 +17,24 @@ of which diagonals take the share f = min(1, 1/(r² − 1)) of C66 (r ≥ 1; mor
 along the cell, see `lumped.springs.strains`), shear springs the rest, area springs C12 − f C66, axial links
 what is left of C11 and C22. What the sheet's A has beyond L C + (L − 1)(G − δ) goes to the mid-surface: m to
 A12, the rest to strain springs, with lz the least for which none is negative. On square cells all of those
-vanish. A cell of a graded grid has its layers as far apart as its neighbours: lz is then given, and larger.
+vanish if P is G11/3. A cell of a graded grid has its layers as far apart as its neighbours: lz is then given,
+and larger.
+
+That leaves free what a strain costs that varies across a cell. A cell bent in its plane, ε_x = χ y, has the
+links along x on its two sides stretched and nothing else: with E_x of C11 in those it stores ½ E_x (χ ly/2)²
+per area, where the sheet, free to contract, stores ½ (C11 − C12²/C22) χ² ly²/12. So links along the sides
+should carry E_x = (C11 − C12²/C22)/3, a third of an isotropic sheet's E h, and what belongs to the whole cell
+the rest: with all they can they make a coarse lattice up to twice too stiff in its plane, and layers at bent
+edges and in soft sheets too wide (`gradients`). So for the cross-layer links' part, of which (A66 − L C66)/(L
+− 1) = P goes with the diagonals and G11 − P r² with the sides,
+
+    P = min(G11/(r² + c), G22/(1/r² + c)),      c = E_x/A66 (2 (1 + ν)/3 of an isotropic sheet),
+
+but no more than ⅔ G11/r² and ⅔ G22 r²: of transverse shear that varies across the cell the sides have a
+third. Axial links give what they have beyond a third of the layer's to `stretch`, in the share t = S* l²/(12
+D) that the grid has in the flexibility to shear: all of it where cells are many times as wide as the sheet is
+thick, little in cells as fine as the layers at free edges, whose sides see those (else a free corner
+converges at order 1.3 only).
 """
 
 from __future__ import annotations
@@ -32,17 +49,27 @@ from sheetbench.scenes import SpringSet
 
 
 def closed_form(
-    asked: Moduli, spacing: tuple[float, float], layers: int, layer_distance: float | None = None
+    asked: Moduli,
+    spacing: tuple[float, float],
+    layers: int,
+    layer_distance: float | None = None,
+    gradients: bool = False,
 ) -> SpringSet | None:
     """The springs that have the moduli asked; None where a link would be negative (many layers on coarse
     grids: there the cross-layer links alone bend too stiffly), and where a layer distance [m] that is given
-    is less than the cell needs."""
+    is less than the cell needs. gradients: whether strains that vary across a cell cost what they cost the
+    sheet, or links take all they can."""
     lx, ly = spacing
     heights = np.arange(layers) - (layers - 1) / 2
     sigma = float((heights**2).sum())
     sigma_gap = float((((heights[1:] + heights[:-1]) / 2) ** 2).sum())
     gap = asked.shear * np.array([lx**2, ly**2]) / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
-    p = float(min(gap.max(), gap[0] * ly**2 / lx**2 * 1.5, gap[1] * lx**2 / ly**2 * 1.5)) / 3.0
+    on_sides = _on_sides(asked.membrane)
+    if gradients:
+        ratios = np.array([lx**2 / ly**2, ly**2 / lx**2])
+        p = float((gap / np.maximum(ratios + on_sides / asked.membrane[2, 2], 1.5 * ratios)).min())
+    else:
+        p = float(min(gap.max(), gap[0] * ly**2 / lx**2 * 1.5, gap[1] * lx**2 / ly**2 * 1.5)) / 3.0
     gap_form = np.array([[gap[0], p, 0.0], [p, gap[1], 0.0], [0.0, 0.0, p]])
 
     lz2 = 0.0 if layer_distance is None else layer_distance**2
@@ -71,17 +98,20 @@ def closed_form(
     share = 1.0 if ratio**2 <= 2.0 else 1.0 / (ratio**2 - 1.0)
     by_diagonals = share * layer[2, 2]
     area = layer[0, 1] - by_diagonals
-    axial_x = (layer[0, 0] - area - by_diagonals * lx**2 / ly**2) * ly / lx
-    axial_y = (layer[1, 1] - area - by_diagonals * ly**2 / lx**2) * lx / ly
-    if min(axial_x, axial_y) < 0.0:
+    left = np.diag(layer)[:2] - area - by_diagonals * np.array([lx**2 / ly**2, ly**2 / lx**2])
+    grid_share = asked.shear * np.array([lx**2, ly**2]) / (12.0 * np.diag(asked.bending)[:2])
+    excess = np.maximum(left - _on_sides(layer), 0.0)
+    axial = left - grid_share * excess if gradients else left
+    if min(axial) < 0.0:
         return None
+    stretch = left - axial
     l1x, l1y, l2 = lx**2 + lz2, ly**2 + lz2, lx**2 + ly**2 + lz2
     rest = asked.membrane * lz2 - lattice
     rest[:2, :2] -= rest[0, 1]
     rest[np.abs(rest) < 1e-12 * asked.membrane[0, 0] * lz2] = 0.0
     mid_area = asked.membrane[0, 1] * lz2 - lattice[0, 1]
     return SpringSet(
-        axial=by_direction(axial_x / lz2, axial_y / lz2),
+        axial=by_direction(axial[0] * ly / lx / lz2, axial[1] * lx / ly / lz2),
         diagonal=by_diagonals * (lx**2 + ly**2) / (2.0 * lx * ly * lz2),
         vertical=_vertical(asked, spacing, lz2),
         cross=by_direction(
@@ -92,10 +122,17 @@ def closed_form(
         area=area / lz2,
         mid_area=mid_area / lz2,
         shear=(layer[2, 2] - by_diagonals) / lz2,
+        stretch=by_direction(*(stretch / lz2)),
         mid_shear=rest[2, 2] / lz2,
         mid_stretch=by_direction(rest[0, 0] / lz2, rest[1, 1] / lz2),
         layer_distance=math.sqrt(lz2),
     )
+
+
+def _on_sides(form: np.ndarray) -> np.ndarray:
+    """What of a form's 11 and 22 the links on a cell's sides should carry, (2,)."""
+    sides: np.ndarray = (np.diag(form)[:2] - form[0, 1] ** 2 / np.diag(form)[1::-1]) / 3.0
+    return sides
 
 
 def _vertical(asked: Moduli, spacing: tuple[float, float], lz2: float) -> float:

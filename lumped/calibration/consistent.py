@@ -27,11 +27,12 @@ def consistent(
     layer_distance: float | None = None,
     grading: float = 0.0,
 ) -> Calibration:
-    """The moduli of the sheet, and the twist of its edges: of second order in the size of the cells.
+    """The moduli of the sheet, the cost of strains that vary across a cell, and the twist of its edges: of
+    second order in the size of the cells.
 
     Raises BadInput as `consistent_interior`.
     """
-    found = consistent_interior(sheet, material, grid, layer_distance, grading)
+    found = consistent_interior(sheet, material, grid, layer_distance, grading, gradients=True)
     springs, notes = with_edges(sheet, grid, found.springs, grading)
     return replace(found, method="consistent", springs=springs, notes=(*found.notes, *notes))
 
@@ -42,19 +43,21 @@ def consistent_interior(
     grid: Grid,
     layer_distance: float | None = None,
     grading: float = 0.0,
+    gradients: bool = False,
 ) -> Calibration:
     """The moduli alone, cells along edges like those inside: the closed form; with a given layer distance, or
     where it would need a negative link, bounded least squares on the same moduli. grading: of the grid
-    (`lumped.grid_lines`), in closed form only.
+    (`lumped.grid_lines`), gradients: whether strains that vary across a cell cost what they cost the sheet
+    (`lumped.calibration.closed_form`), both in closed form only.
 
     Raises BadInput where area springs would leave a cell without positive energy, and for a graded grid whose
     cells have no closed form.
     """
     if grading:
-        springs: SpringSet | None = _graded(sheet, material, grid, layer_distance, grading)
+        springs: SpringSet | None = _graded(sheet, material, grid, layer_distance, grading, gradients)
     elif layer_distance is None:
         spacing = plan_spacing(sheet, grid)
-        springs = closed_form(moduli.of_sheet(sheet, material, spacing), spacing, grid[2])
+        springs = closed_form(moduli.of_sheet(sheet, material, spacing), spacing, grid[2], None, gradients)
     else:
         springs = None
     if springs is None:
@@ -63,14 +66,20 @@ def consistent_interior(
 
 
 def _graded(
-    sheet: Sheet, material: Material, grid: Grid, layer_distance: float | None, grading: float
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    layer_distance: float | None,
+    grading: float,
+    gradients: bool,
 ) -> SpringSet:
     def of_cell(cell: Sheet, distance: float | None) -> SpringSet:
-        springs = closed_form(moduli.of_sheet(cell, material, cell.lengths), cell.lengths, grid[2], distance)
+        asked = moduli.of_sheet(cell, material, cell.lengths)
+        springs = closed_form(asked, cell.lengths, grid[2], distance, gradients)
         if springs is None:
-            asked = f"{grid[2]} layers" if distance is None else f"layer_distance = {distance:g} m"
+            given = f"{grid[2]} layers" if distance is None else f"layer_distance = {distance:g} m"
             raise BadInput(
-                f"grading = {grading:g}: with {asked} a cell of {cell.length_x:.4g} × {cell.length_y:.4g} m "
+                f"grading = {grading:g}: with {given} a cell of {cell.length_x:.4g} × {cell.length_y:.4g} m "
                 "has no closed form; take two layers, no layer distance of your own, or grading 0"
             )
         return springs

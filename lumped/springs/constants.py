@@ -38,14 +38,13 @@ def of_strains(springs: SpringSet, cells: str, count: int = 1) -> tuple[str, np.
     """Name and stiffness (count, 3) [N/m], of ε1, ε2 and γ, of the strain springs on the `count` plan cells
     called "area" (each layer) or "mid_area" (the mid-surface)."""
     stiffness = np.zeros((count, 3))
+    name, stretch, shear = "mid_strain", springs.mid_stretch, springs.mid_shear
     if cells == "area":
-        stiffness[:, 2] = of_cells(springs.shear, count)
-        return "shear", stiffness
-    stretch = springs.mid_stretch
+        name, stretch, shear = "strain", springs.stretch, springs.shear
     x, y = (stretch.x, stretch.y) if isinstance(stretch, PerDirection) else (stretch, stretch)
-    for column, value in enumerate((x, y, springs.mid_shear)):
+    for column, value in enumerate((x, y, shear)):
         stiffness[:, column] = of_cells(value, count)
-    return "mid_strain", stiffness
+    return name, stiffness
 
 
 def of_edge_cells(springs: SpringSet, grid: tuple[int, int, int], twisting: frozenset[str]) -> np.ndarray:

@@ -3,8 +3,8 @@
 Only the lumped model reads them. Axial, diagonal, vertical, cross and cross_diagonal are link
 stiffnesses [N/m] (the seed's ka, kd, kz, kdT, kddT); area and mid_area are area-spring stiffnesses
 [N/m], energy ½ k (a/a0 − 1)² a0 per cell of a layer and of the mid-surface. Strain springs [N/m], energy
-½ k ε² a0, make up what those cannot on cells longer than wide: shear and mid_shear against the in-plane shear
-of a layer's and of the mid-surface's cells, mid_stretch against the stretching of the mid-surface along x, y.
+½ k ε² a0 of a cell's mean strain, make up what those cannot: shear and mid_shear against the in-plane shear
+of a layer's and of the mid-surface's cells, stretch and mid_stretch against their stretching along x, y.
 edge_shear and strip_shear change the twisting stiffness of the cells along an edge whose director nothing
 holds and leave their membrane stiffness alone: as much as shear on every layer's cell, and of the other sign
 for all layers together on the mid-surface's.
@@ -98,6 +98,8 @@ class SpringSet(Frozen):
     """Area springs of the mid-surface's cells."""
     shear: Annotated[Links, Unit("N/m")] = 0.0
     """Strain springs against the in-plane shear of a layer's cells, energy ½ k γ² a0."""
+    stretch: Stiffness = 0.0
+    """Strain springs against the stretching of a layer's cells along x and y."""
     mid_shear: Annotated[AnySign, Unit("N/m")] = 0.0
     """Strain springs against the in-plane shear of the mid-surface's cells."""
     mid_stretch: Stiffness = 0.0

@@ -10,12 +10,15 @@ from typing import Any
 import numpy as np
 import pytest
 
+import fem_reference
+from comparisons.comparison.comparison import error
 from comparisons.judges import found, program
 from comparisons.judges.answer import Judge
 from comparisons.judges.bricks import Bricks, forces, held
 from comparisons.judges.calculix import results
 from comparisons.judges.calculix.deck import deck
 from comparisons.judges.calculix.model import MODEL as CALCULIX
+from comparisons.judges.felupe import MODEL as FELUPE
 from comparisons.judges.kratos.model import MODEL as KRATOS
 from comparisons.judges.kratos.problem import Triangles, problem
 from comparisons.judges.program import Failed
@@ -24,16 +27,19 @@ from sheetbench.scenes import (
     Clamped,
     Curved,
     EdgeLoad,
+    EdgeMotion,
+    Held,
     Hinged,
     PointLoad,
     Pressure,
     Scene,
     Status,
+    Symmetric,
     load,
 )
 from sheetbench.scenes.errors import BadInput
 
-JUDGES: tuple[Judge, ...] = (CALCULIX, KRATOS)
+JUDGES: tuple[Judge, ...] = (CALCULIX, KRATOS, FELUPE)
 SEED = load("two-edges-clamped")
 
 
@@ -230,10 +236,109 @@ def test_settings_that_make_no_mesh_are_refused(judge: Judge) -> None:
 
 
 def test_judges_are_found_among_the_plug_ins() -> None:
-    assert isinstance(CALCULIX, Judge) and isinstance(KRATOS, Judge)
+    assert all(isinstance(judge, Judge) for judge in JUDGES)
     looked = {one.judge.name: one.version for one in found.look()}
     assert "mujoco" not in looked
     for name, version in looked.items():
         assert version == found.installed()[name].version()
     with pytest.raises(BadInput, match="--judges"):
         found.look(["mujoco"])
+
+
+PROBES = {"A": (0.094, 0.094), "B": (0.15, 0.05), "C": (0.05, 0.15), "D": (0.188, 0.188)}
+SHIFT = EdgeMotion(
+    kind="motion",
+    edge="x1",
+    time=(0.0, 1.0),
+    displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.005)),
+    rotation=((0.0, 0.0, 0.0), (0.1, 0.0, 0.0)),
+)
+WORDS: dict[str, dict[str, Any]] = {
+    "pressure": {
+        "supports": tuple(Hinged(edge=edge) for edge in ("x0", "x1", "y0", "y1")),
+        "gravity": None,
+        "loads": (Pressure(value=300.0),),
+    },
+    "point": {
+        "supports": (Clamped(edge="x0"), Held(edge="x1", components=("z",))),
+        "loads": (PointLoad(at=(0.11, 0.07), force=(0.0, 0.02, 0.2)),),
+    },
+    "tilt": {"supports": (Clamped(edge="y1", tilt=0.3),)},
+    "edge": {
+        "supports": (Clamped(edge="x0"),),
+        "loads": (EdgeLoad(edge="x1", force_per_length=(3.0, 0.0, 0.5)),),
+    },
+    "motion": {"supports": (Clamped(edge="x0"),), "actuators": (SHIFT,)},
+    "half": {"supports": (Clamped(edge="x0"), Symmetric(edge="y0"))},
+    "curved": {"supports": (Curved(edge="x0", curvature=-1.0),)},
+}
+
+
+@pytest.mark.parametrize("word", WORDS)
+def test_a_scenes_words_mean_the_same_to_every_judge(word: str) -> None:
+    """Within what coarse meshes leave: 4 × 4 bricks, 8 × 8 × 2 Kirchhoff triangles, whose error is O(h²).
+
+    A curved edge has a narrow layer: 4.4 % with 4 bricks, 0.5 with 6, 0.2 with 8.
+    """
+    asked = changed(**WORDS[word], probes=PROBES)
+    truth = fem_reference.solve(asked, model="shell", elements=6).displacement(asked.probe_points())
+    here = [judge for judge in JUDGES if judge.version() is not None]
+    for judge in here:
+        elements, within = (8, 0.04) if judge is KRATOS else (4, 0.05 if word == "curved" else 0.02)
+        solution = judge.solve(asked, {**judge.settings, "elements": elements})
+        assert solution.status is Status.CONVERGED, (judge.name, solution.message)
+        off = error(solution.displacement(asked.probe_points()), truth)
+        assert off is not None and off < within, (judge.name, off)
+    if not here:
+        pytest.skip("no judge is installed")
+
+
+def test_two_programs_answer_alike_on_the_same_bricks() -> None:
+    """Deck and results against a program that reads no deck: CalculiX prints seven digits."""
+    needed(CALCULIX)
+    needed(FELUPE)
+    points = SEED.probe_points()
+    settings = {"elements": 3, "grading": "uniform"}
+    deck_s, own = (judge.solve(SEED, {**judge.settings, **settings}) for judge in (CALCULIX, FELUPE))
+    off = error(deck_s.displacement(points), own.displacement(points))
+    assert off is not None and off < 2e-6
+
+
+def test_the_shell_is_the_bricks_of_calculix() -> None:
+    needed(CALCULIX)
+    points = SEED.probe_points()
+    bricks = CALCULIX.solve(SEED, {**CALCULIX.settings, "elements": 6}).displacement(points)
+    off = error(bricks, fem_reference.solve(SEED, model="shell", elements=12).displacement(points))
+    assert off is not None and off < 0.003
+
+
+def test_without_nlgeom_calculix_is_the_linear_plate() -> None:
+    needed(CALCULIX)
+    points = SEED.probe_points()
+    bricks = CALCULIX.solve(SEED, {**CALCULIX.settings, "elements": 6, "linear": True}).displacement(points)
+    off = error(bricks, fem_reference.solve(SEED, model="plate", elements=16).displacement(points))
+    assert off is not None and off < 0.003
+
+
+def test_the_thin_shell_of_kratos_becomes_ours_as_the_sheet_gets_thinner() -> None:
+    """Kirchhoff's shell keeps the twist that edges let go within about h: off in proportion to h.
+
+    Weight falls as h² does and is small, so that the deflection is linear and the same; Kratos' triangles are
+    extrapolated from two meshes, error O(h²).
+    """
+    needed(KRATOS)
+    assert SEED.gravity is not None
+    off = []
+    for share in (1.0, 4.0):
+        sheet = SEED.sheet.model_copy(update={"thickness": SEED.sheet.thickness / share})
+        weight = SEED.gravity.model_copy(update={"acceleration": (0.0, 0.0, -9.81e-3 / share**2)})
+        asked = changed(sheet=sheet, gravity=weight)
+        points = asked.probe_points()
+        coarse, fine = (
+            KRATOS.solve(asked, {**KRATOS.settings, "elements": n}).displacement(points) for n in (8, 12)
+        )
+        limit = fine + (fine - coarse) / (1.5**2 - 1.0)
+        off.append(error(limit, fem_reference.solve(asked, model="shell", elements=12).displacement(points)))
+    thick, thin = off
+    assert thick is not None and thin is not None
+    assert thin < 0.004 < 0.006 < thick, off

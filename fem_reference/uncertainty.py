@@ -118,10 +118,15 @@ def of_solutions(
     return estimate([answer for answer, _ in usable], [size for _, size in usable], layer)
 
 
-def estimate(answers: Sequence[np.ndarray], sizes: Sequence[float], layer: Missed = NOTHING) -> Uncertainty:
+def estimate(
+    answers: Sequence[np.ndarray],
+    sizes: Sequence[float],
+    layer: Missed = NOTHING,
+    own_order: float = OWN_ORDER,
+) -> Uncertainty:
     """Bars of answers (n, k) on two or three meshes of rising size.
 
-    layer: what the finest of them misses of it. Raises BadInput for other numbers.
+    layer: what the finest of them misses of it; own_order: the elements'. Raises BadInput for other numbers.
     """
     if len(answers) not in (2, 3) or len(answers) != len(sizes):
         raise BadInput(f"{len(answers)} answers on {len(sizes)} meshes: two or three of both are needed")
@@ -131,7 +136,7 @@ def estimate(answers: Sequence[np.ndarray], sizes: Sequence[float], layer: Misse
     ratio = sizes[1] / sizes[0]
     spread = np.max(answers, axis=0) - np.min(answers, axis=0)
     rounding = spread <= ROUNDING * np.max(np.abs(fine), initial=0.0)
-    largest = OWN_ORDER - BY_LAYER * layer.share
+    largest = own_order - BY_LAYER * layer.share
     safety: float | np.ndarray
     if len(answers) == 2:
         order, trusted = np.full(fine.shape, np.nan), rounding

@@ -24,7 +24,7 @@ from sheetbench.scenes import BadInput, Chain, FieldMesh, Solution, Status
 class Fake:
     """Answers limit + error h² at every point; counts its solves."""
 
-    called, needs, meshes = "a fake", "nothing", (4, 6, 8)
+    called, needs, meshes, layered = "a fake", "nothing", (4, 6, 8), False
     settings = {"elements": 4}
     limit, error, fails = -0.01, 0.001, ""
 
@@ -94,7 +94,7 @@ def standing(name: str, limit: float, error: float, meshes: tuple[int, ...] = (4
         }
         for n in meshes
     ]
-    return Standing.of("sheet", name, None, rows)
+    return Standing.of(SEED, name, None, rows, False)
 
 
 def test_a_standing_has_the_limit_and_a_bar_that_holds_it() -> None:

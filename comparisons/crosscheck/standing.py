@@ -17,8 +17,9 @@ from typing import Any
 
 import numpy as np
 
-from fem_reference.uncertainty import Uncertainty, estimate
-from sheetbench.scenes import Status, comparable
+from fem_reference.edge_layer import NOTHING, missed_by
+from fem_reference.uncertainty import ASSUMED_ORDER, OWN_ORDER, Uncertainty, estimate
+from sheetbench.scenes import Scene, Status, comparable
 
 DIGITS = 1e-5  # of the largest displacement
 
@@ -36,14 +37,19 @@ class Standing:
     uncertainty: Uncertainty | None
 
     @classmethod
-    def of(cls, scene: str, name: str, version: str | None, rows: Sequence[dict[str, Any]]) -> Standing:
-        """The standing of a model's rows."""
+    def of(
+        cls, scene: Scene, name: str, version: str | None, rows: Sequence[dict[str, Any]], layered: bool
+    ) -> Standing:
+        """The standing of a model's rows; layered: its elements are quadratic and have the layer of
+        `fem_reference.edge_layer`; of others an order of 2 at most counts."""
         usable = sorted((row for row in rows if _answered(row)), key=lambda row: float(row["size"]))
         bar = None
         if len(usable) >= 2:
             sizes = [float(row["size"]) for row in usable[:3]]
-            bar = estimate([np.array(row["displacement"], dtype=float) for row in usable[:3]], sizes)
-        return cls(scene, name, version, tuple(rows), bar)
+            found = [np.array(row["displacement"], dtype=float) for row in usable[:3]]
+            layer = missed_by(scene, usable[0]["settings"]) if layered else NOTHING
+            bar = estimate(found, sizes, layer, OWN_ORDER if layered else ASSUMED_ORDER)
+        return cls(scene.name, name, version, tuple(rows), bar)
 
     @property
     def finest(self) -> dict[str, Any]:

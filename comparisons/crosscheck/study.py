@@ -17,7 +17,7 @@ from comparisons.report.report import Report
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
-from sheetbench.choices import REFERENCE
+from sheetbench.choices import REFERENCE, REFERENCES
 from sheetbench.scenes import Scene, Status
 
 
@@ -120,9 +120,12 @@ def crosscheck(
     done = carry_out(every, store, workers=workers, pool=pool, retry=retry, progress=progress)
     rows = {run.key: _row(run, outcome) for run, outcome in zip(every, done, strict=True)}
     called = {name: versions.get(of[0].model) for name, of in models.items()}
+    layered = {*REFERENCES, *(found.judge.name for found in judges if found.judge.layered)}
     standings = {
         scene.name: tuple(
-            Standing.of(scene.name, name, called[name], [rows[run.key] for run in runs[scene.name, name]])
+            Standing.of(
+                scene, name, called[name], [rows[run.key] for run in runs[scene.name, name]], name in layered
+            )
             for name in models
         )
         for scene in scenes

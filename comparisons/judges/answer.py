@@ -27,6 +27,11 @@ class Judge(Model, Protocol):
     @property
     def meshes(self) -> tuple[int, ...]: ...
 
+    @property
+    def layered(self) -> bool:
+        """Whether its elements are quadratic and shear, so that their edges let twist go."""
+        ...
+
     def version(self) -> str | None:
         """Its version, None where it is not installed."""
         ...

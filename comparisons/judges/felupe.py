@@ -41,6 +41,7 @@ class FElupe:
     called: str = "FElupe"
     needs: str = "FElupe; pip install 'sheetbench[felupe]'"
     meshes: tuple[int, ...] = (6, 8, 12)
+    layered: bool = True
     settings: ClassVar[dict[str, Any]] = {"elements": 8, "layers": 2, "grading": "edges"}
 
     def version(self) -> str | None:

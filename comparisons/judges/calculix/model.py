@@ -42,6 +42,7 @@ class CalculiX:
     called: str = "CalculiX"
     needs: str = "the program ccx on the PATH (Debian: calculix-ccx)"
     meshes: tuple[int, ...] = (6, 8, 12)
+    layered: bool = True
     settings: ClassVar[dict[str, Any]] = {
         "elements": 8,
         "layers": 2,

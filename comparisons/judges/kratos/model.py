@@ -45,6 +45,7 @@ class Kratos:
     called: str = "Kratos' thin shell"
     needs: str = "the wheels of Kratos; pip install 'sheetbench[kratos]'"
     meshes: tuple[int, ...] = (8, 12, 16)
+    layered: bool = False
     settings: ClassVar[dict[str, Any]] = {"elements": 16, "time_limit": 600.0}
 
     def version(self) -> str | None:

@@ -8,10 +8,13 @@ from importlib.metadata import version as version_of
 from pathlib import Path
 from typing import Any
 
+import pyvista
+
 sys.path.insert(0, str(Path(__file__).parent))
 from plain_docstrings import as_restructured
 from verb_pages import write_verb_pages
 
+pyvista.BUILDING_GALLERY = pyvista.OFF_SCREEN = True
 logging.getLogger("skfem").setLevel(logging.WARNING)  # it tells of every basis
 
 project = "sheetbench"
@@ -40,6 +43,7 @@ sphinx_gallery_conf = {
     "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,
     "download_all_examples": False,
+    "image_scrapers": ("matplotlib", "pyvista"),
     "show_memory": False,
     "min_reported_time": 1e9,  # times of a loaded machine are no documentation
 }

@@ -25,7 +25,7 @@ for family in ("axial", "diagonal", "cross", "cross_diagonal"):
     k = [getattr(found[n].springs, family) for n in grids]
     right.loglog(grids, k, "o-", base=2, label=family.replace("_", " "))
 right.set(xlabel="masses along a side", ylabel="k [N/m]", yscale="log")
-right.legend(frameon=False, fontsize="small")
+figure.legend(loc="outside right center", frameon=False, fontsize="small")
 for axes in (left, right):
     axes.set_xticks(grids, [str(n) for n in grids])
 plt.show()

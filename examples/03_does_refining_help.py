@@ -28,6 +28,7 @@ for calibration in ("consistent", "cauchy", "uniform"):
     )
     axes.loglog([grid - 1 for grid in grids], errors, "o-", label=calibration)
 axes.set(xlabel="cells along a side", ylabel="error at the probes [%]")
-axes.set_xticks([2, 4, 8, 16], ["2", "4", "8", "16"], minor=False)
+axes.set_xticks([2, 4, 8, 16], ["2", "4", "8", "16"])
+axes.xaxis.minorticks_off()
 axes.legend(frameon=False)
 plt.show()

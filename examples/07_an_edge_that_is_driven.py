@@ -24,6 +24,6 @@ figure, axes = plt.subplots(figsize=(6.4, 3.4), layout="constrained")
 for solution in both.solutions[:2]:
     u = solution.displacement(edge)
     axes.plot(1e3 * (y + u[:, 1]), 1e3 * u[:, 2], label=solution.label)
-axes.set(xlabel="y [mm]", ylabel="z [mm]", aspect="equal")
+axes.set(xlabel="y [mm]", ylabel="z [mm]")
 axes.legend(frameon=False)
 plt.show()

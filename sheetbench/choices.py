@@ -45,6 +45,7 @@ INTEGRATOR = "generalised-alpha"
 INTEGRATORS = {
     "generalised-alpha": "implicit, steps by their error",
     "verlet": "explicit, steps below the limit of stability",
+    "verlet-implicit-damping": "the same steps however strong the damping, no chains",
     "midpoint": "implicit, conserves energy",
     "projective": "implicit Euler with one matrix, no chains",
 }

@@ -53,9 +53,9 @@ def measure(integrator: str, damping_of: str, damping_ratio: float) -> Row:
     equations = system(scene, springs)
     mode = FirstMode(equations, springs)
     step = mode.period / STEPS_PER_PERIOD
-    if lumped.INTEGRATORS[integrator].explicit:
-        rest = np.zeros_like(equations.problem.loads.dead)
-        step = min(step, lumped.step_limit(equations, rest).advised)
+    limit = lumped.INTEGRATORS[integrator].limit(equations, np.zeros_like(equations.problem.loads.dead))
+    if limit is not None:
+        step = min(step, limit.advised)
     count = int(np.ceil(PERIODS * mode.period / step))
     if count > MOST_STEPS:
         said = f"{count} steps of {step:.1e} s for {PERIODS} period: more than this study takes"

@@ -217,7 +217,7 @@ def dynamic_tradeoff(
     asked = []
     for name in integrators:
         if lumped.INTEGRATORS[name].explicit:
-            limit = explicit_limit(scene, shape, graded)
+            limit = explicit_limit(name, scene, shape, graded)
             asked += [run(name, share * limit, True) for share in SHARES]
         else:
             asked += [run(name, period / n, True) for n in divisions]
@@ -232,10 +232,13 @@ def dynamic_tradeoff(
     return DynamicTradeoff(scene, duration, period, rows, judge, uncertainty, reasons)
 
 
-def explicit_limit(scene: Scene, grid: Grid, grading: float = 0.0) -> float:
-    """Stability limit [s] of the explicit integrator about the flat sheet."""
+def explicit_limit(integrator: str, scene: Scene, grid: Grid, grading: float = 0.0) -> float:
+    """Stability limit [s] of an explicit integrator about the flat sheet."""
     import lumped
 
     springs = lumped.calibrate(scene.sheet, scene.material, grid=grid, grading=grading)
     problem = lumped.pose(scene, springs)
-    return lumped.step_limit(lumped.System(scene, problem), np.zeros_like(problem.loads.dead)).step
+    system, flat = lumped.System(scene, problem), np.zeros_like(problem.loads.dead)
+    limit = lumped.INTEGRATORS[integrator].limit(system, flat)
+    assert limit is not None
+    return limit.step

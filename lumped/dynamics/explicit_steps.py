@@ -71,25 +71,25 @@ def march(
     v: np.ndarray,
     a: np.ndarray,
     room: Room,
-) -> tuple[int, float, float]:
+) -> tuple[bool, int, float, float]:
     """Take u, v and a (3 s,) `steps` steps of h [s] on. factors: (steps + 1, parts) of the loads' histories;
     place and place_rate: (steps + 1, driven) [m], [m/s].
 
-    The steps taken, fewer where a number overflowed, with u, v and a then spoilt; the energy that dampers
+    Whether no number overflowed, else u, v and a are spoilt; the steps before that; the energy that dampers
     took and the work done [J].
     """
     packing, driven, rate = motion.packing, motion.driven, motion.rate
     x, w, d, force, damping, load = room.x, room.w, room.d, room.force, room.damping, room.load
     taken = work = power = 0.0
-    _external(motion, factors[0], u, load)
+    external(motion, factors[0], u, load)
     if motion.damped or len(driven):
-        _copy(motion, u, x)
+        rounded(motion, u, x)
         w[:] = v
         force[:] = 0.0
         _, power = add_at_places(x, w, True, packing.damped, packing, force, room.tile)
-        power += _resist(rate, w, force)
+        power += resist(rate, w, force)
         for i in range(len(driven)):
-            room.exerted[i] = _exerted(motion, driven[i], a, force, load)
+            room.exerted[i] = exerted_on(motion, driven[i], a, force, load)
     for n in range(steps):
         _predict(h, motion, u, v, a, w, room.moved)
         for i in range(len(driven)):
@@ -99,40 +99,40 @@ def march(
             v[p] += place_rate[n + 1, i] - place_rate[n, i]
         if motion.working:
             room.load_before[:] = load
-            _external(motion, factors[n + 1], u, load)
-        _copy(motion, u, x)
+            external(motion, factors[n + 1], u, load)
+        rounded(motion, u, x)
         force[:] = 0.0
         _, now = add_at_places(x, w, True, packing.damped, packing, force, room.tile)
-        now += _resist(rate, w, force)
+        now += resist(rate, w, force)
         if not _accelerate(0.5 * h, motion, load, force, a, v):
-            return n, taken, work
+            return False, n, taken, work
         if motion.damped:
             for i in range(len(d)):
                 d[i] = v[i] - w[i]
             damping[:] = 0.0
             _, beyond = add_at_places(x, d, False, packing.damped, packing, damping, room.tile)
-            beyond += _resist(rate, d, damping)
+            beyond += resist(rate, d, damping)
             now += 2.0 * _correct(motion, w, damping, force) + beyond
             taken += 0.5 * h * (power + now)
             power = now
             if not _accelerate(0.0, motion, load, force, a, v):
-                return n, taken, work
+                return False, n, taken, work
         if motion.working:
-            work += _work_of_loads(motion, room.load_before, load, room.moved)
+            work += work_of_loads(motion, room.load_before, load, room.moved)
         for i in range(len(driven)):
             exerted, r0, r1 = (
-                _exerted(motion, driven[i], a, force, load),
+                exerted_on(motion, driven[i], a, force, load),
                 place_rate[n, i],
                 place_rate[n + 1, i],
             )
             work += 0.5 * (room.exerted[i] + exerted) * (place[n + 1, i] - place[n, i])
             work += 0.5 * motion.mass[driven[i]] * (r1 * r1 - r0 * r0)
             room.exerted[i] = exerted
-    return steps, taken, work
+    return True, steps, taken, work
 
 
 @njit(**OPTIONS)
-def _copy(motion: Motion, u: np.ndarray, x: np.ndarray) -> None:
+def rounded(motion: Motion, u: np.ndarray, x: np.ndarray) -> None:
     """Displacements in single precision; in double x is u."""
     if motion.single:
         x[:] = u
@@ -187,7 +187,7 @@ def _accelerate(
 
 
 @njit(**OPTIONS)
-def _resist(rate: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
+def resist(rate: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
     """Add the forces of the masses' own damping, if there is any; the power taken [W]."""
     power = 0.0
     for i in range(len(rate)):
@@ -211,13 +211,13 @@ def _correct(motion: Motion, w: np.ndarray, damping: np.ndarray, force: np.ndarr
 
 
 @njit(**OPTIONS)
-def _exerted(motion: Motion, p: int, a: np.ndarray, force: np.ndarray, load: np.ndarray) -> float:
+def exerted_on(motion: Motion, p: int, a: np.ndarray, force: np.ndarray, load: np.ndarray) -> float:
     """What holds a place [N]."""
     return motion.mass[p] * a[p] + force[p] - load[p]
 
 
 @njit(**OPTIONS)
-def _external(motion: Motion, factors: np.ndarray, u: np.ndarray, load: np.ndarray) -> None:
+def external(motion: Motion, factors: np.ndarray, u: np.ndarray, load: np.ndarray) -> None:
     """The loads at displacement u, scaled by the factors of their histories."""
     load[:] = motion.dead[0]
     for part in range(1, len(motion.dead)):
@@ -227,7 +227,7 @@ def _external(motion: Motion, factors: np.ndarray, u: np.ndarray, load: np.ndarr
 
 
 @njit(**OPTIONS)
-def _work_of_loads(motion: Motion, before: np.ndarray, after: np.ndarray, moved: np.ndarray) -> float:
+def work_of_loads(motion: Motion, before: np.ndarray, after: np.ndarray, moved: np.ndarray) -> float:
     """Work [J] of what loads are beyond those without a history, by the trapezoidal rule."""
     count = motion.packing.layers * motion.packing.plane
     work = 0.0

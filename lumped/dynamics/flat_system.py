@@ -6,19 +6,23 @@ factors of loads, are tabulated for a number of steps at a time.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
-from lumped.dynamics.explicit_steps import Motion, Room, march
+from lumped.dynamics.explicit_steps import Motion, Room
 from lumped.dynamics.follower_loads import Followers
 from lumped.dynamics.integrator import Advance, StepFailed
 from lumped.dynamics.system import State, System
 from lumped.springs.packing import pack, scratch
 
+Steps = Callable[..., tuple[bool, int, float, float]]  # as `lumped.dynamics.explicit_steps.march`
 CALL, PER_SPRING = 0.03, 3e-8  # s that a call takes, about, and a step of a spring
 
 
 class FlatSystem:
-    """A system without chains at the places of a packing. motion: what compiled steps take."""
+    """A system without chains at the places of a packing. size: of flat vectors; motion: what compiled steps
+    take; at_once: steps of a call."""
 
     def __init__(self, system: System):
         assembly, self._parts = system.assembly, system.problem.loads.parts
@@ -28,7 +32,7 @@ class FlatSystem:
         if single:
             packing = pack(assembly.lattice, assembly.springs, system.damping.dampers, single)
         count, plane = len(packing.order), int(packing.plane)
-        self._order, self._count, self._size = packing.order, count, count + plane
+        self._order, self._count, self._stride = packing.order, count, count + plane
         self._place = np.empty(count, dtype=int)
         self._place[packing.order] = np.arange(count)
         mass = self.flat(self._of_masses(system.lattice_mass))
@@ -39,50 +43,56 @@ class FlatSystem:
         rate = self.flat(self._of_masses(system.damping.rate))
         self._driven = np.argwhere(system.driven)
         springs = sum(map(len, assembly.springs))
-        self._at_once = max(1, round(CALL / (springs * PER_SPRING)))
+        self.at_once = max(1, round(CALL / (springs * PER_SPRING)))
+        self.size = 3 * self._stride
         self.motion = Motion(
             packing,
             mass,
             inverse,
             rate if rate.any() else np.empty(0),
-            self._places(columns // 3, columns % 3),
+            self.places(columns // 3, columns % 3),
             np.stack([self.flat(part.dead) for part in self._parts]),
             self._followers(),
-            self._places(*self._driven.T),
+            self.places(*self._driven.T),
             system.damping.present,
             system.working,
             single,
         )
-        still = np.zeros(3 * self._size)  # kernels are compiled, or loaded, before there is anything to do
-        tables = self._factors(np.zeros(1)), *self._placed(np.zeros(1))
-        march(0, 0.0, self.motion, *tables, still, still.copy(), still.copy(), self._room(still))
 
-    def march(self, state: State, step: float, most: int) -> tuple[Advance, int]:
-        """At most so many steps of velocity Verlet, as many as take some hundredths of a second; fewer before
-        one that overflows. Raises StepFailed where that is the first."""
-        steps = min(most, self._at_once)
+    def march(self, state: State, step: float, most: int, steps_of: Steps) -> tuple[Advance, int]:
+        """At most so many steps, as many as take some hundredths of a second; fewer before one that fails, or
+        where `steps_of` ends. Raises StepFailed where the first one fails."""
+        count = min(most, self.at_once)
         while True:
             u, v, a = (self.flat(vector) for vector in (state.u, state.v, state.a))
-            times = np.cumsum(np.append(state.time, np.full(steps, step)))  # as they add up one by one
+            times = np.cumsum(np.append(state.time, np.full(count, step)))  # as they add up one by one
             tables = self._factors(times), *self._placed(times)
-            taken, dissipated, work = march(steps, step, self.motion, *tables, u, v, a, self._room(u))
-            if taken == steps:
-                after = State(float(times[-1]), self.by_mass(u), self.by_mass(v), self.by_mass(a))
-                return Advance(after, dissipated, work), steps
+            whole, taken, dissipated, work = steps_of(
+                count, step, self.motion, *tables, u, v, a, self._room(u)
+            )
+            if whole:
+                after = State(float(times[taken]), self.by_mass(u), self.by_mass(v), self.by_mass(a))
+                return Advance(after, dissipated, work), taken
             if taken == 0:
                 raise StepFailed("a number overflowed")
-            steps = taken
+            count = taken
+
+    def compile(self, steps_of: Steps) -> None:
+        """Compile steps, or load what was compiled, before there is anything to do."""
+        still, at_once = np.zeros(self.size), np.zeros(1)
+        tables = self._factors(at_once), *self._placed(at_once)
+        steps_of(0, 1.0, self.motion, *tables, still, still.copy(), still.copy(), self._room(still))
 
     def flat(self, vector: np.ndarray) -> np.ndarray:
         """A vector (n, 3) at the places, (3 s,)."""
-        out = np.zeros((3, self._size))
+        out = np.zeros((3, self._stride))
         out[:, : self._count] = vector[self._order].T
         return out.ravel()
 
     def by_mass(self, flat: np.ndarray) -> np.ndarray:
         """A vector (3 s,) by masses, (n, 3)."""
         out = np.empty(self._shape)
-        out[self._order] = flat.reshape(3, self._size)[:, : self._count].T
+        out[self._order] = flat.reshape(3, self._stride)[:, : self._count].T
         return out
 
     def _room(self, u: np.ndarray) -> Room:
@@ -111,14 +121,14 @@ class FlatSystem:
     def _of_masses(self, values: np.ndarray) -> np.ndarray:
         return np.repeat(values[:, None], 3, axis=1)
 
-    def _places(self, masses: np.ndarray, axes: np.ndarray) -> np.ndarray:
+    def places(self, masses: np.ndarray, axes: np.ndarray) -> np.ndarray:
         """Flat places of components of masses."""
-        return (axes * self._size + self._place[masses]).astype(np.uint64)
+        return (axes * self._stride + self._place[masses]).astype(np.uint64)
 
     def _followers(self) -> Followers:
         lattice = self._system.assembly.lattice
         layers, plane = lattice.grid[2], self._count // lattice.grid[2]
-        positions = self.flat(lattice.positions).reshape(3, self._size)
+        positions = self.flat(lattice.positions).reshape(3, self._stride)
         positions[:, self._count :] = positions[:, : self._count].reshape(3, layers, plane).mean(axis=1)
         pressure = np.array([part.pressure for part in self._parts])
         cells = next(cells.nodes for cells in lattice.cells if cells.name == "mid_area")

@@ -6,6 +6,8 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+import numpy as np
+
 from lumped.dynamics.step_limit import StepLimit
 from lumped.dynamics.system import State, System
 
@@ -47,6 +49,11 @@ class Integrator(ABC):
         """The step [s] where none is asked for, an adaptive one's first: from the limit of stability where
         there is one, else from the lowest period [s]."""
         return limit.advised if limit is not None else period / STEPS_PER_PERIOD
+
+    @classmethod
+    def limit(cls, system: System, u: np.ndarray) -> StepLimit | None:
+        """The limit of stability about a displacement (size, 3) [m], of explicit ones."""
+        return None
 
     @abstractmethod
     def advance(self, state: State, at_most: float) -> Advance:

@@ -7,7 +7,8 @@ from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.midpoint import Midpoint
 from lumped.dynamics.projective import Projective
 from lumped.dynamics.verlet import Verlet
+from lumped.dynamics.verlet_implicit_damping import VerletImplicitDamping
 
 INTEGRATORS: dict[str, type[Integrator]] = {
-    kind.name: kind for kind in (GeneralisedAlpha, Verlet, Midpoint, Projective)
+    kind.name: kind for kind in (GeneralisedAlpha, Verlet, VerletImplicitDamping, Midpoint, Projective)
 }

@@ -8,7 +8,6 @@ import numpy as np
 
 from lumped.calibration import Calibration
 from lumped.dynamics.integrators import INTEGRATORS
-from lumped.dynamics.step_limit import step_limit
 from lumped.dynamics.system import State, System
 from lumped.vibration import modes
 from sheetbench.scenes.errors import BadInput
@@ -60,7 +59,7 @@ def plan_run(
 ) -> Plan:
     """How a run that begins is sampled and stepped; see `lumped.simulate` for the defaults.
 
-    Raises BadInput for a step above the limit of `verlet`, too many of them, or too many samples.
+    Raises BadInput for a step above the limit of an explicit one, too many of them, or too many samples.
     """
     kind = INTEGRATORS[integrator]
     period = 1.0 / float(modes(system.scene, calibration, 1).frequencies[0])
@@ -75,7 +74,7 @@ def plan_run(
     samples = round(duration / spacing) if every is not None else int(np.ceil(duration / spacing - 1e-9))
     samples = max(samples, 1)
     spacing = duration / samples
-    limit = step_limit(system, start.u) if kind.explicit else None
+    limit = kind.limit(system, start.u)
     wanted = step if step is not None else kind.default_step(period, limit)
     if limit is not None:
         if wanted > limit.step:

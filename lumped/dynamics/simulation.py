@@ -53,7 +53,7 @@ def simulate(
 ) -> History:
     """Motion of the scene's sheet over `duration` [s].
 
-    step [s]: of the integrator, never exceeded; without it `verlet` takes 0.9 of its limit,
+    step [s]: of the integrator, never exceeded; without it the explicit ones take 0.9 of their limit,
     `generalised-alpha` adapts to its error, the others take 1/200 of the lowest period. every [s]: distance
     of samples, 1/100 of the lowest period unless given; no step is longer, and what a load's history does
     within a step may go unseen. store: a folder to stream to; a run that was stopped goes on
@@ -64,9 +64,9 @@ def simulate(
     precision: of the internal force (see `lumped.assembly`). options: the integrator's own (`radius`,
     `iterations`).
 
-    Raises BadInput for an unknown integrator, a step above the limit of `verlet`, more than ten million
-    default steps of it; for a folder that cannot be written to, that another process writes to, that holds
-    another run, or whose files are damaged.
+    Raises BadInput for an unknown integrator, a step above the limit of an explicit one, more than ten
+    million default steps of it; for a folder that cannot be written to, that another process writes to, that
+    holds another run, or whose files are damaged.
     """
     _refuse(integrator, options, {"duration": duration, "step": step, "every": every})
     began = clock.perf_counter()

@@ -12,8 +12,10 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.dynamics.constraints import Projection
+from lumped.dynamics.explicit_steps import march
 from lumped.dynamics.flat_system import FlatSystem
 from lumped.dynamics.integrator import Advance, Integrator, StepFailed
+from lumped.dynamics.step_limit import StepLimit, step_limit
 from lumped.dynamics.system import State, System
 
 
@@ -27,10 +29,19 @@ class Verlet(Integrator):
         self._projection = Projection(system)
         chains = system.coupling is not None and system.coupling.bodies
         self._flat = None if chains else FlatSystem(system)
+        if self._flat is not None:
+            self._flat.compile(march)
+
+    @classmethod
+    def limit(cls, system: System, u: np.ndarray) -> StepLimit:
+        """The springs' and the dampers' limit of stability."""
+        return step_limit(system, u)
 
     def march(self, state: State, step: float, most: int) -> tuple[Advance, int]:
         """Steps in one compiled call; one at a time where there are chains. Raises StepFailed."""
-        return self._flat.march(state, step, most) if self._flat else super().march(state, step, most)
+        if self._flat is None:
+            return super().march(state, step, most)
+        return self._flat.march(state, step, most, march)
 
     def advance(self, state: State, at_most: float) -> Advance:
         """One explicit step. Raises StepFailed when a number overflows or constraints find no solution."""

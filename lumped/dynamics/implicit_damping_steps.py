@@ -1,0 +1,190 @@
+"""Steps of velocity Verlet with implicit damping in one compiled call, see `verlet_implicit_damping`.
+
+The matrix M + ½ h C is factored at a shape that the sheet has been in, banded, L Lᵀ; the velocity at a
+step's end is found by corrections with these factors from the dampers as they are now. Corrections that
+shrink slowly end the call, for the factors to be made anew.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from lumped.dynamics.explicit_steps import Motion, Room, exerted_on, external, resist, rounded, work_of_loads
+from lumped.springs.all_forces import add_at_places
+from lumped.springs.tiles import OPTIONS
+
+CLOSE = 1e-8  # what corrections leave of the velocity, relative to the largest
+STALE = 0.1  # ratio of successive corrections above which the factors are made anew
+MEASURED = 32  # steps at most from one measurement of that ratio to the next
+CORRECTIONS = 12
+
+
+class Band(NamedTuple):
+    """Factors L of a matrix of m unknowns: rows (m, b) left of the diagonal, and its inverse (m,). place,
+    unknown, value: (e,) entries of T."""
+
+    rows: np.ndarray
+    inverse: np.ndarray
+    place: np.ndarray
+    unknown: np.ndarray
+    value: np.ndarray
+
+
+@njit(**OPTIONS)
+def march(
+    steps: int,
+    h: float,
+    motion: Motion,
+    band: Band,
+    factors: np.ndarray,
+    place: np.ndarray,
+    place_rate: np.ndarray,
+    u: np.ndarray,
+    v: np.ndarray,
+    a: np.ndarray,
+    room: Room,
+    guess: np.ndarray,
+    last: np.ndarray,
+    solved: np.ndarray,
+) -> tuple[bool, int, float, float]:
+    """As `lumped.dynamics.explicit_steps.march`, but for steps that it ends early, whole, once corrections
+    shrink slowly, and that it cannot take without new factors. guess, last: (3 s,); solved: (b + m,)."""
+    packing, driven, rate = motion.packing, motion.driven, motion.rate
+    x, w, force, damping, load = room.x, room.w, room.force, room.damping, room.load
+    count = packing.layers * packing.plane
+    taken = work = 0.0
+    external(motion, factors[0], u, load)
+    rounded(motion, u, x)
+    w[:] = v
+    last[:] = v
+    force[:] = 0.0
+    _, power = add_at_places(x, w, False, True, packing, force, room.tile)
+    power += resist(rate, w, force)
+    if len(driven):
+        add_at_places(x, w, True, False, packing, force, room.tile)
+    for i in range(len(driven)):
+        room.exerted[i] = exerted_on(motion, driven[i], a, force, load)
+    ratio, measured = 1.0, 0
+    for n in range(steps):
+        for i in range(len(u)):
+            guess[i] = v[i] + (v[i] - last[i])
+            last[i] = v[i]
+        for i in range(len(u)):
+            half = v[i] + 0.5 * h * a[i]
+            v[i] = half
+            u[i] += h * half
+        if motion.working:
+            for i in range(len(u)):
+                room.moved[i] = h * v[i]
+        for i in range(len(driven)):
+            p, jump = driven[i], place[n + 1, i] - place[n, i] - h * place_rate[n, i]
+            u[p] += jump
+            room.moved[p] += jump
+            v[p] += place_rate[n + 1, i] - place_rate[n, i]
+            guess[p] = v[p]
+        if motion.working:
+            room.load_before[:] = load
+            external(motion, factors[n + 1], u, load)
+        rounded(motion, u, x)
+        force[:] = 0.0
+        add_at_places(x, w, True, False, packing, force, room.tile)
+        size, aged = np.inf, False
+        for k in range(CORRECTIONS):
+            w[:] = guess
+            damping[:] = 0.0
+            add_at_places(x, w, False, True, packing, damping, room.tile)
+            resist(rate, w, damping)
+            before = size
+            size, largest = _correct(0.5 * h, motion, band, v, load, force, damping, guess, solved)
+            if not np.isfinite(size):
+                return False, n, taken, work
+            if k > 0:
+                ratio, measured = size / before if before > 0.0 else 0.0, n
+                aged = aged or ratio > STALE
+            if min(ratio, 1.0) * size <= CLOSE * largest and (k > 0 or n - measured < MEASURED):
+                break
+        else:
+            return False, n, taken, work
+        now = 0.0
+        for q in range(3):
+            first = np.uint64(q) * (count + packing.plane)
+            for i in range(count):
+                gained = (guess[first + i] - v[first + i]) * (2.0 / h)
+                inertia = motion.mass[first + i] * gained
+                a[first + i] = gained
+                v[first + i] = guess[first + i]
+                now += v[first + i] * (load[first + i] - force[first + i] - inertia)
+        for i in range(len(driven)):
+            p = driven[i]
+            now += v[p] * (damping[p] - (load[p] - force[p] - motion.mass[p] * a[p]))
+        taken += 0.5 * h * (power + now)
+        power = now
+        if motion.working:
+            work += work_of_loads(motion, room.load_before, load, room.moved)
+        if len(driven):
+            for i in range(len(force)):
+                force[i] += damping[i]
+        for i in range(len(driven)):
+            exerted, r0, r1 = (
+                exerted_on(motion, driven[i], a, force, load),
+                place_rate[n, i],
+                place_rate[n + 1, i],
+            )
+            work += 0.5 * (room.exerted[i] + exerted) * (place[n + 1, i] - place[n, i])
+            work += 0.5 * motion.mass[driven[i]] * (r1 * r1 - r0 * r0)
+            room.exerted[i] = exerted
+        if aged:
+            return True, n + 1, taken, work
+    return True, steps, taken, work
+
+
+@njit(**OPTIONS)
+def _correct(
+    half: float,
+    motion: Motion,
+    band: Band,
+    w: np.ndarray,
+    load: np.ndarray,
+    force: np.ndarray,
+    damping: np.ndarray,
+    guess: np.ndarray,
+    solved: np.ndarray,
+) -> tuple[float, float]:
+    """Add (M + ½ h C)⁻¹ [M (w − v) + ½ h (load − force − damping)] to the velocity guessed, v; the largest of
+    that and of v."""
+    width = band.rows.shape[1]
+    solved[:] = 0.0
+    for e in range(len(band.place)):
+        p = band.place[e]
+        pull = motion.mass[p] * (w[p] - guess[p]) + half * (load[p] - force[p] - damping[p])
+        solved[width + band.unknown[e]] += band.value[e] * pull
+    _solve(band, solved)
+    size = largest = 0.0
+    for e in range(len(band.place)):
+        p = band.place[e]
+        move = band.value[e] * solved[width + band.unknown[e]]
+        guess[p] += move
+        size += move * move
+        largest += guess[p] * guess[p]
+    return np.sqrt(size), np.sqrt(largest)
+
+
+@njit(**OPTIONS)
+def _solve(band: Band, x: np.ndarray) -> None:
+    """L Lᵀ x = b in place, after as many zeros as a row is long."""
+    unknowns, width = band.rows.shape
+    for i in range(unknowns):
+        row = band.rows[i]
+        total = 0.0
+        for j in range(width):
+            total += row[j] * x[i + j]
+        x[width + i] = (x[width + i] - total) * band.inverse[i]
+    for back in range(unknowns):
+        i = unknowns - 1 - back
+        row, value = band.rows[i], x[width + i] * band.inverse[i]
+        x[width + i] = value
+        for j in range(width):
+            x[i + j] -= row[j] * value

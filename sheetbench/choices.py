@@ -44,6 +44,7 @@ CALIBRATIONS: dict[str, Method] = {
 INTEGRATOR = "generalised-alpha"
 INTEGRATORS = {
     "generalised-alpha": "implicit, steps by their error",
+    "esdirk": "implicit, fifth order, steps by their error, no chains",
     "verlet": "explicit, steps below the limit of stability",
     "verlet-implicit-damping": "the same steps however strong the damping, no chains",
     "midpoint": "implicit, conserves energy",

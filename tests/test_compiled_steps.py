@@ -21,12 +21,13 @@ CASES = {
 }
 
 
+@pytest.mark.parametrize("name", ["generalised-alpha", "esdirk"])
 @pytest.mark.parametrize("asked", CASES.values(), ids=CASES)
-def test_the_compiled_iteration_takes_the_steps_of_the_general_one(asked):
+def test_the_compiled_iteration_takes_the_steps_of_the_general_one(asked, name):
     equations, rest = system(asked, 4)
     ends = []
     for compiled in (True, False):
-        method = INTEGRATORS["generalised-alpha"](equations, 1e-3)
+        method = INTEGRATORS[name](equations, 1e-3)
         assert method._newton._compiled is not None
         if not compiled:
             method._newton._compiled = None

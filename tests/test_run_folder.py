@@ -39,7 +39,12 @@ options = dict(integrator={name!r}, every=2e-4, frames=20)
 lumped.simulate(asked, springs(asked, 4), {duration}, store=store, progress=kill, **options)
 """
 DURATION = 0.025  # s, two checkpoints
-RUNS = {"generalised-alpha": [], "verlet": [], "midpoint": [{"segments": 2, "curvature": 3.0}]}
+RUNS = {
+    "generalised-alpha": [],
+    "esdirk": [],
+    "verlet": [],
+    "midpoint": [{"segments": 2, "curvature": 3.0}],
+}
 
 
 @pytest.mark.parametrize("name", RUNS)

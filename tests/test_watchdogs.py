@@ -84,7 +84,7 @@ def test_a_crushed_sheet_ends_in_a_status(share):
         assert np.isfinite(answer.mesh.point_data["displacement"]).all()
 
 
-@pytest.mark.parametrize("integrator", ["verlet", "generalised-alpha", "midpoint"])
+@pytest.mark.parametrize("integrator", ["verlet", "generalised-alpha", "esdirk", "midpoint"])
 def test_a_sheet_that_falls_too_hard_ends_in_a_status(integrator):
     springs = calibrated(HEAVY)
     period = 1.0 / lumped.modes(HEAVY, springs, 1).frequencies[0]

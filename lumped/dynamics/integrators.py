@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from lumped.dynamics.esdirk import Esdirk
 from lumped.dynamics.generalised_alpha import GeneralisedAlpha
 from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.midpoint import Midpoint
@@ -10,5 +11,6 @@ from lumped.dynamics.verlet import Verlet
 from lumped.dynamics.verlet_implicit_damping import VerletImplicitDamping
 
 INTEGRATORS: dict[str, type[Integrator]] = {
-    kind.name: kind for kind in (GeneralisedAlpha, Verlet, VerletImplicitDamping, Midpoint, Projective)
+    kind.name: kind
+    for kind in (GeneralisedAlpha, Esdirk, Verlet, VerletImplicitDamping, Midpoint, Projective)
 }

@@ -41,8 +41,8 @@ class Motion:
 class Newton:
     """The iteration; factors are made anew where corrections do not shrink fast enough."""
 
-    def __init__(self, system: System, tolerance: float):
-        self._system, self.tolerance = system, tolerance * system.problem.size
+    def __init__(self, system: System, tolerance: float, stale: float = STALE):
+        self._system, self.tolerance, self._stale = system, tolerance * system.problem.size, stale
         self._factor: Factor | None = None
         self._key: Any = None
         multipliers = system.coupling.algebraic if system.coupling is not None else np.zeros((1, 3), bool)
@@ -84,7 +84,7 @@ class Newton:
                 return u
             if length > problem.size:
                 break
-            if length > STALE * last and not fresh:
+            if length > self._stale * last and not fresh:
                 self._factor = None
             last, fresh = length, False
         self._factor = None
@@ -115,6 +115,14 @@ class Newton:
         key = (motion.by_u, motion.by_v)
         return self.solve(key, residual, lambda u: self._blocks(motion, u), guess, tolerance=small)
 
+    def renew(self, motion: Motion, u: np.ndarray) -> None:
+        """Make the factors for an equation and those like it anew, at u. Raises SingularMatrixError."""
+        blocks = self._blocks(motion, u)
+        if self._compiled is not None and self._compiled.factorise(blocks):
+            self._factored = motion.by_u
+            return
+        self._factor, self._key = self._system.problem.factor(blocks), (motion.by_u, motion.by_v)
+
     def _blocks(self, motion: Motion, u: np.ndarray) -> np.ndarray:
         v, _ = self.state(motion, u)
         return self._system.matrix(u, v, motion.time, motion.by_u, motion.by_v, 1.0)
@@ -128,14 +136,14 @@ class Newton:
         base, by = (motion.base_u, motion.base_v), (motion.by_u, motion.by_v)
         left, status = CORRECTIONS, compiled_newton.STALE
         if self._factored is not None and abs(motion.by_u / self._factored - 1.0) < NEAR:
-            status, done = compiled.iterate(u, base, by, external, small, STALE, left)
+            status, done = compiled.iterate(u, base, by, external, small, self._stale, left)
             left -= done
         while status == compiled_newton.STALE and left > 0:
             self._factored = None
             if not compiled.factorise(self._blocks(motion, u)):
                 return None
             self._factored = motion.by_u
-            status, done = compiled.iterate(u, base, by, external, small, STALE, left)
+            status, done = compiled.iterate(u, base, by, external, small, self._stale, left)
             left -= done
         if status != compiled_newton.CONVERGED:
             self._factored = None

@@ -55,6 +55,7 @@ class Run:
     ):
         self._system, self._method, self._plan, self._sampling = system, method, plan, sampling
         self._kept, self._shown, self._drawn = kept, shown, drawn
+        self._last = 0.0, 0.0  # energies dissipated and put in when the last step began
         self._progress = progress if progress is not None else lambda time: None
 
     def begin(self, start: State) -> None:
@@ -65,7 +66,7 @@ class Run:
             row = self._sampling.row(start, 0.0, 0.0)
             self.reached.origin = float(row[1:4].sum())
             self._kept.sample(row)
-            self._keep_frame()
+            self._keep_frame(start)
             return
         state = State(float(checkpoint["time"]), *(checkpoint[name] for name in ("u", "v", "a")))
         energies = (float(energy) for energy in checkpoint["energies"])
@@ -89,7 +90,7 @@ class Run:
         while (goal - reached.state.time > 1e-9 * plan.every) if plan.adapts else (taken < plan.steps):
             try:
                 if plan.adapts:
-                    advance, steps = self._method.advance(reached.state, goal - reached.state.time), 1
+                    advance, steps = self._method.advance(reached.state, self._at_most(goal)), 1
                 else:
                     step, left = plan.every / plan.steps, plan.steps - taken
                     advance, steps = self._method.march(reached.state, step, left)
@@ -97,31 +98,52 @@ class Run:
                 return Fault(Status.DIVERGED, f"at {reached.state.time:.6g} s: {failure}")
             reached.state, taken = advance.state, taken + steps
             reached.steps += steps
+            self._last = reached.dissipated, reached.work
             reached.dissipated += advance.dissipated
             reached.work += advance.work
             stuck = watchdog.stagnates(reached.state, taken) if plan.adapts else None
             if stuck is not None:
                 return stuck
-        reached.state = replace(reached.state, time=goal)
+        if reached.state.time - goal < 1e-9 * plan.every:
+            reached.state = replace(reached.state, time=goal)
         return None
+
+    def _at_most(self, goal: float) -> float:
+        """How long the next adaptive step may be [s]: to the next sample, or the next checkpoint or the end
+        where states within steps are known."""
+        plan, reached = self._plan, self.reached
+        if self._method.dense:
+            whole = reached.samples // SAMPLES_PER_CHECKPOINT + 1
+            goal = min(whole * SAMPLES_PER_CHECKPOINT, plan.samples) * plan.every
+        return goal - reached.state.time
+
+    def _now(self) -> tuple[State, float, float]:
+        """The state at the sample reached, and the energies dissipated and put in until then."""
+        plan, reached = self._plan, self.reached
+        time = (reached.samples + 1) * plan.every
+        if reached.state.time == time:
+            return reached.state, reached.dissipated, reached.work
+        passed = self._method.at(time)
+        return passed.state, self._last[0] + passed.dissipated, self._last[1] + passed.work
 
     def _sample(self) -> Fault | None:
         reached = self.reached
-        row = self._sampling.row(reached.state, reached.dissipated, reached.work)
+        state, dissipated, work = self._now()
+        row = self._sampling.row(state, dissipated, work)
         reached.largest = max(reached.largest, float(np.abs(row[1:6]).max()))
-        fault = watchdog.bark(self._system, reached.state, row, reached.origin, reached.largest)
+        fault = watchdog.bark(self._system, state, row, reached.origin, reached.largest)
         if fault is None or fault.status is not Status.NON_FINITE:
             self._kept.sample(row)
         if fault is None:
             reached.samples += 1
-            self._keep_frame()
+            self._keep_frame(state)
             if reached.samples % SAMPLES_PER_CHECKPOINT == 0:
                 self._checkpoint()
         return fault
 
-    def _keep_frame(self) -> None:
+    def _keep_frame(self, state: State) -> None:
         if self.reached.samples in self._shown:
-            self._kept.frame(self.reached.state.u[self._drawn])
+            self._kept.frame(state.u[self._drawn])
 
     def _checkpoint(self) -> None:
         reached, state = self.reached, self.reached.state

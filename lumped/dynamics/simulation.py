@@ -54,13 +54,14 @@ def simulate(
     """Motion of the scene's sheet over `duration` [s].
 
     step [s]: of the integrator, never exceeded; without it the explicit ones take 0.9 of their limit,
-    `generalised-alpha` adapts to its error, the others take 1/200 of the lowest period. every [s]: distance
-    of samples, 1/100 of the lowest period unless given; no step is longer, and what a load's history does
-    within a step may go unseen. store: a folder to stream to; a run that was stopped goes on
-    from there, and one that is to last longer now goes on, sampled as it was. frames: whole displacements to
-    keep, evenly over the run, in `extra`: "frames"
-    (n, masses, 3), "frame_times" (n,), the "mesh" they belong to and "axes", of each edge with chains the
-    rest places (p, 3) and displacements (n, p, 3) [m] of its axis. progress: called with the time reached.
+    `generalised-alpha` and `esdirk` adapt to their error, the others take 1/200 of the lowest period.
+    every [s]: distance of samples, 1/100 of the lowest period unless given; no step is longer, and what a
+    load's history does within a step may go unseen, but for `esdirk`, whose adaptive steps may be longer and
+    end where a history bends. store: a folder to stream to; a run that was stopped goes on from there, and
+    one that is to last longer now goes on, sampled as it was. frames: whole displacements to keep, evenly
+    over the run, in `extra`: "frames" (n, masses, 3), "frame_times" (n,), the "mesh" they belong to and
+    "axes", of each edge with chains the rest places (p, 3) and displacements (n, p, 3) [m] of its axis.
+    progress: called with the time reached.
     precision: of the internal force (see `lumped.assembly`). options: the integrator's own (`radius`,
     `iterations`).
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 import scipy.sparse as sp
@@ -146,6 +146,14 @@ class System:
         if self.coupling is not None and not self._single:
             energy += self.coupling.add_force(u, self.drive(time), force)
         return energy + stored, power, force
+
+    @cached_property
+    def kinks(self) -> np.ndarray:
+        """Times at which loads or supports change their course, sorted [s]."""
+        scene = self.scene
+        held = [load.history for load in scene.loads] + [scene.gravity.history if scene.gravity else None]
+        tables = [*held, *(support.motion for support in scene.supports)]
+        return np.unique([time for table in tables if table is not None for time in table.time])
 
     def elastic(self, u: np.ndarray, time: float) -> tuple[float, np.ndarray]:
         """Elastic energy and internal force, actuators with their multipliers included."""

@@ -1,0 +1,88 @@
+"""Coefficients of ESDIRK5(4)7L[2]SA2, a Runge–Kutta method: singly diagonally implicit with an explicit first
+stage, fifth order with an embedded fourth, both L-stable, stiffly accurate, stages of second order.
+
+Source: Kennedy and Carpenter (2019), Applied Numerical Mathematics 146, 221–244; the rationals as ARKODE
+(Reynolds et al. 2023) has them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+NEAREST = 3
+GAMMA = 23 / 125  # on the diagonal of every stage but the first
+ABSCISSAE = np.array(
+    [
+        0.0,
+        46 / 125,
+        7121331996143 / 11335814405378,
+        49 / 353,
+        3706679970760 / 5295570149437,
+        347 / 382,
+        1.0,
+    ]
+)
+_INNER = (  # of stages 3 to 6, from the second column to the diagonal
+    (791020047304 / 3561426431547,),
+    (-158159076358 / 11257294102345, -85517644447 / 5003708988389),
+    (-1653327111580 / 4048416487981, 1514767744496 / 9099671765375, 14283835447591 / 12247432691556),
+    (
+        -4540011970825 / 8418487046959,
+        -1790937573418 / 7393406387169,
+        10819093665085 / 7266595846747,
+        4109463131231 / 7386972500302,
+    ),
+)
+_LAST = (
+    -188593204321 / 4778616380481,
+    2809310203510 / 10304234040467,
+    1021729336898 / 2364210264653,
+    870612361811 / 2470410392208,
+    -1307970675534 / 8059683598661,
+)
+_EMBEDDED = (
+    -582099335757 / 7214068459310,
+    615023338567 / 3362626566945,
+    3192122436311 / 6174152374399,
+    6156034052041 / 14430468657929,
+    -1011318518279 / 9693750372484,
+    1914490192573 / 13754262428401,
+)
+
+
+def _stages() -> np.ndarray:
+    """A, (7, 7): the first column is what makes the rows sum to the abscissae."""
+    a = np.zeros((7, 7))
+    for row, inner in enumerate(((), *_INNER, _LAST), start=1):
+        a[row, 1 : 1 + len(inner)] = inner
+        a[row, row] = GAMMA
+    a[:, 0] = ABSCISSAE - a.sum(axis=1)
+    return a
+
+
+def _cumulative() -> np.ndarray:
+    """Coefficients (8, 7) of θ⁰ to θ⁷: the integral from 0 to θ of what passes through the values at the
+    abscissae, corrected in proportion to θ so that it ends in the weights of the method."""
+    found = np.zeros((8, 7))
+    powers = np.linalg.inv(np.vander(ABSCISSAE, increasing=True))  # values → coefficients
+    found[1:] = powers / np.arange(1.0, 8.0)[:, None]
+    found[1] += WEIGHTS - found.sum(axis=0)
+    return found
+
+
+def _guesses() -> np.ndarray:
+    """G, (7, 7): each stage's acceleration from the NEAREST earlier ones, by the polynomial through them."""
+    found = np.zeros((7, 7))
+    for i in range(1, 7):
+        near = np.argsort(np.abs(ABSCISSAE[:i] - ABSCISSAE[i]), kind="stable")[:NEAREST]
+        for j in near:
+            others = ABSCISSAE[near[near != j]]
+            found[i, j] = np.prod((ABSCISSAE[i] - others) / (ABSCISSAE[j] - others))
+    return found
+
+
+STAGES = _stages()
+WEIGHTS = STAGES[-1]
+ERRORS = WEIGHTS - np.array([1.0 - sum(_EMBEDDED), *_EMBEDDED])
+CUMULATIVE = _cumulative()
+GUESSES = _guesses()

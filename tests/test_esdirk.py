@@ -1,0 +1,103 @@
+"""ESDIRK5(4): the tableau's order conditions, samples within steps, kinks, what it refuses."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from dynamic_cases import ROD, run, scene, springs, system
+
+import lumped
+from lumped.dynamics.esdirk import Esdirk
+from lumped.dynamics.tableau import ABSCISSAE, CUMULATIVE, ERRORS, STAGES, WEIGHTS
+from sheetbench.scenes import Status
+from sheetbench.scenes.errors import BadInput
+
+
+def conditions(weights, order):
+    """What each rooted tree of up to five nodes leaves of its order condition."""
+    a, c, one = STAGES, ABSCISSAE, np.ones(7)
+    trees = {
+        1: [(one, 1.0)],
+        2: [(c, 1 / 2)],
+        3: [(c**2, 1 / 3), (a @ c, 1 / 6)],
+        4: [(c**3, 1 / 4), (c * (a @ c), 1 / 8), (a @ c**2, 1 / 12), (a @ a @ c, 1 / 24)],
+        5: [
+            (c**4, 1 / 5),
+            (c**2 * (a @ c), 1 / 10),
+            ((a @ c) ** 2, 1 / 20),
+            (c * (a @ c**2), 1 / 15),
+            (c * (a @ a @ c), 1 / 30),
+            (a @ c**3, 1 / 20),
+            (a @ (c * (a @ c)), 1 / 40),
+            (a @ a @ c**2, 1 / 60),
+            (a @ a @ a @ c, 1 / 120),
+        ],
+    }
+    return np.array([weights @ phi - value for q in range(1, order + 1) for phi, value in trees[q]])
+
+
+def test_the_tableau_is_of_fifth_order_with_an_embedded_fourth():
+    assert np.abs(conditions(WEIGHTS, 5)).max() < 1e-14
+    assert np.abs(conditions(WEIGHTS - ERRORS, 4)).max() < 1e-14
+    assert np.abs(STAGES @ ABSCISSAE - ABSCISSAE**2 / 2)[1:].max() < 1e-14  # stages of second order
+    stability = np.linalg.solve(np.eye(7) + 1e9 * STAGES, np.ones(7))[-1]  # u₁/u₀ at z = −1e9
+    assert abs(stability) < 1e-7
+    assert CUMULATIVE.sum(axis=0) == pytest.approx(WEIGHTS)
+
+
+def test_states_within_a_step_are_those_of_shorter_steps():
+    """Of fifth degree with both ends' accelerations: a sixth of the step's sixth power (Hermite)."""
+    equations, rest = system(scene(damping_time=1e-3), 4)
+    start, _ = run(Esdirk(equations, 1e-3), rest, 1e-3, 10)
+    misses = []
+    for h in (8e-3, 4e-3):
+        whole, parts = Esdirk(equations, h), Esdirk(equations, h / 8)
+        total = whole.advance(start[-1], h)
+        states, taken = run(parts, start[-1], h / 8, 8)
+        for state, spent in zip(states[1:], np.cumsum(taken), strict=True):
+            passed = whole.at(state.time)
+            assert passed.dissipated == pytest.approx(spent, rel=0.02)
+        misses.append(np.abs(whole.at(states[3].time).state.u - states[3].u).max())
+        assert whole.at(states[-1].time).dissipated == pytest.approx(total.dissipated, rel=1e-12)
+    assert misses[0] < 1e-3 * np.abs(start[-1].u).max()
+    assert misses[1] < misses[0] / 16.0
+
+
+def test_samples_do_not_change_the_steps_and_lie_on_one_curve():
+    asked = scene("two-edges-settling")
+    fine, coarse = (
+        lumped.simulate(asked, springs(asked), 0.3, integrator="esdirk", every=e) for e in (1e-3, 0.05)
+    )
+    tight = lumped.simulate(asked, springs(asked), 0.3, integrator="esdirk", step=1e-3, every=1e-3)
+    for history in (fine, coarse, tight):
+        assert history.status is Status.CONVERGED
+    assert fine.steps < 60 and coarse.steps < 60
+    truth = tight.probes["P4"]
+    largest = np.abs(truth).max()
+    assert np.abs(fine.probes["P4"] - truth).max() < 1e-3 * largest
+    assert np.abs(coarse.probes["P4"] - truth[::50]).max() < 1e-3 * largest
+    for edge, reaction in tight.reactions.items():  # stiff springs magnify what the polynomial leaves
+        assert np.abs(fine.reactions[edge] - reaction)[20:].max() < 0.05 * np.abs(reaction).max()
+    went_round = np.abs(fine.energies["potential"]).max()
+    assert np.abs(fine.balance - fine.balance[0]).max() < 2e-3 * went_round
+
+
+def test_steps_end_where_a_load_changes_its_course():
+    pulse = {"time": [0.1, 0.101, 0.102], "factor": [0.0, 1.0, 0.0]}
+    load = {"kind": "point", "at": [0.188, 0.188], "force": [0.0, 0.0, 5.0], "history": pulse}
+    asked = scene(gravity=False, loads=[load], damping_time=1e-3)
+    equations, state = system(asked, 4)
+    method, times = Esdirk(equations, 0.02, fixed=False), [0.0]
+    while state.time < 0.2:
+        state = method.advance(state, 0.25 - state.time).state
+        times.append(state.time)
+    for kink in pulse["time"]:
+        assert min(abs(time - kink) for time in times) < 1e-12
+    assert max(b - a for a, b in pairwise(times)) > 0.01
+    assert np.abs(state.u).max() > 1e-5  # a pulse shorter than a step is felt
+
+
+def test_chains_are_refused():
+    asked = scene("one-edge-clamped", actuators=[ROD])
+    with pytest.raises(BadInput, match="does not take chains"):
+        lumped.simulate(asked, springs(asked, 4), 0.01, integrator="esdirk")

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from lumped.dynamics.integrator import Advance, Integrator, Passed, StepFailed
+from lumped.dynamics.integrator import Advance, DenseIntegrator, Passed, StepFailed
 from lumped.dynamics.newton import Motion, Newton
 from lumped.dynamics.system import State, System
 from lumped.dynamics.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSES, STAGES
@@ -32,10 +32,10 @@ SHARE = 0.1  # last correction of an adaptive step relative to the error it may 
 STALE = 0.7  # ratio of successive corrections above which factors are made anew within a step
 
 
-class Esdirk(Integrator):
+class Esdirk(DenseIntegrator):
     """ESDIRK5(4)7L[2]SA2; adaptive unless the step is `fixed`."""
 
-    name, order, adaptive, dense = "esdirk", 5, True, True
+    name, order, adaptive = "esdirk", 5, True
 
     def __init__(self, system: System, step: float, fixed: bool = True):
         if system.coupling is not None:

@@ -41,15 +41,13 @@ class Integrator(ABC):
     """Takes a system from one state to the next.
 
     step: [s]; order: declared, of the displacement; adaptive: whether it chooses its steps by their error,
-    unless it is made with `fixed`; dense: whether it tells the states within its steps, which then need not
-    end at samples; explicit: whether its steps have a limit of stability; options: names of what else the
-    user may choose.
+    unless it is made with `fixed`; explicit: whether its steps have a limit of stability; options: names of
+    what else the user may choose.
     """
 
     name: ClassVar[str]
     order: ClassVar[int]
     adaptive: ClassVar[bool] = False
-    dense: ClassVar[bool] = False
     explicit: ClassVar[bool] = False
     options: ClassVar[tuple[str, ...]] = ()
 
@@ -76,10 +74,6 @@ class Integrator(ABC):
         well under a second. Raises StepFailed for the first of them."""
         return self.advance(state, step), 1
 
-    def at(self, time: float) -> Passed:
-        """The state at a time within the last step, of one that is `dense`."""
-        raise TypeError(f"{self.name} tells no states within its steps")
-
     def forget(self) -> None:  # noqa: B027  # most integrators keep nothing
         """Drop what was kept only for speed, so that a resumed run goes on exactly as one never stopped."""
 
@@ -89,3 +83,11 @@ class Integrator(ABC):
 
     def recall(self, memory: dict[str, Any]) -> None:  # noqa: B027
         """Take up what `memory` gave."""
+
+
+class DenseIntegrator(Integrator):
+    """One that tells the states within its steps, which need not end at samples."""
+
+    @abstractmethod
+    def at(self, time: float) -> Passed:
+        """The state at a time within the last step."""

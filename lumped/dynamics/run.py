@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from lumped.dynamics import watchdog
-from lumped.dynamics.integrator import Integrator, StepFailed
+from lumped.dynamics.integrator import DenseIntegrator, Integrator, StepFailed
 from lumped.dynamics.plan import Plan
 from lumped.dynamics.sampling import Sampling
 from lumped.dynamics.store import FolderStore, MemoryStore
@@ -112,7 +112,7 @@ class Run:
         """How long the next adaptive step may be [s]: to the next sample, or the next checkpoint or the end
         where states within steps are known."""
         plan, reached = self._plan, self.reached
-        if self._method.dense:
+        if isinstance(self._method, DenseIntegrator):
             whole = reached.samples // SAMPLES_PER_CHECKPOINT + 1
             goal = min(whole * SAMPLES_PER_CHECKPOINT, plan.samples) * plan.every
         return goal - reached.state.time
@@ -121,7 +121,7 @@ class Run:
         """The state at the sample reached, and the energies dissipated and put in until then."""
         plan, reached = self._plan, self.reached
         time = (reached.samples + 1) * plan.every
-        if reached.state.time == time:
+        if reached.state.time == time or not isinstance(self._method, DenseIntegrator):
             return reached.state, reached.dissipated, reached.work
         passed = self._method.at(time)
         return passed.state, self._last[0] + passed.dissipated, self._last[1] + passed.work

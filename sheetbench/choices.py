@@ -48,7 +48,7 @@ INTEGRATORS = {
     "verlet": "explicit, steps below the limit of stability",
     "verlet-implicit-damping": "the same steps however strong the damping, no chains",
     "midpoint": "implicit, conserves energy",
-    "projective": "implicit Euler with one matrix, no chains",
+    "projective": "implicit Euler with a kept matrix, no chains",
 }
 
 REFERENCE = "shell"

@@ -96,6 +96,25 @@ ORDER_STEPS = {
 ORDERS = [(name, d) for name in INTEGRATORS for d in (0.0, 1e-3) if (name, d) != ("esdirk", 1e-3)]
 
 
+def test_a_kept_tangent_solves_a_projective_step_in_a_few_looks_at_the_forces(monkeypatch):
+    """The constant matrix of the local/global scheme took a hundred to three hundred of them here."""
+    equations, state = system(scene(damping_time=4e-3), 9)
+    looks, unbalanced = [], equations.unbalanced
+    monkeypatch.setattr(equations, "unbalanced", lambda *state: looks.append(1) or unbalanced(*state))
+    ends = []
+    for tolerance in (1e-3, 1e-8):
+        method, end, before = (
+            INTEGRATORS["projective"](equations, 5e-3, tolerance=tolerance),
+            state,
+            len(looks),
+        )
+        for _ in range(4):
+            end = method.advance(end, 5e-3).state
+        ends.append(end.u)
+        assert len(looks) - before < 4 * (8 if tolerance == 1e-3 else 16)
+    assert largest(ends[0] - ends[1]) < 1e-3 * largest(ends[1])
+
+
 def test_an_explicit_run_without_an_end_is_refused():
     asked = scene(damping_time=10.0)
     with pytest.raises(ValueError, match=r"'verlet': would take \d\.\de\+\d+ steps.*ω_max.*implicit"):

@@ -67,8 +67,3 @@ class Damping:
         """Add the derivative of the lattice's damping force by the displacement, which is unsymmetric."""
         for dampers in self.dampers:
             dampers.add_displacement_tangent(u, v, blocks)
-
-    def add_bound(self, step: float, blocks: np.ndarray) -> None:
-        """Add what the dampers bring to the bound of a step's stiffness, see `Family.add_bound`."""
-        for dampers in self.dampers:
-            dampers.add_bound(step, blocks)

@@ -1,16 +1,16 @@
-"""The local/global scheme of Liu et al. (2013): implicit Euler with a constant, prefactored matrix.
+"""Implicit Euler as a minimum, found with one kept matrix, after Liu et al. (2013) and (2017).
 
-Implicit Euler minimises ½ |u − û|²_M/h² + E(u) with û = u₀ + h v₀. The local step projects every link onto
-its rest length along its present direction; the global step solves
+Implicit Euler minimises ½ |u − û|²_M/h² + E(u) with û = u₀ + h v₀. The local/global scheme of 2013 projects
+every link onto its rest length along its present direction, then solves for u with a constant matrix,
 
-    (M/h² + L) Δu = −[M (u − û)/h² + f_int(u) + f_damp(u, (u − u₀)/h) − f_ext],   L = Σ k (I, −I; −I, I)
+    A Δu = −[M (u − û)/h² + f_int(u) + f_damp(u, (u − u₀)/h) − f_ext],   A = M/h² + Σ k (I, −I; −I, I),
 
-For links this is the same as projecting and solving for u; written with the residual, other springs take
-part too: cells with |k| in L for each of their diagonals. Dampers of c count as c/h. Soft bending modes
-beside stiff links need hundreds of such iterations: the last changes are remembered as in L-BFGS (Liu et al.
-2017), which brings that down to about ten. Their number is fixed, which bounds the cost, not the error: first
-order in the step, and dissipative. No chains: their constraints turn with them, which a constant matrix
-cannot follow.
+and the scheme of 2017 remembers the last changes as L-BFGS does. Beside stiff links soft bending modes need a
+hundred to three hundred such iterations a step on the settling scene, since that A resists turning as much as
+stretching. Here A is M/h² + C/h + K⁺, the tangent without what compression takes from it, at a shape that the
+sheet has been in: four to seven iterations, and the factors are made anew where they become more than ten.
+The step is solved to the tolerance, but its error is implicit Euler's: first order in the step, and
+dissipative. No chains: a kept matrix cannot follow how their constraints turn.
 """
 
 from __future__ import annotations
@@ -24,12 +24,13 @@ from sheetbench.scenes.errors import BadInput
 
 ITERATIONS, TOLERANCE = 2000, 1e-3
 REMEMBERED = 8
+RENEWED = 10  # looks at the forces in a step after which the factors are made anew
 ROUNDING = 1e-16  # correction relative to the sheet's side below which there is nothing to correct
 OVERSHOT = 0.5  # of the slope a change begins with, that it may end with in the other direction
 
 
 class Projective(Integrator):
-    """The local/global scheme.
+    """Implicit Euler by a quasi-Newton iteration.
 
     iterations: looks at the forces that a step may take; tolerance: of the corrections, relative to the
     largest by the work they do.
@@ -55,7 +56,7 @@ class Projective(Integrator):
         """One step. Raises StepFailed when a number overflows or iterations end short of the tolerance."""
         system, h, time = self.system, at_most, state.time + at_most
         if self._factor is None or self._made_for != h:
-            self._factor, self._made_for = self._matrix(h), h
+            self._factor, self._made_for = self._matrix(state, h), h
         held = system.place(time) - system.place(state.time) - h * system.place_rate(state.time)
         inertial = state.u + h * state.v + held
 
@@ -89,26 +90,28 @@ class Projective(Integrator):
             if change @ taken > 0.0:
                 history = [*history[1 - REMEMBERED :], (taken, change)]
             u, gradient = there, met
+        if looks > RENEWED:
+            self._factor = None
         v = (u - state.u) / h
         after = State(time, u, v, (u - inertial) / h**2)
         power, _ = system.damping_force(u, v)
         return Advance(after, h * power, system.work(state, after))
 
-    def _matrix(self, h: float) -> Factor:
-        """Factors of M/h² + L."""
-        system, assembly = self.system, self.system.assembly
-        blocks = system.mass_blocks / h**2
-        for family in assembly.springs:
-            family.add_bound(blocks)
-        system.damping.add_bound(h, blocks)
-        reduced = ReducedSystem(assembly.pattern, system.transform, symmetric=True)
+    def _matrix(self, state: State, h: float) -> Factor:
+        """Factors of M/h² + C/h + K⁺ at a state."""
+        system, u = self.system, state.u
+        blocks = system.matrix(u, np.zeros_like(u), state.time, 1.0 / h**2, 1.0 / h, 0.0)
+        for family in system.assembly.springs:
+            springs = family.symmetric()
+            springs.add_tangent(u, springs.harmless(springs.stresses(u)), blocks)
+        reduced = ReducedSystem(system.assembly.pattern, system.transform, symmetric=True)
         return reduced.factor(blocks)
 
 
 def _two_loops(
     gradient: np.ndarray, history: list[tuple[np.ndarray, np.ndarray]], factor: Factor
 ) -> np.ndarray:
-    """The L-BFGS product of the inverse Hessian and the gradient, from the factors of M/h² + L."""
+    """The L-BFGS product of the inverse Hessian and the gradient, from the factors of A."""
     q, weights = gradient, []
     for move, change in reversed(history):
         weight = float(move @ q) / float(move @ change)

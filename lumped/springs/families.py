@@ -6,7 +6,6 @@ arrays are, and a row of the table.
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -60,11 +59,6 @@ class Links(Family):
         sums = np.bincount(self.kind, energies, minlength=len(self.names))
         return dict(zip(self.names, sums.tolist(), strict=True))
 
-    def add_bound(self, blocks: np.ndarray) -> None:
-        """k (I, −I; −I, I)."""
-        for column, sign in enumerate((1.0, -1.0, -1.0, 1.0)):
-            np.add.at(blocks, self.slots[:, column], sign * self.stiffness[:, None, None] * np.eye(3))
-
 
 @dataclass(frozen=True, eq=False)
 class DirectionalLinks(Links):
@@ -89,9 +83,9 @@ class DirectionalLinks(Links):
         """None."""
         return np.zeros(len(self))
 
-    def add_bound(self, blocks: np.ndarray) -> None:
-        """That of central links as stiff as the stiffest direction."""
-        self._central(self.stiffness.max(axis=1)).add_bound(blocks)
+    def symmetric(self) -> Links:
+        """Central links as stiff as the stiffest direction."""
+        return self._central(self.stiffness.max(axis=1))
 
     def damped(self, time: float) -> Dampers:
         """Dampers along the links, of the mean stiffness."""
@@ -131,18 +125,6 @@ class Cells(Family):
         """All under the one name."""
         return {self.name: float(energies.sum())}
 
-    def add_bound(self, blocks: np.ndarray) -> None:
-        """|k| (I, −I; −I, I) for each of the diagonals."""
-        p, k = self.nodes.shape[2], np.abs(self._on_diagonals())
-        for corner in range(4):
-            for other, sign in ((corner, 1.0), ((corner + 2) % 4, -1.0)):
-                slots = self.slots[:, corner * p : (corner + 1) * p, other * p : (other + 1) * p]
-                np.add.at(blocks, slots, (sign * k / p**2)[:, None, None, None, None] * np.eye(3))
-
-    @abstractmethod
-    def _on_diagonals(self) -> np.ndarray:
-        """What the springs weigh at most on either diagonal, (c,) [N/m]."""
-
 
 @dataclass(frozen=True, eq=False)
 class AreaSprings(Cells):
@@ -150,9 +132,6 @@ class AreaSprings(Cells):
 
     springs: ClassVar[Any] = areas
     dampers: ClassVar[Any] = area_dampers
-
-    def _on_diagonals(self) -> np.ndarray:
-        return self.stiffness
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,13 +144,6 @@ class StrainSprings(Cells):
     def harmless(self, stress: np.ndarray) -> np.ndarray:
         """None: a shear stress of either sign softens some motion."""
         return np.zeros_like(stress)
-
-    def _on_diagonals(self) -> np.ndarray:
-        d1, d2 = self.diagonals[:, 0], self.diagonals[:, 1]
-        a, b = np.linalg.norm(d1 - d2, axis=1), np.linalg.norm(d1 + d2, axis=1)  # twice the sides
-        k1, k2, k3 = np.abs(self.stiffness).T
-        weight: np.ndarray = 0.5 * (k1 * b / a + k2 * a / b + 2.0 * k3 * (a / b + b / a))
-        return weight
 
 
 def link_springs(lattice: Lattice, pattern: Pattern, table: SpringSet | DamperSet) -> Iterator[Links]:

@@ -81,9 +81,9 @@ class Family(ABC):
         """Energies (m,) summed under the names that the springs have in a spring set [J]."""
         raise NotImplementedError
 
-    def add_bound(self, blocks: np.ndarray) -> None:
-        """Add a constant matrix that the material part of the tangent does not exceed by much."""
-        raise NotImplementedError
+    def symmetric(self) -> Family:
+        """Springs with an energy, and so a symmetric tangent, that stand for these in a matrix: these."""
+        return self
 
     def damped(self, time: float) -> Dampers:
         """Dampers of coefficient time [s] × stiffness."""
@@ -118,7 +118,3 @@ class Dampers:
         unloaded = replace(self.family, stiffness=np.zeros_like(self.family.stiffness))
         unloaded.add_tangent(u, self.family.rates(u, v), blocks)
         self.family.dampers.add_turning(u, v, *self.family.arrays, self.family.slots, blocks)
-
-    def add_bound(self, step: float, blocks: np.ndarray) -> None:
-        """Add what the dampers bring to the bound of a step's stiffness, c over the step [s]."""
-        replace(self.family, stiffness=self.family.stiffness / step).add_bound(blocks)

@@ -27,6 +27,7 @@ from lumped.fitting import (
 )
 from lumped.footprint import footprint
 from lumped.lattice import Lattice
+from lumped.masses import Inertia
 from lumped.mid_surface import MidSurface
 from lumped.sensitivity import Sensitivity, gradient, sensitivity
 from lumped.statics.buckling import buckling_loads
@@ -34,7 +35,7 @@ from lumped.statics.continuation import Path, trace
 from lumped.statics.equilibrium import at_rest, follow
 from lumped.statics.many import solve_many
 from lumped.statics.solver import pose, solve
-from lumped.vibration import Modes, modes
+from lumped.vibration import Modes, modes, usual_masses
 
 __all__ = [
     "CALIBRATIONS",
@@ -44,6 +45,7 @@ __all__ = [
     "Description",
     "FittedCalibration",
     "Identifiability",
+    "Inertia",
     "Integrator",
     "Lattice",
     "MidSurface",
@@ -76,5 +78,6 @@ __all__ = [
     "step_limit",
     "trace",
     "turn_limit",
+    "usual_masses",
     "watchdog",
 ]

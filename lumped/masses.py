@@ -1,25 +1,41 @@
 """How the sheet's mass is shared out among the lumped masses.
 
-tributary  each mass takes the sheet around it: ½ on edges, ¼ at corners. The trapezoidal rule for the
-           inertia, whose error at a free edge is l²/12 times the slope of what is integrated: frequencies
-           come out too low.
-gregory    Gregory's end-corrected weights 5/12, 13/12, 1, … along each side: the same total, the leading
-           error of the edges gone. On the seed's sheet at 9×9×2 the first three frequencies are within 1 %
-           instead of 3.5 % (tests/test_vibration.py).
+tributary     each mass takes the sheet around it: ½ on edges, ¼ at corners. The trapezoidal rule for the
+              inertia ∫ ρh f g of two motions, whose error is l²/12 [(f g)′] from end to end: nothing at a
+              clamped edge, but too much inertia at one that moves, and frequencies come out too low.
+gregory       Gregory's end-corrected weights 5/12, 13/12, 1, … along each side: the same total, that error
+              gone where f g changes little over the first two cells. For cells of one size.
+higher-order  that error gone whatever f and g are, for which neighbours along an edge share mass: with the
+              slopes s_j of lines j, difference quotients over the cells beside it, b_left and b_right wide,
 
-Loads stay tributary: static deflections were calibrated with them. With "gregory" weight and inertia are
-therefore shared out differently, and a sheet that falls freely would bend a little.
-Source: Gregory's quadrature, e.g. Hildebrand, Introduction to Numerical Analysis, 5.9.
+                  M = Σ_j m_j e_j e_jᵀ − Σ_j c_j (e_j s_jᵀ + s_j e_jᵀ),    c_j = (b_left² − b_right²)/12
+
+              along x and along y, and for the plan their Kronecker product. Of equal cells nothing is left
+              but the ends, c = ± l²/12; nor is it where the director is held and f g has no slope. In the
+              interior no correction is wanted: with S* (`lumped.moduli`) tributary masses carry a bending
+              wave of wave number q across the cells with ω² = D q⁴/ρh (1 − (q l)⁴/720 + …).
+
+Loads stay tributary: static deflections were calibrated with them. With other masses weight and inertia would
+be shared out differently, and a sheet that falls freely would bend a little: what moves in time therefore has
+tributary masses, or those its springs were fitted with, and higher-order ones are for `lumped.modes`.
+Source: Gregory's and the corrected trapezoidal rule: Hildebrand, Introduction to Numerical Analysis, 5.9;
+the form for two motions derived for this project (docs/theory.md).
 """
 
 from __future__ import annotations
 
-import numpy as np
+from typing import Literal
 
+import numpy as np
+import scipy.sparse as sp
+
+from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
 from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.springs import Distribution
+
+Inertia = Distribution | Literal["higher-order"]
 
 
 def masses(scene: Scene, lattice: Lattice, distribution: Distribution = "tributary") -> np.ndarray:
@@ -39,6 +55,35 @@ def masses(scene: Scene, lattice: Lattice, distribution: Distribution = "tributa
         raise BadInput("masses = 'gregory' is for cells of one size: take tributary masses on a graded grid")
     plan = np.outer(_gregory(ny), _gregory(nx)).ravel()
     return per_cell * np.repeat(plan, layers)
+
+
+def mass_matrix(scene: Scene, lattice: Lattice, distribution: Inertia) -> sp.coo_array:
+    """The masses and what neighbours share, (n, n) [kg], alike for motions along x, y and z; its entries add
+    up to the sheet's mass. Raises BadInput as `masses`."""
+    if distribution != "higher-order":
+        return sp.dia_array(
+            (masses(scene, lattice, distribution)[None], [0]), shape=2 * (lattice.mass_count,)
+        ).tocoo()
+    along = (
+        _corrected(lines, axis, lattice.twisting) for axis, lines in zip("xy", lattice.lines, strict=True)
+    )
+    x, y = along
+    layers = lattice.grid[2]
+    per_area = scene.material.density * scene.sheet.thickness / layers
+    return sp.coo_array(per_area * sp.kron(sp.kron(y, x), sp.eye_array(layers)))
+
+
+def _corrected(lines: Lines, axis: str, twisting: frozenset[str]) -> sp.csr_array:
+    """The corrected trapezoidal rule over the lines across an axis, (n, n) [m]."""
+    left, right = np.concatenate([[0.0], lines.widths]), np.concatenate([lines.widths, [0.0]])
+    correction = (left**2 - right**2) / 12.0
+    correction[[0, -1]] *= [f"{axis}0" in twisting, f"{axis}1" in twisting]
+    before, after = np.arange(len(left)) - (left > 0.0), np.arange(len(left)) + (right > 0.0)
+    slopes = np.zeros((len(left), len(left)))
+    row = np.arange(len(left))
+    slopes[row, after] += correction / (left + right)
+    slopes[row, before] -= correction / (left + right)
+    return sp.csr_array(np.diag(lines.tributary) - slopes - slopes.T)
 
 
 def _gregory(n: int) -> np.ndarray:

@@ -1,6 +1,6 @@
 """Natural frequencies of a lattice about the flat, stress-free state, or about equilibrium: K φ = ω² M φ.
 
-K is the tangent there, M the diagonal matrix of the lumped masses. A lattice whose supports leave rigid
+K is the tangent there, M the mass matrix (`lumped.masses`). A lattice whose supports leave rigid
 motions free has zero frequencies: they are found with a small shift, counted, and left out.
 """
 
@@ -17,7 +17,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 from lumped.calibration import Calibration, default
 from lumped.lattice import Lattice
 from lumped.linear.threads import one_blas_thread
-from lumped.masses import masses
+from lumped.masses import Inertia, mass_matrix, masses
 from lumped.mid_surface import MidSurface
 from lumped.springs import constants
 from lumped.statics.problem import Problem
@@ -33,7 +33,6 @@ from sheetbench.scenes import (
     summary,
 )
 from sheetbench.scenes.errors import BadInput, NoEquilibrium
-from sheetbench.scenes.springs import Distribution
 
 DENSE = 600  # unknowns below which all eigenvalues are computed
 
@@ -66,15 +65,15 @@ def modes(
     scene: AnyScene,
     calibration: Calibration | None = None,
     count: int = 10,
-    distribution: Distribution | None = None,
+    distribution: Inertia | None = None,
     about: About = "flat",
 ) -> Modes:
     """The `count` lowest natural modes of the scene's sheet on a lattice.
 
-    calibration: as of `lumped.solve`. distribution: how the masses are shared out (`lumped.masses`), the
-    springs' own unless given. about: the flat, stress-free sheet, without actuators, loads not mattering; or
-    "deformed", its equilibrium under the scene's loads (no actuators, no follower loads), with the tangent
-    there.
+    calibration: as of `lumped.solve`. distribution: how the masses are shared out (`lumped.masses`);
+    higher-order unless given, or those that springs fitted to frequencies go with. about: the flat,
+    stress-free sheet, without actuators, loads not mattering; or "deformed", its equilibrium under the
+    scene's loads (no actuators, no follower loads), with the tangent there.
 
     Raises BadInput when the lattice has fewer modes than asked or the scene asks what has no modes,
     NoEquilibrium where there is none to be about.
@@ -91,8 +90,8 @@ def modes(
     rigid = len(free_rigid_motions(scene))
     if count + rigid > problem.system.unknowns - 1:
         raise BadInput(f"count = {count}: the lattice has only {problem.system.unknowns - rigid} modes")
-    weight = np.repeat(masses(scene, problem.assembly.lattice, distribution or calibration.masses), 3)
-    mass = sp.csc_array(transform.T @ sp.diags_array(weight) @ transform)
+    inertia = mass_matrix(scene, problem.assembly.lattice, distribution or usual_masses(calibration))
+    mass = sp.csc_array(transform.T @ sp.kron(inertia, sp.eye_array(3)) @ transform)
     blocks = problem.assembly.tangent(at)
     stiffness = problem.system.matrix(blocks)
     wanted = count + rigid
@@ -102,12 +101,17 @@ def modes(
                 stiffness.toarray(), mass.toarray(), subset_by_index=[0, wanted - 1]
             )
         else:
-            values, vectors = _shift_invert(scene, problem, blocks, stiffness, mass, weight, wanted)
+            values, vectors = _shift_invert(scene, problem, blocks, stiffness, mass, inertia, wanted)
     order = np.argsort(values)[rigid:]
     shapes = np.stack([problem.expand(vectors[:, k]) for k in order])
     shapes /= np.abs(shapes).max(axis=(1, 2), keepdims=True)
     frequencies = np.sqrt(np.maximum(values[order], 0.0)) / (2.0 * np.pi)
     return Modes(frequencies, shapes, rigid, problem.system.unknowns, problem.assembly.lattice)
+
+
+def usual_masses(calibration: Calibration) -> Inertia:
+    """The distribution that springs vibrate with unless another is asked for."""
+    return "higher-order" if calibration.masses == "tributary" else calibration.masses
 
 
 def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, np.ndarray]:
@@ -134,7 +138,7 @@ def frequency_slopes(
     dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M φ), with ∂K/∂k the change of the tangent at rest, which is linear in k; for
     frequencies that stand alone (of equal ones it gives the slope of a mean).
     """
-    found = modes(scene, calibration, count)
+    found = modes(scene, calibration, count, calibration.masses)
     problem = pose(scene, calibration)
     rest = np.zeros_like(problem.loads.dead)
     weight = masses(scene, problem.assembly.lattice, calibration.masses)
@@ -164,7 +168,7 @@ def _shift_invert(
     blocks: np.ndarray,
     stiffness: sp.csc_array,
     mass: sp.csc_array,
-    weight: np.ndarray,
+    inertia: sp.coo_array,
     wanted: int,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Lanczos on (K − σM)⁻¹, σ = −100 E h²/(12 ρ a⁴), as far below zero as the lowest elastic eigenvalue of a
@@ -176,10 +180,9 @@ def _shift_invert(
     sheet, material = scene.sheet, scene.material
     slope = sheet.thickness / max(sheet.lengths) ** 2
     shift = -100.0 * slope**2 * material.young / (12.0 * material.density)
-    n = np.arange(len(problem.loads.dead))
     shifted = blocks.copy()
-    diagonal = problem.assembly.pattern.slots(n, n)
-    shifted[diagonal] -= shift * weight.reshape(-1, 3)[:, :, None] * np.eye(3)
+    shared = problem.assembly.pattern.slots(*inertia.coords)
+    shifted[shared] -= shift * inertia.data[:, None, None] * np.eye(3)
     factor = problem.factor(shifted)
     size = problem.system.unknowns
     inverse = LinearOperator((size, size), matvec=factor.solve, dtype=float)

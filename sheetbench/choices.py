@@ -41,6 +41,12 @@ CALIBRATIONS: dict[str, Method] = {
     "lloyd": Method("off-diagonal stiffness of the bilinear element at ν = 1/3, in each layer"),
 }
 
+MASSES = {
+    "higher-order": "the inertia of edges corrected, shared by neighbours",
+    "tributary": "the sheet around each mass, as in statics and in motion",
+    "gregory": "end-corrected weights along each side, cells of one size",
+}
+
 INTEGRATOR = "generalised-alpha"
 INTEGRATORS = {
     "generalised-alpha": "implicit, steps by their error",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 from inspect import signature
+from typing import get_args
 
 import pytest
 from typer.main import get_command
@@ -20,6 +21,8 @@ from sheetbench import choices
 def test_every_name_is_there_and_described() -> None:
     assert list(lumped.CALIBRATIONS) == list(choices.CALIBRATIONS)
     assert set(lumped.INTEGRATORS) == set(choices.INTEGRATORS)
+    given, more = get_args(lumped.Inertia)
+    assert {*get_args(given), *get_args(more)} == set(choices.MASSES)
     assert list(fem_reference.MODELS) == list(choices.REFERENCES) == list(REFERENCES)
     for name, method in lumped.CALIBRATIONS.items():
         assert vars(choices.CALIBRATIONS[name]).items() <= vars(method).items()
@@ -49,6 +52,7 @@ def test_the_published_study_keeps_its_methods_in_their_order() -> None:
         ("calibrate", "method", choices.CALIBRATIONS),
         ("identify", "calibration", choices.CALIBRATIONS),
         ("modes", "calibration", choices.CALIBRATIONS),
+        ("modes", "masses", choices.MASSES),
         ("modes", "reference", choices.REFERENCES),
         ("simulate", "calibration", choices.CALIBRATIONS),
         ("simulate", "integrator", choices.INTEGRATORS),

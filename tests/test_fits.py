@@ -83,6 +83,7 @@ def test_frequency_slopes_against_differences():
                 scene,
                 springs.with_constant(name, k * (1 + sign * 1e-4)),
                 3,
+                "tributary",
             ).frequencies
             for sign in (1, -1)
         ]

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.options import Calibration, Elements, Grading, Grid, Json, Large, Out, Overwrite, Scene
-from sheetbench.choices import ELEMENTS, REFERENCE, REFERENCES, listed
+from sheetbench.choices import ELEMENTS, MASSES, REFERENCE, REFERENCES, listed
 
 
 def command(
@@ -16,6 +16,14 @@ def command(
     lumped: Grid = None,
     grading: Grading = None,
     calibration: Calibration = None,
+    masses: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help=f"How the lattice shares out its mass: {listed(MASSES)}. higher-order unless given, or what "
+            "fitted springs go with.",
+        ),
+    ] = None,
     reference: Annotated[
         list[str] | None,
         typer.Option(
@@ -51,6 +59,7 @@ def command(
                 grid=lumped,
                 grading=grading,
                 calibration=calibration,
+                masses=masses,
                 references=reference or [REFERENCE],
                 elements=parse_elements(elements),
                 about=about,

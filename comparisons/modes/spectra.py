@@ -25,7 +25,7 @@ from comparisons.models.springs import scene_springs
 from comparisons.modes import tables
 from comparisons.report.report import Report
 from comparisons.report.work import Progress, Work, silent
-from sheetbench.choices import ELEMENTS, REFERENCE
+from sheetbench.choices import ELEMENTS, MASSES, REFERENCE
 from sheetbench.scenes import About, Scene, free_rigid_motions, load, summary
 from sheetbench.scenes.errors import BadInput, require_choice
 
@@ -110,19 +110,23 @@ def spectra(
     grid: Asked = None,
     grading: Grading = None,
     calibration: str | None = None,
+    masses: str | None = None,
     references: Sequence[str] = (REFERENCE,),
     elements: Elements = ELEMENTS,
     about: str = "flat",
     large: bool = False,
     progress: Progress = silent,
 ) -> Spectra:
-    """The spectra of the lattice and of each reference; about: "flat", or "deformed" under the scene's loads;
-    large: even where one takes more memory than there is; progress: told what is being done.
+    """The spectra of the lattice and of each reference; masses: how the lattice shares out its mass
+    (`lumped.masses`), as `lumped.modes` has it unless given; about: "flat", or "deformed" under the scene's
+    loads; large: even where one takes more memory than there is; progress: told what is being done.
 
     Raises SceneError for a scene that cannot be read, BadInput for choices that do not exist and a count
     that a mesh cannot give, NoEquilibrium for deformed where a model has no stable equilibrium.
     """
     require_choice("--about", about, get_args(About))
+    if masses is not None:
+        require_choice("--masses", masses, MASSES)
     around = cast(About, about)
     scene = scene if isinstance(scene, Scene) else load(scene)
     if count < 1:
@@ -140,7 +144,7 @@ def spectra(
 
     starting(asked[0])
     springs, because = scene_springs(scene, **lattice)
-    found = [_lattice(scene, count, springs, because, around)]
+    found = [_lattice(scene, count, springs, because, around, masses)]
     for candidate in asked[1:]:
         starting(candidate)
         found.append(_reference(scene, candidate.model, count, elements, around))
@@ -159,20 +163,27 @@ def _sag(scene: Scene, springs: Calibration) -> float | None:
 
 
 def _lattice(
-    scene: Scene, count: int, springs: Calibration, because: dict[str, str], about: About
+    scene: Scene,
+    count: int,
+    springs: Calibration,
+    because: dict[str, str],
+    about: About,
+    masses: str | None,
 ) -> Spectrum:
     import lumped
 
     begin = perf_counter()
-    modes = lumped.modes(scene, springs, count, about=about)
+    distribution = cast("lumped.Inertia | None", masses) or lumped.usual_masses(springs)
+    modes = lumped.modes(scene, springs, count, distribution, about)
     seconds = perf_counter() - begin
     return Spectrum(
         model="lumped",
-        label=f"lumped {springs.title}",
+        label=f"lumped {springs.title}, {distribution} masses",
         settings={
             "grid": list(springs.grid),
             "calibration": springs.method,
             "grading": springs.grading,
+            "masses": distribution,
             **because,
         },
         frequencies=modes.frequencies,

@@ -89,7 +89,7 @@ class FirstMode:
     """The first mode of a system about rest: ω [rad/s] and the coordinate q of a motion along it."""
 
     def __init__(self, equations: System, springs: Calibration):
-        found = lumped.modes(equations.scene, springs, 1)
+        found = lumped.modes(equations.scene, springs, 1, "tributary")
         self.omega = 2.0 * np.pi * float(found.frequencies[0])
         self.shape = found.shapes[0]
         self._weighted = (equations.mass @ self.shape.ravel()).reshape(-1, 3)

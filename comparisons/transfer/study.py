@@ -39,7 +39,7 @@ METHODS = tuple(name for name in CALIBRATIONS if name != "consistent-interior") 
 FITTED = tuple(name for name in METHODS if CALIBRATIONS[name].fitted)
 PARTS = ("static", "limits", "modal", "aspect", "left-out")
 GRIDS = (9, 17, 33)
-MASSES = ("tributary", "gregory")
+MASSES = ("tributary", "gregory", "higher-order")
 LONG = ((9, 9), (9, 13), (9, 17), (9, 25), (25, 9))  # of `moduli` on the training scenes
 LONG_EVERYWHERE = ((17, 17), (17, 25), (17, 33), (17, 49), (49, 17))  # on every scene
 LIMITS = (*TRAINING, *LINEAR)

@@ -1,14 +1,15 @@
 """Springs fitted to data: fit-static to displacement fields, fit-modal to natural frequencies.
 
 Both start from the springs of `consistent` and vary the logarithms of the spring constants (positive links)
-and the area springs as shares of the axial ones; layer distance, kz and the edges' twist are kept; on a
-graded grid the cells' springs of a family grow alike. Gauss–Newton with exact
-Jacobians: of displacements from `lumped.sensitivity`; of frequencies from Rayleigh's quotient,
-dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M φ). Residuals are relative: displacements to the largest of their field,
-frequencies to themselves. A pull towards the start (PRIOR, in units of the residuals) keeps what the data do
-not see where it was; the report says which combinations those are. fit-modal takes Gregory's masses, which
-have most of the frequencies' error away before a spring is touched: with tributary masses the fit bought
-frequencies with cross links fourteen times too stiff in shear, and was 28 % off in statics.
+and the area springs as shares of the axial ones; layer distance, kz, the edges' twist and the strain springs
+that share the stretching with the axial links, whose sum is what data see, are kept; on a graded grid the
+cells' springs of a family grow alike. Gauss–Newton with exact Jacobians: of displacements from
+`lumped.sensitivity`; of frequencies from Rayleigh's quotient, dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M φ). Residuals are
+relative: displacements to the largest of their field, frequencies to themselves. A pull towards the start
+(PRIOR, in units of the residuals) keeps what the data do not see where it was; the report says which
+combinations those are. fit-modal takes Gregory's masses, which have most of the frequencies' error away
+before a spring is touched: with tributary masses the fit bought frequencies with cross links fourteen times
+too stiff in shear, and was 28 % off in statics.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ from sheetbench.scenes import Material, Sheet
 from sheetbench.scenes.errors import BadInput
 
 PRIOR = {"fit-static": 1e-3, "fit-modal": 1e-1}
-KEPT = ("vertical", "layer_distance", "edge_shear", "strip_shear")
+KEPT = ("vertical", "layer_distance", "stretch", "edge_shear", "strip_shear")
 
 
 @dataclass(frozen=True)

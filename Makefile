@@ -26,6 +26,7 @@ help:
 	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/; up to half an hour)"
 	@echo "make crosscheck every model and other people's programs on nine scenes: docs/crosscheck.md (ten minutes)"
 	@echo "make stability where each solver holds, degrades, refuses or breaks: eight maps (six minutes; files in $(OUT)/stability/)"
+	@echo "make bench     time, steps and error of the settling motion beside SciPy's BDF (files in $(OUT)/)"
 	@echo "make docs-scene  the page of every key of a scene and its sketch, docs/scene.md, from the types"
 	@echo "make docs      the documentation as a site, docs/_build/html/index.html (three minutes; a warning is an error)"
 	@echo "make wheel-check  the wheel as its users get it: installed elsewhere, run there, uninstalled without a trace"
@@ -95,6 +96,10 @@ docs: install
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[docs]'
 	@$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going --builder html docs docs/_build/html
 	@echo "docs/_build/html/index.html"
+
+bench: install
+	@mkdir -p $(OUT)
+	@$(BIN)/python benchmarks/settling.py --json $(OUT)/settling.json
 
 docs-scene: install
 	@$(BIN)/python docs/scene_sketch.py

@@ -28,8 +28,10 @@ from sheetbench.scenes.errors import BadInput
 
 ERROR = 3e-5  # of a step, relative to the largest displacement so far
 CLOSE = 1e-11  # last correction of a fixed step relative to the sheet's side
-SHARE = 0.1  # last correction of an adaptive step relative to the error it may have
-STALE = 0.7  # ratio of successive corrections above which factors are made anew within a step
+SHARE = 0.3  # last correction of an adaptive step relative to the error it may have
+STALE = (
+    1.5  # ratio of successive corrections above which a step, which begins with its own, makes factors anew
+)
 
 
 class Esdirk(DenseIntegrator):

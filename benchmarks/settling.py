@@ -1,0 +1,123 @@
+"""Two seconds of the settling sheet by our integrators and by SciPy's BDF: time, steps and error, in one run.
+
+    python benchmarks/settling.py [--all] [--json FILE]
+
+BDF has the lattice's own sparse Jacobian and compiled right-hand side; it only returns displacements, where
+ours also keep energies and reactions and watch every sample, and set up within their time. Error: of P4 over
+the run, relative to its largest displacement, against `esdirk` at fixed steps of 1 ms. Best of three, on one
+thread; CPU seconds, which other programs on the machine lengthen less than the clock's. --all: `verlet`, a
+million steps, and midpoint too.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"):
+    os.environ[name] = "1"
+
+import numpy as np  # noqa: E402  # after the number of threads is set
+import scipy.sparse as sp  # noqa: E402
+from scipy.integrate import solve_ivp  # noqa: E402
+
+import lumped  # noqa: E402
+from sheetbench import scenes  # noqa: E402
+
+SCENE, GRID, DURATION, EVERY, REPEATS = "two-edges-settling", (9, 9), 2.0, 0.01, 3
+TIMES = np.linspace(0.0, DURATION, round(DURATION / EVERY) + 1)
+Answer = tuple[np.ndarray, int]  # P4 (n, 3) [m] at TIMES, and steps
+
+
+def bdf(rtol: float) -> Callable[[], Answer]:
+    """SciPy's BDF on the lattice's equations as a system of first order."""
+    asked = scenes.load(SCENE)
+    springs = lumped.calibrate(asked.sheet, asked.material, grid=GRID)
+    system = lumped.System(asked, lumped.pose(asked, springs))
+    n = system.reduced_mass.shape[0]
+    weight = sp.diags_array(1.0 / system.reduced_mass.diagonal())
+    corner = system.assembly.lattice.columns()[-1, -1]
+
+    def rate(t: float, y: np.ndarray) -> np.ndarray:
+        u, v = system.expand(y[:n]), system.expand(y[n:])
+        return np.concatenate([y[n:], system.contract(system.accelerate(system.unbalanced(u, v, t)))])
+
+    def jacobian(t: float, y: np.ndarray) -> sp.csc_array:
+        u, v = system.expand(y[:n]), system.expand(y[n:])
+        k, c = (
+            weight @ system.problem.system.matrix(system.matrix(u, v, t, 0.0, *by))
+            for by in ((0.0, 1.0), (1.0, 0.0))
+        )
+        return sp.csc_array(sp.block_array([[None, sp.eye_array(n)], [-k, -c]]))
+
+    def run() -> Answer:
+        found = solve_ivp(
+            rate, (0.0, DURATION), np.zeros(2 * n), "BDF", TIMES, rtol=rtol, atol=1e-3 * rtol, jac=jacobian
+        )
+        u = np.array([system.expand(y[:n])[corner].mean(axis=0) for y in found.y.T])
+        return u, found.nfev
+
+    return run
+
+
+def ours(integrator: str, **options: Any) -> Callable[[], Answer]:
+    """A run of ours, set-up and samples included."""
+    asked = scenes.load(SCENE)
+    springs = lumped.calibrate(asked.sheet, asked.material, grid=GRID)
+
+    def run() -> Answer:
+        history = lumped.simulate(asked, springs, DURATION, integrator=integrator, every=EVERY, **options)
+        return history.probes["P4"], history.steps
+
+    return run
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--all", action="store_true", help="verlet and midpoint too")
+    parser.add_argument("--json", type=Path, help="a file for the rows")
+    asked = parser.parse_args()
+    runs: dict[str, Callable[[], Answer]] = {
+        "SciPy BDF, rtol 1e-3": bdf(1e-3),
+        "SciPy BDF, rtol 1e-4": bdf(1e-4),
+        "generalised-alpha": ours("generalised-alpha"),
+        "esdirk": ours("esdirk"),
+        "verlet-implicit-damping": ours("verlet-implicit-damping"),
+    }
+    if asked.all:
+        runs |= {"midpoint": ours("midpoint"), "verlet": ours("verlet")}
+    truth, _ = ours("esdirk", step=1e-3)()
+    near, _ = ours("esdirk", step=2e-3)()
+    largest = np.abs(truth).max()
+    doubt = np.abs(near - truth).max() / largest
+    print(f"{SCENE}, 9×9×2, {DURATION:g} s; error of the reference at most {doubt:.1e}")
+    rows = []
+    for label, run in runs.items():
+        seconds = []
+        for _ in range(1 if label in ("verlet", "midpoint") else REPEATS):
+            began = time.process_time()
+            u, steps = run()
+            seconds.append(time.process_time() - began)
+        rows.append(
+            {"method": label, "seconds": min(seconds), "samples": seconds, "steps": steps,
+             "error": float(np.abs(u - truth).max() / largest)}
+        )  # fmt: skip
+        slowest = rows[0]["seconds"] / rows[-1]["seconds"]
+        print(
+            f"{label:26s} {rows[-1]['seconds']:8.3f} s CPU {steps:8d} steps  error {rows[-1]['error']:.1e}"
+            f"  {slowest:6.1f} times as fast as the first"
+        )
+        sys.stdout.flush()
+    if asked.json is not None:
+        asked.json.write_text(json.dumps(rows, indent=1), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -38,6 +38,20 @@ class Lines:
         cell = np.clip(np.searchsorted(self.at, x, side="right") - 1, 0, len(self.widths) - 1)
         return cell, (x - self.at[cell]) / self.widths[cell]
 
+    def around(self, x: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+        """The `count` lines nearest to the cells of places x (k,) [m], all where there are fewer, and the
+        weight of each in the polynomial through them (Lagrange's), (k, count); on a line its own is 1."""
+        count = min(count, len(self.at))
+        first = np.clip(self.index(x)[0] - (count - 2) // 2, 0, len(self.at) - count)
+        lines = first[:, None] + np.arange(count)
+        at = self.at[lines]
+        weights = np.ones_like(at)
+        for line in range(count):
+            for other in range(count):
+                if other != line:
+                    weights[:, line] *= (x - at[:, other]) / (at[:, line] - at[:, other])
+        return lines, weights
+
 
 def grid_lines(
     sheet: Sheet, grid: Grid, grading: float = 0.0, half: tuple[bool, bool] = (False, False)

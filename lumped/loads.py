@@ -63,7 +63,7 @@ class Loads:
         for load in scene.loads:
             part = self._part(load.history)
             if isinstance(load, PointLoad):
-                part.dead += MidSurface(lattice, np.array(load.at)).shared(
+                part.dead += MidSurface(lattice, np.array(load.at), order=1).shared(
                     np.array([load.force]), len(part.dead)
                 )
             elif isinstance(load, EdgeLoad):

@@ -150,7 +150,12 @@ def test_narrow_layers_at_the_edges(method: str, young: float, name: str, masses
 
 
 @pytest.mark.parametrize(
-    "method, held", [("consistent-interior", (6e-3, 1.3e-3)), ("consistent", (2.4e-3, 7e-4))]
+    "method, held",
+    [
+        ("consistent-interior", (6e-3, 1.3e-3)),
+        ("consistent", (1.4e-3, 4e-4)),
+        ("consistent-membrane", (2.4e-3, 7e-4)),
+    ],
 )
 def test_the_order_of_convergence(method: str, held: tuple[float, float]) -> None:
     """Linear, two edges clamped, 17 and 33 masses, cells halved at one grading: second order."""

@@ -35,7 +35,8 @@ from comparisons.transfer.tasks import FINE
 from sheetbench.choices import CALIBRATIONS
 from sheetbench.scenes import Scene, comparable
 
-METHODS = tuple(name for name in CALIBRATIONS if name != "consistent-interior")  # `consistent` has its moduli
+OTHERS = ("consistent-interior", "consistent-membrane")  # `consistent` has their moduli
+METHODS = tuple(name for name in CALIBRATIONS if name not in OTHERS)
 FITTED = tuple(name for name in METHODS if CALIBRATIONS[name].fitted)
 PARTS = ("static", "limits", "modal", "aspect", "left-out")
 GRIDS = (9, 17, 33)

@@ -27,14 +27,29 @@ def consistent(
     layer_distance: float | None = None,
     grading: float = 0.0,
 ) -> Calibration:
-    """The moduli of the sheet, the cost of strains that vary across a cell, and the twist of its edges: of
-    second order in the size of the cells.
+    """The moduli of the sheet, and the twist of its edges: of second order in the size of the cells.
+
+    Raises BadInput as `consistent_interior`.
+    """
+    found = consistent_interior(sheet, material, grid, layer_distance, grading)
+    springs, notes = with_edges(sheet, grid, found.springs, grading)
+    return replace(found, method="consistent", springs=springs, notes=(*found.notes, *notes))
+
+
+def consistent_membrane(
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    layer_distance: float | None = None,
+    grading: float = 0.0,
+) -> Calibration:
+    """As `consistent`, with the right cost of strains that vary across a cell.
 
     Raises BadInput as `consistent_interior`.
     """
     found = consistent_interior(sheet, material, grid, layer_distance, grading, gradients=True)
     springs, notes = with_edges(sheet, grid, found.springs, grading)
-    return replace(found, method="consistent", springs=springs, notes=(*found.notes, *notes))
+    return replace(found, method="consistent-membrane", springs=springs, notes=(*found.notes, *notes))
 
 
 def consistent_interior(

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from lumped.calibration.calibration import Calibration
-from lumped.calibration.consistent import consistent, consistent_interior
+from lumped.calibration.consistent import consistent, consistent_interior, consistent_membrane
 from lumped.calibration.least_squares import fit_moduli
 from lumped.calibration.report import report
 from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
@@ -38,6 +38,7 @@ def described(makers: Mapping[str, Callable[..., Calibration]]) -> dict[str, Met
 MAKERS: dict[str, Callable[..., Calibration]] = {
     "consistent": consistent,
     "consistent-interior": consistent_interior,
+    "consistent-membrane": consistent_membrane,
     "moduli": fit_moduli,
     "uniform": uniform,
     "cauchy": cauchy,

@@ -20,11 +20,13 @@ from sheetbench.scenes.grid import Grid
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """at: (n,) [m] places of the lines from 0 on; widths: (n − 1,) [m] of the cells between; mean: [m]."""
+    """at: (n,) [m] places of the lines from 0 on; widths: (n − 1,) [m] of the cells between; mean: [m]; half:
+    whether they end at a plane of symmetry."""
 
     at: np.ndarray
     widths: np.ndarray
     mean: float
+    half: bool = False
 
     @property
     def tributary(self) -> np.ndarray:
@@ -38,19 +40,24 @@ class Lines:
         cell = np.clip(np.searchsorted(self.at, x, side="right") - 1, 0, len(self.widths) - 1)
         return cell, (x - self.at[cell]) / self.widths[cell]
 
-    def around(self, x: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-        """The `count` lines nearest to the cells of places x (k,) [m], all where there are fewer, and the
-        weight of each in the polynomial through them (Lagrange's), (k, count); on a line its own is 1."""
-        count = min(count, len(self.at))
-        first = np.clip(self.index(x)[0] - (count - 2) // 2, 0, len(self.at) - count)
-        lines = first[:, None] + np.arange(count)
-        at = self.at[lines]
-        weights = np.ones_like(at)
+    def around(self, x: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The `count` lines nearest to the cells of places x (k,) [m], all where there are fewer; the weight
+        of each in the polynomial through them (Lagrange's), on a line its own is 1; and whether each is a
+        line's image beyond the plane of symmetry. (k, count) each."""
+        n = len(self.at)
+        number, at = np.arange(n), self.at
+        if self.half:
+            number, at = np.append(number, number[-2::-1]), np.append(at, 2.0 * at[-1] - at[-2::-1])
+        count = min(count, len(at))
+        first = np.clip(self.index(x)[0] - (count - 2) // 2, 0, len(at) - count)
+        chosen = first[:, None] + np.arange(count)
+        places = at[chosen]
+        weights = np.ones_like(places)
         for line in range(count):
             for other in range(count):
                 if other != line:
-                    weights[:, line] *= (x - at[:, other]) / (at[:, line] - at[:, other])
-        return lines, weights
+                    weights[:, line] *= (x - places[:, other]) / (places[:, line] - places[:, other])
+        return number[chosen], weights, chosen >= n
 
 
 def grid_lines(
@@ -70,10 +77,10 @@ def grid_lines(
 def _lines(length: float, count: int, grading: float, half: bool) -> Lines:
     mean = length / (count - 1)
     if not grading:
-        return Lines(np.arange(count) * mean, np.full(count - 1, mean), mean)
+        return Lines(np.arange(count) * mean, np.full(count - 1, mean), mean, half)
     if half:
         whole = _lines(2.0 * length, 2 * count - 1, grading, False)
-        return Lines(whole.at[:count], whole.widths[: count - 1], mean)
+        return Lines(whole.at[:count], whole.widths[: count - 1], mean, half)
     t = np.linspace(0.0, 1.0, count)
     at = length * ((1.0 - grading) * t + 0.5 * grading * (1.0 - np.cos(np.pi * t)))
     widths = np.diff(at)

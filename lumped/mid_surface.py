@@ -26,22 +26,24 @@ class MidSurface:
         outside = np.max(np.abs(np.array(places) - 0.5), axis=0) > 0.5 + 1e-9
         if outside.any():
             raise BadInput(f"point {points[outside][0].tolist()} m is off the sheet")
-        (i, x), (j, y) = (
-            lines.around(points[:, axis], order + 1) for axis, lines in enumerate(lattice.lines)
-        )
+        ends = [lines.around(points[:, axis], order + 1) for axis, lines in enumerate(lattice.lines)]
+        (i, x, beyond_x), (j, y, beyond_y) = ends
         columns = lattice.columns()[j[:, :, None], i[:, None, :]]
         self._nodes = columns.reshape(len(points), -1, lattice.grid[2])
-        weights = y[:, :, None] * x[:, None, :] / lattice.grid[2]
-        self._share = weights.reshape(len(points), -1)
+        signs = np.ones((*columns.shape[:3], 3))  # an image moves across its plane of symmetry the other way
+        signs[..., 0] -= 2.0 * beyond_x[:, None, :]
+        signs[..., 1] -= 2.0 * beyond_y[:, :, None]
+        weights = y[:, :, None, None] * x[:, None, :, None] / lattice.grid[2] * signs
+        self._share = weights.reshape(len(points), -1, 3)
 
     def of(self, field: np.ndarray) -> np.ndarray:
-        """Values (n, 3) at the points of a field over the masses, (masses and more, 3)."""
-        values: np.ndarray = np.einsum("pc,pclq->pq", self._share, field[self._nodes])
+        """Values (n, 3) at the points of a field of vectors over the masses, (masses and more, 3)."""
+        values: np.ndarray = np.einsum("pcq,pclq->pq", self._share, field[self._nodes])
         return values
 
     def shared(self, values: np.ndarray, size: int) -> np.ndarray:
         """The transpose: values (n, 3) at the points shared among the masses, (size, 3)."""
         out = np.zeros((size, 3))
-        parts = self._share[:, :, None, None] * np.asarray(values, float)[:, None, None, :]
+        parts = (self._share * np.asarray(values, float)[:, None, :])[:, :, None, :]
         np.add.at(out, self._nodes, np.broadcast_to(parts, (*self._nodes.shape, 3)))
         return out

@@ -114,9 +114,16 @@ class FlatSystem:
         if not len(self._driven):
             nothing = np.empty((len(times), 0))
             return nothing, nothing
-        rows, axes = self._driven.T
-        place = np.stack([self._system.place(time)[rows, axes] for time in times])
-        return place, np.stack([self._system.place_rate(time)[rows, axes] for time in times])
+        system, (rows, axes) = self._system, self._driven.T
+        place, rate = np.zeros((2, len(times), *self._shape))
+        for moved, axis, course in system.motions:
+            place[:, moved, axis] += course.at(times)[:, axis, None]
+            rate[:, moved, axis] += course.slope(times)[:, axis, None]
+        if system.coupling is not None:
+            for at, time in enumerate(times):
+                place[at] += system.coupling.driven(system.drive(time))
+                rate[at] += system.coupling.driven_velocity(time)
+        return place[:, rows, axes], rate[:, rows, axes]
 
     def _of_masses(self, values: np.ndarray) -> np.ndarray:
         return np.repeat(values[:, None], 3, axis=1)

@@ -73,8 +73,8 @@ class System:
         self._single = self.assembly.precision == "single"
         # integrators ask for the same two moments several times a step
         self.place, self.place_rate = lru_cache(4)(self._place), lru_cache(4)(self._place_rate)
-        self._motions = self._support_motions()
-        self.moving = bool(self._motions or (self.coupling is not None and self.coupling.moved.any()))
+        self.motions = self._support_motions()
+        self.moving = bool(self.motions or (self.coupling is not None and self.coupling.moved.any()))
         self._still = problem.constraints.prescribed(1.0)
 
     @property
@@ -91,7 +91,7 @@ class System:
     def driven(self) -> np.ndarray:
         """Components (size, 3) bool that g(t) moves."""
         driven = np.zeros(self._still.shape, dtype=bool)
-        for moved, axis, _ in self._motions:
+        for moved, axis, _ in self.motions:
             driven[moved, axis] = True
         if self.coupling is not None:
             driven[: self.coupling.masses][self.coupling.moved] = True
@@ -106,7 +106,7 @@ class System:
         if not self.moving:
             return self._still
         g = self._still.copy()
-        for moved, axis, course in self._motions:
+        for moved, axis, course in self.motions:
             g[moved, axis] += course.at(time)[axis]
         if self.coupling is not None:
             g += self.coupling.driven(self.drive(time))
@@ -117,7 +117,7 @@ class System:
         g = np.zeros_like(self._still)
         if not self.moving:
             return g
-        for moved, axis, course in self._motions:
+        for moved, axis, course in self.motions:
             g[moved, axis] += course.slope(time)[axis]
         if self.coupling is not None:
             g += self.coupling.driven_velocity(time)

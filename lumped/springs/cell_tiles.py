@@ -32,9 +32,9 @@ def gather_sides(
     """One component of a and of b from the corners', into rows `row` and three below."""
     half, below = x.dtype.type(HALF), row + R3
     for i in range(count):
-        tile[row + i] = half * ((x[c2 + i] - x[c0 + i]) - (x[c3 + i] - x[c1 + i]))
-    for i in range(count):
-        tile[below + i] = half * ((x[c2 + i] - x[c0 + i]) + (x[c3 + i] - x[c1 + i]))
+        first, second = x[c2 + i] - x[c0 + i], x[c3 + i] - x[c1 + i]
+        tile[row + i] = half * (first - second)
+        tile[below + i] = half * (first + second)
 
 
 @njit(**OPTIONS)

@@ -1,0 +1,70 @@
+"""Microseconds of CPU a step of velocity Verlet, compiled and one by one, by grid, damping and precision.
+
+    OMP_NUM_THREADS=1 python benchmarks/explicit_steps.py 9 65
+
+The best of four alternating samples of each. A thousandth of the layers' distance in random displacements
+keeps single precision from numbers below its range, which are slow.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+import lumped
+from lumped import INTEGRATORS, State, System, pose
+from lumped.assembly import Precision
+from sheetbench import scenes
+
+STEP = 1e-8  # s, below every limit
+
+
+def seconds(work: Callable[[], int]) -> float:
+    """CPU time of each of what `work` does."""
+    began = time.process_time()
+    count = work()
+    return (time.process_time() - began) / count
+
+
+def measure(masses: int, damping_time: float, precision: Precision) -> tuple[float, float]:
+    """Seconds a step, compiled and one by one."""
+    scene = scenes.load("two-edges-clamped")
+    scene = scene.replace(material=scene.material.replace(damping_time=damping_time))
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=masses)
+    system = System(scene, pose(scene, springs, precision=precision))
+    size = 1e-3 * springs.layer_distance
+    u = system.expand(size * np.random.default_rng(0).standard_normal(system.reduced_mass.shape[0]))
+    state = State(0.0, u, u, np.zeros_like(u))
+    method = INTEGRATORS["verlet"](system, STEP)
+
+    def alone(count: int) -> int:
+        for _ in range(count):
+            method.advance(state, STEP)
+        return count
+
+    _, together = method.march(state, STEP, 10**6)
+    found = [
+        (
+            seconds(lambda: method.march(state, STEP, together)[1]),
+            seconds(lambda: alone(max(1, together // 20))),
+        )
+        for _ in range(4)
+    ]
+    compiled, single = np.min(found, axis=0)
+    return float(compiled), float(single)
+
+
+if __name__ == "__main__":
+    for n in map(int, sys.argv[1:] or ("9", "65")):
+        for damping in (0.0, 4e-3):
+            for kind in ("double", "single"):
+                one, other = measure(n, damping, kind)
+                rate = 2e-6 * n * n / one
+                print(
+                    f"{n}x{n}x2, {'dampers' if damping else 'undamped'}, {kind}: {1e6 * one:.1f} µs a step, "
+                    f"{1e6 * other:.0f} one by one; {rate:.1f} M mass-steps/s",
+                    flush=True,
+                )

@@ -30,6 +30,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fem_reference.shell import sampling
 from fem_reference.surface.biquadratic import (
     GAUSS,
     GAUSS_WEIGHTS,
@@ -54,27 +55,32 @@ SHEAR = slice(42, 54)
 STRAINS = 54
 
 
-def _strain_forms() -> np.ndarray:
-    """H (54, 18, 18) with e = ½ Qᵀ H Q; Q holds nine positions, then nine directors."""
-    membrane, bending, shear = [], [], []
-    phi, director = slice(0, 9), slice(9, 18)
+def _tables() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """a and b (21, 9), v (12, 9) of `fem_reference.shell.sampling`."""
+    first, second, values = [], [], []
     for name, (a, b) in {"rr": (0, 0), "ss": (1, 1), "rs": (0, 1)}.items():
         value, slope = shape(*product_grid(*_GRIDS[name]))
-        product = 0.5 * np.einsum("ni,nj->nij", slope[a], slope[b])
-        product = product + product.transpose(0, 2, 1)  # φ,a·φ,b is ½ φᵀ (this) φ twice over
-        stretch = np.zeros((len(value), 18, 18))
-        stretch[:, phi, phi] = product
-        membrane.append(stretch)
-        turn = np.zeros_like(stretch)
-        turn[:, phi, director] = product
-        turn[:, director, phi] = product
-        bending.append(turn)
+        first.append(slope[a])
+        second.append(slope[b])
         if a == b:
-            slant = np.zeros_like(stretch)
-            slant[:, phi, director] = np.einsum("ni,nj->nij", slope[a], value)
-            slant[:, director, phi] = slant[:, phi, director].transpose(0, 2, 1)
-            shear.append(slant)
-    return np.concatenate(membrane + bending + shear)
+            values.append(value)
+    return np.concatenate(first), np.concatenate(second), np.concatenate(values)
+
+
+TABLES = _tables()
+
+
+def _strain_forms() -> np.ndarray:
+    """H (54, 18, 18) with e = ½ Qᵀ H Q; Q holds nine positions, then nine directors."""
+    a, b, v = TABLES
+    forms = np.zeros((STRAINS, 18, 18))
+    phi, director = slice(0, 9), slice(9, 18)
+    product, slant = a[:, :, None] * b[:, None, :], a[: len(v), :, None] * v[:, None, :]
+    even = 0.5 * (product + product.transpose(0, 2, 1))
+    forms[MEMBRANE, phi, phi] = forms[BENDING, phi, director] = forms[BENDING, director, phi] = even
+    forms[SHEAR, phi, director] = slant
+    forms[SHEAR, director, phi] = slant.transpose(0, 2, 1)
+    return forms
 
 
 FORMS = _strain_forms()
@@ -113,15 +119,23 @@ class Element:
 
     def gradient(self, change: np.ndarray) -> np.ndarray:
         """B = H Q (m, 54, 18, 3): the strains' derivatives at Q₀ + change; change q: (m, 18, 3)."""
-        return _apply_forms(self.reference + change)
+        vectors = self.reference + change
+        found: np.ndarray = sampling.gradient(vectors, *TABLES)
+        return found
 
     def strain(self, change: np.ndarray) -> np.ndarray:
         """Sampled strains e (m, 54) of the change q (m, 18, 3) of positions and directors."""
-        return np.einsum("ekic,eic->ek", _apply_forms(self.reference + 0.5 * change), change)
+        found: np.ndarray = sampling.strain(np.ascontiguousarray(change), self.reference, *TABLES)
+        return found
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """s = D e (m, 54), conjugate to the sampled strains."""
-        return (self.stiffness @ strain[:, :, None])[:, :, 0]
+        return self.weighed(strain[:, :, None])[:, :, 0]
+
+    def weighed(self, columns: np.ndarray) -> np.ndarray:
+        """D times columns (m, 54, k): membrane, bending and shear do not mix in it."""
+        parts = (MEMBRANE, BENDING, SHEAR)
+        return np.concatenate([self.stiffness[:, part, part] @ columns[:, part] for part in parts], axis=1)
 
 
 @dataclass(frozen=True)
@@ -151,10 +165,6 @@ def strain_of(gradient: np.ndarray, step: np.ndarray) -> np.ndarray:
 def geometric(stress: np.ndarray) -> np.ndarray:
     """Σ s_k H_k (m, 18, 18), the same for each of the three components."""
     return (stress @ FORMS.reshape(STRAINS, -1)).reshape(-1, 18, 18)
-
-
-def _apply_forms(vectors: np.ndarray) -> np.ndarray:
-    return (FORMS.reshape(-1, 18) @ vectors).reshape(len(vectors), STRAINS, 18, 3)
 
 
 def _integrate(to_cartesian: np.ndarray, moduli: np.ndarray, areas: np.ndarray) -> np.ndarray:

@@ -222,7 +222,7 @@ class ShellStructure:
 
         of_nodes = frames[self.element_nodes]
         gradient, form = reduced(forces.gradient, of_nodes), geometric(stress)
-        stiffness = gradient.swapaxes(1, 2) @ (self.element.stiffness @ gradient)
+        stiffness = gradient.swapaxes(1, 2) @ self.element.weighed(gradient)
         add_geometric(stiffness, form, of_nodes)
         of_step = self.gather(self._split(step)[0])
         strain = strain_of(forces.gradient, of_step)

@@ -110,9 +110,22 @@ def _correct(
     problem: Problem, start: State, load_factor: float, predicted: np.ndarray, tolerance: float
 ) -> State:
     """Equilibrium at a load factor from a predicted step. Raises StepFailed, SingularMatrixError."""
-    stresses: Stresses | None = problem.assembly.extrapolated(start.u, predicted)
-    u = start.u + predicted
-    lengths = [float(np.abs(predicted).max())]
+    stresses = problem.assembly.extrapolated(start.u, predicted)
+    return corrected(problem, start.u + predicted, stresses, load_factor, predicted, tolerance)
+
+
+def corrected(
+    problem: Problem,
+    u: np.ndarray,
+    expected: Stresses,
+    load_factor: float,
+    step: np.ndarray,
+    tolerance: float = FINE,
+) -> State:
+    """Equilibrium at a load factor from u and the stresses expected there, to which a step (n, 3) [m] has
+    led. Raises StepFailed, SingularMatrixError."""
+    stresses: Stresses | None = expected
+    lengths = [float(np.abs(step).max())]
     unbalanced, residual = problem.residual(u, load_factor)
     for _ in range(CORRECTIONS):
         problem.note(load_factor, residual, lengths[-1])

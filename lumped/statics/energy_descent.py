@@ -26,7 +26,7 @@ def descend(problem: Problem, u: np.ndarray, load_factor: float) -> State:
     Raises StepFailed when there is none within the step limit.
     """
     problem.assembly.require_energy()
-    u = problem.expand(_unknowns(problem, u)) + problem.prescribed(load_factor)
+    u = problem.placed(u, load_factor)
     wait = 0
     for _ in range(STEPS):
         unbalanced, residual = problem.residual(u, load_factor)
@@ -83,11 +83,3 @@ def _definite_factor(problem: Problem, u: np.ndarray, load_factor: float, wait: 
             pass
         wait = PROJECTED_RUN
     return problem.factor(problem.tangent(u, load_factor, problem.assembly.harmless(u))), wait - 1
-
-
-def _unknowns(problem: Problem, u: np.ndarray) -> np.ndarray:
-    """The free unknowns whose displacement T q comes closest to u."""
-    transform = problem.constraints.transform
-    weight = transform.multiply(transform).sum(axis=0)
-    unknowns: np.ndarray = (transform.T @ u.ravel()) / weight
-    return unknowns

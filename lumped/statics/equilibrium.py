@@ -127,15 +127,19 @@ def corrected(
     stresses: Stresses | None = expected
     lengths = [float(np.abs(step).max())]
     unbalanced, residual = problem.residual(u, load_factor)
+    near: Factor | None = None
     for _ in range(CORRECTIONS):
         problem.note(load_factor, residual, lengths[-1])
         if not np.isfinite(residual):
             raise StepFailed("a number overflowed")
         if residual < COARSE or all_rounding(problem, u, load_factor, residual, lengths[-1]):
+            near = None  # its memory is needed
             return polish(problem, u, load_factor, tolerance)
-        done = problem.correction(u, load_factor, unbalanced, stresses)
+        done = problem.correction(u, load_factor, unbalanced, stresses, near)
         u, unbalanced, residual, stresses = done.u, done.unbalanced, done.residual, done.stresses
         lengths.append(done.length)
+        near = done.factor if problem.iterates else None
+        del done
         if lengths[-1] > 4.0 * problem.size or (len(lengths) > 4 and lengths[-1] > lengths[-2] > lengths[-3]):
             raise StepFailed("the corrections grow")
     raise StepFailed(f"no equilibrium in {CORRECTIONS} corrections")

@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
@@ -89,22 +88,8 @@ def surface(lattice: Lattice, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def _facing(lattice: Lattice, u: np.ndarray) -> np.ndarray:
     """Normal times mean director of every cell, over their area when flat, (ny − 1, nx − 1)."""
     middle, director = surface(lattice, u)
-    volumes: np.ndarray = _facing_volumes(middle, director)
-    return volumes / lattice.cell_areas
-
-
-@njit(cache=True, nogil=True)
-def _facing_volumes(middle: np.ndarray, director: np.ndarray) -> np.ndarray:
-    """½ d1 × d2 · mean director of every cell, d1 and d2 its diagonals."""
-    rows, columns = middle.shape[0] - 1, middle.shape[1] - 1
-    out = np.zeros((rows, columns))
-    for j in range(rows):
-        for i in range(columns):
-            for q in range(3):
-                r, s = (q + 1) % 3, (q + 2) % 3
-                normal = (middle[j + 1, i + 1, r] - middle[j, i, r]) * (
-                    middle[j + 1, i, s] - middle[j, i + 1, s]
-                ) - (middle[j + 1, i + 1, s] - middle[j, i, s]) * (middle[j + 1, i, r] - middle[j, i + 1, r])
-                mean = director[j, i, q] + director[j, i + 1, q] + director[j + 1, i + 1, q]
-                out[j, i] += 0.125 * normal * (mean + director[j + 1, i, q])
-    return out
+    a, b, c, d = cell_corners(middle)
+    normal = 0.5 * np.cross(c - a, d - b)
+    mean = sum(cell_corners(director)) / 4.0
+    facing: np.ndarray = np.einsum("jiq,jiq->ji", normal, mean) / lattice.cell_areas
+    return facing

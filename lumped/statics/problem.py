@@ -13,6 +13,7 @@ import numpy as np
 
 from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
+from lumped.linear.iterated import iterated
 from lumped.linear.maps import product, rows, transposed_product
 from lumped.linear.solver import REFINEMENTS, BandedFactor, Factor, ReducedSystem, checked, reduced
 from lumped.loads import Loads
@@ -23,6 +24,9 @@ from lumped.supports import Constraints
 from sheetbench.scenes import Iteration
 
 Progress = Callable[[Iteration], None]
+
+
+ITERATED = 5000  # unknowns from which a factorisation costs as much as ten solutions
 
 
 class Correction(NamedTuple):
@@ -79,6 +83,11 @@ class Problem:
         return of_unknowns > 0.0
 
     @property
+    def iterates(self) -> bool:
+        """Whether factors are dear enough to solve with those of a tangent close by."""
+        return self.conservative and self.multipliers == 0 and self.system.unknowns > ITERATED
+
+    @property
     def descends(self) -> bool:
         """Whether stable equilibria are minima of an energy of the free unknowns."""
         return self.conservative and self.multipliers == 0
@@ -126,6 +135,12 @@ class Problem:
             placed = placed + self.assembly.coupling.driven(self.commands(load_factor))
         return placed
 
+    def placed(self, u: np.ndarray, load_factor: float) -> np.ndarray:
+        """The displacement that the supports allow which comes closest to u on the free unknowns."""
+        transform = self.constraints.transform
+        weight = transform.multiply(transform).sum(axis=0)
+        return self.expand((transform.T @ u.ravel()) / weight) + self.prescribed(load_factor)
+
     def internal(self, u: np.ndarray, load_factor: float) -> tuple[float, np.ndarray]:
         """Elastic energy [J] and internal force, actuators included."""
         energy, force = self.assembly.force(u)
@@ -170,17 +185,27 @@ class Problem:
         return unbalanced, residual
 
     def correction(
-        self, u: np.ndarray, load_factor: float, unbalanced: np.ndarray, stresses: Stresses | None = None
+        self,
+        u: np.ndarray,
+        load_factor: float,
+        unbalanced: np.ndarray,
+        stresses: Stresses | None = None,
+        near: Factor | None = None,
     ) -> Correction:
-        """The Newton correction at u with these stresses in the tangent, or those at u.
+        """The Newton correction at u with these stresses in the tangent, or those at u. near: factors of a
+        tangent close by, which large systems are solved with as long as they serve.
 
         Raises SingularMatrixError when the tangent has no usable factors.
         """
         if (done := self._fused(u, load_factor, unbalanced, stresses)) is not None:
             return done
-        blocks = self.tangent(u, load_factor, stresses)
-        factor = self.factor(blocks)
-        step = self.expand(factor.solve(self.reduce(unbalanced)))
+        blocks, right = self.tangent(u, load_factor, stresses), self.reduce(unbalanced)
+        found = iterated(self.system.matrix(blocks), near, right) if near is not None else None
+        if found is None or near is None:
+            near = None  # whose memory the new factors may need
+            near = self.factor(blocks)
+            found = near.solve(right)
+        step, factor = self.expand(found), near
         left, residual = self.residual(u + step, load_factor)
         following = self.assembly.extrapolated(u, step) if stresses is not None else None
         return Correction(u + step, float(np.abs(step).max()), blocks, factor, left, residual, following)

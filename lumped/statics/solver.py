@@ -22,8 +22,18 @@ from lumped.mid_surface import MidSurface
 from lumped.springs.together import Stresses
 from lumped.statics import validity
 from lumped.statics.balance import balance
+from lumped.statics.coarse_start import FROM, halved, refined
 from lumped.statics.energy_descent import descend, disturbed
-from lumped.statics.equilibrium import FACTORISATIONS, State, StepFailed, at_rest, follow, predictor
+from lumped.statics.equilibrium import (
+    FACTORISATIONS,
+    State,
+    StepFailed,
+    at_rest,
+    corrected,
+    follow,
+    predictor,
+)
+from lumped.statics.faults import broken
 from lumped.statics.fields import LatticeMesh, field_mesh
 from lumped.statics.problem import Problem
 from lumped.supports import constrain
@@ -95,7 +105,12 @@ def solve(
     problem.progress = progress
     ready = time.perf_counter()
     with one_blas_thread():
-        outcome = flat_step(scene, problem) if linear else settle(scene, problem, branch)
+        if linear:
+            outcome = flat_step(scene, problem)
+        else:
+            direct = weights == "tributary" and branch == "path"
+            started = _from_coarser(scene, problem, calibration) if direct else None
+            outcome = started or settle(scene, problem, branch)
     done = time.perf_counter()
     usual = {"branch": "path", "weights": "tributary", "precision": "double", "linear": False}
     options = {"branch": branch, "weights": weights, "precision": precision, "linear": linear}
@@ -184,6 +199,31 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
         return Outcome(status, state, tuple(snaps), tuple(notes))
     status, judged = _judge(scene, problem, state)
     return Outcome(status, state, tuple(snaps), (*notes, *judged))
+
+
+def _from_coarser(scene: Scene, problem: Problem, calibration: Calibration) -> Outcome | None:
+    """The equilibrium of a large lattice from that of a smaller one; None where it must go the whole path."""
+    springs = halved(scene, calibration) if problem.iterates and problem.system.unknowns > FROM else None
+    if springs is None:
+        return None
+    smaller = pose(scene, springs, precision=problem.assembly.precision)
+    smaller.progress = problem.progress
+    outcome = _from_coarser(scene, smaller, springs) or settle(scene, smaller, "path")
+    problem.factorisations += smaller.factorisations
+    problem.history.extend(smaller.history)
+    if outcome.status is not Status.CONVERGED or outcome.snaps or outcome.notes:
+        return None
+    u = refined(smaller.assembly.lattice, outcome.state.u, problem.assembly.lattice)
+    del smaller, outcome  # and the memory of their factors
+    u = problem.placed(u, 1.0)
+    try:
+        state = corrected(problem, u, problem.assembly.stresses(u), 1.0, u)
+    except (StepFailed, SingularMatrixError):
+        return None
+    if state.negative != 0 or broken(problem.assembly, state.u) is not None:
+        return None
+    status, notes = _judge(scene, problem, state)
+    return Outcome(status, state, (), tuple(notes))
 
 
 def _judge(scene: Scene, problem: Problem, state: State) -> tuple[Status, list[str]]:

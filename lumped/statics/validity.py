@@ -46,7 +46,7 @@ def digits(problem: Problem, state: State) -> Fault | None:
     carried = np.zeros((len(state.u), 1))
     np.add.at(carried[:, 0], links.nodes.ravel(), np.repeat(links.stiffness * relative, 2))
     noise = np.random.default_rng(0).standard_normal((SAMPLES, *state.u.shape))
-    moved = [problem.expand(state.factor.solve(problem.reduce(carried * sample))) for sample in noise]
+    moved = [problem.expand(state.factor.once(problem.reduce(carried * sample))) for sample in noise]
     share = problem.assembly.rounding * float(np.abs(moved).max()) / largest
     if not share > DOUBTFUL:
         return None

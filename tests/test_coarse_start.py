@@ -1,0 +1,63 @@
+"""Large lattices from smaller ones: the same answers as along the whole path."""
+
+import numpy as np
+import pytest
+
+import lumped
+from lumped.statics import problem as problems
+from lumped.statics import solver
+from sheetbench.scenes import Status, load
+
+
+@pytest.fixture
+def counts_as_large(monkeypatch):
+    """Lattices of a few hundred unknowns count as large."""
+    monkeypatch.setattr(solver, "FROM", 500)
+    monkeypatch.setattr(problems, "ITERATED", 500)
+    monkeypatch.setattr("lumped.linear.solver.BANDED_LIMIT", 0.0)
+
+
+def softer(scene, times):
+    values = scene.material.model_dump() | {"young": scene.material.young / times}
+    return scene.model_copy(update={"material": type(scene.material)(**values)})
+
+
+def answers(scene, grid, monkeypatch, **options):
+    """With a coarse start, and along the whole path."""
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=grid, **options)
+    started = lumped.solve(scene, springs)
+    monkeypatch.setattr(solver, "_from_coarser", lambda *_: None)
+    return started, lumped.solve(scene, springs)
+
+
+@pytest.mark.parametrize("name, options", [
+    ("two-edges-clamped", {}), ("curved-edge", {}), ("curved-edge", {"grading": 0.5}),
+])  # fmt: skip
+def test_the_answer_is_that_of_the_whole_path(name, options, counts_as_large, monkeypatch):
+    scene = load(name)
+    started, whole = answers(scene, (13, 15), monkeypatch, **options)
+    assert started.status == whole.status == Status.CONVERGED
+    points = np.random.default_rng(0).uniform(0.0, scene.sheet.lengths, (40, 2))
+    expected = whole.displacement(points)
+    # both are polished to a residual of 1e-11: what is left of either is its multiple by the condition number
+    assert np.abs(started.displacement(points) - expected).max() < 1e-7 * np.abs(expected).max()
+    assert started.balance.holds and started.history[0].load_factor > 0.0
+    largest = [line for line in started.history if line.load_factor == 1.0]
+    assert largest[-1].residual < 1e-10
+
+
+def test_two_factorisations_are_left_for_the_large_lattice(counts_as_large, monkeypatch):
+    scene = load("two-edges-clamped")
+    small = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid=(8, 8)))
+    large = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid=(15, 15)))
+    assert large.iterations == small.iterations + 2
+
+
+@pytest.mark.parametrize("times", [10.0, 300.0])
+def test_where_the_smaller_lattice_snaps_or_fails_the_whole_path_is_gone(times, counts_as_large, monkeypatch):
+    scene = softer(load("two-edges-clamped"), times)
+    started, whole = answers(scene, (12, 12), monkeypatch)
+    assert (started.status, started.snaps) == (whole.status, whole.snaps)
+    expected = whole.displacement(np.array([scene.probes["P4"]]))
+    found = started.displacement(np.array([scene.probes["P4"]]))
+    assert np.abs(found - expected).max() < 1e-6 * np.abs(expected).max()

@@ -25,13 +25,6 @@ class Pattern:
         """Number of blocks."""
         return len(self._keys)
 
-    def entries(self) -> tuple[np.ndarray, np.ndarray]:
-        """Row and column of every entry of the 3×3 blocks, (9b,)."""
-        q = np.arange(3)
-        rows = (3 * self.rows[:, None, None] + q[None, :, None]).repeat(3, axis=2).ravel()
-        columns = (3 * self.indices[:, None, None] + q[None, None, :]).repeat(3, axis=1).ravel()
-        return rows, columns
-
     def slots(self, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
         """Block numbers of pairs (any shape)."""
         found: np.ndarray = np.searchsorted(self._keys, np.asarray(rows, np.int64) * self.size + columns)

@@ -2,12 +2,15 @@
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
 
 import lumped
 from lumped.linear import banded
+from lumped.linear.reduction import reduction
 from lumped.linear.solver import BandedFactor
 from lumped.statics.problem import Problem
 from sheetbench.scenes import load
+from sheetbench.scenes.supports import Hinged
 
 
 def positive_definite(n, width, rng):
@@ -96,3 +99,20 @@ def test_families_together_are_the_families():
     for found, expected in zip(assembly.extrapolated(u, u), apart.extrapolated(u, u), strict=True):
         assert np.array_equal(found, expected)
     assert assembly.tangent(u) == pytest.approx(apart.tangent(u), rel=1e-14)
+
+
+@pytest.mark.parametrize("name", ["two-edges-clamped", "curved-edge"])
+@pytest.mark.parametrize("edge", ["", "hinged"])
+def test_reduction_is_the_triple_product(name, edge):
+    scene = load(name)
+    if edge:  # the mean of the layers held: rows of the transform with entries of their own
+        supports = tuple(Hinged(edge=e) for e in ("x0", "y1"))
+        scene = scene.model_copy(update={"supports": supports})
+    problem = lumped.pose(scene, lumped.calibrate(scene.sheet, scene.material, grid=(4, 5)))
+    pattern, transform = problem.assembly.pattern, problem.constraints.transform
+    blocks = np.random.default_rng(0).standard_normal((pattern.blocks, 3, 3))  # not symmetric
+    whole = sp.bsr_array((blocks, pattern.indices, pattern.indptr))
+    expected = (transform.T @ whole @ transform).toarray()
+    found = reduction(pattern, transform).matrix(blocks)
+    assert found.has_sorted_indices
+    assert found.toarray() == pytest.approx(expected, rel=1e-13, abs=1e-13)

@@ -19,6 +19,7 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, eigs, onenormest, splu
 
 from lumped.linear import banded
+from lumped.linear.reduction import Reduction, reduction
 from lumped.linear.saddle_point import Saddle
 from lumped.pattern import KEPT, Pattern
 
@@ -153,37 +154,28 @@ class ReducedSystem:
         self._analysis: Any = None
         self.band: banded.Band | None = None
         self._multipliers = multipliers if multipliers is not None and multipliers.any() else None
-        if symmetric and self._multipliers is None:
-            source, rows, columns, weight = self._entries()
+        if symmetric and self._multipliers is None and self.unknowns < BANDED_LIMIT / banded.PANEL**2:
+            found = self._reduction
+            rows, columns = found.rows, found.columns()
             order, width = banded.ordered(rows, columns, self.unknowns)
             if banded.cost(self.unknowns, width) < BANDED_LIMIT:
-                self.band = banded.band_of(source, rows, columns, weight, order, width)
-
-    def _entries(self) -> tuple[np.ndarray, ...]:
-        """Entries of Tᵀ K T that each entry of K feeds."""
-        return _expand(self._transform, *self._pattern.entries())
+                entries = np.diff(found.starts)
+                rows, columns = np.repeat(rows, entries), np.repeat(columns, entries)
+                self.band = banded.band_of(found.source, rows, columns, found.weight, order, width)
 
     @cached_property
-    def _compressed(self) -> tuple[sp.csr_array, np.ndarray, np.ndarray, np.ndarray]:
-        """Map from the blocks' entries to the matrix's, and its rows, columns and column pointers."""
-        source, r, c, weight = self._entries()
-        keys, target = np.unique(c.astype(np.int64) * self.unknowns + r, return_inverse=True)
-        count = 9 * self._pattern.blocks
-        entries = sp.csr_array(sp.coo_array((weight, (target, source)), shape=(len(keys), count)))
-        columns = (keys // self.unknowns).astype(np.int32)
-        pointers = np.searchsorted(columns, np.arange(self.unknowns + 1)).astype(np.int32)
-        return entries, (keys % self.unknowns).astype(np.int32), columns, pointers
+    def _reduction(self) -> Reduction:
+        return reduction(self._pattern, self._transform)
 
     @cached_property
     def _saddle(self) -> Saddle | None:
-        _, rows, columns, _ = self._compressed
-        return None if self._multipliers is None else Saddle(rows, columns, self._multipliers)
+        if self._multipliers is None:
+            return None
+        return Saddle(self._reduction.rows, self._reduction.columns(), self._multipliers)
 
     def matrix(self, blocks: np.ndarray) -> sp.csc_array:
         """The reduced matrix (m, m) of blocks (b, 3, 3), both triangles."""
-        entries, rows, _, pointers = self._compressed
-        data = entries @ blocks.ravel()
-        return sp.csc_array((data, rows, pointers), shape=(self.unknowns, self.unknowns))
+        return self._reduction.matrix(blocks)
 
     def apply(self, blocks: np.ndarray, u: np.ndarray) -> np.ndarray:
         """K u for a displacement (n, 3): force (n, 3)."""
@@ -259,16 +251,3 @@ def _superlu(matrix: sp.csc_array, symmetric: bool) -> Factor:
     exchanged = not np.array_equal(factors.perm_r, factors.perm_c)
     negative = None if exchanged else int(np.sum(factors.U.diagonal() < 0.0))
     return Factor(matrix, lambda b: scale * factors.solve(scale * b), negative)
-
-
-def _expand(transform: sp.csr_array, rows: np.ndarray, columns: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Entries of Tᵀ K T that each entry (row, column) of K feeds: source entry, row, column, weight."""
-    counts = np.diff(transform.indptr)
-    left, right = counts[rows], counts[columns]
-    copies = left * right
-    source = np.repeat(np.arange(len(rows)), copies)
-    within = np.arange(len(source)) - np.repeat(np.cumsum(copies) - copies, copies)
-    i, j = within // right[source], within % right[source]
-    at_row, at_column = transform.indptr[rows[source]] + i, transform.indptr[columns[source]] + j
-    weight = transform.data[at_row] * transform.data[at_column]
-    return source, transform.indices[at_row], transform.indices[at_column], weight

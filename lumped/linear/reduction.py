@@ -1,0 +1,122 @@
+"""Tᵀ K T of a matrix K in 3×3 blocks: where every entry of K goes, found once for a pattern.
+
+The reduced matrix has sorted rows by columns (CSC). Entry e of the map adds weight[e] times entry source[e]
+of the blocks, laid out one after the other, to the nonzero k with starts[k] ≤ e < starts[k + 1].
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import scipy.sparse as sp
+from numba import njit
+
+from lumped.pattern import Pattern
+
+
+class Reduction(NamedTuple):
+    """pointers (m + 1,), rows (nonzeros,) of the matrix; starts (nonzeros + 1,), source, weight: the map."""
+
+    pointers: np.ndarray
+    rows: np.ndarray
+    starts: np.ndarray
+    source: np.ndarray
+    weight: np.ndarray
+
+    def columns(self) -> np.ndarray:
+        """Column of every nonzero."""
+        return np.repeat(np.arange(len(self.pointers) - 1), np.diff(self.pointers))
+
+    def matrix(self, blocks: np.ndarray) -> sp.csc_array:
+        """The reduced matrix (m, m) of blocks (b, 3, 3)."""
+        size = len(self.pointers) - 1
+        data = _gathered(blocks.ravel(), self.starts, self.source, self.weight)
+        return sp.csc_array((data, self.rows, self.pointers), shape=(size, size))
+
+
+def reduction(pattern: Pattern, transform: sp.csr_array) -> Reduction:
+    """Of a pattern and T (3n, m)."""
+    by_column = np.argsort(pattern.indices, kind="stable").astype(np.int32)
+    block_pointers = np.searchsorted(pattern.indices[by_column], np.arange(pattern.size + 1))
+    block_rows = pattern.rows[by_column].astype(np.int32)
+    columns = transform.tocsc()
+    across = (transform.indptr, transform.indices, transform.data)
+    down = (columns.indptr, columns.indices, columns.data)
+    arrays = (block_pointers, by_column, block_rows, *across, *down)
+    count = _count(block_pointers, block_rows, transform.indptr, columns.indptr, columns.indices)
+    pointers, rows, starts, source, weight, nonzeros = _reduction(*arrays, count)
+    return Reduction(pointers, rows[:nonzeros].copy(), starts[: nonzeros + 1].copy(), source, weight)
+
+
+@njit(cache=True)
+def _count(
+    block_pointers: np.ndarray,
+    block_rows: np.ndarray,
+    t_pointers: np.ndarray,
+    c_pointers: np.ndarray,
+    c_rows: np.ndarray,
+) -> int:
+    """Entries of the map."""
+    total = 0
+    for column in range(len(c_pointers) - 1):
+        for at in range(c_pointers[column], c_pointers[column + 1]):
+            block = c_rows[at] // 3
+            for b in range(block_pointers[block], block_pointers[block + 1]):
+                first = 3 * block_rows[b]
+                total += t_pointers[first + 3] - t_pointers[first]
+    return total
+
+
+@njit(cache=True)
+def _reduction(
+    block_pointers: np.ndarray,
+    by_column: np.ndarray,
+    block_rows: np.ndarray,
+    t_pointers: np.ndarray,
+    t_columns: np.ndarray,
+    t_values: np.ndarray,
+    c_pointers: np.ndarray,
+    c_rows: np.ndarray,
+    c_values: np.ndarray,
+    count: int,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, int]:
+    size = len(c_pointers) - 1
+    pointers, rows = np.zeros(size + 1, np.int32), np.empty(count, np.int32)
+    starts = np.empty(count + 1, np.int32)
+    source, weight, to = np.empty(count, np.int32), np.empty(count), np.empty(count, np.int32)
+    filled = nonzeros = 0
+    for column in range(size):
+        begin = filled
+        for at in range(c_pointers[column], c_pointers[column + 1]):
+            block, axis = c_rows[at] // 3, c_rows[at] % 3
+            for b in range(block_pointers[block], block_pointers[block + 1]):
+                for q in range(3):
+                    row = 3 * block_rows[b] + q
+                    for e in range(t_pointers[row], t_pointers[row + 1]):
+                        # by insertion: the rows come nearly sorted
+                        place, target = filled, t_columns[e]
+                        while place > begin and to[place - 1] > target:
+                            to[place], source[place] = to[place - 1], source[place - 1]
+                            weight[place] = weight[place - 1]
+                            place -= 1
+                        to[place], source[place] = target, 9 * by_column[b] + 3 * q + axis
+                        weight[place] = t_values[e] * c_values[at]
+                        filled += 1
+        for e in range(begin, filled):
+            if e == begin or to[e] != to[e - 1]:
+                rows[nonzeros], starts[nonzeros] = to[e], e
+                nonzeros += 1
+        pointers[column + 1] = nonzeros
+    starts[nonzeros] = filled
+    return pointers, rows, starts, source, weight, nonzeros
+
+
+@njit(cache=True, nogil=True)
+def _gathered(entries: np.ndarray, starts: np.ndarray, source: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """The nonzeros of the reduced matrix."""
+    out = np.zeros(len(starts) - 1)
+    for k in range(len(out)):
+        for e in range(starts[k], starts[k + 1]):
+            out[k] += weight[e] * entries[source[e]]
+    return out

@@ -10,7 +10,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
             report.py measurements.py) tests/fuzz
 
 .PHONY: docs docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer tradeoff \
-        advisor-study crosscheck stability wheel-check lint clean
+        advisor-study crosscheck peers stability wheel-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
@@ -25,6 +25,7 @@ help:
 	@echo "make tradeoff  error against time on the seed's test 1, with the picture (files in $(OUT)/)"
 	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/; up to half an hour)"
 	@echo "make crosscheck every model and other people's programs on nine scenes: docs/crosscheck.md (ten minutes)"
+	@echo "make peers     ours and other people's codes in one run: docs/peers.md and its picture (six minutes)"
 	@echo "make stability where each solver holds, degrades, refuses or breaks: eight maps (six minutes; files in $(OUT)/stability/)"
 	@echo "make bench     time, steps and error of the settling motion beside SciPy's BDF (files in $(OUT)/)"
 	@echo "make docs-scene  the page of every key of a scene and its sketch, docs/scene.md, from the types"
@@ -80,6 +81,20 @@ tradeoff: install
 	@$(BIN)/sheetbench tradeoff two-edges-clamped --lumped 3,5,7,9,17,33 --calibration consistent,cauchy,uniform \
 	  --shell 2,3,4,8,12,16 --solid 2,4,8 --model mujoco:grid=5 --model mujoco:grid=9 --model mujoco:grid=17 \
 	  --out $(OUT)
+
+# other people's codes in an environment of their own; CalculiX where ccx is on the PATH
+.venv-peers/installed: pyproject.toml constraints.txt
+	@echo "setting up .venv-peers (about two minutes the first time)"
+	@$(PYTHON) -m venv .venv-peers
+	@.venv-peers/bin/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt \
+	  --editable '.[kratos,felupe,mujoco]'
+	@touch $@
+
+peers: .venv-peers/installed
+	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 NUMBA_NUM_THREADS=1 \
+	  .venv-peers/bin/python -m comparisons.cli.peers_study --out $(OUT)/peers
+	@sed 's#(peers.png)#(images/peers.png)#' $(OUT)/peers/peers.md > docs/peers.md
+	@cp $(OUT)/peers/peers.png docs/images/peers.png
 
 crosscheck: install
 	@$(BIN)/python -m sheetbench crosscheck all docs/crosscheck/*.toml --out $(OUT)/crosscheck

@@ -40,7 +40,7 @@ class FElupe:
     name: str = "felupe"
     called: str = "FElupe"
     needs: str = "FElupe; pip install 'sheetbench[felupe]'"
-    meshes: tuple[int, ...] = (6, 8, 12)
+    meshes: tuple[int, ...] = (4, 6, 8)
     layered: bool = True
     settings: ClassVar[dict[str, Any]] = {"elements": 8, "layers": 2, "grading": "edges"}
 

@@ -64,7 +64,7 @@ class Kratos:
             raise BadInput(f"model = 'kratos': needs {self.needs}")
         mesh = Triangles.of(scene.sheet, elements)
         displacement, load_factor, iterations, note = np.zeros_like(mesh.positions), 0.0, 0, refusal(scene)
-        began, status = perf_counter(), Status.REFUSED
+        began, seconds, status = perf_counter(), 0.0, Status.REFUSED
         for steps in () if note else STEPS:
             given = problem(scene, mesh, np.arange(1, steps + 1) / steps)
             try:
@@ -74,6 +74,7 @@ class Kratos:
                 break
             displacement, load_factor = found["displacement"], float(found["load_factor"])
             iterations += int(found["iterations"])
+            seconds += float(found["seconds"])
             status = Status.CONVERGED if load_factor == 1.0 else Status.DIVERGED
             if not np.isfinite(displacement).all():
                 status, displacement = Status.NON_FINITE, np.nan_to_num(displacement)
@@ -87,8 +88,8 @@ class Kratos:
             status=status,
             unknowns=2 * displacement.size - held,
             iterations=iterations,
-            setup_seconds=0.0,
-            solve_seconds=perf_counter() - began,
+            setup_seconds=perf_counter() - began - seconds,
+            solve_seconds=seconds,
             sample=lambda points: mesh.sample(displacement, points),
             reactions={},
             energies={},

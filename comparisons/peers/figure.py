@@ -1,0 +1,37 @@
+"""The picture: error against time, statics at the left, the settling run at the right; ours filled."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import matplotlib
+from matplotlib.figure import Figure
+
+from comparisons.peers.row import PeerRow
+from comparisons.report.style import GREY, STYLE, save
+
+COLOURS = ("#0072b2", "#222222", "#a0522d", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00")
+
+
+def draw(rows: Sequence[PeerRow], paths: Sequence[Path]) -> None:
+    """Write the picture to every path."""
+    asked = list(dict.fromkeys(row.question for row in rows))
+    with matplotlib.rc_context(STYLE):
+        figure = Figure(figsize=(7.2, 3.2), layout="constrained")
+        for axis, question in zip(figure.subplots(1, len(asked), squeeze=False)[0], asked, strict=True):
+            of = [row for row in rows if row.question == question and row.error and row.median]
+            for code, colour in zip(dict.fromkeys(row.code for row in of), COLOURS * 2, strict=False):
+                some = [row for row in of if row.code == code]
+                times, errors = [row.median for row in some], [100.0 * (row.error or 0.0) for row in some]
+                face = colour if some[0].ours else "white"
+                style = {"ls": "-" if some[0].ours else (0, (4, 1.5)), "lw": 0.9, "marker": "o", "ms": 4.0}
+                axis.plot(times, errors, color=colour, markerfacecolor=face, label=code, **style)
+            axis.set_xscale("log")
+            axis.set_yscale("log")
+            axis.set_title(question, fontsize=8.5)
+            axis.set_xlabel("time of a solve [s]" if question == "statics" else "time of two seconds [s]")
+            axis.set_ylabel("error [%]")
+            axis.grid(True, which="major", color=GREY, alpha=0.25, lw=0.5)
+            axis.legend(fontsize=6.2, frameon=False)
+        save(figure, paths)

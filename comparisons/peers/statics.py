@@ -1,0 +1,59 @@
+"""The seed's sheet at rest: lattice, shell and solid beside CalculiX, Kratos, FElupe and MuJoCo.
+
+Error: the largest component of u − u_ref over the probes, of the largest of u_ref, a shell of `TRUTH`
+elements along a side. Time: the solve alone, as every code tells it, warm; CalculiX, which is a program, with
+its start and its reading and writing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from comparisons.comparison.comparison import error
+from comparisons.judges.found import installed
+from comparisons.models.candidate import Candidate
+from comparisons.models.registry import MODELS, answer, solve_reference
+from comparisons.peers.row import PeerRow, repeated
+from sheetbench.scenes import Solution, load
+from sheetbench.scenes.errors import BadInput
+
+SCENE, TRUTH = "two-edges-clamped", 32
+LADDERS: dict[str, tuple[str, str, tuple[int, ...]]] = {
+    "lumped": ("lattice", "grid", (3, 5, 9, 17, 33)),
+    "shell": ("shell", "elements", (4, 8, 12, 16)),
+    "solid": ("solid", "elements", (4, 8)),
+    "kratos": ("Kratos' thin shell", "elements", (8, 16, 32)),
+    "calculix": ("CalculiX, 20-node bricks", "elements", (4, 6, 8, 12)),
+    "felupe": ("FElupe, 20-node bricks", "elements", (4, 6, 8)),
+    "mujoco": ("MuJoCo's flexible sheet", "grid", (5, 9)),
+}
+
+
+def rows(say: Callable[[str], None]) -> Iterator[PeerRow]:
+    """A row per model and size; say: told of each."""
+    scene, judges = load(SCENE), installed()
+    points = scene.probe_points()
+    say(f"shell {TRUTH}, the reference")
+    truth = solve_reference(scene, model="shell", elements=TRUTH).displacement(points)
+    for model, (code, setting, sizes) in LADDERS.items():
+        absent = model in judges and judges[model].version() is None
+        for size in sizes:
+            asked = Candidate(model, {setting: size})
+            shown = f"{size} × {size}"
+            say(f"{code}, {shown}")
+            if absent:
+                yield PeerRow("statics", code, shown, False, None, (), f"absent: needs {judges[model].needs}")
+                break
+            last: list[Solution] = []
+
+            def once(asked: Candidate = asked, last: list[Solution] = last) -> float:
+                last[:] = [answer(scene, asked)]
+                return last[0].solve_seconds
+
+            try:
+                seconds = repeated(once)
+            except BadInput as said:
+                yield PeerRow("statics", code, shown, False, None, (), f"absent: {said}")
+                break
+            off = error(last[0].displacement(points), truth) if last[0].comparable else None
+            yield PeerRow("statics", code, shown, model in MODELS, off, seconds, str(last[0].status))

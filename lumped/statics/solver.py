@@ -35,6 +35,7 @@ from lumped.statics.equilibrium import (
 )
 from lumped.statics.faults import broken
 from lumped.statics.fields import LatticeMesh, field_mesh
+from lumped.statics.polygon import polygons
 from lumped.statics.problem import Problem
 from lumped.supports import constrain
 from sheetbench.scenes import (
@@ -240,7 +241,16 @@ def _judge(scene: Scene, problem: Problem, state: State) -> tuple[Status, list[s
     rounded = validity.digits(problem, state)
     if rounded is not None and status is Status.CONVERGED:
         status = rounded.status
-    notes.extend(filter(None, [doubts, rounded.message if rounded is not None else ""]))
+    notes.extend(
+        filter(
+            None,
+            [
+                doubts,
+                polygons(scene, problem.assembly.lattice),
+                rounded.message if rounded is not None else "",
+            ],
+        )
+    )
     if not problem.assembly.conservative:
         notes.append(
             "per-direction springs: not central, they have no energy and keep no moments; solved with an "

@@ -103,8 +103,8 @@ class VerletImplicitDamping(Integrator):
         band[(entries.row - entries.col)[lower], entries.col[lower]] = entries.data[lower]
         try:
             factors = scipy.linalg.cholesky_banded(band, lower=True, overwrite_ab=True)
-        except np.linalg.LinAlgError:
-            raise StepFailed("the dampers' matrix is not positive: use smaller steps") from None
+        except (np.linalg.LinAlgError, ValueError):  # not positive, not finite
+            raise StepFailed("the dampers' matrix has no factors: use smaller steps") from None
         rows = np.zeros((unknowns, width))
         for below in range(1, width + 1):
             rows[below:, width - below] = factors[below, : unknowns - below]

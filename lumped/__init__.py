@@ -27,6 +27,7 @@ from lumped.fitting import (
 )
 from lumped.footprint import footprint
 from lumped.lattice import Lattice
+from lumped.linearised import Linear, StateSpace, linearise
 from lumped.masses import Inertia
 from lumped.mid_surface import MidSurface
 from lumped.sensitivity import Sensitivity, gradient, sensitivity
@@ -48,12 +49,14 @@ __all__ = [
     "Inertia",
     "Integrator",
     "Lattice",
+    "Linear",
     "MidSurface",
     "ModalTarget",
     "Modes",
     "Path",
     "Sensitivity",
     "State",
+    "StateSpace",
     "StaticTarget",
     "StepFailed",
     "StepLimit",
@@ -68,6 +71,7 @@ __all__ = [
     "gradient",
     "homogenised",
     "identifiability",
+    "linearise",
     "modes",
     "moduli",
     "pose",

@@ -60,8 +60,8 @@ def sensitivity(
         at = MidSurface(problem.assembly.lattice, scene.probe_points() if points is None else points)
         derivatives, values = {}, {}
         for name in parameters:
-            values[name], rate, moved = _rates(scene, calibration, problem, state, name)
-            step = problem.expand(state.factor.solve(rate)) + moved
+            values[name], rate, moved = rates(scene, calibration, problem, state.u, name)
+            step = problem.expand(state.factor.solve(problem.reduce(rate))) + moved
             derivatives[name] = at.of(step)
         return Sensitivity(at.of(state.u), derivatives, values)
 
@@ -81,8 +81,8 @@ def gradient(
         adjoint = state.factor.solve(problem.reduce(pull))
         slopes = {}
         for name in parameters:
-            _, rate, moved = _rates(scene, calibration, problem, state, name)
-            slopes[name] = float(adjoint @ rate + np.sum(pull * moved))
+            _, rate, moved = rates(scene, calibration, problem, state.u, name)
+            slopes[name] = float(adjoint @ problem.reduce(rate) + np.sum(pull * moved))
         return slopes
 
 
@@ -95,10 +95,11 @@ def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, State
     return problem, outcome.state
 
 
-def _rates(
-    scene: Scene, calibration: Calibration, problem: Problem, state: State, name: str
+def rates(
+    scene: Scene, calibration: Calibration, problem: Problem, u: np.ndarray, name: str
 ) -> tuple[float, np.ndarray, np.ndarray]:
-    """Value of a parameter, ∂R/∂θ on the free unknowns (supports' movement included), and dg/dθ (n, 3)."""
+    """Value of a parameter, the derivative of the unbalanced force by it at free unknowns that stay as at u
+    (n, 3), supports' movement included, and dg/dθ (n, 3)."""
     value, low, high = _value(scene, calibration, name)
     step = next((h for kind, h in STEP_OF.items() if name.startswith(kind)), STEP * abs(value))
     if step == 0.0:
@@ -109,9 +110,9 @@ def _rates(
         changed_scene, recalibrated = _changed(scene, calibration, name, float(end))
         changed = pose(changed_scene, recalibrated)
         moved = changed.prescribed(1.0) - placed
-        sides.append((changed.residual(state.u + moved, 1.0)[0], moved))
+        sides.append((changed.residual(u + moved, 1.0)[0], moved))
     apart = float(ends[0] - ends[1])
-    rate = problem.reduce(sides[0][0] - sides[1][0]) / apart
+    rate = (sides[0][0] - sides[1][0]) / apart
     return value, rate, (sides[0][1] - sides[1][1]) / apart
 
 

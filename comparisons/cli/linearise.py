@@ -1,0 +1,51 @@
+"""`sheetbench linearise SCENE`: M, C, K and a state space about an equilibrium."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from comparisons.cli.options import Calibration, Grading, Grid, Json, Large, Out, Overwrite, Scene
+
+MODES = 20
+
+
+def command(
+    scene: Scene,
+    lumped: Grid = None,
+    grading: Grading = None,
+    calibration: Calibration = None,
+    modes: Annotated[
+        int, typer.Option(min=0, metavar="N", help="Modes of the state space; 0 for all.")
+    ] = MODES,
+    about: Annotated[
+        str, typer.Option(metavar="WHAT", help="deformed: under the scene's loads; flat: without them.")
+    ] = "deformed",
+    large: Large = False,
+    json: Json = False,
+    out: Out = None,
+    overwrite: Overwrite = False,
+) -> None:
+    """Make the lattice linear about its equilibrium: poles, what commands do, matrices for control.
+
+    Inputs are the loads, forces at the probes, the commands of chains and the places of held edges; outputs
+    the probes' displacements. --out writes M, C, K and the state space for NumPy and MATLAB.
+    """
+    from comparisons.cli.finish import finish
+    from comparisons.linearisation.linearisation import linearise
+    from sheetbench import scenes
+
+    asked = scenes.load(scene)
+    with finish("linearise", json, out, overwrite, scene=asked) as end:
+        found = linearise(
+            asked,
+            grid=lumped,
+            grading=grading,
+            calibration=calibration,
+            modes=modes or None,
+            about=about,
+            large=large,
+            progress=end.progress,
+        )
+        end(found.report())

@@ -1,0 +1,1 @@
+"""A lattice about its equilibrium as matrices, for control."""

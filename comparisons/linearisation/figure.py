@@ -1,0 +1,62 @@
+"""Frequency responses: how far the last probe moves along z, over the frequency of each input."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+
+from comparisons.report.style import GREY, STYLE, plain, save
+
+if TYPE_CHECKING:
+    from comparisons.linearisation.linearisation import Linearisation
+
+POINTS = 600
+SHOWN = 6  # inputs: a line each
+PAST = 2.0  # times the highest frequency of the state space
+
+
+def picture(paths: Sequence[Path], found: Linearisation) -> None:
+    """Write the picture."""
+    with matplotlib.rc_context(STYLE):
+        save(compose(found), paths)
+
+
+def compose(found: Linearisation) -> Figure:
+    """Amplitude above, phase below."""
+    space, matrices = found.space, found.matrices
+    probe = list(found.scene.probes)[-1]
+    output = matrices.outputs.index(f"{probe} uz")
+    shown = [i for i, name in enumerate(matrices.inputs) if _worth(name, probe)][:SHOWN]
+    at = np.geomspace(0.2 * space.frequencies[0], PAST * space.frequencies[-1], POINTS)
+    response = space.response(at)[:, output][:, shown]
+    figure = Figure(figsize=(7.2, 4.4), layout="constrained")
+    size, phase = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
+    for column, number in enumerate(shown):
+        name = matrices.inputs[number]
+        values = response[:, column]
+        size.loglog(at, np.abs(values), lw=1.0, label=f"{name} [{_unit(name)}]")
+        phase.semilogx(at, np.degrees(np.angle(values)), lw=0.8)
+    for axis in (size, phase):
+        axis.grid(color=GREY, lw=0.3, alpha=0.4)
+    size.set_ylabel(f"{plain(probe, longest=20)} uz [m per unit of input]")
+    phase.set_ylabel("phase [°]")
+    phase.set_yticks([-180, -90, 0, 90, 180])
+    phase.set_xlabel("frequency [Hz]")
+    size.legend(frameon=False, fontsize=6.5, ncols=2)
+    size.set_title(plain(found.scene.title or found.scene.name, longest=100), fontsize=8.5, loc="left")
+    return figure
+
+
+def _worth(name: str, probe: str) -> bool:
+    """Loads and commands, forces at the probe itself, edges moved along z."""
+    return name.startswith(("load", "gravity")) or name.endswith(("curvature", " z")) or name == f"{probe} fz"
+
+
+def _unit(name: str) -> str:
+    kinds = {"curvature": "1/m", "fz": "N", "z": "m"}
+    return kinds.get(name.split()[-1], "of itself")

@@ -1,0 +1,145 @@
+"""A scene's lattice, linear about its equilibrium: matrices, state space of the lowest modes, their files."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from comparisons.linearisation import tables
+from comparisons.models.candidate import Candidate
+from comparisons.models.grading import Grading
+from comparisons.models.grids import Asked
+from comparisons.models.registry import check
+from comparisons.models.sizes import size
+from comparisons.models.springs import scene_springs
+from comparisons.report.report import Report
+from comparisons.report.work import Progress, Work, silent
+from sheetbench.files import whole
+from sheetbench.scenes import AnyScene, Scene, scene_of
+from sheetbench.scenes.errors import BadInput, require_choice
+
+if TYPE_CHECKING:
+    from lumped import Linear, StateSpace
+
+MODES = 20
+ABOUT = ("deformed", "flat")
+
+
+@dataclass(frozen=True, eq=False)
+class Linearisation:
+    """matrices: of all unknowns; space: of the modes asked for; label: of the lattice."""
+
+    scene: Scene
+    label: str
+    about: str
+    matrices: Linear
+    space: StateSpace
+
+    @cached_property
+    def damping_ratios(self) -> np.ndarray:
+        """−Re s/|s| of the poles above the real axis, or on it."""
+        upper = self.upper
+        return -upper.real / np.abs(upper)
+
+    @property
+    def upper(self) -> np.ndarray:
+        """The poles of each pair above the real axis, and those on it [rad/s]."""
+        poles = self.space.poles
+        found: np.ndarray = poles[poles.imag >= 0.0]
+        return found
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench linearise`: SI units."""
+        poles, matrices = self.space.poles, self.matrices
+        return {
+            "scene": self.scene.document(),
+            "label": self.label,
+            "about": self.about,
+            "unknowns": matrices.mass.shape[0],
+            "poles": np.column_stack([poles.real, poles.imag]),
+            "frequencies_hz": self.space.frequencies,
+            "inputs": list(matrices.inputs),
+            "outputs": list(matrices.outputs),
+            "jacobian": matrices.jacobian,
+        }
+
+    def arrays(self) -> dict[str, Any]:
+        """What `linear.mat` and `linear.npz` hold; matrices of all unknowns are sparse."""
+        matrices, space = self.matrices, self.space
+        return {
+            "M": matrices.mass,
+            "C": matrices.damping,
+            "K": matrices.stiffness,
+            "F": matrices.force,
+            "F_rate": matrices.force_rate,
+            "G": matrices.output,
+            "H": matrices.direct,
+            "jacobian": matrices.jacobian,
+            "ss_A": space.a,
+            "ss_B": space.b,
+            "ss_C": space.c,
+            "ss_D": space.d,
+            "frequencies_hz": space.frequencies,
+            "inputs": np.array(matrices.inputs),
+            "outputs": np.array(matrices.outputs),
+        }
+
+    def write_npz(self, path: Path) -> None:
+        """Write the arrays for NumPy, a sparse matrix M as M_data, M_indices, M_indptr of its columns."""
+        parts: dict[str, Any] = {}
+        for name, value in self.arrays().items():
+            if hasattr(value, "indptr"):
+                parts |= {f"{name}_{part}": getattr(value, part) for part in ("data", "indices", "indptr")}
+            else:
+                parts[name] = value
+        with whole(path) as partial:
+            np.savez(partial, **parts)
+
+    def write_mat(self, path: Path) -> None:
+        """Write the arrays for MATLAB and Octave: there ss(ss_A, ss_B, ss_C, ss_D)."""
+        from scipy.io import savemat
+
+        texts = {name: np.array(list(self.arrays()[name]), dtype=object) for name in ("inputs", "outputs")}
+        with whole(path) as partial:
+            savemat(partial, {**self.arrays(), **texts}, oned_as="column")
+
+    def report(self) -> Report:
+        """What is shown of it."""
+        return tables.report(self)
+
+
+def linearise(
+    scene: AnyScene,
+    *,
+    grid: Asked = None,
+    grading: Grading = None,
+    calibration: str | None = None,
+    modes: int | None = MODES,
+    about: str = "deformed",
+    large: bool = False,
+    progress: Progress = silent,
+) -> Linearisation:
+    """The lattice of a scene about its equilibrium under its loads, or about the flat sheet.
+
+    modes: of the state space, all for None; those that there are where they are fewer. Raises BadInput for
+    choices that do not exist and for what has no linear form (`lumped.linearise`).
+    """
+    import lumped
+
+    asked = scene_of(scene)
+    require_choice("about", about, ABOUT)
+    if modes is not None and modes < 1:
+        raise BadInput(f"modes = {modes}: at least 1")
+    own = {"grid": grid, "grading": grading, "calibration": calibration}
+    lattice = Candidate("lumped", own)
+    check(asked, lattice, large)
+    springs, _ = scene_springs(asked, grid=grid, grading=grading, calibration=calibration)
+    progress(Work("linearising the lattice", size(asked, lattice)))
+    found = lumped.linearise(asked, springs, "flat" if about == "flat" else "deformed")
+    most = found.mass.shape[0]
+    space = found.state_space(None if modes is None else min(modes, most))
+    return Linearisation(asked, f"lumped {springs.title}", about, found, space)

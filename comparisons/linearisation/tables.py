@@ -1,0 +1,93 @@
+"""What a linearised lattice shows: its poles, what its commands do at rest, frequency responses."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.report.report import Picture, Report
+from comparisons.report.table import Column, Table
+
+if TYPE_CHECKING:
+    from comparisons.linearisation.linearisation import Linearisation
+
+
+def report(found: Linearisation) -> Report:
+    """What `sheetbench linearise` shows."""
+    states, size = len(found.space.a), found.matrices.mass.shape[0]
+    return Report(
+        name="linear",
+        title=found.scene.name,
+        subtitle=found.scene.title,
+        lead=f"{found.label}, about the {'flat sheet' if found.about == 'flat' else 'equilibrium'}: "
+        f"{size} unknowns, a state space of {states} states, "
+        f"{len(found.matrices.inputs)} inputs, {len(found.matrices.outputs)} outputs",
+        document=found.as_dict(),
+        tables=(poles(found), jacobian(found)),
+        printed=(poles(found), heights(found)),
+        notes=(
+            "at rest: displacement of a probe per unit of an input, by the adjoint of K",
+            "files: M, C, K, F, F_rate, G, H and ss_A to ss_D in linear.npz and linear.mat",
+        ),
+        pictures=(Picture(("responses.png", "responses.pdf"), partial(_draw, found)),),
+        attachments={"linear.npz": found.write_npz, "linear.mat": found.write_mat},
+        scene=found.scene,
+        settings={"label": found.label, "about": found.about, "states": states},
+    )
+
+
+def poles(found: Linearisation) -> Table:
+    """A row per pair of poles: the slowest first."""
+    rows = tuple(
+        (float(abs(pole) / (2.0 * np.pi)), float(ratio), float(pole.real), float(pole.imag))
+        for pole, ratio in zip(found.upper, found.damping_ratios, strict=True)
+    )
+    columns = (
+        Column("frequency", "Hz", "Hz", 1.0, ".5g"),
+        Column("damping ratio", "", "%", 100.0, ".3g"),
+        Column("real", "1/s", "1/s", 1.0, ".5g"),
+        Column("imaginary", "rad/s", "rad/s", 1.0, ".5g"),
+    )
+    return Table("Poles", columns, rows, "poles")
+
+
+UNITS = {"fx": "N", "fy": "N", "fz": "N", "curvature": "1/m", "x": "m", "y": "m", "z": "m"}
+
+
+def jacobian(found: Linearisation) -> Table:
+    """A row per input: what it moves the probes by at rest, in all components."""
+    rows = tuple(
+        (name, _unit(name), *column)
+        for name, column in zip(found.matrices.inputs, found.matrices.jacobian.T.tolist(), strict=True)
+    )
+    outputs = (Column(name, "m", "mm", 1e3, ".3g") for name in found.matrices.outputs)
+    columns = (Column("input"), Column("unit"), *outputs)
+    return Table("Displacement at rest per unit of input", columns, rows, "jacobian")
+
+
+def heights(found: Linearisation) -> Table:
+    """The same along z alone, of loads, commands and moved edges."""
+    outputs, inputs = found.matrices.outputs, found.matrices.inputs
+    kept = [n for n, name in enumerate(outputs) if name.endswith(" uz")]
+    rows = tuple(
+        (name, _unit(name), *column[kept].tolist())
+        for name, column in zip(inputs, found.matrices.jacobian.T, strict=True)
+        if name.split()[-1] not in ("fx", "fy", "fz")
+    )
+    columns = (Column("input"), Column("unit"), *(Column(outputs[n], "m", "mm", 1e3, ".3g") for n in kept))
+    return Table("Height at rest per unit of input", columns, rows)
+
+
+def _unit(name: str) -> str:
+    return UNITS.get(name.split()[-1], "–")
+
+
+def _draw(found: Linearisation, paths: Sequence[Path]) -> str | None:
+    from comparisons.linearisation.figure import picture
+
+    picture(paths, found)
+    return None

@@ -1,0 +1,276 @@
+"""A lattice about an equilibrium, linear: M q̈ + C q̇ + K q = F w + F′ ẇ, y = G q + H w.
+
+q are the free unknowns, of which chains leave those motions that their constraints allow; w the inputs, small
+changes of what acts:
+
+    load N, gravity     as a share of the load [-]
+    PROBE fx, fy, fz    a force at a probe [N]
+    EDGE curvature      of a chain's command or of a bent support [1/m]
+    EDGE x, y, z        of a held edge's place [m]; it reaches the sheet by springs and dampers, F and F′
+
+y are the displacements of the probes [m]. With K symmetric the modes φ of K φ = ω² M φ, φᵀ M φ = 1, give the
+state space of the states (ω η, η̇), which is as well scaled as the sheet is:
+
+    ẋ = A x + B w,   y = C x + D w,   A = [0, Ω; −Ω, −φᵀ C φ]
+
+With n modes instead of all, D holds what those left out do at rest: slow inputs are answered exactly. F′ ẇ is
+taken into x itself, x − (0, φᵀ F′) w being the state. Source: e.g. Craig and Kurdila, Fundamentals of
+Structural Dynamics, 2006, on modal truncation with static correction.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse as sp
+from scipy.sparse.linalg import splu
+
+from lumped.calibration import Calibration, default
+from lumped.dynamics.system import System
+from lumped.linear.threads import one_blas_thread
+from lumped.loads import Loads
+from lumped.mid_surface import MidSurface
+from lumped.sensitivity import rates
+from lumped.statics.problem import Problem
+from lumped.statics.solver import pose, settle
+from sheetbench.scenes import (
+    About,
+    AnyScene,
+    Chain,
+    Curved,
+    Scene,
+    Status,
+    Symmetric,
+    holds_director,
+    require_static,
+    scene_of,
+)
+from sheetbench.scenes.errors import BadInput, NoEquilibrium
+
+MODES = 20  # of the state space unless asked for
+LAST = 1e9  # s: when every history has its last value, as in statics
+
+
+@dataclass(frozen=True, eq=False)
+class StateSpace:
+    """A (2n, 2n), B, C, D; frequencies: undamped, (n,) [Hz]."""
+
+    a: np.ndarray
+    b: np.ndarray
+    c: np.ndarray
+    d: np.ndarray
+    frequencies: np.ndarray
+
+    @cached_property
+    def poles(self) -> np.ndarray:
+        """Eigenvalues of A [rad/s], the slowest first, those above the real axis before their conjugates."""
+        found = np.linalg.eigvals(self.a)
+        return found[np.lexsort((-found.imag, np.round(abs(found), 9)))]
+
+    def response(self, frequencies: np.ndarray) -> np.ndarray:
+        """C (iω − A)⁻¹ B + D at frequencies (f,) [Hz], (f, outputs, inputs)."""
+        unit = np.eye(len(self.a))
+        at = 2j * np.pi * np.asarray(frequencies)
+        return np.stack([self.c @ np.linalg.solve(s * unit - self.a, self.b) + self.d for s in at])
+
+    def after_step(self, time: np.ndarray, number: int) -> np.ndarray:
+        """Outputs (t, outputs) at even times (t,) [s] after input `number` has stepped to 1 at 0 s."""
+        step = float(time[1] - time[0])
+        size = len(self.a)
+        whole = np.zeros((size + 1, size + 1))
+        whole[:size, :size], whole[:size, size] = self.a, self.b[:, number]
+        forward = scipy.linalg.expm(step * whole)
+        state, found = np.append(np.zeros(size), 1.0), []
+        for _ in time:
+            found.append(self.c @ state[:size] + self.d[:, number])
+            state = forward @ state
+        return np.array(found)
+
+
+@dataclass(frozen=True, eq=False)
+class Linear:
+    """mass, damping, stiffness: sparse (m, m); force, force_rate: F, F′ (m, inputs); output, direct: G
+    (outputs, m), H (outputs, inputs); displacement (n, 3) [m] of the masses at the equilibrium."""
+
+    mass: sp.csc_array
+    damping: sp.csc_array
+    stiffness: sp.csc_array
+    force: np.ndarray
+    force_rate: np.ndarray
+    output: np.ndarray
+    direct: np.ndarray
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    displacement: np.ndarray
+
+    @cached_property
+    def jacobian(self) -> np.ndarray:
+        """dy/dw at rest, (outputs, inputs): one adjoint solve an output, Kᵀ a = Gᵀ."""
+        adjoint = splu(sp.csc_array(self.stiffness.T)).solve(self.output.T)
+        found: np.ndarray = adjoint.T @ self.force + self.direct
+        return found
+
+    def state_space(self, modes: int | None = MODES) -> StateSpace:
+        """Of the lowest modes, or of all for None. Raises BadInput for more than there are."""
+        size = self.mass.shape[0]
+        count = size if modes is None else modes
+        if not 1 <= count <= size:
+            raise BadInput(f"modes = {count}: the lattice has {size}")
+        with one_blas_thread():
+            squares, shapes = scipy.linalg.eigh(
+                self.stiffness.toarray(), self.mass.toarray(), subset_by_index=[0, count - 1]
+            )
+            if squares[0] <= 0.0:
+                raise BadInput("the equilibrium is not stable: it has no oscillations to speak of")
+            omega = np.sqrt(squares)
+            drag = shapes.T @ (self.damping @ shapes)
+            a = np.block([[np.zeros((count, count)), np.diag(omega)], [-np.diag(omega), -drag]])
+            rate = np.vstack([np.zeros((count, len(self.inputs))), shapes.T @ self.force_rate])
+            b = np.vstack([np.zeros((count, len(self.inputs))), shapes.T @ self.force]) + a @ rate
+            c = np.hstack([self.output @ shapes / omega, np.zeros((len(self.outputs), count))])
+            d = self.direct.copy()
+            if count < size:
+                d = self.jacobian - (self.output @ shapes / squares) @ (shapes.T @ self.force)
+        return StateSpace(a, b, c, d, omega / (2.0 * np.pi))
+
+
+def linearise(scene: AnyScene, calibration: Calibration | None = None, about: About = "deformed") -> Linear:
+    """The lattice of a scene, linear about its equilibrium, or about the flat sheet without loads.
+
+    Raises BadInput for loads that follow the sheet, whose matrices are not symmetric, for a flat sheet with
+    actuators, and NoEquilibrium where there is none to be about.
+    """
+    scene = _at_last(scene_of(scene))
+    require_static(scene)
+    calibration = calibration or default(scene)
+    problem = pose(scene, calibration)
+    if not problem.conservative:
+        raise BadInput(
+            "linearise: pressure, edge moments and per-direction springs have unsymmetric tangents"
+        )
+    if about == "flat":
+        if scene.actuators:
+            raise BadInput("linearise: a flat sheet has no actuators; leave --about out")
+        u = np.zeros_like(problem.loads.dead)
+    else:
+        with one_blas_thread():
+            outcome = settle(scene, problem, "path")
+        if outcome.status is not Status.CONVERGED:
+            raise NoEquilibrium(f"lumped: {outcome.status}: {'; '.join(outcome.notes)}")
+        u = outcome.state.u
+    system = System(scene, problem)
+    motions = _allowed(system, u)
+    rest = np.zeros_like(u)
+
+    def sparse(mass: float, damping: float, stiffness: float) -> tuple[sp.csr_array, sp.csc_array]:
+        blocks = system.matrix(u, rest, LAST, mass, damping, stiffness)
+        pattern = problem.assembly.pattern
+        whole = sp.csr_array(sp.bsr_array((blocks, pattern.indices, pattern.indptr)))
+        return whole, sp.csc_array(motions.T @ whole @ motions)
+
+    (_, mass), (drag, damping), (spring, stiffness) = (sparse(*one) for one in np.eye(3).tolist())
+    probes = MidSurface(problem.assembly.lattice, scene.probe_points())
+    outputs = [(name, axis) for name in scene.probes for axis in range(3)]
+    picked = np.stack([probes.shared(_unit(scene, *one), len(u)).ravel() for one in outputs])
+    inputs, forces, rates_of, placed = _inputs(scene, calibration, problem, system, u, picked, (spring, drag))
+    return Linear(
+        mass=mass,
+        damping=damping,
+        stiffness=sp.csc_array(0.5 * (stiffness + stiffness.T)),
+        force=motions.T @ forces,
+        force_rate=motions.T @ rates_of,
+        output=np.asarray(picked @ motions),
+        direct=picked @ placed,
+        inputs=inputs,
+        outputs=tuple(f"{name} u{'xyz'[axis]}" for name, axis in outputs),
+        displacement=u[: problem.assembly.lattice.mass_count],
+    )
+
+
+def _allowed(system: System, u: np.ndarray) -> sp.csr_array:
+    """T on the motions that the actuators' constraints allow: their gradient's null space."""
+    if not system.constrained or system.coupling is None:
+        return system.moving_part
+    own = system.coupling.constraint_gradient(u)
+    gradient = np.zeros((len(own), *u.shape))
+    gradient[:, system.coupling.masses :] = own
+    dense = gradient.reshape(len(own), -1) @ system.moving_part
+    bound = np.flatnonzero(np.abs(dense).any(axis=0))
+    free = np.setdiff1d(np.arange(dense.shape[1]), bound)
+    kernel = scipy.linalg.null_space(dense[:, bound])
+    basis = sp.lil_array((dense.shape[1], len(free) + kernel.shape[1]))
+    basis[free, np.arange(len(free))] = 1.0
+    basis[bound, len(free) :] = kernel
+    return sp.csr_array(system.moving_part @ basis)
+
+
+def _unit(scene: Scene, name: str, axis: int) -> np.ndarray:
+    """1 along an axis at a probe, (probes, 3)."""
+    values = np.zeros((len(scene.probes), 3))
+    values[list(scene.probes).index(name), axis] = 1.0
+    return values
+
+
+def _inputs(
+    scene: Scene,
+    calibration: Calibration,
+    problem: Problem,
+    system: System,
+    u: np.ndarray,
+    picked: np.ndarray,
+    tangents: tuple[sp.csr_array, sp.csr_array],
+) -> tuple[tuple[str, ...], np.ndarray, np.ndarray, np.ndarray]:
+    """Names; force, force by rate, and place g per input, (3 size, inputs) each."""
+    spring, drag = tangents
+    columns: list[tuple[str, np.ndarray, np.ndarray, np.ndarray]] = []
+    nothing = np.zeros(u.size)
+    for name, part in _loads(scene):
+        columns.append((name, Loads(part, problem.assembly).force(u).ravel(), nothing, nothing))
+    for number, row in enumerate(picked):
+        probe = list(scene.probes)[number // 3]
+        columns.append((f"{probe} f{'xyz'[number % 3]}", row, nothing, nothing))
+    for edge in _bent(scene):
+        _, force, moved = rates(scene, calibration, problem, u, f"curvature_{edge}")
+        columns.append((f"{edge} curvature", force.ravel(), -drag @ moved.ravel(), moved.ravel()))
+    for support in scene.supports:
+        rows, axes = problem.constraints.holders[support.edge]
+        for axis in () if isinstance(support, Symmetric) else axes:
+            place, row = np.zeros_like(u), rows.ravel()
+            free = ~problem.constraints.fixed[row, axis]
+            place[row if holds_director(support) else row[free], axis] = 1.0
+            moved = place.ravel()
+            columns.append((f"{support.edge} {'xyz'[axis]}", -spring @ moved, -drag @ moved, moved))
+    names, *values = zip(*columns, strict=True)
+    force, rate, place = (np.stack(value, axis=1) for value in values)
+    return tuple(names), force, rate, place
+
+
+def _at_last(scene: Scene) -> Scene:
+    """The scene with the last values of its chains' commands."""
+    actuators = []
+    for actuator in scene.actuators:
+        if isinstance(actuator, Chain) and hasattr(actuator.curvature, "value"):
+            actuator = actuator.replace(curvature=actuator.curvature.value[-1])
+        actuators.append(actuator)
+    return scene.replace(actuators=tuple(actuators))
+
+
+def _loads(scene: Scene) -> list[tuple[str, Scene]]:
+    """Every load alone, by name."""
+    bare = scene.replace(gravity=None, loads=())
+    found = [(f"load {n}", bare.replace(loads=(load,))) for n, load in enumerate(scene.loads, start=1)]
+    return [
+        *found,
+        *([("gravity", bare.replace(gravity=scene.gravity))] if scene.gravity is not None else []),
+    ]
+
+
+def _bent(scene: Scene) -> list[str]:
+    """Edges with one chain of one curvature, or bent by a support."""
+    edges = [str(a.edge) for a in scene.actuators]
+    chains = [str(a.edge) for a in scene.actuators if isinstance(a, Chain) and isinstance(a.curvature, float)]
+    bent = [str(s.edge) for s in scene.supports if isinstance(s, Curved)]
+    return [*(edge for edge in chains if edges.count(edge) == 1), *bent]

@@ -11,6 +11,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
 
 .PHONY: docs docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer tradeoff \
         advisor-study crosscheck peers stability wheel-check lint clean
+        advisor-study crosscheck stability suite wheel-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
@@ -28,6 +29,7 @@ help:
 	@echo "make peers     ours and other people's codes in one run: docs/peers.md and its picture (six minutes)"
 	@echo "make stability where each solver holds, degrades, refuses or breaks: eight maps (six minutes; files in $(OUT)/stability/)"
 	@echo "make bench     time, steps and error of the settling motion beside SciPy's BDF (files in $(OUT)/)"
+	@echo "make suite     the reference set anew, comparisons/suite/data (ten minutes; a change of values is a new version)"
 	@echo "make docs-scene  the page of every key of a scene and its sketch, docs/scene.md, from the types"
 	@echo "make docs      the documentation as a site, docs/_build/html/index.html (three minutes; a warning is an error)"
 	@echo "make wheel-check  the wheel as its users get it: installed elsewhere, run there, uninstalled without a trace"
@@ -106,6 +108,9 @@ advisor-study: install
 stability: install
 	@$(BIN)/sheetbench stability --out $(OUT)/stability
 	@$(BIN)/python -m pytest -m slow tests/test_stability.py
+
+suite: install
+	@$(BIN)/python -m comparisons.suite.regenerate
 
 docs: install
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[docs]'

@@ -37,6 +37,9 @@ VERBS = (
     "crosscheck",
     "modes",
     "schema",
+    "suite",
+    "score",
+    "linearise",
 )
 FAULT = 1
 BAD_INPUT = 2

@@ -1,0 +1,42 @@
+"""`sheetbench score ANSWERS.csv`: somebody's answers against the reference set."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparisons.cli.options import Json, Out, Overwrite
+
+
+def command(
+    answers: Annotated[
+        Path,
+        typer.Argument(
+            metavar="ANSWERS", help="CSV: case,probe,ux,uy,uz[,seconds] in m.", show_default=False
+        ),
+    ],
+    suite: Annotated[
+        str, typer.Option("--suite", metavar="NAME", help="What it answers: statics, settling or modes.")
+    ] = "statics",
+    case: Annotated[
+        str | None, typer.Option("--case", metavar="NAME", help="Only this case.", show_default=False)
+    ] = None,
+    json: Json = False,
+    out: Out = None,
+    overwrite: Overwrite = False,
+) -> None:
+    """Score answers to the reference set: errors, what is wrong with them, the place beside our own models.
+
+    `sheetbench suite --out DIR` writes the scenes and a form to fill in. Exit status 3 where units, signs or
+    probes are mistaken.
+    """
+    from comparisons.cli.finish import finish
+    from comparisons.scoring.score import score
+    from comparisons.suite.cases import SUITES
+    from sheetbench.scenes.errors import require_choice
+
+    require_choice("--suite", suite, SUITES)
+    with finish("score", json, out, overwrite, apart={"--suite": suite, "--case": case}) as end:
+        end(score(answers, suite, case).report())

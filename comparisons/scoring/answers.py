@@ -1,0 +1,108 @@
+"""Somebody's answers to a suite, from a CSV file (`comparisons.measured.columns`); SI units.
+
+statics   case,probe,ux,uy,uz[,seconds]
+settling  case,time,probe,ux,uy,uz[,seconds]: at the times of the reference, which are interpolated to
+modes     case,mode,frequency[,seconds]: modes count from 1, lowest first
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from comparisons.measured.columns import Row, read_columns
+from comparisons.suite.reference import Reference
+from sheetbench.scenes.errors import BadInput
+
+HEADERS = {
+    "statics": ("case", "probe", "ux", "uy", "uz"),
+    "settling": ("case", "time", "probe", "ux", "uy", "uz"),
+    "modes": ("case", "mode", "frequency"),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """values: as in the reference; seconds: of the solve, None where it is not told."""
+
+    reference: Reference
+    values: np.ndarray
+    seconds: float | None
+
+
+def read_answers(path: Path, suite: str, asked: Sequence[Reference]) -> list[Answer]:
+    """The answers to the cases asked for. Raises BadInput naming what is missing, or is there twice."""
+    columns = read_columns(path)
+    header = HEADERS[suite]
+    if not set(header) <= set(columns.names):
+        raise BadInput(f"{path}: the header of {suite} must be {','.join(header)}, and may have seconds")
+    rows: dict[str, list[Row]] = {}
+    for row in columns.rows:
+        rows.setdefault(row.cells["case"], []).append(row)
+    missing = [one.name for one in asked if one.name not in rows]
+    if missing:
+        more = f" and {len(missing) - 4} more" if len(missing) > 4 else ""
+        raise BadInput(
+            f"{path}: no answer to {', '.join(missing[:4])}{more}; answer all cases of {suite}, or name one "
+            "with --case"
+        )
+    return [_answer(path, one, rows[one.name]) for one in asked]
+
+
+def _answer(path: Path, reference: Reference, rows: list[Row]) -> Answer:
+    timed = [row.measured("seconds") for row in rows if "seconds" in row.cells]
+    told = [value for value in timed if value == value]
+    read = {"statics": _probes, "settling": _histories, "modes": _frequencies}[reference.suite]
+    return Answer(reference, read(path, reference, rows), float(np.mean(told)) if told else None)
+
+
+def _probes(path: Path, reference: Reference, rows: list[Row]) -> np.ndarray:
+    return np.array([_only(path, reference, name, found)[1:] for name, found in _by_probe(reference, rows)])
+
+
+def _histories(path: Path, reference: Reference, rows: list[Row]) -> np.ndarray:
+    assert reference.time is not None
+    values = []
+    for name, found in _by_probe(reference, rows):
+        if not found:
+            raise BadInput(f"{path}: case {reference.name}: probe {name} is missing")
+        table = np.array(sorted([row.number("time"), *_vector(row)] for row in found))
+        if table[0, 0] > reference.time[0] or table[-1, 0] < reference.time[-1]:
+            raise BadInput(
+                f"{path}: case {reference.name}: probe {name} from {table[0, 0]:g} to {table[-1, 0]:g} s; "
+                f"the reference is from {reference.time[0]:g} to {reference.time[-1]:g} s"
+            )
+        values.append(
+            np.column_stack([np.interp(reference.time, table[:, 0], table[:, i]) for i in (1, 2, 3)])
+        )
+    return np.array(values)
+
+
+def _frequencies(path: Path, reference: Reference, rows: list[Row]) -> np.ndarray:
+    found = {int(row.number("mode")): row.number("frequency") for row in rows}
+    missing = [n for n in range(1, len(reference.values) + 1) if n not in found]
+    if missing:
+        raise BadInput(f"{path}: case {reference.name}: mode {missing[0]} is missing")
+    return np.array([found[n] for n in range(1, len(reference.values) + 1)])
+
+
+def _by_probe(reference: Reference, rows: list[Row]) -> list[tuple[str, list[Row]]]:
+    """The rows of every probe. Raises BadInput for a probe that there is not."""
+    for row in rows:
+        if row.cells["probe"] not in reference.scene.probes:
+            raise row.refused("probe", f"{reference.name} has {', '.join(reference.scene.probes)}")
+    return [(name, [row for row in rows if row.cells["probe"] == name]) for name in reference.scene.probes]
+
+
+def _only(path: Path, reference: Reference, name: str, rows: list[Row]) -> list[float]:
+    if len(rows) != 1:
+        often = "is missing" if not rows else f"is there {len(rows)} times"
+        raise BadInput(f"{path}: case {reference.name}: probe {name} {often}")
+    return [0.0, *_vector(rows[0])]
+
+
+def _vector(row: Row) -> list[float]:
+    return [row.number(name) for name in ("ux", "uy", "uz")]

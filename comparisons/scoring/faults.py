@@ -1,0 +1,115 @@
+"""What is wrong with answers, as far as the reference tells: units, signs, probes that stand for one another.
+
+Each is looked for in what is left when those before it are mended, so that several at once are named:
+
+    unit    a case a thousand times too large or small, within a factor of 3; of frequencies 2π: rad/s
+    sign    a component that correlates with the reference's by less than −0.9
+    swap    two probes, where exchanging them leaves less than a quarter of an error that is no small one
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import combinations
+
+import numpy as np
+
+from comparisons.scoring.answers import Answer
+
+FACTOR, NEAR = 1000.0, 3.0
+OPPOSITE = -0.9
+SEEN = 0.01  # of the largest displacement: components and errors that mean something
+MENDED = 0.25
+AXES = ("ux", "uy", "uz")
+
+
+def faults(answers: Sequence[Answer]) -> list[str]:
+    """Sentences, one a fault, that name the cases."""
+    found: dict[str, list[str]] = {}
+    for answer in answers:
+        values = answer.values
+        for mend in (_unit, _sign, _swap):
+            said, values = mend(answer, values)
+            for sentence in said:
+                found.setdefault(sentence, []).append(answer.reference.name)
+    return [f"{sentence} in {_named(names, len(answers))}" for sentence, names in found.items()]
+
+
+def _named(names: list[str], of: int) -> str:
+    if len(names) == of and of > 1:
+        return f"all {of} cases"
+    return f"{', '.join(names[:3])}{f' and {len(names) - 3} more' if len(names) > 3 else ''}"
+
+
+Mended = tuple[list[str], np.ndarray]
+
+
+def _unit(answer: Answer, values: np.ndarray) -> Mended:
+    truth = answer.reference.values
+    ratio = float(np.linalg.norm(values) / np.linalg.norm(truth))
+    if answer.reference.suite == "modes":
+        if abs(ratio / (2.0 * np.pi) - 1.0) < 0.1:
+            return ["frequencies are 2π times too large, as in rad/s for Hz,"], values / (2.0 * np.pi)
+        return [], values
+    for factor, said in (
+        (FACTOR, "1000 times too large, as in mm for m,"),
+        (1.0 / FACTOR, "1000 times too small"),
+    ):
+        if 1.0 / NEAR < ratio / factor < NEAR:
+            return [f"displacements are {said}"], values / factor
+    return [], values
+
+
+def _sign(answer: Answer, values: np.ndarray) -> Mended:
+    truth = answer.reference.values
+    if answer.reference.suite == "modes":
+        return [], values
+    largest = np.abs(truth).max()
+    flipped = [
+        axis
+        for axis in range(3)
+        if np.abs(truth[..., axis]).max() > SEEN * largest and _correlation(values, truth, axis) < OPPOSITE
+    ]
+    if not flipped:
+        return [], values
+    mended = values.copy()
+    mended[..., flipped] *= -1.0
+    names = _listed([AXES[axis] for axis in flipped])
+    return [f"{names} {'have' if len(flipped) > 1 else 'has'} the opposite sign"], mended
+
+
+def _listed(names: list[str]) -> str:
+    """The names as a sentence has them: ux, uy and uz."""
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+def _correlation(values: np.ndarray, truth: np.ndarray, axis: int) -> float:
+    a, b = values[..., axis].ravel(), truth[..., axis].ravel()
+    size = float(np.linalg.norm(a) * np.linalg.norm(b))
+    return float(a @ b) / size if size > 0.0 else 0.0
+
+
+def _swap(answer: Answer, values: np.ndarray) -> Mended:
+    truth = answer.reference.values
+    if answer.reference.suite == "modes":
+        return [], values
+    names = list(answer.reference.scene.probes)
+    off = _error(values, truth)
+    if off < max(SEEN, 3.0 * answer.reference.bar):
+        return [], values
+    swapped: Callable[[tuple[int, int]], np.ndarray] = lambda pair: _exchanged(values, *pair)  # noqa: E731
+    best = min(combinations(range(len(names)), 2), key=lambda pair: _error(swapped(pair), truth))
+    if _error(swapped(best), truth) > MENDED * off:
+        return [], values
+    return [f"probes {names[best[0]]} and {names[best[1]]} look swapped"], swapped(best)
+
+
+def _exchanged(values: np.ndarray, i: int, j: int) -> np.ndarray:
+    order = np.arange(len(values))
+    order[[i, j]] = order[[j, i]]
+    return values[order]
+
+
+def _error(values: np.ndarray, truth: np.ndarray) -> float:
+    return float(np.abs(values - truth).max() / np.abs(truth).max())

@@ -1,0 +1,166 @@
+"""Answers to a suite beside its reference, and beside our own models.
+
+    error   of a case, as everywhere: largest |component of u − u_ref| over the probes (and times) / largest
+            |component of u_ref|; of frequencies the largest |f/f_ref − 1|
+    score   the geometric mean over the cases of the error, none counted below the reference's own bar and
+            none above 1, which is also what a case without an answer counts
+
+An answer within the reference's bar is not distinguishable from it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from comparisons.models.candidate import Candidate, written
+from comparisons.report.report import Report
+from comparisons.scoring import tables
+from comparisons.scoring.answers import Answer, read_answers
+from comparisons.scoring.faults import faults
+from comparisons.suite.reference import Reference, document, reference, references
+
+OWN = "answers"
+
+
+@dataclass(frozen=True)
+class Row:
+    """A probe of a case, or a mode: its error, and whether that is more than the bar there."""
+
+    case: str
+    probe: str
+    error: float
+    distinguishable: bool
+
+
+@dataclass(frozen=True)
+class Standing:
+    """A model's score and the geometric mean of its times [s], None where they are not told."""
+
+    model: str
+    score: float
+    seconds: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class Score:
+    """Answers to a suite with what they get wrong."""
+
+    suite: str
+    answers: tuple[Answer, ...]
+
+    @property
+    def rows(self) -> list[Row]:
+        """One a probe or a mode."""
+        return [row for answer in self.answers for row in _rows(answer)]
+
+    @cached_property
+    def faults(self) -> list[str]:
+        """Sentences."""
+        return faults(self.answers)
+
+    def error(self, answer: Answer) -> float:
+        """The error of a case."""
+        return max(row.error for row in _rows(answer))
+
+    @property
+    def score(self) -> float:
+        """Of all cases."""
+        return mean([self.error(a) for a in self.answers], [a.reference for a in self.answers])
+
+    @property
+    def standing(self) -> list[Standing]:
+        """These answers and our own models on the same cases, the best first; ours on statics only."""
+        times = [answer.seconds for answer in self.answers]
+        known = [time for time in times if time]
+        own = Standing(OWN, self.score, _geometric(known) if len(known) == len(times) else None)
+        return sorted([own, *_ours([a.reference for a in self.answers])], key=lambda one: one.score)
+
+    @property
+    def front(self) -> list[str]:
+        """Models that none other is both quicker and better than, the quickest first."""
+        kept: list[Standing] = []
+        timed = [one for one in self.standing if one.seconds is not None]
+        for one in sorted(timed, key=lambda one: (one.seconds, one.score)):
+            if not kept or one.score < kept[-1].score:
+                kept.append(one)
+        return [one.model for one in kept]
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench score`."""
+        return {
+            "suite": self.suite,
+            "version": document()["version"],
+            "rows": [vars(row) for row in self.rows],
+            "cases": [
+                {
+                    "case": a.reference.name,
+                    "error": self.error(a),
+                    "bar": a.reference.bar,
+                    "seconds": a.seconds,
+                }
+                for a in self.answers
+            ],
+            "faults": self.faults,
+            "score": self.score,
+            "standing": [vars(one) for one in self.standing],
+            "front": self.front,
+        }
+
+    def report(self) -> Report:
+        """What is shown of it."""
+        return tables.report(self)
+
+
+def score(path: Path, suite: str = "statics", case: str | None = None) -> Score:
+    """The score of a file of answers to a suite, or to one case of it. Raises BadInput for what it lacks."""
+    asked = [reference(case, suite)] if case is not None else list(references(suite).values())
+    return Score(suite, tuple(read_answers(path, suite, asked)))
+
+
+def mean(errors: Sequence[float | None], of: Sequence[Reference]) -> float:
+    """The score of errors on cases."""
+    counted = [
+        1.0 if error is None else min(1.0, max(error, one.bar)) for error, one in zip(errors, of, strict=True)
+    ]
+    return _geometric(counted)
+
+
+def _geometric(values: Sequence[float]) -> float:
+    return float(np.exp(np.mean(np.log(np.maximum(values, 1e-12)))))
+
+
+def _rows(answer: Answer) -> list[Row]:
+    known = answer.reference
+    off, truth = np.abs(answer.values - known.values), np.abs(known.values)
+    if known.suite == "modes":
+        names, errors = [f"mode {n + 1}" for n in range(len(truth))], off / truth
+        apart = off > known.bars
+    else:
+        names = list(known.scene.probes)
+        errors = off.reshape(len(off), -1).max(axis=1) / truth.max()
+        apart = (off > known.bars).reshape(len(off), -1).any(axis=1)
+    found = zip(names, errors.tolist(), apart.tolist(), strict=True)
+    return [Row(known.name, name, error, told_apart) for name, error, told_apart in found]
+
+
+def _ours(cases: Sequence[Reference]) -> list[Standing]:
+    """Our own models on these cases, as they were measured when the set was made."""
+    rows: dict[str, dict[str, dict[str, Any]]] = {}
+    for row in document()["standing"]:
+        name = written(Candidate(row["model"], row["settings"]))
+        rows.setdefault(name, {})[row["case"]] = row
+    return [
+        Standing(
+            name,
+            mean([found[case.name]["error"] for case in cases], cases),
+            _geometric([found[case.name]["seconds"] for case in cases]),
+        )
+        for name, found in rows.items()
+        if all(case.name in found for case in cases)
+    ]

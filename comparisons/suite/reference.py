@@ -1,0 +1,82 @@
+"""The reference set as it is kept: converged values with error bars, under a version and a licence."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sheetbench.scenes import Scene
+from sheetbench.scenes.errors import require_choice
+
+FILE = Path(__file__).parent / "data" / "suite.json"
+VERSION = "1.0"
+LICENCE = "CC-BY-4.0"
+
+
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """A case with its values: displacements (probes, 3) [m], with times (t,) [s] (probes, t, 3), or natural
+    frequencies (k,) [Hz]; bars of each; bar: the largest over the largest value; judges: which codes were
+    asked, and how far each is off."""
+
+    name: str
+    suite: str
+    why: str
+    scene: Scene
+    values: np.ndarray
+    bars: np.ndarray
+    bar: float
+    judges: tuple[dict[str, Any], ...]
+    time: np.ndarray | None = None
+    duration: float | None = None
+
+    @property
+    def agreeing(self) -> list[str]:
+        """Models within one percent, or within the bar."""
+        limit = max(0.01, self.bar)
+        return [j["model"] for j in self.judges if j["error"] is not None and j["error"] <= limit]
+
+
+@cache
+def document() -> dict[str, Any]:
+    """The whole set as plain data."""
+    found: dict[str, Any] = json.loads(FILE.read_text(encoding="utf-8"))
+    return found
+
+
+@cache
+def references(suite: str | None = None) -> dict[str, Reference]:
+    """The cases of a suite, or all of them, by name."""
+    found = (_reference(case) for case in document()["cases"])
+    return {case.name: case for case in found if suite in (None, case.suite)}
+
+
+def reference(name: str, suite: str | None = None) -> Reference:
+    """One case. Raises BadInput for a name that there is not."""
+    known = references(suite)
+    require_choice("--case", name, known)
+    return known[name]
+
+
+def _reference(case: dict[str, Any]) -> Reference:
+    if case["suite"] == "modes":
+        values, bars = case["frequencies_hz"]["f"], case["frequencies_hz"]["bar"]
+    else:
+        values, bars = ([probe[key] for probe in case["probes"].values()] for key in ("u", "bar"))
+    return Reference(
+        name=case["name"],
+        suite=case["suite"],
+        why=case["why"],
+        scene=Scene.model_validate(case["scene"]),
+        values=np.array(values),
+        bars=np.array(bars),
+        bar=case["bar"],
+        judges=tuple(case["judges"]),
+        time=np.array(case["time"]) if "time" in case else None,
+        duration=case.get("duration"),
+    )

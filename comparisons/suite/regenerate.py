@@ -1,0 +1,166 @@
+"""The reference set computed anew: `python -m comparisons.suite.regenerate [FILE]`, or `make suite`.
+
+statics   the shell on n, ¾ n and ½ n elements: the finest answer, its bar by the grid convergence index
+          (`fem_reference.uncertainty`), and where it is not too dear the solid beside it
+settling  the lattice on 17 and 9 masses a side: the finer answer; the bar is what the two differ by, and what
+          two integrators differ by on the coarser: no finite elements here move
+modes     the shell as in statics, and the solid
+
+Every lattice, plate and shell of `STANDING` is measured on the statics too, for a place beside them.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+import fem_reference
+import lumped
+from comparisons.comparison.comparison import error
+from comparisons.models import registry
+from comparisons.models.candidate import Candidate
+from comparisons.report.files import plain, to_json, write_text
+from comparisons.runs.manifest import machine, version
+from comparisons.suite.cases import FREQUENCIES, Case, cases
+from comparisons.suite.reference import FILE, LICENCE, VERSION
+from fem_reference.uncertainty import coarser, estimate, mesh_size, solve_with_bar
+from sheetbench.scenes import Scene
+
+ELEMENTS, ACROSS = 24, 8  # of the shell along the shorter side; of strips four times as long as wide
+SOLID = 6  # elements
+SAMPLES = 60  # of a motion
+FINE, COARSE = 17, 9  # masses along the shorter side
+REPEATS = 3
+STANDING = (
+    *(Candidate("lumped", {"grid": n, "calibration": "consistent"}) for n in (5, 9, 17)),
+    Candidate("lumped", {"grid": 9, "calibration": "uniform"}),
+    Candidate("plate", {"elements": 16}),
+    Candidate("shell", {"elements": 4}),
+    Candidate("shell", {"elements": 8}),
+)
+
+
+def regenerate(say: Callable[[str], None] = print) -> dict[str, Any]:
+    """The reference set as plain data."""
+    makers = {"statics": statics, "settling": settling, "modes": modes}
+    found, standing = [], []
+    for case in cases():
+        began = perf_counter()
+        found.append(
+            {
+                "name": case.name,
+                "suite": case.suite,
+                "why": case.why,
+                "scene": case.scene.document(),
+                **({"duration": case.duration} if case.duration else {}),
+                **makers[case.suite](case),
+            }
+        )
+        if case.suite == "statics":
+            standing += list(_standing(case, found[-1]))
+        say(f"{case.name}: {perf_counter() - began:.1f} s")
+    made = {"sheetbench": version(), "machine": machine()}
+    head = {"version": VERSION, "licence": LICENCE, "made_with": made}
+    rounded: dict[str, Any] = plain({**head, "cases": found, "standing": standing})
+    return rounded
+
+
+def statics(case: Case) -> dict[str, Any]:
+    """Displacements [m] of the probes with their bars, and which codes were asked."""
+    elements = _elements(case.scene)
+    points = case.scene.probe_points()
+    solution, bar = solve_with_bar(case.scene, points, "shell", elements)
+    assert bar is not None and solution.comparable, case.name
+    judges = [{"model": "shell", "elements": coarser(elements), "error": 0.0, "bar": bar.error}]
+    if not case.scene.actuators and elements == ELEMENTS:
+        solid = fem_reference.solve(case.scene, "solid", elements=SOLID)
+        off = error(solid.displacement(points), bar.answer) if solid.comparable else None
+        judges.append({"model": "solid", "elements": [SOLID], "error": off, "status": str(solid.status)})
+    return {
+        "probes": {
+            name: {"u": _digits(u), "bar": _digits(by)}
+            for name, u, by in zip(case.scene.probes, bar.answer, bar.bar, strict=True)
+        },
+        "bar": bar.error,
+        "judges": judges,
+    }
+
+
+def settling(case: Case) -> dict[str, Any]:
+    """Displacements [m] of the probes over time [s] with their bars."""
+    assert case.duration is not None
+    duration, every = case.duration, case.duration / SAMPLES
+
+    def run(grid: int, integrator: str = "generalised-alpha") -> Any:
+        springs = lumped.calibrate(case.scene.sheet, case.scene.material, grid=grid)
+        return lumped.simulate(case.scene, springs, duration, every=every, integrator=integrator)
+
+    fine, coarse, other = run(FINE), run(COARSE), run(COARSE, "midpoint")
+    bars = {
+        name: np.abs(fine.probes[name] - coarse.probes[name])
+        + np.abs(coarse.probes[name] - other.probes[name])
+        for name in fine.probes
+    }
+    largest = max(float(np.abs(u).max()) for u in fine.probes.values())
+    return {
+        "time": _digits(fine.time),
+        "probes": {name: {"u": _digits(fine.probes[name]), "bar": _digits(bars[name])} for name in bars},
+        "bar": max(float(by.max()) for by in bars.values()) / largest,
+        "judges": [{"model": "lumped", "grids": [FINE, COARSE], "error": 0.0}],
+    }
+
+
+def modes(case: Case) -> dict[str, Any]:
+    """Natural frequencies [Hz] with their bars."""
+    meshes = coarser(ELEMENTS)
+    answers = [_frequencies(case.scene, "shell", n) for n in meshes]
+    bar = estimate([a[:, None] for a in answers], [mesh_size(case.scene, n) for n in meshes])
+    solid = _frequencies(case.scene, "solid", SOLID)
+    off = float(np.max(np.abs(solid / answers[0] - 1.0)))
+    return {
+        "frequencies_hz": {"f": _digits(answers[0]), "bar": _digits(bar.bar[:, 0])},
+        "bar": float(np.max(bar.bar[:, 0] / answers[0])),
+        "judges": [
+            {"model": "shell", "elements": meshes, "error": 0.0},
+            {"model": "solid", "elements": [SOLID], "error": off},
+        ],
+    }
+
+
+def _frequencies(scene: Scene, model: str, elements: Any) -> np.ndarray:
+    return fem_reference.modes(scene, model=model, elements=elements, count=FREQUENCIES).frequencies
+
+
+def _standing(case: Case, reference: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """What our own models get wrong on a case, and their median time."""
+    truth = np.array([value["u"] for value in reference["probes"].values()])
+    for candidate in STANDING:
+        answers = [registry.solve(case.scene, candidate.model, **candidate.settings) for _ in range(REPEATS)]
+        found = answers[-1]
+        off = error(found.displacement(case.scene.probe_points()), truth) if found.comparable else None
+        yield {
+            "case": case.name,
+            "model": candidate.model,
+            "settings": candidate.settings,
+            "status": str(found.status),
+            "error": off,
+            "seconds": float(np.median([answer.solve_seconds for answer in answers])),
+        }
+
+
+def _elements(scene: Scene) -> int:
+    return ACROSS if max(scene.sheet.lengths) > 4.0 * min(scene.sheet.lengths) else ELEMENTS
+
+
+def _digits(values: np.ndarray) -> Any:
+    """Seven digits: more than any bar leaves certain."""
+    return np.vectorize(lambda value: float(f"{value:.6e}"))(values).tolist()
+
+
+if __name__ == "__main__":
+    write_text(Path(sys.argv[1]) if len(sys.argv) > 1 else FILE, to_json(regenerate()))

@@ -1,0 +1,166 @@
+"""Answers in: scores, the place beside our own models, and every fault named in a line."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from commands import one_line, run
+
+from comparisons.scoring.answers import HEADERS
+from comparisons.scoring.score import score
+from comparisons.suite.reference import Reference, references
+
+Change = Callable[[Reference, np.ndarray], np.ndarray]
+Write = Callable[..., Path]
+
+
+@pytest.fixture
+def write(tmp_path: Path) -> Write:
+    """Writes answers: the reference's own values, changed."""
+
+    def write(
+        suite: str = "statics",
+        change: Change = lambda case, values: values,
+        leave_out: Sequence[str] = (),
+        seconds: float | None = None,
+    ) -> Path:
+        path = tmp_path / "answers.csv"
+        with path.open("w", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow([*HEADERS[suite], *(["seconds"] if seconds else [])])
+            for case in references(suite).values():
+                if case.name not in leave_out:
+                    for row in lines(case, change(case, case.values.copy())):
+                        writer.writerow([case.name, *row, *([seconds] if seconds else [])])
+        return path
+
+    return write
+
+
+def lines(case: Reference, values: np.ndarray) -> list[list[Any]]:
+    if case.suite == "modes":
+        return [[n + 1, f] for n, f in enumerate(values)]
+    if case.time is None:
+        return [[name, *u] for name, u in zip(case.scene.probes, values, strict=True)]
+    return [
+        [time, name, *u[n]]
+        for name, u in zip(case.scene.probes, values, strict=True)
+        for n, time in enumerate(case.time)
+    ]
+
+
+def test_right_answers_are_not_distinguishable_and_lead_the_front(write: Write) -> None:
+    found = score(write(seconds=1e-3))
+    assert not found.faults and not any(row.distinguishable for row in found.rows)
+    assert len(found.rows) == 80
+    assert found.standing[0].model == "answers" and found.front == ["answers"]
+    bars = [case.bar for case in references("statics").values()]
+    assert found.score == pytest.approx(np.exp(np.mean(np.log(bars))))
+
+
+def test_an_error_is_that_of_the_design(write: Write) -> None:
+    found = score(write(change=lambda case, values: 1.02 * values))
+    assert [row.error for row in found.rows if row.case == "thick"][-1] == pytest.approx(0.02)
+    assert found.score == pytest.approx(0.02)
+    assert not found.faults
+    models = [one.model for one in found.standing]
+    between = models.index("answers")
+    assert "calibration=consistent" in models[between - 1] and "uniform" in "".join(models[between:])
+    assert found.standing[between].seconds is None and "answers" not in found.front
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (
+            lambda case, u: 1000.0 * u,
+            "displacements are 1000 times too large, as in mm for m, in all 20 cases",
+        ),
+        (lambda case, u: u / 1000.0, "displacements are 1000 times too small in all 20 cases"),
+        (lambda case, u: u * [1, 1, -1], "uz has the opposite sign in all 20 cases"),
+        (
+            lambda case, u: u[[0, 3, 2, 1]] if case.name == "soft-one-edge" else u,
+            "probes P2 and P4 look swapped in soft-one-edge",
+        ),
+        (
+            lambda case, u: -u if case.name in ("thick", "thin") else u,
+            "ux, uy and uz have the opposite sign in thin",
+        ),
+    ],
+)
+def test_faults_are_named(
+    write: Write, change: Change, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = write(change=change)
+    found = score(path)
+    assert any(said in fault for fault in found.faults), found.faults
+    assert run("score", str(path), "--json") == 3
+    printed = capsys.readouterr()
+    assert said in " ".join(printed.err.split())
+    assert json.loads(printed.out)["faults"] == found.faults
+
+
+def test_faults_at_once_are_named_each(write: Write) -> None:
+    faults = score(write(change=lambda case, u: 1000.0 * u[[1, 0, 2, 3]] * [1, 1, -1])).faults
+    assert any("1000 times" in said for said in faults) and any("opposite sign" in said for said in faults)
+    assert any("P1 and P2 look swapped" in said for said in faults)
+
+
+def test_a_model_that_is_merely_bad_has_no_fault(write: Write) -> None:
+    """0.6 to 1.4 times each value, as a poor calibration has it: an error, not a slip."""
+    noise = np.random.default_rng(0)
+    found = score(write(change=lambda case, u: u * noise.uniform(0.6, 1.4, u.shape)))
+    assert not found.faults and found.score > 0.1
+
+
+@pytest.mark.parametrize(
+    ("suite", "change", "said"),
+    [
+        ("settling", lambda case, u: 1e3 * u, "mm for m"),
+        ("settling", lambda case, u: -u, "opposite sign"),
+        ("modes", lambda case, f: 2.0 * np.pi * f, "rad/s for Hz"),
+    ],
+)
+def test_other_suites(write: Write, suite: str, change: Change, said: str) -> None:
+    right, wrong = score(write(suite), suite), score(write(suite, change), suite)
+    assert not right.faults and right.score < 0.02
+    assert any(said in fault for fault in wrong.faults)
+    off = score(write(suite, lambda case, u: 1.05 * u), suite)
+    assert off.score == pytest.approx(0.05, rel=0.2) and not off.faults
+    assert len(off.standing) == 1  # our own models were measured on statics
+
+
+def test_what_is_missing_is_refused_in_a_line(
+    write: Write, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = write(leave_out=["thin"])
+    assert run("score", str(path)) == 2
+    assert "no answer to thin; answer all cases of statics, or name one with --case" in one_line(capsys)
+    assert run("score", str(path), "--case", "thick", "--json") == 0
+    document = json.loads(capsys.readouterr().out)
+    assert {row["case"] for row in document["rows"]} == {"thick"}
+    assert run("score", str(path), "--case", "modes-free") == 2
+    assert "case = modes-free" in one_line(capsys).replace("'", "").replace("--", "")
+    text = path.read_text()
+    for changed, said in (
+        (text.replace("thick,P2,", "thick,P9,"), "probe = 'P9': thick has P1, P2, P3, P4"),
+        ("\n".join(line for line in text.splitlines() if "thick,P2" not in line), "probe P2 is missing"),
+        (text.replace("case,probe", "scene,probe"), "the header of statics must be case,probe,ux,uy,uz"),
+        (text.replace("thick,P2,", "thick,P2,x"), "not a number"),
+    ):
+        path.write_text(changed)
+        assert run("score", str(path), "--case", "thick") == 2
+        assert said in one_line(capsys)
+
+
+def test_the_sheet_and_the_picture(write: Write, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    assert run("score", str(write(seconds=0.02)), "--out", str(out)) == 0
+    assert (out / "score.png").stat().st_size > 10_000
+    assert "Beside our own models" in (out / "score.md").read_text()

@@ -1,0 +1,92 @@
+"""The reference set: frozen, complete, and what the codes of today still find."""
+
+from __future__ import annotations
+
+import csv
+import json
+from hashlib import sha256
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import one_line, run
+
+import fem_reference
+from comparisons.suite import regenerate
+from comparisons.suite.cases import SUITES, cases
+from comparisons.suite.reference import FILE, VERSION, document, references
+from sheetbench import scenes
+
+FROZEN = "dda79a5a326c25fe"  # of the values of version 1.0
+
+
+def values_digest() -> str:
+    """Of scenes and values alone: measured times and the machine may change."""
+    kept = [
+        {key: case[key] for key in ("name", "scene", "probes", "frequencies_hz", "time") if key in case}
+        for case in document()["cases"]
+    ]
+    return sha256(json.dumps(kept, sort_keys=True).encode()).hexdigest()[:16]
+
+
+def test_a_published_version_does_not_change() -> None:
+    assert (document()["version"], values_digest()) == (VERSION, FROZEN), "other values: another VERSION"
+    assert document()["licence"] == "CC-BY-4.0"
+
+
+def test_the_file_is_of_the_cases_that_the_code_has() -> None:
+    made = {case.name: case for case in cases()}
+    assert list(made) == list(references()) and len(made) == 30
+    for name, known in references().items():
+        assert known.scene == made[name].scene, name
+        assert (known.suite, known.why, known.duration) == (
+            made[name].suite,
+            made[name].why,
+            made[name].duration,
+        )
+        assert known.suite in SUITES and known.agreeing
+
+
+def test_bars_are_small_beside_what_is_compared() -> None:
+    limits = {"statics": 1e-3, "settling": 0.02, "modes": 1e-3}
+    for known in references().values():
+        assert 0.0 < known.bar <= limits[known.suite], known.name
+        assert known.values.shape == known.bars.shape and np.isfinite(known.values).all()
+
+
+@pytest.mark.parametrize("name", ["thick", "poisson-0"])
+def test_a_coarser_shell_finds_the_values(name: str) -> None:
+    """On 8 elements instead of 24: nine times the error at order 2, which is what these limits leave."""
+    known = references()[name]
+    solution = fem_reference.solve(known.scene, "shell", elements=8)
+    off = np.abs(solution.displacement(known.scene.probe_points()) - known.values).max()
+    assert off < 2e-3 * np.abs(known.values).max()
+
+
+def test_one_command_makes_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On coarse meshes and one case of each suite, with the keys and cases of the file."""
+    chosen = [case for case in cases() if case.name in ("thick", "corner-struck", "modes-one-edge")]
+    monkeypatch.setattr(regenerate, "cases", lambda: chosen)
+    for name, value in (("ELEMENTS", 4), ("SOLID", 2), ("FINE", 4), ("COARSE", 3), ("REPEATS", 1)):
+        monkeypatch.setattr(regenerate, name, value)
+    monkeypatch.setattr(regenerate, "STANDING", regenerate.STANDING[:1])
+    found = regenerate.regenerate(lambda text: None)
+    kept = {case["name"]: case for case in document()["cases"]}
+    assert set(found) == set(document())
+    for case in found["cases"]:
+        assert set(case) == set(kept[case["name"]])
+    assert set(found["standing"][0]) == set(document()["standing"][0])
+
+
+def test_the_verb_lists_and_exports_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("suite", "--json", "--out", str(tmp_path)) == 0
+    assert json.loads(capsys.readouterr().out)["cases"] == json.loads(FILE.read_text())["cases"]
+    assert scenes.load(str(tmp_path / "thick.toml")) == references()["thick"].scene
+    assert "CC-BY-4.0" in (tmp_path / "LICENCE.txt").read_text()
+    with (tmp_path / "values-statics.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 4 * 20 and float(rows[0]["ux"]) == references()["two-edges-clamped"].values[0, 0]
+    forms = {(tmp_path / f"answers-{suite}.csv").read_text().splitlines()[0] for suite in SUITES}
+    assert len(forms) == 3
+    assert run("suite", "--suite", "all") == 2
+    assert "statics, settling, modes" in one_line(capsys)

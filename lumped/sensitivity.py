@@ -23,6 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lumped.calibration import CLOSED, Calibration
+from lumped.linear.solver import Factor
 from lumped.linear.threads import one_blas_thread
 from lumped.mid_surface import MidSurface
 from lumped.springs import constants
@@ -56,12 +57,12 @@ def sensitivity(
     Raises BadInput for an unknown parameter and where the scene has no stable equilibrium on these springs.
     """
     with one_blas_thread():
-        problem, state = _equilibrium(scene, calibration)
+        problem, state, factor = _equilibrium(scene, calibration)
         at = MidSurface(problem.assembly.lattice, scene.probe_points() if points is None else points)
         derivatives, values = {}, {}
         for name in parameters:
             values[name], rate, moved = rates(scene, calibration, problem, state.u, name)
-            step = problem.expand(state.factor.solve(problem.reduce(rate))) + moved
+            step = problem.expand(factor.solve(problem.reduce(rate))) + moved
             derivatives[name] = at.of(step)
         return Sensitivity(at.of(state.u), derivatives, values)
 
@@ -74,11 +75,11 @@ def gradient(
     Raises BadInput as `sensitivity`, and where the tangent is unsymmetric.
     """
     with one_blas_thread():
-        problem, state = _equilibrium(scene, calibration)
+        problem, state, factor = _equilibrium(scene, calibration)
         if not problem.conservative:
             raise BadInput("the adjoint is solved with a symmetric tangent: use sensitivity here")
         pull = MidSurface(problem.assembly.lattice, points).shared(weights, len(problem.loads.dead))
-        adjoint = state.factor.solve(problem.reduce(pull))
+        adjoint = factor.solve(problem.reduce(pull))
         slopes = {}
         for name in parameters:
             _, rate, moved = rates(scene, calibration, problem, state.u, name)
@@ -86,13 +87,15 @@ def gradient(
         return slopes
 
 
-def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, State]:
+def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, State, Factor]:
+    """The problem, its state, and the tangent factored there: what the last step was taken with is older."""
     require_static(scene)
     problem = pose(scene, calibration)
     outcome = settle(scene, problem, "path")
     if outcome.status is not Status.CONVERGED:
         raise BadInput(f"scene '{scene.name}': no sensitivity of an answer that is {outcome.status}")
-    return problem, outcome.state
+    state = outcome.state
+    return problem, state, problem.factor(problem.tangent(state.u, 1.0))
 
 
 def rates(

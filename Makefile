@@ -10,8 +10,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
             report.py measurements.py) tests/fuzz
 
 .PHONY: docs docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer tradeoff \
-        advisor-study crosscheck peers stability wheel-check lint clean
-        advisor-study crosscheck stability suite wheel-check lint clean
+        advisor-study crosscheck peers stability suite wheel-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"

@@ -11,9 +11,9 @@ from importlib import import_module
 from inspect import Parameter, signature
 from typing import Any
 
-from sheetbench.choices import REFERENCE, REFERENCES
+from sheetbench.choices import REFERENCE, REFERENCES, STRAIN_LAWS
 from sheetbench.scenes import AnyScene, Iteration, Solution, scene_of
-from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.errors import BadInput, require_choice
 
 MODELS = {name: f"fem_reference.{name}.statics" for name in REFERENCES}
 
@@ -49,6 +49,8 @@ def check(model: str, asked: Mapping[str, Any]) -> None:
             raise BadInput(f"{model}: no option '{name}'; it has {', '.join(known)}")
         if isinstance(known[name], bool | int | str) and type(value) is not type(known[name]):
             raise BadInput(f"{model}: {name} = {value!r}: not a value like {known[name]!r}")
+        if name == "law":
+            require_choice(name, value, STRAIN_LAWS)
 
 
 def options(model: str) -> dict[str, Any]:

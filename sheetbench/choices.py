@@ -64,6 +64,12 @@ REFERENCES = {
     "shell": "nonlinear Reissner–Mindlin shell",
     "solid": "nonlinear three-dimensional solid",
 }
+STRAIN_LAW = "st-venant-kirchhoff"
+STRAIN_LAWS = {
+    "st-venant-kirchhoff": "linear in Green's strain",
+    "biot": "linear in the elongation, as the lattice's springs are",
+    "neo-hookean": "compressible, for rubbers and silicones",
+}
 ELEMENTS = 16  # along the shorter side
 
 

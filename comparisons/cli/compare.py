@@ -15,6 +15,7 @@ from comparisons.cli.options import (
     Json,
     K,
     Large,
+    Law,
     LayerDistance,
     Models,
     Out,
@@ -34,6 +35,7 @@ def command(
     layer_distance: LayerDistance = None,
     reference: Annotated[str, typer.Option(metavar="MODEL", help=f"{listed(REFERENCES)}.")] = REFERENCE,
     elements: Elements = str(ELEMENTS),
+    law: Law = None,
     symmetry: Symmetry = False,
     model: Models = None,
     uncertainty: Annotated[
@@ -97,6 +99,7 @@ def command(
             layer_distance=layer_distance,
             reference=reference,
             elements=size,
+            law=law,
             uncertainty=uncertainty,
             symmetry=symmetry,
             choice=advice.choice if advice is not None else None,

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from sheetbench.choices import CALIBRATION, CALIBRATIONS, listed
+from sheetbench.choices import CALIBRATION, CALIBRATIONS, STRAIN_LAW, STRAIN_LAWS, listed
 
 Scene = Annotated[
     str, typer.Argument(metavar="SCENE", help="Catalogue name or path to a TOML file.", show_default=False)
@@ -111,6 +111,15 @@ Elements = Annotated[
         "--elements",
         metavar="N",
         help="The reference's elements along the shorter side, or 8x4 along x and y.",
+    ),
+]
+Law = Annotated[
+    str | None,
+    typer.Option(
+        "--law",
+        metavar="NAME",
+        help=f"Law of strain of a shell or solid: {listed(STRAIN_LAWS)}. {STRAIN_LAW} unless given.",
+        show_default=False,
     ),
 ]
 Symmetry = Annotated[

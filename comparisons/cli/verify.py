@@ -25,6 +25,9 @@ def command(
     locking: Annotated[
         bool, typer.Option("--locking", help="Only the locking sweeps; with --out, their picture.")
     ] = False,
+    laws: Annotated[
+        bool, typer.Option("--laws", help="Only the laws of strain, with a table of what they change.")
+    ] = False,
     coverage: Annotated[
         bool,
         typer.Option(
@@ -66,18 +69,18 @@ def command(
         require_choice("case", name, CASES)
     for name in model or ():
         require_choice("model", name, REFERENCES)
-    parts = {"--locking": locking, "--coverage": coverage, "--case": bool(case)}
+    parts = {"--locking": locking, "--laws": laws, "--coverage": coverage, "--case": bool(case)}
     if len(both := [option for option, given in parts.items() if given]) > 1:
         raise BadInput(f"{' and '.join(both)}: choose one")
     if not coverage and (scenes or model or workers or retry):
         raise BadInput("--scenes, --model, --workers and --retry are of --coverage")
-    chosen = list(MODELS) if locking else case
-    with finish("verify", json, out, overwrite, apart={"--locking": locking, "--coverage": coverage}) as end:
+    chosen = list(MODELS) if locking else ["strain-laws"] if laws else case
+    with finish("verify", json, out, overwrite, apart={key: parts[key] for key in list(parts)[:3]}) as end:
         if coverage:
             _coverage(end, scenes, model, workers, retry)
             return
         rows = list(run(chosen, starting=lambda name: end.progress(f"verifying {name} …")))
-        end(tables.report(rows, locking))
+        end(tables.report(rows, locking, laws))
 
 
 def _coverage(

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from comparisons.comparison import tables
+from comparisons.comparison import strain_law, tables
 from comparisons.comparison.error_bar import CHEAP, ErrorBar, error_bar
 from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading
@@ -73,12 +73,14 @@ class Comparison(summary.Summarised):
     """Solutions of one scene: the chosen lattice first, the reference second, then what is shown alongside.
 
     Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
-    reference's mesh leaves uncertain, where that was asked for.
+    reference's mesh leaves uncertain, where that was asked for; laws: a sentence where lattice and reference
+    have laws of strain that differ by more.
     """
 
     scene: Scene
     solutions: tuple[Solution, ...]
     bar: ErrorBar | None = None
+    laws: str = ""
 
     @property
     def reference(self) -> Solution:
@@ -134,6 +136,7 @@ class Comparison(summary.Summarised):
         return {
             "scene": self.scene.document(),
             "solutions": [self._solution_as_dict(solution) for solution in self.solutions],
+            "laws": self.laws,
             "differences": [vars(difference) for difference in self.differences],
             "errors": [
                 {
@@ -174,6 +177,7 @@ class Comparison(summary.Summarised):
             "status": str(solution.status),
             "advice": solution.status.advice,
             "message": solution.message,
+            "stretch": solution.stretch,
             "snaps": list(solution.snaps),
             "load_factor": solution.load_factor,
             "unknowns": solution.unknowns,
@@ -198,6 +202,7 @@ def compare(
     grading: Grading = None,
     reference: str = REFERENCE,
     elements: Elements = ELEMENTS,
+    law: str | None = None,
     uncertainty: bool | None = None,
     symmetry: bool = False,
     choice: Candidate | None = None,
@@ -214,7 +219,8 @@ def compare(
     solved too and shown alongside as `lumped-uniform`; where `k` [N/m] is given the default is `uniform`, and
     where the scene brings its own [springs] they are used alone. layer_distance [m]. grading: 0, cells of one
     size, to 1, finest at the edges, or "auto", as the scene's layers need (`comparisons.models.grading`); the
-    companion's cells are of one size. elements: along the shorter side, or (nx, ny). uncertainty: find the
+    companion's cells are of one size. elements: along the shorter side, or (nx, ny). law: of strain, where
+    the reference is a shell or solid (`sheetbench.choices.STRAIN_LAWS`). uncertainty: find the
     reference's error bar on coarser meshes too; for plate and shell it is unless False, for others if True.
     symmetry: solve a half or a quarter where scene and grid mirror themselves; solids are solved whole.
     choice: a model that takes the lattice's place (`comparisons.advice.advisor`); others: models that stand
@@ -229,9 +235,11 @@ def compare(
     if not isinstance(scene, Scene):
         scene = load_static(scene)
     require_static(scene)
-    check_reference(reference, elements)
+    own_law = {} if law is None else {"law": law}
+    check_reference(reference, elements, own_law)
     mirrored = {"symmetry": True} if symmetry else {}
-    judge = Candidate(reference, {"elements": elements, **(mirrored if reference != "solid" else {})})
+    cut = mirrored if reference != "solid" else {}
+    judge = Candidate(reference, {"elements": elements, **own_law, **cut})
     method = "uniform" if calibration is None and k is not None else calibration
     springs = {"calibration": method, "k": k, "layer_distance": layer_distance}
     own = {"grid": grid, "grading": grading, **springs, **mirrored}
@@ -256,7 +264,10 @@ def compare(
             return answer(scene, judge.but(elements=n), progress=progress)
 
         bar = error_bar(scene, solutions[1], elements, coarser)
-    return Comparison(scene, tuple(solutions), bar)
+    laws = ""
+    if first.model == "lumped":
+        laws = strain_law.said(scene, first, tuple(solutions), None if bar is None else bar.error)
+    return Comparison(scene, tuple(solutions), bar, laws)
 
 
 def _unlike(name: str, taken: Collection[str]) -> str:

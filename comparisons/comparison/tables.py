@@ -166,10 +166,12 @@ def sheet(sheet: Sheet, material: Material) -> str:
 
 
 def uncertainty(comparison: Comparison) -> list[str]:
-    """The reference's error bar in words, and the models that differ from it by less."""
+    """The reference's error bar in words, the models that differ from it by less, and what is due to laws of
+    strain."""
+    laws = [comparison.laws] if comparison.laws else []
     if comparison.bar is None:
-        return []
-    said = [comparison.bar.note(comparison.reference.model)]
+        return laws
+    said = [*laws, comparison.bar.note(comparison.reference.model)]
     for solution in comparison.solutions:
         if comparison.distinguishable(solution) is False:
             said.append(f"{solution.model}: not distinguishable from {comparison.reference.model}.")

@@ -11,7 +11,8 @@ from typing import Any
 
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table, number
-from fem_reference.verification import CASES, Row
+from fem_reference.verification import CASES, Row, strain_laws
+from sheetbench.choices import STRAIN_LAWS
 
 COLUMNS = (
     Column("case"),
@@ -26,16 +27,18 @@ COLUMNS = (
 )
 
 
-def report(rows: Sequence[Row], locking: bool = False) -> Report:
-    """What `sheetbench verify` shows of rows; locking: that they are the locking sweeps', with a picture."""
+def report(rows: Sequence[Row], locking: bool = False, laws: bool = False) -> Report:
+    """What `sheetbench verify` shows of rows; locking: that they are the locking sweeps', with a picture;
+    laws: those of the laws of strain, with a table of them."""
+    more = (law_table(),) if laws else ()
     failed = [row for row in rows if not row.passed]
     return Report(
         name="verification",
         title="verify",
         subtitle="the references against what is expected of them",
         document=as_dict(rows),
-        tables=(table(rows),),
-        printed=tuple(by_case(rows)),
+        tables=(table(rows), *more),
+        printed=(*by_case(rows), *more),
         notes=(f"{len(rows) - len(failed)} of {len(rows)} rows pass",),
         complaints=tuple(
             f"{row.case}: {row.quantity}: {number(row.computed)} instead of {number(row.published)}"
@@ -77,6 +80,21 @@ def by_case(rows: Sequence[Row]) -> Iterator[Table]:
         title = f"{case}: {CASES[case].title}; {mesh}"
         columns = tuple(replace(column, detail=column.name in ("case", "mesh")) for column in COLUMNS)
         yield replace(table(list(some)), caption=title, columns=columns)
+
+
+def law_table() -> Table:
+    """Force of every law over that of Hooke's, pulled one way and both ways."""
+    poisson = strain_laws.MATERIAL.poisson
+    hooke = {"one way": 1.0, "both ways": 1.0 / (1.0 - poisson)}
+    rows = tuple(
+        (way, strain, *(strain_laws.stress(law, way, strain) / (strain * hooke[way]) for law in STRAIN_LAWS))
+        for way in strain_laws.WAYS
+        for strain in (0.001, 0.003, 0.01, 0.03, 0.1)
+    )
+    of_laws = (Column(law, "", "", 1.0, ".4f") for law in STRAIN_LAWS)
+    columns = (Column("pulled"), Column("stretch", "", "%", 100.0, "g"), *of_laws)
+    caption = f"Force at a stretch over that of Hooke's law, ν = {poisson:g}"
+    return Table(caption, columns, rows, "laws", grouped=True)
 
 
 def as_dict(rows: Sequence[Row]) -> dict[str, Any]:

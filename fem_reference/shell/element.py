@@ -106,8 +106,8 @@ class Element:
             raise BadInput(f"element {worst} of the mesh is inverted or degenerate")
         inverse = np.linalg.inv(jacobian)  # ∂ξ_a/∂x_b
         areas = GAUSS_WEIGHTS * np.abs(area)
-        in_plane, transverse = _cartesian_in_plane(inverse, areas), _cartesian_shear(inverse)
-        bending = _cartesian_in_plane(inverse, areas, np.eye(9))
+        in_plane, bending = cartesian(nodes)
+        transverse = _cartesian_shear(inverse)
         stiffness = np.zeros((len(nodes), STRAINS, STRAINS))
         stiffness[:, MEMBRANE, MEMBRANE] = _integrate(in_plane, section.membrane, areas)
         stiffness[:, BENDING, BENDING] = _integrate(bending, section.bending, areas)
@@ -130,12 +130,28 @@ class Element:
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """s = D e (m, 54), conjugate to the sampled strains."""
-        return self.weighed(strain[:, :, None])[:, :, 0]
+        return self.weighed(strain, strain[:, :, None])[:, :, 0]
 
-    def weighed(self, columns: np.ndarray) -> np.ndarray:
-        """D times columns (m, 54, k): membrane, bending and shear do not mix in it."""
+    def weighed(self, strain: np.ndarray, columns: np.ndarray) -> np.ndarray:
+        """D, ∂s/∂e at strains (m, 54), times columns (m, 54, k): its three parts do not mix."""
         parts = (MEMBRANE, BENDING, SHEAR)
         return np.concatenate([self.stiffness[:, part, part] @ columns[:, part] for part in parts], axis=1)
+
+    @property
+    def stands_any_strain(self) -> bool:
+        """Whether the law is meant for large strains."""
+        return False
+
+    def energies(self, strain: np.ndarray) -> dict[str, float]:
+        """Energy [J] of strains e (m, 54), by part."""
+        density = strain * self.stress(strain)
+        parts = {"membrane": MEMBRANE, "bending": BENDING, "shear": SHEAR}
+        return {name: 0.5 * float(density[:, part].sum()) for name, part in parts.items()}
+
+    def dragged(self, strain: np.ndarray, drag: float) -> Element:
+        """Elements of stresses (1 + σ) D e − σ D e_n: a step of creep from strains e_n (m, 54), drag σ."""
+        past = strain * (drag / (1.0 + drag))
+        return DraggedElement(self.reference, (1.0 + drag) * self.stiffness, self.areas, past)
 
 
 @dataclass(frozen=True)
@@ -165,6 +181,14 @@ def strain_of(gradient: np.ndarray, step: np.ndarray) -> np.ndarray:
 def geometric(stress: np.ndarray) -> np.ndarray:
     """Σ s_k H_k (m, 18, 18), the same for each of the three components."""
     return (stress @ FORMS.reshape(STRAINS, -1)).reshape(-1, 18, 18)
+
+
+def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """What makes Cartesian strains [xx, yy, 2xy] at the Gauss points of the sampled membrane and bending
+    ones, (m, 9, 3, 21) each, of elements with nodes (m, 9, 2)."""
+    jacobian = jacobians(nodes, shape(*GAUSS)[1])
+    areas, inverse = GAUSS_WEIGHTS * np.abs(np.linalg.det(jacobian)), np.linalg.inv(jacobian)
+    return _cartesian_in_plane(inverse, areas), _cartesian_in_plane(inverse, areas, np.eye(9))
 
 
 def _integrate(to_cartesian: np.ndarray, moduli: np.ndarray, areas: np.ndarray) -> np.ndarray:

@@ -2,8 +2,8 @@
 
 Position φ + ζ d with a unit director d at every node; membrane, bending and transverse-shear energies of
 a plane-stress St Venant–Kirchhoff sheet, ½ h E:C:E + h³/24 κ:C:κ + ½ k h G γ·γ with k = 5/6, on nine-node
-elements with assumed strains (`element`), under dead and follower loads. Small strains are
-assumed, rotations are not; the weight has no couple on the director.
+elements with assumed strains (`element`), or of another law of strain (`laws`, `hyperelastic`), under dead
+and follower loads. Rotations may be large; the weight has no couple on the director.
 """
 
 from __future__ import annotations
@@ -16,8 +16,10 @@ from skfem import Basis, ElementQuad2, MeshQuad
 
 from fem_reference.shell.balance import balance
 from fem_reference.shell.element import Element
+from fem_reference.shell.hyperelastic import HyperelasticElement
+from fem_reference.shell.laws import LAWS
 from fem_reference.shell.structure import UP, ShellStructure, State
-from fem_reference.shell.validity import STRETCHED, inspector, judge
+from fem_reference.shell.validity import STRETCHED, inspector, judge, membrane_strain
 from fem_reference.solving.equilibrium import Path, Progress, trace
 from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.pseudo_transient import settler
@@ -29,7 +31,9 @@ from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, quarters
+from sheetbench.choices import STRAIN_LAW
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
+from sheetbench.scenes.errors import BadInput, require_choice
 from sheetbench.scenes.scene import require_static
 
 
@@ -38,6 +42,7 @@ def solve(
     elements: Elements = 16,
     graded: bool = True,
     section: Section | None = None,
+    law: str = STRAIN_LAW,
     *,
     progress: Progress | None = None,
 ) -> Solution:
@@ -45,19 +50,19 @@ def solve(
 
     graded: finer towards the edges, uniform otherwise (see `mesh.rectangle`); where the sheet bends more than
     stretched elements stand, it is divided evenly after all, and `fallback` says so. section: stiffness per
-    width, from material and thickness unless given. Past limit points under conservative loads the path goes
-    on (see `pseudo_transient`), and `snaps` has the load factors at which the sheet snapped. progress: called
-    once an iteration.
-    Raises scenes.SceneError if the supports leave a rigid motion free.
+    width, from material and thickness unless given. law: one of `laws.LAWS`. Past limit points under
+    conservative loads the path goes on (see `pseudo_transient`), and `snaps` has the load factors at which
+    the sheet snapped. progress: called once an iteration.
+    Raises scenes.SceneError if the supports leave a rigid motion free, BadInput for an unknown law.
     """
     require_static(scene)
     counts = divisions(scene.sheet, elements)
-    run = _run(mesh_of(scene, counts, graded), scene, section, graded, progress)
+    run = _run(mesh_of(scene, counts, graded), scene, section, law, graded, progress)
     fallback, spent = "", None
     if run.path.fault is STRETCHED:
         fallback, spent, graded = "divided evenly, for it bends much", run, False
-        run = _run(mesh_of(scene, counts, graded), scene, section, graded, progress)
-    settings: dict[str, Any] = {"elements": list(counts), "graded": graded}
+        run = _run(mesh_of(scene, counts, graded), scene, section, law, graded, progress)
+    settings: dict[str, Any] = {"elements": list(counts), "graded": graded, "law": law}
     if section is not None:
         settings["section"] = section._asdict()
     return _solution(scene, run, f"shell {counts[0]} × {counts[1]}", settings, fallback, spent)
@@ -87,12 +92,13 @@ def _run(
     mesh: MeshQuad,
     scene: Scene,
     section: Section | None = None,
+    law: str = STRAIN_LAW,
     graded: bool = False,
     progress: Progress | None = None,
 ) -> _Run:
     """graded: give up where stretched elements bend too much (see `validity`)."""
     begin = perf_counter()
-    structure, nodes = discretise(mesh, scene, section)
+    structure, nodes = discretise(mesh, scene, section, law)
     solver = DirectSolver(structure.symmetric)
     ready = perf_counter()
     inspect, settle = inspector(scene, structure, solver, graded), settler(structure, solver)
@@ -104,7 +110,7 @@ def trace_on(scene: Scene, structure: ShellStructure) -> tuple[State, Status, li
     """The equilibrium of a structure under the full load, how the path to it ended and what is to be said."""
     solver = DirectSolver(structure.symmetric)
     path = trace(structure, solver, inspector(scene, structure, solver, False), settler(structure, solver))
-    return path.state, *judge(scene, structure, path)
+    return path.state, *judge(scene, structure, path, membrane_strain(structure, path.state))
 
 
 def _solution(
@@ -119,7 +125,8 @@ def _solution(
     """The answer of a run; spent: one before it that led nowhere; own: whether the mesh has an outline of its
     own."""
     structure, path = run.structure, run.path
-    status, notes = judge(scene, structure, path)
+    stretched = membrane_strain(structure, path.state)
+    status, notes = judge(scene, structure, path, stretched)
     displacement, turn = path.state.change
     forces = structure.forces(path.state, path.load_factor)
     director = turn + UP
@@ -152,18 +159,17 @@ def _solution(
         snaps=tuple(path.snaps),
         fallback=fallback,
         notes=tuple(notes),
+        stretch=stretched,
     )
 
 
 def discretise(
-    mesh: MeshQuad, scene: Scene, section: Section | None = None
+    mesh: MeshQuad, scene: Scene, section: Section | None = None, law: str = STRAIN_LAW
 ) -> tuple[ShellStructure, np.ndarray]:
     """The discrete shell of a scene on a mesh, and its nodes' plan positions (n, 2) [m]."""
     basis = Basis(mesh, ElementQuad2())
     nodes, element_nodes = basis.doflocs.T, basis.element_dofs.T
-    element = Element.build(
-        nodes[element_nodes], section or section_of(scene.material, scene.sheet.thickness)
-    )
+    element = _elements(nodes[element_nodes], scene, section, law)
     holding = (*scene.supports, *scene.actuators)
     on_edge = {str(on.edge): basis.get_dofs(on.edge).flatten() for on in holding}
     supports = surface_supports.of_scene(scene, nodes, on_edge)
@@ -173,6 +179,16 @@ def discretise(
     supports = rod.hold_bases(supports, rods)
     bound = on_surface(rods, len(nodes))
     return ShellStructure.build(element, element_nodes, supports, dead, followers, bound), nodes
+
+
+def _elements(nodes: np.ndarray, scene: Scene, section: Section | None, law: str) -> Element:
+    require_choice("law", law, LAWS)
+    material, thickness = scene.material, scene.sheet.thickness
+    if law == STRAIN_LAW:
+        return Element.build(nodes, section or section_of(material, thickness))
+    if section is not None:
+        raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")
+    return HyperelasticElement.of(nodes, material, thickness, LAWS[law])
 
 
 def field_mesh(

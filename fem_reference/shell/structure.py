@@ -25,10 +25,6 @@ from scipy.sparse import csr_matrix
 
 from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
 from fem_reference.shell.element import (
-    BENDING,
-    MEMBRANE,
-    SHEAR,
-    DraggedElement,
     Element,
     forces_of,
     geometric,
@@ -57,10 +53,11 @@ class State:
 
 @dataclass(frozen=True)
 class Forces:
-    """At a state: B (m, 54, 18, 3), s (m, 54), the same of the rods, residuals R (2, n, 3) on the sheet and
-    aside (q, 3) on the rods' m, size of the forces that balance [N]."""
+    """At a state: B (m, 54, 18, 3), e and s (m, 54), the same of the rods, residuals R (2, n, 3) on the sheet
+    and aside (q, 3) on the rods' m, size of the forces that balance [N]."""
 
     gradient: np.ndarray
+    strain: np.ndarray
     stress: np.ndarray
     rods: Strained
     residual: np.ndarray
@@ -147,10 +144,7 @@ class ShellStructure:
 
     def energies(self, state: State) -> dict[str, float]:
         """Strain energy [J] of the sheet by part."""
-        strain = self.element.strain(self.gather(state.change))
-        density = strain * self.element.stress(strain)
-        parts = {"membrane": MEMBRANE, "bending": BENDING, "shear": SHEAR}
-        return {name: 0.5 * float(density[:, part].sum()) for name, part in parts.items()}
+        return self.element.energies(self.element.strain(self.gather(state.change)))
 
     def rod_energy(self, state: State) -> float:
         """That of the rods [J], from their intrinsic shape."""
@@ -158,21 +152,19 @@ class ShellStructure:
 
     def potential(self, state: State, load_factor: float) -> tuple[float, float]:
         """Strain energy less the work of dead loads, and the sum of their magnitudes [J]."""
-        strain, on_rods = self.element.strain(self.gather(state.change)), self._on_rods(state)
-        stored = 0.5 * float(np.sum(strain * self.element.stress(strain)))
-        stored += self.rods.elements.energy(on_rods, load_factor)
+        on_rods = self._on_rods(state)
+        stored = sum(self.energies(state).values()) + self.rods.elements.energy(on_rods, load_factor)
         work = float(np.sum(self.dead * state.change[0]) + np.sum(self.rods.elements.weight * on_rods))
         return stored - load_factor * work, stored + abs(load_factor * work)
 
     def dragged(self, state: State, load_factor: float, drag: float) -> ShellStructure:
         """The structure whose equilibrium at this load factor is the end of a step of creep from a state.
 
-        Of stresses (1 + σ) D e − σ D e_n, the rods' (1 + σ) S e − σ S e_n − λ S e₀ those of another intrinsic
-        curvature.
+        Its elements are `dragged`, and the rods' stresses (1 + σ) S e − σ S e_n − λ S e₀ those of another
+        intrinsic curvature.
         """
         element, rods = self.element, self.rods.elements
-        past = element.strain(self.gather(state.change)) * (drag / (1.0 + drag))
-        slow = DraggedElement(element.reference, (1.0 + drag) * element.stiffness, element.areas, past)
+        slow = element.dragged(element.strain(self.gather(state.change)), drag)
         shape = load_factor * rods.intrinsic + drag * rods.strain(self._on_rods(state))
         intrinsic = shape / (load_factor * (1.0 + drag)) if self.rods.rods else rods.intrinsic
         slow_rods = replace(rods, stiffness=(1.0 + drag) * rods.stiffness, intrinsic=intrinsic)
@@ -181,8 +173,8 @@ class ShellStructure:
     def forces(self, state: State, load_factor: float) -> Forces:
         """Internal less external forces, and what they are measured against."""
         change = self.gather(state.change)
-        gradient = self.element.gradient(change)
-        stress = self.element.stress(self.element.strain(change))
+        gradient, strain = self.element.gradient(change), self.element.strain(change)
+        stress = self.element.stress(strain)
         internal = self._scatter(forces_of(gradient, stress))
         external = load_factor * self._external(change)
         size = np.abs(external[0]).sum() + np.abs(internal[0][self.supports.position]).sum()
@@ -194,7 +186,7 @@ class ShellStructure:
         size += load_factor * np.abs(elements.weight[:, :3]).sum()
         size += np.abs(driving[:, :3]).sum() + np.abs(driving[:, 3:]).sum() / self.lever
         pull, aside = self._split(self.rods.scatter(rods.pull, self._vectors))
-        return Forces(gradient, stress, rods, internal - external + pull, aside, float(size))
+        return Forces(gradient, strain, stress, rods, internal - external + pull, aside, float(size))
 
     def imbalance(self, state: State, forces: Forces) -> float:
         """Sum of the free unknowns' residuals [N], directors' moments over the sheet's size."""
@@ -222,11 +214,12 @@ class ShellStructure:
 
         of_nodes = frames[self.element_nodes]
         gradient, form = reduced(forces.gradient, of_nodes), geometric(stress)
-        stiffness = gradient.swapaxes(1, 2) @ self.element.weighed(gradient)
+        stiffness = gradient.swapaxes(1, 2) @ self.element.weighed(forces.strain, gradient)
         add_geometric(stiffness, form, of_nodes)
         of_step = self.gather(self._split(step)[0])
         strain = strain_of(forces.gradient, of_step)
-        pull = forces_of(forces.gradient, self.element.stress(strain)) + form @ of_step
+        pulled = self.element.weighed(forces.strain, strain[:, :, None])[:, :, 0]
+        pull = forces_of(forces.gradient, pulled) + form @ of_step
         vectors = self.element.reference + self.gather(state.change)
         for load in self.followers:
             tangent = -load_factor * load.tangent(vectors[load.elements])
@@ -253,10 +246,11 @@ class ShellStructure:
         vectors[self.count :] += np.einsum("nck,nk->nc", self.frames(state), turn)
         change, aside = self._split(vectors)
         strain = strain_of(forces.gradient, self.gather(change))
+        of_step = self.element.weighed(forces.strain, strain[:, :, None])[:, :, 0]
         return State(
             state.change + change,
             state.aside + aside,
-            forces.stress + self.element.stress(strain),
+            forces.stress + of_step,
             self.rods.elements.extrapolated(forces.rods, self.rods.gather(vectors)),
         )
 

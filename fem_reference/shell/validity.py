@@ -88,9 +88,12 @@ def _sides(structure: ShellStructure) -> np.ndarray:
     return np.stack([np.linalg.norm(nodes[:, a] - nodes[:, b], axis=1) for a, b in ((5, 7), (6, 4))], axis=1)
 
 
-def judge(scene: Scene, structure: ShellStructure, path: Path[State]) -> tuple[Status, list[str]]:
-    """The status and notes of a path that has ended: strains beyond the model, if it has come to them."""
-    outside = outside_model(scene, membrane_strain(structure, path.state))
+def judge(
+    scene: Scene, structure: ShellStructure, path: Path[State], stretched: float
+) -> tuple[Status, list[str]]:
+    """The status and notes of a path that has ended: strains beyond the model, if it has come to them;
+    stretched: by how much, as `membrane_strain` has it."""
+    outside = "" if structure.element.stands_any_strain else outside_model(scene, stretched)
     if not outside or path.status is Status.NON_FINITE:
         return path.status, path.notes
     return Status.STRAIN_OUTSIDE_MODEL, [outside, *path.notes]

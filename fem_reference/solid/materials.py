@@ -5,11 +5,15 @@
 λ, μ are Lamé's constants; ϑ measures the change of volume and alone grows stiff as ν → ½:
 
     St Venant–Kirchhoff   W₀ = μ E : E                        ϑ = tr E
+    Biot                  W₀ = μ (U − 1) : (U − 1)            ϑ = tr (U − 1),   U² = C
     neo-Hooke             W₀ = ½ μ (tr C − 3) − μ ln J        ϑ = ln J,   C = 2E + 1, J² = det C
 
 Green–Lagrange strain E and second Piola–Kirchhoff stress in Voigt order (xx, yy, zz, 2xy, 2yz, 2xz), stresses
-without the 2. Every law is a triad: density → stress → tangent, of W₀ and of ϑ. Both have the
-same small-strain limit. Source: Bonet & Wood, Nonlinear Continuum Mechanics (2008), ch. 6. [Pa]
+without the 2. Every law is a triad: density → stress → tangent, of W₀ and of ϑ. All have the
+same small-strain limit. Biot's is linear in the elongation, as springs are; of the eigenvalues ε_a and axes
+n_a of E, λ_a = √(1 + 2 ε_a): tr U = Σ λ_a, ∂ tr U/∂E = Σ n_a n_aᵀ/λ_a, and the second derivative
+−2 Σ_ab Q_ab ⊗ Q_ab/(λ_a λ_b (λ_a + λ_b)) with Q_ab the symmetric part of n_a n_bᵀ, two of them equal or not.
+Source: Bonet & Wood, Nonlinear Continuum Mechanics (2008), ch. 6. [Pa]
 """
 
 from __future__ import annotations
@@ -37,11 +41,13 @@ class Triad(NamedTuple):
 
 @dataclass(frozen=True)
 class Law:
-    """distortion: E → triad of W₀/μ; volume: E → triad of ϑ; quadratic: whether W is quadratic in E."""
+    """distortion: E → triad of W₀/μ; volume: E → triad of ϑ; quadratic: whether W is quadratic in E;
+    stands_any_strain: whether the law is meant for large strains."""
 
     distortion: Callable[[np.ndarray], Triad]
     volume: Callable[[np.ndarray], Triad]
-    quadratic: bool
+    quadratic: bool = False
+    stands_any_strain: bool = False
 
 
 def lame(material: Material) -> tuple[float, float]:
@@ -57,6 +63,44 @@ def _green_distortion(strain: np.ndarray) -> Triad:
 
 def _green_volume(strain: np.ndarray) -> Triad:
     return Triad(strain @ _TRACE, _everywhere(_TRACE, strain), _everywhere(np.zeros((6, 6)), strain))
+
+
+def _stretch_volume(strain: np.ndarray) -> Triad:
+    """tr (U − 1)."""
+    excess, axes = _principal(strain)
+    stretch = 1.0 + excess
+    pairs = stretch[..., :, None] * stretch[..., None, :] * (stretch[..., :, None] + stretch[..., None, :])
+    first = np.einsum("...a,...aai->...i", 1.0 / stretch, axes)
+    second = np.einsum("...ab,...abi,...abj->...ij", -2.0 / pairs, axes, axes, optimize=True)
+    return Triad(np.sum(excess, axis=-1), first, second)
+
+
+def _stretch_distortion(strain: np.ndarray) -> Triad:
+    """(U − 1) : (U − 1) = tr C − 2 tr U + 3."""
+    excess, axes = _principal(strain)
+    first = np.einsum("...a,...aai->...i", 2.0 * excess / (1.0 + excess), axes)
+    return Triad(np.sum(excess**2, axis=-1), first, -2.0 * _stretch_volume(strain).second)
+
+
+def _principal(strain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """λ_a − 1 (…, 3) and Q_ab (…, 3, 3, 6), as stresses are."""
+    finite = np.isfinite(strain).all(axis=-1)
+    matrix = np.where(finite[..., None, None], _matrix(strain, 0.5), 0.0)
+    with np.errstate(invalid="ignore"):  # inside out: not a number, which ends the step
+        values, axes = np.linalg.eigh(matrix)
+        values = np.where(finite[..., None], values, np.nan)
+        excess = 2.0 * values / (1.0 + np.sqrt(1.0 + 2.0 * values))
+    both = np.einsum("...ia,...jb->...abij", axes, axes)
+    both = 0.5 * (both + both.swapaxes(-1, -2))
+    return excess, np.stack([both[..., i, j] for i, j in PAIRS], axis=-1)
+
+
+def _matrix(strain: np.ndarray, shear: float) -> np.ndarray:
+    """(…, 3, 3) of Voigt components (…, 6), those of shear by a factor."""
+    out = np.zeros((*strain.shape[:-1], 3, 3))
+    for place, (i, j) in enumerate(PAIRS):
+        out[..., i, j] = out[..., j, i] = strain[..., place] * (1.0 if i == j else shear)
+    return out
 
 
 def _logarithmic_volume(strain: np.ndarray) -> Triad:
@@ -78,9 +122,7 @@ def _neo_hookean_distortion(strain: np.ndarray) -> Triad:
 
 def _inverse(strain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """C⁻¹ (…, 3, 3) and det C of C = 2E + 1."""
-    c = np.zeros((*strain.shape[:-1], 3, 3))
-    for place, (i, j) in enumerate(PAIRS):
-        c[..., i, j] = c[..., j, i] = strain[..., place] * (2.0 if i == j else 1.0) + (1.0 if i == j else 0.0)
+    c = np.eye(3) + 2.0 * _matrix(strain, 0.5)
     return np.linalg.inv(c), np.linalg.det(c)
 
 
@@ -90,5 +132,6 @@ def _everywhere(constant: np.ndarray, strain: np.ndarray) -> np.ndarray:
 
 LAWS = {
     "st-venant-kirchhoff": Law(_green_distortion, _green_volume, quadratic=True),
-    "neo-hookean": Law(_neo_hookean_distortion, _logarithmic_volume, quadratic=False),
+    "biot": Law(_stretch_distortion, _stretch_volume),
+    "neo-hookean": Law(_neo_hookean_distortion, _logarithmic_volume, stands_any_strain=True),
 }

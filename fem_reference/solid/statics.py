@@ -2,7 +2,7 @@
 
     ∫ S(E) : δE dV = δ(loads),    E = ½ (Fᵀ F − 1)
 
-total Lagrangian, St Venant–Kirchhoff (default) or neo-Hooke (`materials`), on 27-node bricks that lock
+total Lagrangian, St Venant–Kirchhoff (default), Biot or neo-Hooke (`materials`), on 27-node bricks that lock
 neither in a thin sheet nor as ν → ½ (`element`), in one layer or more. Displacements are the
 mid-surface's.
 
@@ -34,6 +34,7 @@ from fem_reference.surface import loads, rod
 from fem_reference.surface.actuator_forces import Held, OnEdge, exerted
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, require_upright
 from fem_reference.surface.stretch import largest_stretch
+from sheetbench.choices import STRAIN_LAW
 from sheetbench.scenes import Scene, Solution, Status, outside_model
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.scene import require_static
@@ -45,7 +46,7 @@ def solve(
     scene: Scene,
     elements: Elements = 16,
     layers: int = 1,
-    law: str = "st-venant-kirchhoff",
+    law: str = STRAIN_LAW,
     clamp: str = "shell-like",
     grading: str = "edges",
     *,
@@ -76,7 +77,7 @@ def _solved(
     label: str,
     asked: dict[str, Any],
     layers: int = 1,
-    law: str = "st-venant-kirchhoff",
+    law: str = STRAIN_LAW,
     clamp: str = "shell-like",
     own: bool = False,
     progress: Progress | None = None,
@@ -93,10 +94,10 @@ def _solved(
     status, notes = path.status, path.notes
     if status is Status.CONVERGED and structure.inside_out(path.state):
         status, notes = Status.INVERTED, ["a brick has turned inside out"]
-    if LAWS[law].quadratic and status is not Status.NON_FINITE:
-        stretch = largest_stretch(*(structure.mid_surface(at) for at in (0.0, displacement)))
-        if outside := outside_model(scene, stretch):
-            status, notes = Status.STRAIN_OUTSIDE_MODEL, [outside, *notes]
+    stretch = largest_stretch(*(structure.mid_surface(at) for at in (0.0, displacement)))
+    outside = "" if LAWS[law].stands_any_strain else outside_model(scene, stretch)
+    if outside and status is not Status.NON_FINITE:
+        status, notes = Status.STRAIN_OUTSIDE_MODEL, [outside, *notes]
     forces = structure.forces(path.state, path.load_factor)
     middle = (columns.positions + displacement)[:, columns.layers]
     held = Held(columns.about_middle(displacement, forces.residual), middle)
@@ -121,6 +122,7 @@ def _solved(
         actuators=wrenches,
         balance=balance(scene, structure, path, forces, edges, own),
         notes=tuple(notes),
+        stretch=stretch,
     )
 
 
@@ -149,7 +151,7 @@ def discretise(
     mesh: MeshQuad,
     scene: Scene,
     layers: int = 1,
-    law: str = "st-venant-kirchhoff",
+    law: str = STRAIN_LAW,
     clamp: str = "shell-like",
 ) -> SolidStructure:
     """The discrete solid of a scene on a plan mesh of straight-sided quadrilaterals.

@@ -17,6 +17,7 @@ from fem_reference.verification import (
     patch,
     roll_up,
     slit_annulus,
+    strain_laws,
 )
 from fem_reference.verification.rows import Case, Row
 from sheetbench.scenes.errors import BadInput
@@ -39,6 +40,7 @@ CASES: dict[str, Case] = {
     "locking-plate": Case("plate on 8 × 8, h/a from 1e-5 to 0.2", locking.rows),
     "locking-shell": Case("shell on 8 × 8, h/a from 1e-5 to 0.2", locking.rows),
     "locking-solid": Case("solid on 8 × 8, ν up to 0.4999", locking.rows, quick=False),
+    "strain-laws": Case("strip pulled one way and both ways, three laws of strain", strain_laws.rows),
     "patch": Case("patch tests on distorted meshes", patch.rows),
 }
 

@@ -125,7 +125,8 @@ class Solution(summary.Summarised):
     over, None where a model does not tell; an equilibrium that is out of balance is none, its status
     `diverged`. snaps: load factors at which the
     sheet left its load path for an equilibrium far away; fallback: what was solved in place of what was
-    asked, and why; notes: what else there is to say, a clause each.
+    asked, and why; notes: what else there is to say, a clause each. stretch: the largest elongation of the
+    mid-surface, None where a model does not tell.
     """
 
     model: str
@@ -147,6 +148,7 @@ class Solution(summary.Summarised):
     snaps: tuple[float, ...] = ()
     fallback: str = ""
     notes: tuple[str, ...] = ()
+    stretch: float | None = None
 
     def __post_init__(self) -> None:
         if self.status in _EQUILIBRIA and self.balance is not None and not self.balance.holds:

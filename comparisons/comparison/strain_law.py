@@ -1,0 +1,58 @@
+"""How far the laws of strain alone take lattice and reference apart, told from the largest stretch found.
+
+Pulled one way to a stretch ε a sheet carries P = E ε (1 + c ε + …) of force per unstrained section: c = 0 in
+Biot's law, 1.5 in St Venant–Kirchhoff's, below 0 in neo-Hooke's. A lattice's links are linear in their own
+elongation, but diagonals turn with the stretch, area springs follow the area and strain springs Green's
+strain: its c is that of its construction, and found here by pulling the lattice itself. At one force the
+stretches differ by (c − c_ref) ε; a sheet loaded across, which moves by less, differs by less.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from comparisons.models.candidate import Candidate
+from comparisons.models.registry import answer
+from fem_reference.verification.strain_laws import curving, pulled
+from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
+from sheetbench.scenes import Scene, Solution
+
+UNSAID = 1e-3  # without an error bar
+LEAST = 0.4  # of c − c_ref that is looked for
+MOST = 5000  # masses of a lattice that is pulled
+PULLS = (1e-5, 1e-2)  # P/E
+
+
+def of_lattice(scene: Scene, lattice: Candidate) -> float:
+    """c of a lattice on the scene's sheet, pulled one way."""
+    sheet, material = scene.sheet, scene.material
+    corner, softness = np.array([sheet.lengths]), []
+    for pull in PULLS:
+        strip = pulled((pull * material.young * sheet.thickness, 0.0), sheet, material)
+        moved = answer(strip.replace(springs=scene.springs), lattice).displacement(corner)[0, 0]
+        softness.append(float(moved) / (sheet.length_x * pull))
+    return (1.0 - softness[1] / softness[0]) / (softness[1] * PULLS[1])
+
+
+def said(scene: Scene, lattice: Candidate, solutions: tuple[Solution, ...], bar: float | None) -> str:
+    """A sentence where the laws of lattice and reference, the first two of the solutions, differ by more than
+    the reference's error bar, else nothing; bar: as a share, None where it is not known."""
+    first, reference = solutions[:2]
+    above = UNSAID if bar is None else max(bar, UNSAID)
+    stretch = reference.stretch or 0.0
+    if reference.model == "plate" or not (first.comparable and reference.comparable):
+        return ""
+    if LEAST * stretch <= above or first.unknowns > 3 * MOST:
+        return ""
+    law, poisson = str(reference.settings.get("law", STRAIN_LAW)), scene.material.poisson
+    own = of_lattice(scene, lattice)
+    off = {name: abs(own - curving(name, poisson)) for name in STRAIN_LAWS}
+    if not off[law] * stretch > above:
+        return ""
+    nearest = min(off, key=lambda name: off[name])
+    remedy = "" if nearest == law else f" Nearest to this lattice is --law {nearest}."
+    by = 100.0 * off[law] * stretch
+    return (
+        f"At {100.0 * stretch:.2g} % stretch the lattice's law of strain (links linear in their elongation) "
+        f"and the {reference.model}'s ({law}) differ by up to {by:.2g} %: not an error of the grid.{remedy}"
+    )

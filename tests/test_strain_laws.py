@@ -1,0 +1,191 @@
+"""Laws of strain in shell and solid: triads, tangents, closed forms, patches, and the lattice beside them."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import fem_reference
+from comparisons.cli import main
+from comparisons.comparison import strain_law
+from comparisons.comparison.comparison import compare
+from comparisons.models.candidate import Candidate
+from comparisons.models.registry import solve
+from fem_reference.shell.element import Element
+from fem_reference.shell.hyperelastic import HyperelasticElement
+from fem_reference.shell.laws import LAWS
+from fem_reference.solid.materials import LAWS as SOLID_LAWS
+from fem_reference.surface.materials import plane_stress, section_of
+from fem_reference.verification import run
+from fem_reference.verification.strain_laws import STRAINS, WAYS, curving, pulled, stress
+from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
+from sheetbench.scenes import Material, Scene, Sheet, Status
+from sheetbench.scenes.errors import BadInput
+
+PLAN = np.array([[0, 0], [2, 0.1], [2.1, 1.2], [-0.1, 1], [1, 0.05], [2.05, 0.65], [1, 1.1], [-0.05, 0.5]])
+NODES = np.concatenate([PLAN, PLAN[4:].mean(axis=0, keepdims=True)])[None]
+
+
+def material(poisson: float = 0.3) -> Material:
+    return Material(young=2.0, poisson=poisson, density=1.0)
+
+
+@pytest.fixture
+def rng() -> np.random.Generator:
+    return np.random.default_rng(5)
+
+
+def slopes(function, at: np.ndarray, step: float = 1e-6) -> np.ndarray:
+    """∂f/∂x by central differences, the last axis that of x (…, n)."""
+    moves = step * np.eye(at.shape[-1])
+    return np.stack([(function(at + m) - function(at - m)) / (2.0 * step) for m in moves], axis=-1)
+
+
+def test_every_model_has_the_laws_that_the_command_line_lists() -> None:
+    assert list(STRAIN_LAWS) == list(LAWS) and set(STRAIN_LAWS) == set(SOLID_LAWS)
+    assert fem_reference.options("shell")["law"] == fem_reference.options("solid")["law"] == STRAIN_LAW
+
+
+@pytest.mark.parametrize("poisson", [-0.2, 0.0, 0.3, 0.49])
+@pytest.mark.parametrize("law", LAWS)
+def test_shell_laws_are_triads_with_hookes_law_at_small_strain(
+    law: str, poisson: float, rng: np.random.Generator
+) -> None:
+    function, strain = LAWS[law], rng.uniform(-0.1, 0.1, (4, 3))
+    found = function(material(poisson), strain)
+    by_energy = slopes(lambda e: function(material(poisson), e).energy, strain)
+    by_stress = slopes(lambda e: function(material(poisson), e).stress, strain)
+    assert found.stress == pytest.approx(by_energy, abs=1e-9)
+    assert found.tangent == pytest.approx(by_stress, abs=1e-9)
+    tiny = 1e-10 * rng.uniform(-1.0, 1.0, (4, 3))  # to the last digits
+    expected = tiny @ plane_stress(material(poisson))
+    assert function(material(poisson), tiny).stress == pytest.approx(expected, rel=1e-8, abs=1e-17)
+    assert np.isnan(function(material(poisson), np.array([-0.6, 0.0, 0.0])).stress).any() or law == STRAIN_LAW
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_elements_through_the_thickness_are_energies_with_their_tangents(
+    law: str, rng: np.random.Generator
+) -> None:
+    element = HyperelasticElement.of(NODES, material(), 0.2, LAWS[law])
+    strain = 0.05 * rng.normal(size=(1, 54))
+    energy = lambda e: np.array([sum(element.energies(e).values())])  # noqa: E731
+    assert element.stress(strain) == pytest.approx(slopes(energy, strain), rel=1e-6, abs=1e-9)
+    assert element.tangent(strain) == pytest.approx(slopes(element.stress, strain), rel=1e-6, abs=1e-8)
+    slow = element.dragged(strain, 3.0)
+    assert slow.stress(strain) == pytest.approx(element.stress(strain))
+    assert slow.tangent(strain) == pytest.approx(slopes(slow.stress, strain), rel=1e-6, abs=1e-8)
+
+
+def test_the_same_integrals_with_st_venants_law_are_the_linear_element(rng: np.random.Generator) -> None:
+    linear = Element.build(NODES, section_of(material(), 0.2))
+    through = HyperelasticElement.of(NODES, material(), 0.2, LAWS[STRAIN_LAW])
+    strain = rng.normal(size=(1, 54))
+    assert through.stress(strain) == pytest.approx(linear.stress(strain), rel=1e-11)
+    assert through.tangent(strain) == pytest.approx(linear.stiffness, rel=1e-11, abs=1e-13)
+    assert through.energies(strain) == pytest.approx(linear.energies(strain), rel=1e-11)
+
+
+def test_strips_stretch_as_closed_forms_say_one_way_and_both_ways() -> None:
+    rows = list(run(["strain-laws"]))
+    assert len(rows) == 2 * len(STRAIN_LAWS) * len(WAYS) * len(STRAINS)
+    assert all(row.passed for row in rows)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("poisson", [0.0, 0.3, 0.45])
+def test_forces_begin_with_hookes_law_and_bend_as_said(law: str, poisson: float) -> None:
+    for strain in (1e-3, 1e-2):
+        begins = strain * (1.0 + curving(law, poisson) * strain)
+        assert stress(law, "one way", strain, poisson) == pytest.approx(begins, rel=4.0 * strain**2)
+
+
+@pytest.mark.parametrize("model", ["shell", "solid"])
+@pytest.mark.parametrize("law", LAWS)
+def test_a_patch_of_uneven_elements_is_stretched_evenly(model: str, law: str) -> None:
+    even = {"graded": True} if model == "shell" else {"grading": "edges"}
+    scene = pulled((1000.0, 300.0))
+    points = np.random.default_rng(1).uniform(0.0, 1.0, (9, 2)) * scene.sheet.lengths
+    solution = fem_reference.solve(scene, model, elements=(5, 4), law=law, **even)
+    corner = solution.displacement(np.array([scene.sheet.lengths]))[0, :2]
+    assert solution.status is Status.CONVERGED
+    expected = corner * points / scene.sheet.lengths
+    assert solution.displacement(points)[:, :2] == pytest.approx(expected, rel=1e-7, abs=1e-12)
+
+
+def bent(length: float = 0.2) -> Scene:
+    """A clamped strip that bends far under its weight."""
+    return Scene.model_validate(
+        {
+            "name": "bent",
+            "sheet": {"length_x": length, "length_y": 0.05, "thickness": 0.002},
+            "material": {"young": 2e6, "poisson": 0.3, "density": 1000.0},
+            "gravity": {"acceleration": [0.0, 0.0, -9.81]},
+            "support": [{"kind": "clamped", "edge": "x0"}],
+        }
+    )
+
+
+def test_large_rotations_at_small_strain_know_no_law() -> None:
+    scene = bent()
+    tips = {
+        law: fem_reference.solve(scene, "shell", elements=3, law=law).displacement(scene.probe_points())
+        for law in LAWS
+    }
+    size = np.abs(tips[STRAIN_LAW]).max()
+    assert size > 0.4 * scene.sheet.length_x
+    for tip in tips.values():
+        assert np.abs(tip - tips[STRAIN_LAW]).max() < 2e-3 * size
+
+
+@pytest.mark.parametrize("calibration", ["consistent", "consistent-interior"])
+@pytest.mark.parametrize("strain", [0.01, 0.03, 0.1])
+def test_what_a_lattice_and_each_law_differ_by_is_told_before_they_are_compared(
+    strain: float, calibration: str
+) -> None:
+    """From 1 to 10 % stretch, once the grid's own error at small strain (none here) is known."""
+    sheet, rubber = Sheet(length_x=0.1, length_y=0.1, thickness=0.005), Material(1e6, 0.3, 1000.0)
+    scene = pulled((strain * rubber.young * sheet.thickness, 0.0), sheet, rubber)
+    lattice = Candidate("lumped", {"grid": 5, "calibration": calibration})
+    corner, own = np.array([sheet.lengths]), strain_law.of_lattice(scene, lattice)
+    found = solve(scene, "lumped", **lattice.settings).displacement(corner)[0, 0]
+    for law in LAWS:
+        shell = fem_reference.solve(scene, "shell", elements=2, law=law)
+        assert shell.stretch is not None
+        told = (own - curving(law, 0.3)) * shell.stretch
+        off = 1.0 - found / shell.displacement(corner)[0, 0]
+        assert off == pytest.approx(told, abs=5.0 * strain**2)
+
+
+def test_links_along_a_square_lattices_sides_and_diagonals_bend_as_derived() -> None:
+    """c = ⅜ (1 − ν²) of a thin sheet's links at ν = ⅓, where there are no area springs."""
+    sheet, third = Sheet(length_x=0.1, length_y=0.1, thickness=1e-4), Material(1e6, 1.0 / 3.0, 1000.0)
+    scene = pulled((1.0, 0.0), sheet, third)
+    found = strain_law.of_lattice(scene, Candidate("lumped", {"grid": 17, "calibration": "cauchy"}))
+    assert found == pytest.approx(1.0 / 3.0, rel=0.1)
+
+
+def test_compare_says_what_is_due_to_laws_of_strain() -> None:
+    scene = pulled((200.0, 0.0))
+    found = compare(scene, grid=5, calibration="consistent", elements=4)
+    assert "% stretch" in found.laws and "(st-venant-kirchhoff)" in found.laws and "up to" in found.laws
+    assert found.laws in found.report().notes and found.as_dict()["laws"] == found.laws
+    assert not compare(bent(0.05), grid=5, calibration="consistent", elements=4).laws
+
+
+def test_the_law_is_an_option_of_the_reference(capsys: pytest.CaptureFixture[str]) -> None:
+    asked = ["compare", "one-edge-clamped", "--lumped", "5", "--calibration", "consistent", "--elements", "4"]
+    with pytest.raises(SystemExit) as ended:
+        main([*asked, "--law", "biot", "--json"])
+    assert ended.value.code in (0, None)
+    reference = json.loads(capsys.readouterr().out)["solutions"][1]
+    assert reference["settings"]["law"] == "biot" and 0.0 < reference["stretch"] < 0.01
+    for wrong in (["--law", "hooke"], ["--law", "biot", "--reference", "plate"]):
+        with pytest.raises(SystemExit) as ended:
+            main([*asked, *wrong])
+        assert ended.value.code == 2
+    with pytest.raises(BadInput, match="section of its own"):
+        section = section_of(material(), 0.01)
+        fem_reference.solve(bent(), "shell", elements=2, section=section, law="biot")

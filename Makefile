@@ -27,7 +27,7 @@ help:
 	@echo "make crosscheck every model and other people's programs on nine scenes: docs/crosscheck.md (ten minutes)"
 	@echo "make peers     ours and other people's codes in one run: docs/peers.md and its picture (six minutes)"
 	@echo "make stability where each solver holds, degrades, refuses or breaks: eight maps (six minutes; files in $(OUT)/stability/)"
-	@echo "make bench     time, steps and error of the settling motion beside SciPy's BDF (files in $(OUT)/)"
+	@echo "make bench     the settling motion beside SciPy's BDF, and statics: time and what it goes to (files in $(OUT)/)"
 	@echo "make suite     the reference set anew, comparisons/suite/data (ten minutes; a change of values is a new version)"
 	@echo "make docs-scene  the page of every key of a scene and its sketch, docs/scene.md, from the types"
 	@echo "make docs      the documentation as a site, docs/_build/html/index.html (three minutes; a warning is an error)"
@@ -119,6 +119,7 @@ docs: install
 bench: install
 	@mkdir -p $(OUT)
 	@$(BIN)/python benchmarks/settling.py --json $(OUT)/settling.json
+	@$(BIN)/python benchmarks/statics.py --json $(OUT)/statics.json
 
 docs-scene: install
 	@$(BIN)/python docs/scene_sketch.py

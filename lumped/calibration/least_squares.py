@@ -13,7 +13,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from lumped import moduli
 from lumped.calibration.calibration import Calibration, by_direction, plan_spacing
@@ -61,6 +60,8 @@ def bounded_least_squares(
     Unknowns: the five link families, axial and cross along x and y apart, and the strain springs, all ≥ 0;
     area, mid_area of any sign; the layer distance unless given. kz as in the closed form.
     """
+    from scipy.optimize import least_squares
+
     spacing = plan_spacing(sheet, grid)
     layers = grid[2]
     asked = moduli.of_sheet(sheet, material, spacing)

@@ -20,7 +20,6 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from lumped.calibration.calibration import Calibration
 from lumped.calibration.consistent import consistent
@@ -103,6 +102,8 @@ def _fit(
     compare: Callable[[Any, Calibration, list[str]], Compared],
 ) -> FittedCalibration:
     """The fit of `method` to targets, from the springs `first` on."""
+    from scipy.optimize import least_squares
+
     names = [name for name in constants.names(first.springs) if name not in KEPT]
     start = {name: constants.value_of(first.springs, name) for name in names}
     signed = {name for name in names if name in ("area", "mid_area")}

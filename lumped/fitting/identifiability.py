@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from scipy import stats
 
 from sheetbench.scenes.errors import BadInput
 
@@ -47,7 +46,9 @@ def identifiability(names: list[str], jacobian: np.ndarray, residuals: np.ndarra
     variance = float(residuals @ residuals) / (m - n)
     spread = (directions[seen] / singular[seen, None]).T  # (n, seen)
     covariance = variance * spread @ spread.T
-    quantile = float(stats.t.ppf(0.5 + CONFIDENCE / 2.0, m - n))
+    from scipy.special import stdtrit
+
+    quantile = float(stdtrit(m - n, 0.5 + CONFIDENCE / 2.0))
 
     warnings, unseen = [], np.zeros(n, dtype=bool)
     for direction in directions[~seen]:

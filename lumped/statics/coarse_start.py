@@ -14,7 +14,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
 
 from lumped.calibration import Calibration
 from lumped.calibration.consistent import consistent
@@ -49,6 +48,8 @@ def refined(coarse: Lattice, u: np.ndarray, fine: Lattice) -> np.ndarray:
 
 def _splined(coarse: Lattice, field: np.ndarray, fine: Lattice) -> np.ndarray:
     """A field (ny, nx, 3) at the coarse grid's lines at those of the fine one."""
+    from scipy.interpolate import make_interp_spline
+
     for axis, which in ((0, 1), (1, 0)):
         field = make_interp_spline(coarse.lines[which].at, field, k=3, axis=axis)(fine.lines[which].at)
     return field

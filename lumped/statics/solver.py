@@ -109,9 +109,8 @@ def solve(
         if linear:
             outcome = flat_step(scene, problem)
         else:
-            direct = weights == "tributary" and branch == "path"
-            started = _from_coarser(scene, problem, calibration) if direct else None
-            outcome = started or settle(scene, problem, branch)
+            started = weights == "tributary" and branch == "path"
+            outcome = equilibrium(scene, problem, calibration) if started else settle(scene, problem, branch)
     done = time.perf_counter()
     usual = {"branch": "path", "weights": "tributary", "precision": "double", "linear": False}
     options = {"branch": branch, "weights": weights, "precision": precision, "linear": linear}
@@ -202,6 +201,11 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
     return Outcome(status, state, tuple(snaps), (*notes, *judged))
 
 
+def equilibrium(scene: Scene, problem: Problem, calibration: Calibration) -> Outcome:
+    """The equilibrium on the load path at full load, from a smaller lattice's where that is quicker."""
+    return _from_coarser(scene, problem, calibration) or settle(scene, problem, "path")
+
+
 def _from_coarser(scene: Scene, problem: Problem, calibration: Calibration) -> Outcome | None:
     """The equilibrium of a large lattice from that of a smaller one; None where it must go the whole path."""
     springs = halved(scene, calibration) if problem.iterates and problem.system.unknowns > FROM else None
@@ -209,7 +213,7 @@ def _from_coarser(scene: Scene, problem: Problem, calibration: Calibration) -> O
         return None
     smaller = pose(scene, springs, precision=problem.assembly.precision)
     smaller.progress = problem.progress
-    outcome = _from_coarser(scene, smaller, springs) or settle(scene, smaller, "path")
+    outcome = equilibrium(scene, smaller, springs)
     problem.factorisations += smaller.factorisations
     problem.history.extend(smaller.history)
     if outcome.status is not Status.CONVERGED or outcome.snaps or outcome.notes:

@@ -51,6 +51,7 @@ def test_a_campaigns_bar_stands_before_its_first_run_is_done(
 
 
 MEASURED = "x,y,ux,uy,uz\n0.188,0.188,-0.0004,-0.0004,-0.0135\n0.094,0.094,0,0,-0.00245\n0.1,0.15,,,-0.0075\n"
+ANSWERS = "case,probe,ux,uy,uz\n" + "".join(f"thick,P{n},0,0,{-5e-4 * n}\n" for n in (1, 2, 3, 4))
 SEED, SETTLING = "two-edges-clamped", "two-edges-settling"
 SMALL = {
     "new": ["new", "new.toml"],
@@ -77,6 +78,9 @@ SMALL = {
     "verify": ["verify", "--case", "patch"],
     "modes": ["modes", SEED, "--lumped", "3", "--elements", "2", "--count", "3"],
     "schema": ["schema"],
+    "suite": ["suite", "--suite", "modes"],
+    "score": ["score", "answers.csv", "--case", "thick"],
+    "linearise": ["linearise", "one-edge-clamped", "--lumped", "3", "--modes", "3"],
 }
 WIDE = 400  # columns, where nothing has to give way
 WAYS: dict[str, tuple[int, dict[str, str], str]] = {
@@ -105,6 +109,7 @@ def screens(tmp_path_factory: pytest.TempPathFactory) -> Screens:
     """(verb, way) → exit status, standard output and standard error, of every verb in every way."""
     folder = tmp_path_factory.mktemp("terminal")
     (folder / "measured.csv").write_text(MEASURED, encoding="utf-8")
+    (folder / "answers.csv").write_text(ANSWERS, encoding="utf-8")
     cases = []
     for verb, arguments in SMALL.items():
         if verb in FIGURES:  # first, so that no way pays for the compiling

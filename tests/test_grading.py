@@ -57,7 +57,7 @@ def test_auto_says_why(verb, tmp_path, monkeypatch, capsys) -> None:
     monkeypatch.chdir(tmp_path)
     measured(tmp_path)
     others, settings = VERBS[verb]
-    scene, value, why = "curved-edge", 0.5, "edge x0, bent by 4 1/m, stretches the sheet within 15.7 mm"
+    scene, value, why = "curved-edge", 0.3, "edge x0, bent by 4 1/m, stretches the sheet within 15.7 mm"
     if verb == "identify":
         scene, value, why = "one-edge-clamped", 0.0, "its load of 49.4 Pa bends the sheet within 148 mm"
     asked = (verb, scene, "--grid", "3", "--grading", "auto", *others)
@@ -89,7 +89,7 @@ def test_auto_grades_the_scenes_that_grading_mends() -> None:
 
 def test_auto_leaves_alone_what_the_cells_resolve_and_what_has_cells_of_one_size_only() -> None:
     curved = load("curved-edge")
-    assert grading_of(curved, (9, 9, 2), "auto")[0] == 0.5
+    assert grading_of(curved, (9, 9, 2), "auto")[0] == 0.3
     assert "cells of 0.367 mm" in grading_of(curved, (513, 513, 2), "auto")[1]
     assert grading_of(curved, (513, 513, 2), "auto")[0] == 0.0
     for settings in ({"calibration": "uniform"}, {"k": 500.0}, {"layer_distance": 0.003}):
@@ -140,13 +140,13 @@ def test_of_many_lattices_those_are_graded_whose_calibration_takes_it(monkeypatc
     assert run("tradeoff", "curved-edge", *grids) == 2
     assert run("tradeoff", "curved-edge", "--duration", "0.1", "--grading", "0.3") == 2
     lattices = [candidate for candidate in seen[0][0][1] if candidate.model == "lumped"]
-    assert [candidate.settings.get("grading") for candidate in lattices] == [0.5, None]
+    assert [candidate.settings.get("grading") for candidate in lattices] == [0.3, None]
     assert seen[1][1]["grading"] == "0.3" and "bent by 4 1/m" in seen[0][1]["reasons"][0]
     shown, reasons = graded(load("curved-edge"), lattices[1:], "auto")
     assert shown == lattices[1:] and reasons == ()
     study = _Study(transfer_scenes(), ("consistent", "uniform"), (9, 513), 8, "auto")
     chosen, reasons = study.gradings("tenth-of-young")
-    assert chosen == {"consistent": [0.5, 0.0], "uniform": [0.0, 0.0]}
+    assert chosen == {"consistent": [0.3, 0.0], "uniform": [0.0, 0.0]}
     assert len(reasons) == 2 and "bends the sheet within 68.6 mm" in reasons[0]
     with pytest.raises(BadInput, match="none of these calibrations"):
         graded(load("curved-edge"), [Candidate("lumped", {"grid": [3, 3, 2], "calibration": "uniform"})], 0.5)
@@ -154,6 +154,6 @@ def test_of_many_lattices_those_are_graded_whose_calibration_takes_it(monkeypatc
 
 def test_python_takes_it_too() -> None:
     springs = sb.calibrate("curved-edge", grid=3, grading="auto")
-    assert springs.grading == 0.5 and "grading " in repr(springs)
+    assert springs.grading == 0.3 and "grading " in repr(springs)
     history = sb.simulate("one-edge-clamped", 0.01, grid=3, grading=0.3)
     assert history.settings["grading"] == 0.3 and "grading 0.3" in history.label

@@ -94,7 +94,7 @@ tradeoff: install
 peers: .venv-peers/installed
 	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 NUMBA_NUM_THREADS=1 \
 	  .venv-peers/bin/python -m comparisons.cli.peers_study --out $(OUT)/peers
-	@sed 's#(peers.png)#(images/peers.png)#' $(OUT)/peers/peers.md > docs/peers.md
+	@{ printf -- '---\norphan: true\n---\n\n'; sed 's#(peers.png)#(images/peers.png)#' $(OUT)/peers/peers.md; } > docs/peers.md
 	@cp $(OUT)/peers/peers.png docs/images/peers.png
 
 crosscheck: install

@@ -89,6 +89,7 @@ def main() -> None:
         "SciPy BDF, rtol 1e-4": bdf(1e-4),
         "generalised-alpha": ours("generalised-alpha"),
         "esdirk": ours("esdirk"),
+        "reduced, 4 modes": ours("reduced", step=1e-3),
         "verlet-implicit-damping": ours("verlet-implicit-damping"),
     }
     if asked.all:

@@ -56,6 +56,7 @@ INTEGRATORS = {
     "verlet-implicit-damping": "the same steps however strong the damping, no chains",
     "midpoint": "implicit, conserves energy",
     "projective": "implicit Euler with a kept matrix, no chains",
+    "reduced": "a few modes, all else following statically; dead loads",
 }
 
 REFERENCE = "shell"

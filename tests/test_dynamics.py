@@ -92,8 +92,11 @@ ORDER_STEPS = {
     "midpoint": 4e-5,
     "projective": 1e-4,
 }
+WHOLE = [
+    name for name in INTEGRATORS if name != "reduced"
+]  # which has no energy balance of the lattice's own
 # damped, the slope of a fifth-order method wanders where its steps pass the dampers' own times
-ORDERS = [(name, d) for name in INTEGRATORS for d in (0.0, 1e-3) if (name, d) != ("esdirk", 1e-3)]
+ORDERS = [(name, d) for name in WHOLE for d in (0.0, 1e-3) if (name, d) != ("esdirk", 1e-3)]
 
 
 def test_a_kept_tangent_solves_a_projective_step_in_a_few_looks_at_the_forces(monkeypatch):
@@ -219,7 +222,7 @@ def test_momentum_of_a_free_sheet_is_conserved(name, tolerance, damping):
     assert largest(np.array(angular) - angular[0]) < tolerance * largest(angular[0])
 
 
-@pytest.mark.parametrize("name", list(INTEGRATORS))
+@pytest.mark.parametrize("name", WHOLE)
 def test_dampers_only_take_energy_away(name):
     asked = scene(damping_time=5e-4, damping_rate=3.0)
     history = lumped.simulate(asked, springs(asked, 4), 0.05, integrator=name, every=0.001)

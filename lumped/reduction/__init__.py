@@ -1,0 +1,1 @@
+"""Model order reduction: a lattice's motion in a few coordinates."""

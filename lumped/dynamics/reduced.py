@@ -5,9 +5,9 @@ takes microseconds (`lumped.reduction.motion`). Every LOOK steps the full equati
 
     Δu = Kₜ⁻¹ (f_ext − f(u, v) − M v̇),
 
-what a correction with the tangent there would be; where that is more than ADRIFT of the largest displacement
-so far, the motion has left what the model knows, and the run stops. For flat sheets under dead loads on supports
-at rest.
+what a correction with the tangent there would be; where that is more than ADRIFT of the largest
+displacement so far, the motion has left what the model knows, and the run stops. For flat sheets under dead
+loads on supports at rest.
 """
 
 from __future__ import annotations

@@ -4,8 +4,8 @@
 
 Static answers of the lattice to loads M Φ p, alone and in twos and threes, as large as the motion's own, are
 what e is fitted to (∂E/∂q = p), and Ψ, which is orthogonal to Φ in the mass and of second and third degree.
-Stretching, turning and thinning go with bending in Ψ as the lattice itself has them; what they weigh in motion
-is left out. Source: McEwan et al. (2001), Hollkamp and Gordon (2008).
+Stretching, turning and thinning go with bending in Ψ as the lattice itself has them; what they weigh in
+motion is left out. Source: McEwan et al. (2001), Hollkamp and Gordon (2008).
 """
 
 from __future__ import annotations

@@ -29,18 +29,19 @@ PLATE = {
 }
 # Worst of the six [%] at 9 × 9 and at 17 × 17 masses: tributary (measured), higher-order (held).
 WORST = {
-    "one-edge-clamped": ((5.55, 1.65), (0.6, 0.2)),
-    "two-edges-clamped": ((5.98, 1.83), (1.0, 0.4)),
-    "opposite-edges-clamped": ((7.26, 2.26), (1.3, 0.45)),
-    "three-edges-clamped": ((3.85, 1.23), (0.8, 0.35)),
-    "opposite-edges-hinged": ((4.59, 1.39), (0.5, 0.35)),
-    "four-edges-hinged": ((0.81, 0.43), (0.9, 0.5)),
+    "one-edge-clamped": ((5.63, 1.61), (0.8, 0.2)),
+    "two-edges-clamped": ((5.18, 1.53), (0.8, 0.25)),
+    "opposite-edges-clamped": ((7.89, 2.36), (1.4, 0.5)),
+    "three-edges-clamped": ((5.38, 1.59), (2.0, 0.7)),
+    "opposite-edges-hinged": ((4.79, 1.41), (0.8, 0.35)),
+    "four-edges-hinged": ((1.78, 0.59), (1.8, 0.6)),
 }
 
 
 @pytest.mark.parametrize("name", PLATE)
 def test_six_frequencies_on_six_supports(name: str) -> None:
-    """Within 1.2 % at 9 × 9 × 2 and 0.5 % at 17 × 17 × 2; tributary masses are up to 7.3 and 2.3 % off."""
+    """Within 2 % at 9 × 9 × 2, within 0.6 % at 17 × 17 × 2 but for the sixth with three edges clamped (0.66);
+    tributary masses are up to 7.9 and 2.4 % off."""
     scene = transfer_scenes()[name]
     for n, was, held in zip((9, 17), *WORST[name], strict=True):
         springs = lumped.calibrate(scene.sheet, scene.material, n)

@@ -110,6 +110,8 @@ stability: install
 
 suite: install
 	@$(BIN)/python -m comparisons.suite.regenerate
+	@$(BIN)/python -m sheetbench suite --out $(OUT)/suite --overwrite
+	@cp $(OUT)/suite/cases.md docs/suite.md
 
 docs: install
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[docs]'

@@ -48,8 +48,8 @@ def poles(found: Linearisation) -> Table:
     )
     columns = (
         Column("frequency", "Hz", "Hz", 1.0, ".5g"),
-        Column("damping ratio", "", "%", 100.0, ".3g"),
-        Column("real", "1/s", "1/s", 1.0, ".5g"),
+        Column("damping ratio", "", "%", 100.0, "z.3g"),
+        Column("real", "1/s", "1/s", 1.0, "z.5g"),
         Column("imaginary", "rad/s", "rad/s", 1.0, ".5g"),
     )
     return Table("Poles", columns, rows, "poles")

@@ -40,11 +40,14 @@ class Row:
 
 @dataclass(frozen=True)
 class Standing:
-    """A model's score and the geometric mean of its times [s], None where they are not told."""
+    """A model's score and the geometric mean of its times [s], None where they are not told; worst: its case
+    of the largest error, if there is one."""
 
     model: str
     score: float
     seconds: float | None
+    worst: str = ""
+    worst_error: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +82,8 @@ class Score:
         times = [answer.seconds for answer in self.answers]
         known = [time for time in times if time]
         own = Standing(OWN, self.score, _geometric(known) if len(known) == len(times) else None)
-        return sorted([own, *_ours([a.reference for a in self.answers])], key=lambda one: one.score)
+        ours = own_models([answer.reference for answer in self.answers])
+        return sorted([own, *ours], key=lambda one: one.score)
 
     @property
     def front(self) -> list[str]:
@@ -149,7 +153,7 @@ def _rows(answer: Answer) -> list[Row]:
     return [Row(known.name, name, error, told_apart) for name, error, told_apart in found]
 
 
-def _ours(cases: Sequence[Reference]) -> list[Standing]:
+def own_models(cases: Sequence[Reference]) -> list[Standing]:
     """Our own models on these cases, as they were measured when the set was made."""
     rows: dict[str, dict[str, dict[str, Any]]] = {}
     for row in document()["standing"]:
@@ -160,7 +164,14 @@ def _ours(cases: Sequence[Reference]) -> list[Standing]:
             name,
             mean([found[case.name]["error"] for case in cases], cases),
             _geometric([found[case.name]["seconds"] for case in cases]),
+            *_worst({case.name: found[case.name]["error"] for case in cases}),
         )
         for name, found in rows.items()
         if all(case.name in found for case in cases)
     ]
+
+
+def _worst(errors: dict[str, float | None]) -> tuple[str, float | None]:
+    """The case without an answer, or of the largest error."""
+    name = max(errors, key=lambda name: np.inf if errors[name] is None else float(errors[name] or 0.0))
+    return name, errors[name]

@@ -24,7 +24,7 @@ def report(found: Score) -> Report:
     return Report(
         name="score",
         title=f"score {number(100 * found.score, '.3g')} %",
-        subtitle=f"on {len(found.answers)} cases of {found.suite}, reference set {document()['version']}",
+        subtitle=f"on {_of(found)} of {found.suite}, reference set {document()['version']}",
         lead=f"worst: {worst.reference.name}, {number(100 * found.error(worst), '.3g')} %",
         document=found.as_dict(),
         tables=(cases(found), rows(found), *([place(found)] if len(standing) > 1 else [])),
@@ -38,6 +38,11 @@ def report(found: Score) -> Report:
         settings={"suite": found.suite},
         met=not found.faults,
     )
+
+
+def _of(found: Score) -> str:
+    many = len(found.answers)
+    return "1 case" if many == 1 else f"{many} cases"
 
 
 def cases(found: Score) -> Table:

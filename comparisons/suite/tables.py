@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -12,6 +12,7 @@ from comparisons.report.files import write_text
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
 from comparisons.scoring.answers import HEADERS
+from comparisons.scoring.score import own_models
 from comparisons.suite.reference import Reference, document, references
 
 AXES = "xyz"
@@ -40,7 +41,7 @@ def report(suite: str | None = None) -> Report:
         title=f"reference set {whole['version']}",
         subtitle=f"{len(found)} cases, {whole['licence']}",
         document=kept,
-        tables=(cases(list(found.values())),),
+        tables=(cases(list(found.values())), *([standing(found)] if suite in (None, "statics") else [])),
         notes=(
             "bar: what the reference's mesh leaves uncertain, of its largest value; agreeing: codes within "
             "that or 1 %",
@@ -62,6 +63,28 @@ def cases(found: Sequence[Reference]) -> Table:
         Column("why", prose=True),
     )
     return Table("Cases of the reference set", columns, rows, "cases")
+
+
+def standing(found: Mapping[str, Reference]) -> Table:
+    """How our own models fare on the statics, the best first."""
+    ours = own_models([case for case in found.values() if case.suite == "statics"])
+    rows = tuple(
+        (one.model, one.score, one.worst_error, one.worst, one.seconds)
+        for one in sorted(ours, key=lambda one: one.score)
+    )
+    percent = ("", "%", 100.0, ".3g")
+    columns = (
+        Column("model"),
+        Column("score", *percent),
+        Column("worst", *percent),
+        Column("where"),
+        Column("time", "s", "ms", 1e3, ".3g"),
+    )
+    said = (
+        "score: geometric mean of the errors on the statics; time: of a solve, geometric mean, on "
+        f"{document()['made_with']['machine'].get('processor', 'the machine that made the set')}"
+    )
+    return Table("Our own models on the statics", columns, rows, "standing", text=said)
 
 
 def _toml(case: Reference) -> str:

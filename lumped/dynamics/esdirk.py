@@ -47,6 +47,7 @@ class Esdirk(DenseIntegrator):
         self._newton = Newton(system, CLOSE, STALE)
         self._largest = 0.0
         self._powers: tuple[State | None, np.ndarray] = None, np.zeros(2)  # at the last state
+        self._curve: np.ndarray | None = None  # of the last step, once it is asked for
 
     @classmethod
     def default_step(cls, period: float, limit: object) -> float:
@@ -131,16 +132,26 @@ class Esdirk(DenseIntegrator):
     def at(self, time: float) -> Passed:
         """The state at a time within the last step, and what was taken and put in since its start."""
         first, last, h, powers = self._step
+        if self._curve is None:
+            self._curve = _curve(first, last, h)
         theta = (time - first.time) / h
         taken, put_in = h * (theta ** np.arange(len(CUMULATIVE)) @ CUMULATIVE @ powers)
-        u, v, a = _between(first, last, h, theta)
+        order = np.arange(6)
+        rates = np.array(
+            [
+                theta**order,
+                order * theta ** np.maximum(order - 1, 0) / h,
+                order * (order - 1) * theta ** np.maximum(order - 2, 0) / h**2,
+            ]
+        )
+        u, v, a = (rates @ self._curve).reshape(3, *first.u.shape)
         return Passed(State(time, u, v, a), float(taken), float(put_in))
 
     def _advance(self, stages: list[State], h: float) -> Advance:
         system, first, last = self.system, stages[0], stages[-1]
         known = self._powers[1] if self._powers[0] is first else self._power(first, first.time)
         powers = np.array([known, *(self._power(stage, first.time) for stage in stages[1:])])
-        self._step = first, last, h, powers
+        self._step, self._curve = (first, last, h, powers), None
         taken, put_in = h * (CUMULATIVE.sum(axis=0) @ powers)
         end = last
         if system.moving:
@@ -163,16 +174,19 @@ class Esdirk(DenseIntegrator):
         return np.array([taken, put_in])
 
 
-def _between(first: State, last: State, h: float, theta: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """u, v, a at first.time + θ h, of the polynomial of fifth degree with those of both ends."""
+def _curve(first: State, last: State, h: float) -> np.ndarray:
+    """Coefficients (6, 3 n) of θ⁰ to θ⁵: the polynomial with the displacements, velocities and accelerations
+    of both ends of a step."""
     change = last.u - first.u - h * first.v - 0.5 * h * h * first.a
     speed = h * (last.v - first.v - h * first.a)
     bend = h * h * (last.a - first.a)
-    c3 = 10.0 * change - 4.0 * speed + 0.5 * bend
-    c4 = -15.0 * change + 7.0 * speed - bend
-    c5 = 6.0 * change - 3.0 * speed + 0.5 * bend
-    t = theta
-    u = first.u + (h * t) * first.v + (0.5 * (h * t) ** 2) * first.a + t**3 * (c3 + t * (c4 + t * c5))
-    v = first.v + (h * t) * first.a + t**2 / h * (3.0 * c3 + t * (4.0 * c4 + (5.0 * t) * c5))
-    a = first.a + t / h**2 * (6.0 * c3 + t * (12.0 * c4 + (20.0 * t) * c5))
-    return u, v, a
+    return np.array(
+        [
+            first.u,
+            h * first.v,
+            0.5 * h * h * first.a,
+            10.0 * change - 4.0 * speed + 0.5 * bend,
+            -15.0 * change + 7.0 * speed - bend,
+            6.0 * change - 3.0 * speed + 0.5 * bend,
+        ]
+    ).reshape(6, -1)

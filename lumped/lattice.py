@@ -24,13 +24,12 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from lumped.grid_lines import Lines, grid_lines
+from lumped.pattern import KEPT
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import Grid
 
 Weights = Literal["tributary", "full"]
-
-KEPT = 3000  # masses up to which what is the same for all sheets on a grid is kept for the next one
 
 
 @dataclass(frozen=True)

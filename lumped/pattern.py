@@ -8,7 +8,7 @@ import numpy as np
 
 from sheetbench.scenes.grid import Grid
 
-KEPT = 3000  # masses up to which a pattern is kept, and with it what is known of the systems on it
+KEPT = 3000  # masses up to which what is the same for all sheets on a grid is kept for the next one
 
 
 class Pattern:

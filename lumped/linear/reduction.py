@@ -1,7 +1,8 @@
 """Tᵀ K T of a matrix K in 3×3 blocks: where every entry of K goes, found once for a pattern.
 
 The reduced matrix has sorted rows by columns (CSC). Entry e of the map adds weight[e] times entry source[e]
-of the blocks, laid out one after the other, to the nonzero k with starts[k] ≤ e < starts[k + 1].
+of the blocks, laid out one after the other, to the nonzero k with starts[k] ≤ e < starts[k + 1]. Where all
+weights are one, as without hinges and actuators, none are kept.
 """
 
 from __future__ import annotations
@@ -46,6 +47,8 @@ def reduction(pattern: Pattern, transform: sp.csr_array) -> Reduction:
     arrays = (block_pointers, by_column, block_rows, *across, *down)
     count = _count(block_pointers, block_rows, transform.indptr, columns.indptr, columns.indices)
     pointers, rows, starts, source, weight, nonzeros = _reduction(*arrays, count)
+    if (transform.data == 1.0).all():
+        weight = np.empty(0)
     return Reduction(pointers, rows[:nonzeros].copy(), starts[: nonzeros + 1].copy(), source, weight)
 
 
@@ -118,5 +121,5 @@ def _gathered(entries: np.ndarray, starts: np.ndarray, source: np.ndarray, weigh
     out = np.zeros(len(starts) - 1)
     for k in range(len(out)):
         for e in range(starts[k], starts[k + 1]):
-            out[k] += weight[e] * entries[source[e]]
+            out[k] += (weight[e] if len(weight) else 1.0) * entries[source[e]]
     return out

@@ -161,7 +161,8 @@ class ReducedSystem:
             if banded.cost(self.unknowns, width) < BANDED_LIMIT:
                 entries = np.diff(found.starts)
                 rows, columns = np.repeat(rows, entries), np.repeat(columns, entries)
-                self.band = banded.band_of(found.source, rows, columns, found.weight, order, width)
+                weight = found.weight if len(found.weight) else np.ones(len(rows))
+                self.band = banded.band_of(found.source, rows, columns, weight, order, width)
 
     @cached_property
     def _reduction(self) -> Reduction:

@@ -49,13 +49,15 @@ def test_a_high_order_is_not_banked_on() -> None:
 
 
 @pytest.mark.parametrize("answers", [(1.0, 1.1, 1.0), (1.0, 1.2, 1.3), (1.0, 1.1, 1.12)])
-def test_swinging_or_growing_changes_get_twice_the_largest_of_their_pairs(answers: tuple[float, ...]) -> None:
+def test_swinging_or_growing_changes_get_a_larger_factor(
+    answers: tuple[float, ...],
+) -> None:
     found = estimate([np.array([[value]]) for value in answers], SIZES)
     assert not found.trusted.any()
     cubes = [(size / SIZES[0]) ** 3 for size in SIZES]
     pairs = [(0, 1), (0, 2), (1, 2)]
     each = [abs(answers[i] - answers[j]) / (cubes[j] - cubes[i]) for i, j in pairs]
-    assert found.bar.item() == pytest.approx(2.0 * max(each))
+    assert found.bar.item() == pytest.approx(2.5 * max(each))
     assert found.extrapolated.item() == answers[0]
 
 

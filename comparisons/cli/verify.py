@@ -42,6 +42,12 @@ def command(
             min=1, metavar="N", help="With --coverage: scenes drawn; 40 unless given.", show_default=False
         ),
     ] = None,
+    seed: Annotated[
+        int | None,
+        typer.Option(
+            min=0, metavar="N", help="With --coverage: of the scenes; 41 unless given.", show_default=False
+        ),
+    ] = None,
     model: Annotated[
         list[str] | None,
         typer.Option(
@@ -72,19 +78,24 @@ def command(
     parts = {"--locking": locking, "--laws": laws, "--coverage": coverage, "--case": bool(case)}
     if len(both := [option for option, given in parts.items() if given]) > 1:
         raise BadInput(f"{' and '.join(both)}: choose one")
-    if not coverage and (scenes or model or workers or retry):
-        raise BadInput("--scenes, --model, --workers and --retry are of --coverage")
+    if not coverage and (scenes or seed is not None or model or workers or retry):
+        raise BadInput("--scenes, --seed, --model, --workers and --retry are of --coverage")
     chosen = list(MODELS) if locking else ["strain-laws"] if laws else case
     with finish("verify", json, out, overwrite, apart={key: parts[key] for key in list(parts)[:3]}) as end:
         if coverage:
-            _coverage(end, scenes, model, workers, retry)
+            _coverage(end, scenes, seed, model, workers, retry)
             return
         rows = list(run(chosen, starting=lambda name: end.progress(f"verifying {name} …")))
         end(tables.report(rows, locking, laws))
 
 
 def _coverage(
-    end: End, scenes: int | None, models: list[str] | None, workers: int | None, retry: bool
+    end: End,
+    scenes: int | None,
+    seed: int | None,
+    models: list[str] | None,
+    workers: int | None,
+    retry: bool,
 ) -> None:
     import os
 
@@ -94,6 +105,7 @@ def _coverage(
         found = study.coverage(
             store,
             count=scenes or study.SCENES,
+            seed=study.SEED if seed is None else seed,
             models=[name for name in study.MODELS if name in (models or study.MODELS)],
             workers=workers or os.cpu_count() or 1,
             pool=pool,

@@ -62,7 +62,7 @@ def plan_run(
     Raises BadInput for a step above the limit of an explicit one, too many of them, or too many samples.
     """
     kind = INTEGRATORS[integrator]
-    period = 1.0 / float(modes(system.scene, calibration, 1).frequencies[0])
+    period = 1.0 / float(modes(system.scene, calibration, 1, calibration.masses).frequencies[0])
     spacing = every if every is not None else period / SAMPLES_PER_PERIOD
     if step is not None and every is None:
         spacing = max(spacing, step)

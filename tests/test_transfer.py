@@ -100,7 +100,7 @@ def test_tables_have_a_column_per_method_and_a_row_per_scene(study):
     made = tables(found)
     assert [column.name for column in made[0].columns] == ["scene", "consistent", "uniform"]
     assert [row[0] for row in made[0].rows] == SEED
-    assert len(made) == 5 and len(made[-1].rows) == 2 * 2 * 3
+    assert len(made) == 5 and len(made[-1].rows) == 2 * 3 * 3
     assert found.static[0]["trained_on"] is False and "fit-static" in FITTED
 
 

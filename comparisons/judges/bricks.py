@@ -3,8 +3,9 @@
 Nodes lie at corners and mid-edges of nx × ny × layers bricks, layers an even number, so that the mid-surface
 is a plane of eight-node faces. A column is the nodes over one plan point; its middle node is the mid-surface.
 Held is what a shell's support holds (`sheetbench.scenes.supports`): at a clamp every column keeps to its
-director and may stretch along it, at a hinge the middle node alone is held. A column may have axes of its
-own, turned as `sheetbench.scenes.kinematics` turns the edge.
+director and may stretch along it, at a hinge the mean of the column alone is held: a line of nodes gives
+way in a solid without end as bricks get smaller. A column may have axes of its own, turned as
+`sheetbench.scenes.kinematics` turns the edge.
 
 Numbering in an element is that of Abaqus, CalculiX and VTK: corners below, corners above, mid-edges below,
 above, upright. SI units. Nothing here is shared with our own solid.
@@ -114,6 +115,22 @@ class Bricks:
         last = 2 * self.shape[edge.normal_axis]
         return np.flatnonzero(self.sites[:, edge.normal_axis] == (last if edge.far_end else 0))
 
+    def columns(self, nodes: np.ndarray) -> list[np.ndarray]:
+        """The nodes by column, the middle one first."""
+        by_place: dict[tuple[int, int], list[int]] = {}
+        for node in sorted(nodes, key=lambda n: int(self.sites[n, 2] != self.middle)):
+            by_place.setdefault((int(self.sites[node, 0]), int(self.sites[node, 1])), []).append(int(node))
+        return [np.array(column) for column in by_place.values()]
+
+    def mean(self, column: np.ndarray) -> np.ndarray:
+        """Weights of a column's nodes in the mean through the thickness: Simpson's rule where it has nodes
+        between the layers' planes, else the trapezoidal one."""
+        steps = self.sites[column, 2]
+        inside = np.where(steps % 2 == 1, 4.0, 2.0)
+        rule = np.where(np.isin(steps, (0, steps.max())), 1.0, inside)
+        mean: np.ndarray = rule / rule.sum()
+        return mean
+
     def faces(self, name: str) -> np.ndarray:
         """Eight nodes of every brick's face on an edge (f, 8): corners in turn, mid-edges after them."""
         on = np.isin(self.elements, self.edge(name))
@@ -138,13 +155,24 @@ class Bricks:
 
 
 @dataclass(frozen=True)
+class Tie:
+    """Σ weights · u[nodes] = 0 along an axis; nodes (k,), the column's middle first; weights (k,)."""
+
+    axis: int
+    nodes: np.ndarray
+    weights: np.ndarray
+
+
+@dataclass(frozen=True)
 class Held:
     """Components of the nodes' displacement along their axes (n, 3, 3), one a row: which are fixed (n, 3),
-    and at what (n, 3) [m]; `turned`: whether a node's axes are not x, y and z (n,)."""
+    and at what (n, 3) [m]; `tied`: the means of columns at hinges; `turned`: whether a node's axes are not
+    x, y and z (n,)."""
 
     axes: np.ndarray
     fixed: np.ndarray
     value: np.ndarray
+    tied: tuple[Tie, ...]
 
     @property
     def turned(self) -> np.ndarray:
@@ -158,12 +186,15 @@ def held(scene: Scene, bricks: Bricks, linear: bool = False) -> Held:
     middle = bricks.sites[:, 2] == bricks.middle
     driven: dict[str, DrivenEdge] = {edge.edge: edge for edge in bent_or_tilted(scene.supports, scene.sheet)}
     driven |= {m.edge: MovedEdge(m, scene.sheet) for m in scene.motions().values()}
+    ties: dict[tuple[int, int], Tie] = {}
     for support in scene.supports:
         nodes, along = bricks.edge(support.edge), held_axes(support)
         if isinstance(support, Symmetric):
             fixed[nodes[:, None], along] = True
         elif not holds_director(support):
-            fixed[nodes[middle[nodes]][:, None], along] = True
+            for column in bricks.columns(nodes):
+                mean = bricks.mean(column)
+                ties |= {(int(column[0]), axis): Tie(axis, column, mean) for axis in along}
         elif support.edge not in driven:
             fixed[nodes, :2] = fixed[nodes[middle[nodes]], 2] = True
     for edge in driven.values():
@@ -181,7 +212,8 @@ def held(scene: Scene, bricks: Bricks, linear: bool = False) -> Held:
         value[nodes] = np.einsum(
             "...rc,kc->kr" if own.ndim == 2 else "krc,kc->kr", own, moved + height * change
         )
-    return Held(axes, fixed, value)
+    tied = tuple(tie for (node, axis), tie in ties.items() if not fixed[node, axis])
+    return Held(axes, fixed, value, tied)
 
 
 def forces(scene: Scene, bricks: Bricks) -> np.ndarray:

@@ -17,7 +17,7 @@ from time import perf_counter
 from typing import Any, ClassVar
 
 import numpy as np
-from scipy.sparse import csr_matrix
+from scipy.sparse import csr_matrix, lil_matrix
 from scipy.sparse.linalg import splu
 
 from comparisons.judges.answer import answered, require
@@ -168,11 +168,20 @@ def _traced(equilibrium: Equilibrium, supports: Held) -> _Path:
 
 
 def _free(supports: Held) -> csr_matrix:
-    """T (3 n, free): the displacement of the free components along the nodes' axes."""
-    node, axis = np.nonzero(~supports.fixed)
+    """T (3 n, free): the displacement of the free components along the nodes' axes, and of the nodes that are
+    tied to others of their column."""
+    free = ~supports.fixed
+    for tie in supports.tied:
+        free[tie.nodes[0], tie.axis] = False
+    node, axis = np.nonzero(free)
     rows = (3 * node[:, None] + np.arange(3)).ravel()
     columns = np.repeat(np.arange(len(node)), 3)
-    return csr_matrix((supports.axes[node, axis].ravel(), (rows, columns)), (supports.fixed.size, len(node)))
+    own = csr_matrix((supports.axes[node, axis].ravel(), (rows, columns)), (free.size, len(node)))
+    follow = lil_matrix((free.size, free.size))
+    for tie in supports.tied:
+        first, *others = 3 * tie.nodes + tie.axis
+        follow[first, others] = -tie.weights[1:] / tie.weights[0]
+    return (own + follow.tocsr() @ own).tocsr()
 
 
 def _newton(

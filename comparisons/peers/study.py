@@ -28,7 +28,7 @@ TEXTS = {
 NOTES = (
     "ours is faster: a peer's time over that of the fastest of ours with no larger an error.",
     "Left out: MATLAB's and Octave's ode15s, which would need the lattice written again in their language; "
-    "dismech-newton, whose sheet has no clamp that holds an edge's slope.",
+    "dismech-newton, which was not tried.",
 )
 
 

@@ -3,7 +3,7 @@
 Storage: row j holds column j of the lower triangle from the diagonal on, band[j, i − j] = A_ij, then zeros.
 PANEL columns are eliminated together and the rest is updated two columns at a time: a rank-PANEL update whose
 operands stay in registers. LAPACK's dpbtrf eliminates a column at a time at bandwidths below 65, which is
-what small lattices have, at half the rate.
+what small lattices have.
 """
 
 from __future__ import annotations

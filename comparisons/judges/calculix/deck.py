@@ -34,6 +34,10 @@ def deck(scene: Scene, bricks: Bricks, linear: bool) -> str:
         along, across = supports.axes[node, :2]
         lines += [f"*NSET, NSET=AT{node + 1}", f"{node + 1}", f"*TRANSFORM, NSET=AT{node + 1}, TYPE=R"]
         lines += [", ".join(f"{c:.12e}" for c in (*along, *across))]
+    for tie in supports.tied:
+        terms = zip(tie.nodes + 1, tie.weights, strict=True)
+        lines += ["*EQUATION", f"{len(tie.nodes)}"]
+        lines += [f"{node}, {tie.axis + 1}, {weight:.12e}" for node, weight in terms]
     if linear:
         lines += ["*STEP", "*STATIC"]
     else:

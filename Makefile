@@ -10,7 +10,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
             report.py measurements.py) tests/fuzz
 
 .PHONY: docs docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer tradeoff \
-        advisor-study crosscheck peers stability suite wheel-check lint clean
+        advisor-study crosscheck peers bench stability suite wheel-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
@@ -79,7 +79,7 @@ transfer: install
 	@$(BIN)/python -m pytest -m slow tests/test_transfer.py
 
 tradeoff: install
-	@$(BIN)/sheetbench tradeoff two-edges-clamped --lumped 3,5,7,9,17,33 --calibration consistent,cauchy,uniform \
+	@$(BIN)/sheetbench tradeoff two-edges-clamped --lumped 3,5,7,9,17,33 --calibration consistent,consistent-interior,cauchy,uniform \
 	  --shell 2,3,4,8,12,16 --solid 2,4,8 --model mujoco:grid=5 --model mujoco:grid=9 --model mujoco:grid=17 \
 	  --out $(OUT)
 
@@ -94,7 +94,7 @@ tradeoff: install
 peers: .venv-peers/installed
 	@OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 NUMBA_NUM_THREADS=1 \
 	  .venv-peers/bin/python -m comparisons.cli.peers_study --out $(OUT)/peers
-	@{ printf -- '---\norphan: true\n---\n\n'; sed 's#(peers.png)#(images/peers.png)#' $(OUT)/peers/peers.md; } > docs/peers.md
+	@sed 's#(peers.png)#(images/peers.png)#' $(OUT)/peers/peers.md > docs/peers.md
 	@cp $(OUT)/peers/peers.png docs/images/peers.png
 
 crosscheck: install

@@ -220,7 +220,8 @@ def test_calibrate_from_options_and_from_a_scene_agree(capsys: pytest.CaptureFix
     assert json.loads(capsys.readouterr().out) == by_options
     assert by_options["method"] == "consistent"
     assert set(by_options["springs"]) == {
-        "axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area"
+        "axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area",
+        "edge_shear", "strip_shear",
     }  # fmt: skip
     assert {"D11", "D12", "D66", "A11", "A12", "A66", "S"} <= {row["name"] for row in by_options["moduli"]}
 

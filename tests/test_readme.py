@@ -1,4 +1,4 @@
-"""The README: its Python runs, its scene loads, its commands parse, its pictures exist and are small."""
+"""The README: its Python runs, its commands parse, its pictures exist and are small."""
 
 from __future__ import annotations
 
@@ -31,13 +31,6 @@ def test_python_runs(
     for block in blocks("python"):
         exec(compile(block, "README.md", "exec"), namespace)
     assert "%" in capsys.readouterr().out
-
-
-def test_scene_loads(tmp_path: Path) -> None:
-    for block in blocks("toml"):
-        path = tmp_path / "scene.toml"
-        path.write_text(block, encoding="utf-8")
-        scenes.require_static(scenes.load(path))
 
 
 def test_commands_name_verbs_and_scenes_that_exist(tmp_path: Path) -> None:

@@ -99,10 +99,11 @@ def test_one_layer_is_enough():
     assert relative(one, two) < 1e-3
 
 
-def test_neo_hookean_is_close_at_small_strain_and_converges_as_fast():
+@pytest.mark.parametrize("law", [law for law in LAWS if law != "st-venant-kirchhoff"])
+def test_other_laws_are_close_at_small_strain_and_converge_as_fast(law):
     scene = with_poisson("one-edge-clamped", 0.4999)
     points = scene.probe_points()
-    one, other = (solid.solve(scene, 4, law=law) for law in LAWS)
+    one, other = (solid.solve(scene, 4, law=name) for name in ("st-venant-kirchhoff", law))
     assert other.status is Status.CONVERGED and other.iterations < 15
     assert relative(one.displacement(points), other.displacement(points)) < 2e-3
 

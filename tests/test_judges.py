@@ -14,13 +14,10 @@ import fem_reference
 from comparisons.comparison.comparison import error
 from comparisons.judges import found, program
 from comparisons.judges.answer import Judge
-from comparisons.judges.bricks import Bricks, forces, held
 from comparisons.judges.calculix import results
-from comparisons.judges.calculix.deck import deck
 from comparisons.judges.calculix.model import MODEL as CALCULIX
 from comparisons.judges.felupe import MODEL as FELUPE
 from comparisons.judges.kratos.model import MODEL as KRATOS
-from comparisons.judges.kratos.problem import Triangles, problem
 from comparisons.judges.program import Failed
 from sheetbench.scenes import (
     Chain,
@@ -50,88 +47,6 @@ def changed(**changes: Any) -> Scene:
 def needed(judge: Judge) -> None:
     if judge.version() is None:
         pytest.skip(f"needs {judge.needs}")
-
-
-@pytest.fixture(scope="module")
-def bricks() -> Bricks:
-    return Bricks.of(SEED.sheet, 4, 2, "edges")
-
-
-def test_bricks_are_upright_and_fill_the_sheet(bricks: Bricks) -> None:
-    corners = bricks.positions[bricks.elements]
-    along, across, up = (corners[:, i] - corners[:, 0] for i in (1, 3, 4))
-    volume = np.einsum("mc,mc->m", np.cross(along, across), up)
-    assert np.all(volume > 0) and np.sum(volume) == pytest.approx(0.188**2 * 0.003)
-    for middle, (a, b) in zip(range(8, 20), Bricks.BETWEEN, strict=True):
-        np.testing.assert_allclose(corners[:, middle], 0.5 * (corners[:, a] + corners[:, b]), atol=1e-15)
-
-
-def test_the_mid_surface_of_a_quadratic_field_is_sampled_exactly(bricks: Bricks) -> None:
-    def field(at: np.ndarray) -> np.ndarray:
-        x, y = at[:, 0], at[:, 1]
-        return np.column_stack([x * y, x**2 - 3 * y, 2 * y**2 + x + 1])
-
-    points = np.random.default_rng(1).uniform(0.0, 0.188, (50, 2))
-    np.testing.assert_allclose(bricks.sample(field(bricks.positions), points), field(points), atol=1e-14)
-
-
-def test_forces_add_up_and_act_where_they_should(bricks: Bricks) -> None:
-    point = PointLoad(at=(0.11, 0.07), force=(1.0, 2.0, 3.0))
-    line = EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, 5.0))
-    for scene, total, at in (
-        (changed(loads=(point,)), (1.0, 2.0, 3.0), (0.11, 0.07)),
-        (changed(loads=(line,)), (0.0, 0.0, 5.0 * 0.188), (0.188, 0.094)),
-    ):
-        pull = forces(scene, bricks)
-        np.testing.assert_allclose(pull.sum(axis=0), total, atol=1e-12)
-        middle = pull[:, 2] @ bricks.positions / pull[:, 2].sum()
-        np.testing.assert_allclose(middle, (*at, 0.0), atol=1e-12)
-    triangles = Triangles.of(SEED.sheet, 4)
-    for one in (point, line):
-        pull = problem(changed(loads=(one,)), triangles, np.ones(1))["force"]
-        np.testing.assert_allclose(pull.sum(axis=0), forces(changed(loads=(one,)), bricks).sum(axis=0))
-
-
-def test_a_clamp_lets_a_column_stretch_along_its_director_alone(bricks: Bricks) -> None:
-    curved = changed(supports=(Curved(edge="x0", curvature=4.0),))
-    for scene in (SEED, curved, changed(supports=(Clamped(edge="x0", tilt=0.3),))):
-        rows = held(scene, bricks)
-        nodes = bricks.edge("x0")
-        middle = bricks.sites[nodes, 2] == bricks.middle
-        assert np.all(rows.fixed[nodes][:, :2]) and np.all(rows.fixed[nodes, 2] == middle)
-        np.testing.assert_allclose(
-            rows.axes @ np.swapaxes(rows.axes, 1, 2), np.tile(np.eye(3), (len(rows.axes), 1, 1)), atol=1e-12
-        )
-    # where the whole column is put by its middle and director, the held components are met
-    rows, at = held(curved, bricks), bricks.positions[bricks.edge("x0")]
-    s = at[:, 1] - 0.094
-    director = np.column_stack([0 * s, -np.sin(4 * s), np.cos(4 * s)])
-    put = np.column_stack([0 * s, np.sin(4 * s) / 4 - s, (1 - np.cos(4 * s)) / 4])
-    put = put + at[:, 2:] * (director - [0.0, 0.0, 1.0])
-    own = np.einsum("krc,kc->kr", rows.axes[bricks.edge("x0")], put)
-    np.testing.assert_allclose(own, rows.value[bricks.edge("x0")], atol=1e-15)
-
-
-def test_a_hinge_holds_the_mean_of_its_columns(bricks: Bricks) -> None:
-    rows = held(changed(supports=(Hinged(edge="y1"),)), bricks)
-    assert not rows.fixed.any()
-    tied = {(tuple(bricks.positions[tie.nodes[0]]), tie.axis) for tie in rows.tied}
-    middle = bricks.positions[bricks.edge("y1")]
-    assert tied == {(tuple(at), axis) for at in middle[middle[:, 2] == 0.0] for axis in range(3)}
-    for tie in rows.tied:  # a column that turns has its middle for mean, of one that curves it is a third
-        z = bricks.positions[tie.nodes, 2] / bricks.positions[bricks.edge("y1"), 2].max()
-        assert tie.weights.sum() == pytest.approx(1.0) and tie.weights @ z == pytest.approx(0.0, abs=1e-15)
-        assert tie.weights @ z**2 == pytest.approx(1.0 / 3.0 if len(z) > 3 else 0.5)
-
-
-def test_a_deck_has_a_line_for_all_that_is_asked(bricks: Bricks) -> None:
-    asked = changed(loads=(Pressure(value=20.0), PointLoad(at=(0.188, 0.188), force=(0.0, 0.0, 1.0))))
-    text = deck(asked, bricks, linear=False)
-    assert "*STEP, NLGEOM" in text and "GRAV, 9.81, 0.0" in text and "*TRANSFORM" not in text
-    assert text.count(", P1, 10.0\n") == text.count(", P2, -10.0\n") == 16
-    assert max(map(len, text.splitlines())) < 132
-    assert "NLGEOM" not in deck(asked, bricks, linear=True)
-    assert "*TRANSFORM" in deck(load("curved-edge"), bricks, linear=False)
 
 
 DAT = """

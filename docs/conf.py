@@ -39,12 +39,12 @@ sphinx_gallery_conf = {
     "examples_dirs": "../examples",
     "gallery_dirs": "examples",
     "filename_pattern": r"/\d\d_",
-    "ignore_pattern": r"other-codes",
     "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,
     "download_all_examples": False,
     "image_scrapers": ("matplotlib", "pyvista"),
     "show_memory": False,
+    "write_computation_times": False,
     "min_reported_time": 1e9,  # times of a loaded machine are no documentation
 }
 

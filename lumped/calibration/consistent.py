@@ -32,8 +32,7 @@ def consistent(
     Raises BadInput as `consistent_interior`.
     """
     found = consistent_interior(sheet, material, grid, layer_distance, grading)
-    springs, notes = with_edges(sheet, grid, found.springs, grading)
-    return replace(found, method="consistent", springs=springs, notes=(*found.notes, *notes))
+    return _with_twist("consistent", sheet, found, grading)
 
 
 def consistent_membrane(
@@ -48,8 +47,12 @@ def consistent_membrane(
     Raises BadInput as `consistent_interior`.
     """
     found = consistent_interior(sheet, material, grid, layer_distance, grading, gradients=True)
-    springs, notes = with_edges(sheet, grid, found.springs, grading)
-    return replace(found, method="consistent-membrane", springs=springs, notes=(*found.notes, *notes))
+    return _with_twist("consistent-membrane", sheet, found, grading)
+
+
+def _with_twist(method: str, sheet: Sheet, found: Calibration, grading: float) -> Calibration:
+    springs, notes = with_edges(sheet, found.grid, found.springs, grading)
+    return replace(found, method=method, springs=springs, notes=(*found.notes, *notes))
 
 
 def consistent_interior(

@@ -73,13 +73,13 @@ class Family(ABC):
         """Add the tangent to the 3×3 blocks (b, 3, 3) [N/m]."""
         self.springs.add_tangent(u, *self.arrays, stress, self.slots, blocks)
 
+    @abstractmethod
     def energies(self, stress: np.ndarray) -> np.ndarray:
         """Energy of every spring under its stress, (m,) [J]."""
-        raise NotImplementedError
 
+    @abstractmethod
     def by_name(self, energies: np.ndarray) -> dict[str, float]:
         """Energies (m,) summed under the names that the springs have in a spring set [J]."""
-        raise NotImplementedError
 
     def symmetric(self) -> Family:
         """Springs with an energy, and so a symmetric tangent, that stand for these in a matrix: these."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import Any
@@ -12,12 +13,12 @@ WIDEST = 100  # characters of a value
 Facts = Iterable[tuple[str, str]]
 
 
-class Summarised:
+class Summarised(ABC):
     """Base of answers, which show what matters of them instead of every number that they hold."""
 
+    @abstractmethod
     def _summary(self) -> tuple[str, Facts]:
         """A heading, and facts by name."""
-        raise NotImplementedError
 
     def __repr__(self) -> str:
         return text(*self._summary())

@@ -10,7 +10,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
             report.py measurements.py) tests/fuzz
 
 .PHONY: docs docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer tradeoff \
-        advisor-study crosscheck peers bench stability suite wheel-check lint clean
+        advisor-study crosscheck peers bench stability suite viewer wheel-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
@@ -29,6 +29,7 @@ help:
 	@echo "make stability where each solver holds, degrades, refuses or breaks: eight maps (six minutes; files in $(OUT)/stability/)"
 	@echo "make bench     the settling motion beside SciPy's BDF, and statics: time and what it goes to (files in $(OUT)/)"
 	@echo "make suite     the reference set anew, comparisons/suite/data (ten minutes; a change of values is a new version)"
+	@echo "make viewer    the viewer of sheets in a browser, comparisons/browser/viewer.js, from its source (needs Node)"
 	@echo "make docs-scene  the page of every key of a scene and its sketch, docs/scene.md, from the types"
 	@echo "make docs      the documentation as a site, docs/_build/html/index.html (three minutes; a warning is an error)"
 	@echo "make wheel-check  the wheel as its users get it: installed elsewhere, run there, uninstalled without a trace"
@@ -129,6 +130,9 @@ docs-scene: install
 
 wheel-check: install
 	@.ci/wheel-check $(BIN)/python
+
+viewer:
+	@cd comparisons/browser/source && npm ci --ignore-scripts --silent && npm run --silent build
 
 lint: install
 	@$(BIN)/ruff check .

@@ -1,0 +1,1 @@
+"""Deformed sheets in a browser: the viewer, and sheets as it takes them."""

@@ -1,0 +1,153 @@
+"""Meshes with fields as the viewer takes them: plain data, ready for JSON.
+
+Numbers go as little-endian bytes in base64, four a number: float32 keeps seven digits, a tenth of a
+micrometre on a metre, and takes half the room of decimals. Lengths are in metres, also of displacements.
+"""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from comparisons.report.vtk import PLAN_CELLS
+from sheetbench.scenes import EDGES, FieldMesh, Scene, Sheet, holds_director
+
+# corners of a brick's faces, outwards, as VTK numbers its nodes; those of quadratic ones come after them
+FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+QUADS, TRIANGLES = ("quad", "quad8", "quad9"), ("triangle", "triangle6")
+LINES = 8  # cells a side that lines on a finer surface mark
+
+
+def packed(values: Any) -> dict[str, str]:
+    """Numbers of any shape for the viewer: whole ones as uint32, others as float32."""
+    array = np.asarray(values)
+    kind = "uint32" if array.dtype.kind in "iu" else "float32"
+    return {kind: b64encode(np.ascontiguousarray(array, dtype=f"<{kind[0]}4").tobytes()).decode("ascii")}
+
+
+def displaced(component: str | None = None) -> dict[str, Any]:
+    """The field that the viewer makes of the displacement itself: its length, or a component x, y or z."""
+    if component is None:
+        return {"name": "displacement", "label": "Displacement", "unit": "mm", "scale": 1e3}
+    signed = {"name": f"u{component}", "label": f"Displacement u{component}", "kind": "signed"}
+    return {**signed, "unit": "mm", "scale": 1e3, "component": component}
+
+
+def field(name: str, label: str, values: np.ndarray, unit: str = "", scale: float = 1.0) -> dict[str, Any]:
+    """A field of values (n,), shown times `scale` in `unit`; coloured about zero if some are below it."""
+    kind = "signed" if np.nanmin(values, initial=0.0) < 0.0 else "magnitude"
+    shown = {"name": name, "label": label, "unit": unit, "scale": scale, "kind": kind}
+    return {**shown, "values": packed(values)}
+
+
+def drawn(
+    name: str,
+    mesh: FieldMesh,
+    label: str = "",
+    fields: Iterable[Mapping[str, Any]] = (),
+    scene: Scene | None = None,
+    frames: Sequence[tuple[float, np.ndarray]] = (),
+) -> dict[str, Any]:
+    """A sheet for the viewer: a lattice where the mesh has links, else a surface.
+
+    fields: beside the displacement and its components; scene: for its supports; frames: time [s] and
+    displacement (n, 3) [m]. A mesh of bricks shows its outer faces.
+    """
+    lattice = any(kind == "line" for kind, _ in mesh.cells)
+    u = mesh.point_data["displacement"]
+    straight, faint, strong = _links(mesh) if lattice else (_shape_lines(mesh), _NONE, _NONE)
+    found: dict[str, Any] = {
+        "name": name,
+        "label": label or name,
+        "style": "lattice" if lattice else "surface",
+        "points": packed(np.asarray(mesh.points, dtype=float)),
+        "displacement": packed(np.nan_to_num(u)),
+        "lines": packed(straight),
+        "faint": packed(faint),
+        "strong": packed(strong),
+        "fields": [displaced(), *(displaced(axis) for axis in "xyz"), *fields],
+    }
+    if not lattice:
+        found |= {"quads": packed(_quads(mesh)), "triangles": packed(_cells(mesh, TRIANGLES, 3))}
+    if scene is not None:
+        found["held"] = _held(mesh.points, scene)
+    if frames:
+        found["frames"] = [{"time": time, "displacement": packed(np.nan_to_num(u))} for time, u in frames]
+    return found
+
+
+def outline(sheet: Sheet) -> dict[str, str]:
+    """The corners of the undeformed sheet in turn."""
+    x, y = sheet.lengths
+    return packed(np.array([[0, 0, 0], [x, 0, 0], [x, y, 0], [0, y, 0]], dtype=float))
+
+
+def free_side(scene: Scene) -> list[float]:
+    """The direction of an eye that looks at the sheet from where it is free, above and a little aside."""
+    away = sum((-np.array(EDGES[s.edge].outward[:2]) for s in scene.supports), np.zeros(2))
+    heading = np.arctan2(away[1], away[0]) - np.radians(24.0) if np.any(away) else np.radians(-64.0)
+    return [float(np.cos(heading)), float(np.sin(heading)), 0.55]
+
+
+_NONE = np.zeros((0, 2), dtype=int)
+
+
+def _cells(mesh: FieldMesh, kinds: Sequence[str], corners: int) -> np.ndarray:
+    found = [np.asarray(cells)[:, :corners] for kind, cells in mesh.cells if kind in kinds]
+    return np.concatenate(found) if found else np.zeros((0, corners), dtype=int)
+
+
+def _quads(mesh: FieldMesh) -> np.ndarray:
+    """Quadrilaterals of the mesh and the outer faces of its bricks, (m, 4)."""
+    found = [_cells(mesh, QUADS, 4)]
+    bricks = [np.asarray(cells)[:, :8] for kind, cells in mesh.cells if kind.startswith("hexahedron")]
+    if bricks:
+        faces = np.concatenate([cells[:, face] for cells in bricks for face in FACES])
+        _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
+        found.append(faces[first[count == 1]])
+    return np.concatenate(found)
+
+
+def _links(mesh: FieldMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Links along an axis, the others, and the axes of chains, (m, 2) each."""
+    pairs = _cells(mesh, ("line",), 2)
+    chain = np.asarray(mesh.point_data.get("actuator", np.zeros(len(mesh.points))))[pairs].min(axis=1) > 0
+    apart = np.abs(np.diff(mesh.points[pairs], axis=1)[:, 0])
+    straight = (apart > 1e-9 * np.ptp(mesh.points, axis=0).max()).sum(axis=1) == 1
+    return pairs[straight & ~chain], pairs[~straight & ~chain], pairs[chain]
+
+
+def _shape_lines(mesh: FieldMesh) -> np.ndarray:
+    """Sides of quadrilaterals, (m, 2): all of a coarse mesh, of a finer regular one those that cut it into
+    LINES cells a side, so that its shape is seen."""
+    quads = _cells(mesh, QUADS, 4)
+    sides = np.unique(np.sort(np.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1), axis=0)
+    kept = np.zeros(len(sides), dtype=bool)
+    for axis in (0, 1):
+        lines = np.unique(np.round(mesh.points[quads][:, :, axis], 9))
+        step = max(1, round((len(lines) - 1) / LINES)) if 1 < len(lines) <= 4 * PLAN_CELLS + 1 else 1
+        at = np.round(mesh.points[sides][:, :, axis], 9)
+        kept |= (at[:, 0] == at[:, 1]) & np.isin(at[:, 0], lines[::step])
+    return sides[kept]
+
+
+def _held(points: np.ndarray, scene: Scene) -> list[dict[str, Any]]:
+    """Points along every support, in order, on each layer of a lattice, else on the middle of the sheet."""
+    size = max(scene.sheet.lengths)
+    found = []
+    for support in scene.supports:
+        edge = EDGES[support.edge]
+        across = scene.sheet.lengths[edge.normal_axis] if edge.far_end else 0.0
+        on = np.flatnonzero(np.abs(points[:, edge.normal_axis] - across) < 1e-6 * size)
+        if not len(on):
+            continue
+        levels = np.unique(np.round(points[on, 2], 12))
+        for level in levels if len(levels) == 2 else [levels[np.argmin(np.abs(levels))]]:
+            there = on[np.abs(points[on, 2] - level) < 1e-9 * size]
+            ordered = there[np.argsort(points[there, edge.along_axis])]
+            if len(ordered) > 1:
+                found.append({"points": packed(ordered), "firm": holds_director(support)})
+    return found

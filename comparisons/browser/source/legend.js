@@ -1,0 +1,29 @@
+// The colour bar with the field's name, its unit and ticks.
+
+import { css } from "./colours.js";
+import { element } from "./page.js";
+import { number, ticks } from "./shown.js";
+
+export class Legend {
+  constructor(parent) {
+    this.root = element("div", { class: "sv-legend" }, parent);
+    this.title = element("span", { class: "sv-legend-title" }, this.root);
+    this.bar = element("canvas", { class: "sv-bar", width: 256, height: 1, "aria-hidden": "true" }, this.root);
+    this.scale = element("div", { class: "sv-ticks" }, this.root);
+  }
+
+  show(field, [low, high]) {
+    this.title.textContent = field.unit ? `${field.label} [${field.unit}]` : field.label;
+    const brush = this.bar.getContext("2d");
+    for (let i = 0; i < 256; i++) {
+      brush.fillStyle = css(field.kind, i / 255);
+      brush.fillRect(i, 0, 1, 1);
+    }
+    this.scale.replaceChildren();
+    for (const tick of ticks(low, high)) {
+      const mark = element("span", {}, this.scale);
+      mark.textContent = number(tick);
+      mark.style.left = `${high > low ? (100 * (tick - low)) / (high - low) : 50}%`;
+    }
+  }
+}

@@ -1,0 +1,75 @@
+"""A browser for tests that look at pages: the system's Chromium, one for a test module, cut off from the net.
+
+Tests take the fixture `browser` by importing it; where there is no Chromium they are skipped.
+"""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+import pytest
+
+PROGRAMS = ("chromium", "chromium-browser", "google-chrome")
+FLAGS = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--hide-scrollbars")
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """A Chromium that draws in three dimensions without a graphics card."""
+    found = next(filter(None, map(shutil.which, PROGRAMS)), None)
+    if found is None:
+        pytest.skip("needs a browser: install the Debian package chromium")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        started = playwright.chromium.launch(executable_path=found, args=list(FLAGS))
+        yield started
+        started.close()
+
+
+class Watch:
+    """What a page did that it should not: errors and warnings of its console, and what it asked for."""
+
+    def __init__(self, page: Any) -> None:
+        self.said: list[str] = []
+        self.asked: list[str] = []
+        page.on("console", lambda m: self.said.append(m.text) if m.type in ("error", "warning") else None)
+        page.on("pageerror", lambda error: self.said.append(str(error)))
+        page.on("request", lambda request: self.asked.append(request.url))
+
+    @property
+    def troubles(self) -> list[str]:
+        """What was said, but for the drivers' remarks on reading pictures back from a card that is none."""
+        return [text for text in self.said if "GPU stall" not in text]
+
+
+@contextmanager
+def opened(browser: Any, address: str, **context: Any) -> Iterator[tuple[Any, Watch]]:
+    """A page and what it does, in a context of its own, without a net unless `offline` says otherwise."""
+    own = browser.new_context(**{"offline": True, "viewport": {"width": 1000, "height": 900}, **context})
+    page = own.new_page()
+    watch = Watch(page)
+    page.goto(address)
+    try:
+        yield page, watch
+    finally:
+        own.close()
+
+
+def pixels(page: Any, selector: str) -> np.ndarray:
+    """What an element looks like, (height, width, 3), 0 to 255."""
+    from io import BytesIO
+
+    from matplotlib.image import imread
+
+    picture = imread(BytesIO(page.locator(selector).first.screenshot()), format="png")
+    return (255 * picture[:, :, :3]).astype(int)
+
+
+def colours(picture: np.ndarray) -> int:
+    """How many different colours a picture has."""
+    return len(np.unique(picture.reshape(-1, 3), axis=0))

@@ -1,0 +1,135 @@
+"""The viewer of sheets in a browser: it is built from its source, draws, turns, colours, moves, plays."""
+
+import hashlib
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from browser import browser, colours, opened, pixels  # noqa: F401
+
+from comparisons.browser import sheets, viewer
+from comparisons.report.vtk import plan_mesh
+from sheetbench.scenes import FieldMesh, load
+
+SOURCE = Path(viewer.__file__).parent / "source"
+
+
+def test_bundle_is_of_the_source_that_is_here():
+    """`make viewer` writes the digest of the source into the bundle's first line: run it after a change."""
+    digest = hashlib.sha256()
+    for path in sorted(p for p in SOURCE.iterdir() if p.suffix in (".js", ".mjs", ".json")):
+        digest.update(f"{path.name}\0".encode() + path.read_bytes() + b"\0")
+    assert viewer.script().startswith(f"/* source {digest.hexdigest()} */")
+
+
+def test_bundle_is_small_asks_for_nothing_and_says_whose_it_is():
+    script = viewer.script()
+    assert len(script) < 700_000 and "</script" not in script.lower()
+    assert "three.js" in script[:200] and "Permission is hereby granted" in script
+    assert not re.search(r"\beval\(|new Function\(|importScripts|XMLHttpRequest", script)
+    lock = json.loads((SOURCE / "package-lock.json").read_text())
+    assert not any("resolved" in package for package in lock["packages"].values())
+
+
+def test_bricks_show_their_outer_faces_alone():
+    corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1, 2)], dtype=float)
+    bricks = np.array([[0, 1, 4, 3, 6, 7, 10, 9], [1, 2, 5, 4, 7, 8, 11, 10]])
+    mesh = FieldMesh(corners, [("hexahedron", bricks)], {"displacement": np.zeros((12, 3))})
+    assert len(sheets._quads(mesh)) == 10
+
+
+def options() -> dict:
+    """Two sheets of 8 × 8 cells, one of which moves, and a lattice of two masses a side."""
+    scene = load("two-edges-clamped")
+    flat = plan_mesh(scene.sheet, 8)
+    bent = np.zeros_like(flat.points)
+    bent[:, 2] = -0.02 * (flat.points[:, 0] * flat.points[:, 1]) / 0.188**2
+    flat.point_data["displacement"] = bent
+    square = plan_mesh(scene.sheet, 1)
+    square.point_data["displacement"] = np.zeros((4, 3))
+    links = [("line", np.array([[0, 1], [1, 3], [3, 2], [2, 0], [0, 3]]))]
+    lattice = FieldMesh(square.points, links, square.point_data)
+    off = sheets.field("difference", "Difference", bent[:, 2], "mm", 1e3)
+    moving = [(0.1 * i, 0.5 * i * bent) for i in range(3)]
+    shown = [
+        sheets.drawn("lattice", lattice, "Lattice", scene=scene),
+        sheets.drawn("shell", flat, "Shell", [off], scene),
+        sheets.drawn("motion", flat, "Motion", frames=moving),
+    ]
+    views = [
+        {"name": "shell", "label": "Shell", "sheets": ["shell"], "field": "displacement"},
+        {"name": "off", "label": "Difference", "sheets": ["shell"], "field": "difference"},
+        {"name": "both", "label": "Both", "sheets": ["shell", "lattice"]},
+        {"name": "motion", "label": "Motion", "sheets": ["motion"]},
+    ]
+    eye = sheets.free_side(scene)
+    return {"sheets": shown, "views": views, "outline": sheets.outline(scene.sheet), "from": eye}
+
+
+@pytest.fixture(scope="module")
+def page(browser, tmp_path_factory):  # noqa: F811
+    path = tmp_path_factory.mktemp("viewer") / "page.html"
+    policy = "default-src 'none'; script-src 'nonce-a'; style-src 'nonce-a'; img-src data:"
+    path.write_text(
+        f'<!doctype html><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="{policy}">'
+        f'<style nonce="a">{viewer.style()}</style><div id="here"></div><script nonce="a">{viewer.script()}'
+        f"</script><script nonce='a'>var view = Sheets.createViewer(document.getElementById('here'), "
+        f"{json.dumps(options())});</script>",
+        encoding="utf-8",
+    )
+    with opened(browser, path.as_uri()) as (shown, watch):
+        yield shown
+        assert watch.troubles == [] and watch.asked == [path.as_uri()]
+
+
+def test_it_draws_and_turns_by_key_and_by_mouse(page):
+    first = pixels(page, "canvas[tabindex]")
+    assert colours(first) > 100
+    page.locator("canvas[tabindex]").focus()
+    page.keyboard.press("ArrowLeft")
+    turned = pixels(page, "canvas[tabindex]")
+    assert (np.abs(turned - first) > 20).any(axis=2).mean() > 0.01
+    box = page.locator("canvas[tabindex]").bounding_box()
+    page.mouse.move(box["x"] + 300, box["y"] + 200)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 380, box["y"] + 220, steps=3)
+    page.mouse.up()
+    dragged = pixels(page, "canvas[tabindex]")
+    assert (np.abs(dragged - turned) > 20).any(axis=2).mean() > 0.01
+    page.get_by_role("button", name="Reset view").click()
+    assert (np.abs(pixels(page, "canvas[tabindex]") - first) > 20).any(axis=2).mean() < 0.01
+
+
+def test_views_fields_and_what_is_under_the_pointer(page):
+    page.get_by_label("Show", exact=True).select_option("off")
+    assert page.locator(".sv-legend-title").text_content() == "Difference [mm]"
+    assert "−20" in page.locator(".sv-ticks").text_content()
+    page.get_by_label("Colour").select_option("uz")
+    assert page.locator(".sv-legend-title").text_content() == "Displacement uz [mm]"
+    box = page.locator("canvas[tabindex]").bounding_box()
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    said = page.locator(".sv-under").text_content()
+    assert re.search(r"Shell at [\d., ]+ mm: moved 0, 0, −[\d.]+ mm", said)
+
+
+def test_it_is_moved_from_outside(page):
+    page.get_by_label("Show", exact=True).select_option("shell")
+    before = pixels(page, "canvas[tabindex]")
+    page.evaluate("view.update('shell', {displacement: new Float32Array(3 * 81).fill(0.01)})")
+    assert (np.abs(pixels(page, "canvas[tabindex]") - before) > 20).any(axis=2).mean() > 0.01
+    assert page.evaluate("view.picture().slice(0, 22)") == "data:image/png;base64,"
+
+
+def test_a_motion_plays(page):
+    page.get_by_label("Show", exact=True).select_option("motion")
+    slider = page.get_by_label("Time")
+    assert slider.is_visible() and page.locator(".sv-play output").text_content() == "0.2 s"
+    slider.press("Home")
+    assert page.locator(".sv-play output").text_content() == "0 s"
+    slider.press("ArrowRight")
+    assert page.locator(".sv-play output").text_content() == "0.1 s"
+    page.get_by_role("button", name="Play").click()
+    assert page.get_by_role("button", name="Pause").is_visible()
+    page.get_by_role("button", name="Pause").click()

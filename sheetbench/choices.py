@@ -31,7 +31,7 @@ GRADED: tuple[Option, ...] = ("layer_distance", "grading")
 CALIBRATIONS: dict[str, Method] = {
     "consistent": Method("every modulus met, and the twist that free edges let go", GRADED),
     "consistent-interior": Method("the moduli alone, edges like the interior", GRADED),
-    "consistent-membrane": Method("consistent, and cells bend in their plane: for soft rubber", GRADED),
+    "consistent-membrane": Method("consistent, and cells bend in their plane as the sheet", GRADED),
     "moduli": Method("bounded least squares on the moduli"),
     "fit-static": Method("fitted to displacements", (*GRADED, "targets")),
     "fit-modal": Method("fitted to natural frequencies", ("layer_distance", "targets")),

@@ -9,8 +9,10 @@ import re
 import select
 import signal
 import struct
+import subprocess
 import sys
 import termios
+from contextlib import suppress
 
 CONTROL = re.compile(r"\x1b\[[0-?]*[ -/]*[@-~]|\r")
 COMMAND = "from comparisons.cli import main; main()"
@@ -64,8 +66,14 @@ class Terminal:
             pass
         os.close(self._terminal)
         _, status = os.waitpid(self.process, 0)
-        try:
+        alive = self._alive()
+        with suppress(ProcessLookupError):
             os.killpg(self.process, signal.SIGKILL)
-        except ProcessLookupError:
-            return os.waitstatus_to_exitcode(status)
-        raise AssertionError(f"processes are left behind: {self.shown}")
+        assert not alive, f"processes are left behind: {self.shown}"
+        return os.waitstatus_to_exitcode(status)
+
+    def _alive(self) -> bool:
+        """Whether any of its processes goes on; one that has ended may wait for process 1 to take note."""
+        listed = subprocess.run(["ps", "-A", "-o", "pgid=,stat="], capture_output=True, text=True, check=True)
+        rows = (line.split() for line in listed.stdout.splitlines())
+        return any(int(group) == self.process and not state.startswith("Z") for group, state in rows)

@@ -40,6 +40,7 @@ VERBS = (
     "suite",
     "score",
     "linearise",
+    "live",
 )
 FAULT = 1
 BAD_INPUT = 2

@@ -20,8 +20,7 @@ from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import grid_of, near_square
 from sheetbench.scenes.size import Size
 
-LATTICES = ("lumped", "lumped-pair")  # of a pair the finer one: they are solved one after the other
-OWN = (*LATTICES, "plate", "shell", "solid")  # models whose size is known
+OWN = ("lumped", "plate", "shell", "solid")  # models whose size is known
 
 
 def size(scene: Scene, candidate: Candidate) -> Size | None:
@@ -29,7 +28,7 @@ def size(scene: Scene, candidate: Candidate) -> Size | None:
     if candidate.model not in OWN:
         return None
     counts = _counts(scene, candidate)
-    lattice = candidate.model in LATTICES
+    lattice = candidate.model == "lumped"
     if candidate.settings.get("symmetry", False):
         for axis in cut_axes(scene, counts[:2], masses=lattice):
             counts[axis] = (counts[axis] + lattice) // 2
@@ -52,8 +51,8 @@ def require_room(scene: Scene, candidate: Candidate, option: str = "", instead: 
     if room is None or asked is None or asked.memory <= room:
         return
     counts = "x".join(str(n) for n in _counts(scene, candidate))
-    option = option or (f"--{candidate.model}" if candidate.model in LATTICES else "--elements")
-    least = 2 if candidate.model in LATTICES else 1
+    option = option or ("--lumped" if candidate.model == "lumped" else "--elements")
+    least = 2 if candidate.model == "lumped" else 1
     fitting = _largest(
         least, lambda n: _estimate(candidate, _along(scene.sheet, candidate, n)).memory <= room
     )
@@ -68,7 +67,7 @@ def require_room(scene: Scene, candidate: Candidate, option: str = "", instead: 
 
 def _counts(scene: Scene, candidate: Candidate) -> list[int]:
     """Masses (nx, ny, layers), or elements (nx, ny) and bricks through the thickness."""
-    if candidate.model in LATTICES:
+    if candidate.model == "lumped":
         return list(scene_grid(scene, candidate.settings.get("grid")))
     elements = candidate.settings.get("elements", ELEMENTS)
     asked = [elements] if isinstance(elements, int) else list(elements)
@@ -78,7 +77,7 @@ def _counts(scene: Scene, candidate: Candidate) -> list[int]:
 
 def _along(sheet: Sheet, candidate: Candidate, number: int) -> list[int]:
     """The same for so many along the shorter side, as they are asked for by one number."""
-    if candidate.model in LATTICES:
+    if candidate.model == "lumped":
         return list(grid_of(sheet, number))
     return [*near_square(sheet, number), *_layers(candidate)]
 
@@ -88,7 +87,7 @@ def _layers(candidate: Candidate) -> list[int]:
 
 
 def _estimate(candidate: Candidate, counts: list[int]) -> Size:
-    if candidate.model in LATTICES:
+    if candidate.model == "lumped":
         import lumped
 
         return lumped.footprint((counts[0], counts[1], counts[2]))

@@ -1,0 +1,109 @@
+"""What lattice and shell answer to a question of the page: where the sheet is, how far off, and in what time.
+
+The lattice is solved as `sheetbench compare` solves it. The shell is sampled at the lattice's masses and on a
+regular grid over the sheet for the picture; its error bar is not sought here, so that it keeps up. The error
+is that of `comparisons.comparison`, at the scene's probes, of lattice and shell asked the same question.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from comparisons.browser.sheets import drawn, packed
+from comparisons.comparison.comparison import error
+from comparisons.live.panel import Question
+from comparisons.models import registry
+from comparisons.report.vtk import plan_mesh
+from sheetbench.scenes import FieldMesh, Scene, Solution
+
+SHELL_CELLS = 24  # along the shorter side, of the picture of the shell
+DIFFERENCE = {"name": "difference", "label": "Difference from the shell", "unit": "mm", "scale": 1e3}
+
+
+@dataclass(frozen=True)
+class Answered:
+    """The lattice's answer to a question; masses: their plan points (n, 2) [m]."""
+
+    question: Question
+    scene: Scene
+    solution: Solution
+
+    @property
+    def masses(self) -> np.ndarray:
+        """Plan points (n, 2) [m] of the masses."""
+        return self.solution.mesh.points[:, :2]
+
+    def document(self, known: np.ndarray | None) -> dict[str, Any]:
+        """The message to the page; known: rest places of the masses that it has, of which only the
+        displacement is told."""
+        found = _document("lattice", self.question, self.scene, self.solution)
+        mesh = self.solution.mesh
+        found["displacement"] = packed(np.nan_to_num(mesh.point_data["displacement"]))
+        if known is None or not np.array_equal(known, mesh.points):
+            flat = {**DIFFERENCE, "kind": "magnitude", "values": packed(np.zeros(len(mesh.points)))}
+            found["sheet"] = drawn("lattice", mesh, "Lattice", [flat], self.scene)
+        return found
+
+
+def lattice(scene: Scene, question: Question) -> Answered:
+    """The lattice's answer. Raises BadInput for what does not go together."""
+    return Answered(question, scene, registry.solve(scene, "lumped", **question.own))
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """A shell's answer as it comes from its own process: message to the page, and what it is compared by.
+
+    at_masses (n, 3), at_probes (p, 3) [m].
+    """
+
+    document: dict[str, Any]
+    comparable: bool
+    at_masses: np.ndarray
+    at_probes: np.ndarray
+
+
+def shell(scene: Scene, question: Question, masses: np.ndarray) -> Sampled:
+    """The shell's answer, sampled at plan points of masses (n, 2) [m]. Raises BadInput as the lattice's."""
+    solution = registry.solve(scene, "shell", elements=question.elements)
+    found = _document("shell", question, scene, solution)
+    plan = plan_mesh(scene.sheet, SHELL_CELLS)
+    u = solution.displacement(plan.points[:, :2])
+    mesh = FieldMesh(plan.points, plan.cells, {"displacement": u})
+    found["sheet"] = drawn("shell", mesh, "Shell", scene=scene)
+    return Sampled(
+        found, solution.comparable, solution.displacement(masses), solution.displacement(scene.probe_points())
+    )
+
+
+def compared(answered: Answered, sampled: Sampled) -> dict[str, Any]:
+    """The shell's message, with what the lattice differs by: `error` (a fraction, null where it has no
+    meaning), and `difference` [m] at the masses."""
+    both = sampled.comparable and answered.solution.comparable
+    ours = answered.solution.displacement(answered.scene.probe_points())
+    off = answered.solution.displacement(answered.masses) - sampled.at_masses
+    return {
+        **sampled.document,
+        "error": error(ours, sampled.at_probes) if both else None,
+        "difference": packed(np.nan_to_num(np.linalg.norm(off, axis=1))),
+    }
+
+
+def _document(kind: str, question: Question, scene: Scene, solution: Solution) -> dict[str, Any]:
+    probes = dict(zip(scene.probes, solution.displacement(scene.probe_points()).tolist(), strict=True))
+    return {
+        "kind": kind,
+        "number": question.number,
+        "label": solution.label,
+        "status": str(solution.status),
+        "said": solution.message if solution.comparable else solution.message or solution.status.advice,
+        "advice": solution.status.advice,
+        "load_factor": solution.load_factor,
+        "unknowns": solution.unknowns,
+        "seconds": solution.solve_seconds,
+        "settings": solution.settings,
+        "probes": {name: [u if np.isfinite(u) else None for u in at] for name, at in probes.items()},
+    }

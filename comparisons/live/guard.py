@@ -1,0 +1,61 @@
+"""Who may talk to the page: what knows its token, asks this machine by its own name, and comes from the page.
+
+The server listens on the loopback alone, and yet every page open in the browser can send requests there.
+So a request needs the random token in its path; its Host must be the loopback's, else a foreign name that was
+made to lead here (DNS rebinding) would do; an Origin that it brings must be the page's own, and opening the
+web socket, which browsers let any page try, needs one. The token is compared in constant time.
+"""
+
+from __future__ import annotations
+
+import secrets
+from http import HTTPStatus
+from urllib.parse import urlsplit
+
+from websockets.datastructures import Headers
+
+LOOPBACK = "127.0.0.1"
+NAMES = (LOOPBACK, "localhost")
+
+
+class Guard:
+    """The token of a server on a port, and what it lets in."""
+
+    def __init__(self, port: int) -> None:
+        self.token = secrets.token_urlsafe(32)
+        self._hosts = {f"{name}:{port}" for name in NAMES}
+        self.address = f"http://{LOOPBACK}:{port}/{self.token}/"
+
+    def refusal(self, path: str, headers: Headers, socket: bool) -> HTTPStatus | None:
+        """Why a request is not answered, None where it is; socket: whether it is to open the web socket."""
+        hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
+        if len(hosts) != 1 or hosts[0].lower() not in self._hosts:
+            return HTTPStatus.MISDIRECTED_REQUEST
+        own = {f"http://{host}" for host in self._hosts}
+        if len(origins) > 1 or (socket and not origins) or not own.issuperset(map(str.lower, origins)):
+            return HTTPStatus.FORBIDDEN
+        given = urlsplit(path).path.split("/")[1:2]
+        if not secrets.compare_digest((given or [""])[0].encode(), self.token.encode()):
+            return HTTPStatus.FORBIDDEN
+        return None
+
+    def name(self, path: str) -> str:
+        """What a path that was let in asks for, below the token."""
+        return urlsplit(path).path.removeprefix(f"/{self.token}").removeprefix("/")
+
+    @property
+    def headers(self) -> dict[str, str]:
+        """What every answer says: scripts, styles and the socket of this server alone, and nobody's frame."""
+        sockets = " ".join(f"ws://{host}" for host in sorted(self._hosts))
+        policy = (
+            "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
+            f"connect-src 'self' {sockets}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+        )
+        return {
+            "Content-Security-Policy": policy,
+            "X-Content-Type-Options": "nosniff",
+            "Referrer-Policy": "no-referrer",
+            "Cross-Origin-Resource-Policy": "same-origin",
+            "Cross-Origin-Opener-Policy": "same-origin",
+            "Cache-Control": "no-store",
+        }

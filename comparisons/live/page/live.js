@@ -1,0 +1,298 @@
+// The page of `sheetbench live`: sliders ask, lattice and shell answer, the newest counts.
+//
+// Every question has a number, and every answer that of its question; a question that is overtaken by a newer
+// one before anybody begins with it is not answered. All texts are set as text, never read as markup.
+
+"use strict";
+
+(() => {
+  const at = (id) => document.getElementById(id);
+  const socket = new WebSocket(new URL("socket", location.href.replace(/^http/, "ws")));
+  const STEPS = 1000;
+  const FACTS = ["Status", "Time to solve, ms", "Unknowns", "Largest |u| at the probes, mm"];
+  const sliders = new Map();
+  const shown = {}; // the last answer of each model
+  const given = {}; // its sheet, as the viewer takes it
+  const begun = new Map(); // when the question of a number was asked for, by the event's own clock
+  const latencies = []; // ms from the event to the lattice drawn
+  let panel, calibration, viewer;
+  let number = 0;
+  let wanted = "";
+
+  window.live = { latencies, shown, asked: () => number };
+
+  function make(kind, attributes, parent) {
+    const found = document.createElement(kind);
+    for (const [name, value] of Object.entries(attributes)) found.setAttribute(name, value);
+    parent.append(found);
+    return found;
+  }
+
+  // A number with so many figures, zeros at its end too, and a minus sign.
+  function figures(value, digits) {
+    if (!Number.isFinite(value)) return "–";
+    const size = Math.floor(Math.log10(Math.abs(value) || 1));
+    return value.toFixed(Math.max(digits - 1 - size, 0)).replace("-", "−");
+  }
+
+  // The same without them, as people type it.
+  const typed = (value) => String(Number(value.toPrecision(5))).replace("-", "−");
+
+  // ---- what is asked
+
+  class Slider {
+    constructor(given, parent) {
+      Object.assign(this, given);
+      this.start = this.value;
+      this.root = make("div", { class: "slider" }, parent);
+      const id = `slider-${this.name}`;
+      make("label", { for: id }, this.root).textContent = this.label;
+      const value = make("span", { class: "value" }, this.root);
+      this.text = make("input", { type: "text", inputmode: "decimal", "aria-label": `${this.label}, ${this.unit}` }, value);
+      make("span", { class: "unit" }, value).textContent = this.unit;
+      const [min, max] = this.whole ? [this.low, this.high] : [0, STEPS];
+      this.range = make("input", { type: "range", id, min, max, step: 1 }, this.root);
+      this.put(this.value);
+      this.range.addEventListener("input", (event) => {
+        this.value = this.placed(Number(this.range.value));
+        this.write();
+        ask(event.timeStamp);
+      });
+      this.text.addEventListener("change", (event) => {
+        const read = Number(this.text.value.trim().replace("−", "-").replace(",", "."));
+        if (this.text.value.trim() === "" || Number.isNaN(read)) return this.write();
+        this.put(read / this.factor);
+        ask(event.timeStamp);
+      });
+    }
+
+    // The value at a place of the range: where it starts, exactly the scene's.
+    placed(place) {
+      if (this.whole) return place;
+      if (place === this.place(this.start)) return this.start;
+      const share = place / STEPS;
+      if (!this.logarithmic) return this.low + share * (this.high - this.low);
+      return this.low * (this.high / this.low) ** share;
+    }
+
+    place(value) {
+      if (this.whole) return value;
+      const { low, high } = this;
+      const share = this.logarithmic ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
+      return Math.round(STEPS * share);
+    }
+
+    put(value) {
+      this.value = value;
+      this.range.value = this.place(value);
+      this.write();
+    }
+
+    write() {
+      const text = typed(this.value * this.factor);
+      this.text.value = text;
+      this.range.setAttribute("aria-valuetext", `${text} ${this.unit}`);
+    }
+
+    enable(on) {
+      this.range.disabled = this.text.disabled = !on;
+      this.root.classList.toggle("off", !on);
+    }
+  }
+
+  function build(message) {
+    panel = message;
+    at("name").textContent = panel.name;
+    at("title").textContent = panel.title;
+    document.title = `${panel.name} · sheetbench live`;
+    for (const slider of panel.sliders) {
+      if (slider.name === "grid") choose();
+      sliders.set(slider.name, new Slider(slider, at("sliders")));
+    }
+    settle();
+    const row = (parent, name, kind) => {
+      const found = make("tr", {}, parent);
+      make("th", { scope: "row" }, found).textContent = name;
+      for (const model of ["lattice", "shell"]) make("td", { "data-model": model }, found).textContent = "–";
+      if (kind) found.dataset.fact = kind;
+    };
+    for (const fact of FACTS) row(at("facts"), fact, fact);
+    for (const probe of Object.keys(panel.probes)) row(at("probes"), probe, probe);
+  }
+
+  function choose() {
+    const box = make("div", { class: "choice" }, at("sliders"));
+    make("label", { for: "calibration" }, box).textContent = "Calibration";
+    calibration = make("select", { id: "calibration" }, box);
+    for (const name of Object.keys(panel.calibrations)) {
+      make("option", { value: name }, calibration).textContent = name;
+    }
+    make("p", { id: "method", class: "pale" }, box);
+    calibration.value = panel.calibration;
+    calibration.addEventListener("change", (event) => {
+      settle();
+      ask(event.timeStamp);
+    });
+  }
+
+  // Sliders that the calibration has no use for.
+  function settle() {
+    const { said, graded } = panel.calibrations[calibration.value];
+    at("method").textContent = `How k is found from E, ν and h: ${said}.`;
+    sliders.get("grading").enable(graded);
+    sliders.get("grid").enable(calibration.value !== "scene");
+  }
+
+  function question(more = {}) {
+    number += 1;
+    const values = {};
+    for (const [name, slider] of sliders) values[name] = slider.value;
+    if (sliders.get("grading").range.disabled) values.grading = 0;
+    return JSON.stringify({ number, values, calibration: calibration.value, ...more });
+  }
+
+  function ask(since) {
+    if (socket.readyState !== WebSocket.OPEN) return;
+    socket.send(question());
+    begun.set(number, since);
+    at("refused").textContent = "";
+    mark();
+  }
+
+  // ---- what is answered
+
+  const VIEWS = [
+    { name: "lattice", label: "Lattice", sheets: ["lattice"], field: "displacement" },
+    { name: "shell", label: "Shell", sheets: ["shell"], field: "displacement" },
+    { name: "both", label: "Both", sheets: ["shell", "lattice"], field: "displacement" },
+    { name: "difference", label: "Difference", sheets: ["lattice"], field: "difference" },
+  ];
+
+  function draw(model, message, values) {
+    const { displacement } = message;
+    if (message.sheet) given[model] = message.sheet;
+    else Object.assign(given[model], { displacement });
+    if (message.sheet && (model === "lattice" || !viewer?.sheets.has(model))) {
+      const sheets = Object.values(given);
+      const views = given.shell ? VIEWS : VIEWS.slice(0, 1);
+      if (viewer) viewer.setSheets(sheets, views);
+      else {
+        const { outline, from } = panel;
+        viewer = Sheets.createViewer(at("stage"), { sheets, views, outline, from, label: "Lattice and shell" });
+        window.live.viewer = viewer;
+      }
+      return;
+    }
+    viewer.update(model, { displacement: displacement ?? message.sheet.displacement, values });
+  }
+
+  function lattice(message) {
+    shown.lattice = message;
+    draw("lattice", message);
+    tell("lattice", message);
+    const since = begun.get(message.number);
+    for (const old of begun.keys()) if (old <= message.number) begun.delete(old);
+    if (since === undefined) return;
+    requestAnimationFrame(() => {
+      latencies.push(performance.now() - since);
+      at("latency").textContent = `${figures(latencies.at(-1), 3)} ms`;
+    });
+  }
+
+  function shell(message) {
+    shown.shell = message;
+    draw("shell", message);
+    if (fits(message.difference)) viewer.update("lattice", { values: { difference: message.difference } });
+    tell("shell", message);
+    const { error } = message;
+    at("error").textContent = error === null ? "–" : `${figures(100 * error, error < 0.1 ? 2 : 3)} %`;
+  }
+
+  // Whether the lattice on the stage still has the masses that these values are of.
+  function fits(values) {
+    return given.lattice.fields.at(-1).values.float32.length === values.float32.length;
+  }
+
+  function tell(model, message) {
+    const largest = Math.max(...Object.values(message.probes).map((u) => Math.hypot(...u)));
+    const reached = message.load_factor === 1 ? "" : ` at ${figures(100 * message.load_factor, 2)} % of the load`;
+    const facts = [message.status + reached, figures(1e3 * message.seconds, 3), message.unknowns, figures(1e3 * largest, 4)];
+    FACTS.forEach((fact, i) => (cell("facts", fact, model).textContent = facts[i]));
+    cell("facts", "Status", model).title = message.advice;
+    for (const [probe, u] of Object.entries(message.probes)) {
+      const texts = u.map((value) => (value === null ? "–" : figures(1e3 * value, 4)));
+      cell("probes", probe, model).textContent = texts.join(", ");
+    }
+    const said = ["lattice", "shell"].filter((name) => shown[name]?.said);
+    at("said").textContent = said.map((name) => `${name}: ${shown[name].said}.`).join(" ");
+    mark();
+  }
+
+  function cell(table, row, model) {
+    return at(table).querySelector(`[data-fact="${CSS.escape(row)}"] [data-model="${model}"]`);
+  }
+
+  // What does not answer the newest question is pale.
+  function mark() {
+    for (const model of ["lattice", "shell"]) {
+      const behind = shown[model]?.number !== number;
+      for (const one of document.querySelectorAll(`[data-model="${model}"]`)) one.classList.toggle("behind", behind);
+      if (model === "shell") at("headline").classList.toggle("behind", behind);
+    }
+  }
+
+  // ---- the conversation
+
+  const heard = {
+    panel: build,
+    ready() {
+      at("state").textContent = "";
+      ask(performance.now());
+      begun.clear(); // the first answer is of no drag
+    },
+    lattice,
+    shell,
+    refused({ number: of, said }) {
+      if (of === null || of === number) at("refused").textContent = said;
+    },
+    text({ text, of }) {
+      copy(text, of);
+    },
+  };
+  socket.addEventListener("message", (event) => {
+    const message = JSON.parse(event.data);
+    heard[message.kind](message);
+  });
+  socket.addEventListener("close", () => {
+    at("state").textContent = "The server has ended: start sheetbench live again, and open the address that it tells.";
+    at("stage").prepend(at("state"));
+  });
+
+  async function copy(text, of) {
+    const lines = text.trim().split("\n").length;
+    const box = at("text");
+    box.value = text;
+    try {
+      await navigator.clipboard.writeText(text);
+      at("copied").textContent = `Copied: the ${of}, ${lines} lines of TOML.`;
+      box.hidden = true;
+    } catch {
+      box.hidden = false;
+      box.select();
+      at("copied").textContent = "The browser does not let the page copy: take it from here.";
+    }
+  }
+
+  for (const button of document.querySelectorAll("[data-copy]")) {
+    button.addEventListener("click", () => {
+      if (socket.readyState === WebSocket.OPEN) socket.send(question({ copy: button.dataset.copy }));
+    });
+  }
+  at("reset").addEventListener("click", (event) => {
+    for (const slider of sliders.values()) slider.put(slider.start);
+    calibration.value = panel.calibration;
+    settle();
+    ask(event.timeStamp);
+  });
+  at("panel").addEventListener("submit", (event) => event.preventDefault());
+})();

@@ -1,0 +1,226 @@
+"""What of a scene can be changed on the page, within which bounds, and how a question is read.
+
+A question is what the page's sliders say; it is JSON from outside, and everything in it is checked: names,
+types, that numbers are finite and within their slider's bounds. The bounds are also what keeps a solve small.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
+from math import isfinite
+from typing import Any, NoReturn
+
+from comparisons.browser.sheets import free_side, outline
+from sheetbench.choices import CALIBRATION, CALIBRATIONS
+from sheetbench.scenes import Chain, Curved, Scene, Sheet
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grid import MASSES, near_square
+from sheetbench.scenes.loads import Pressure
+from sheetbench.scenes.parameters import parameter, put
+
+MASSES_CAP, ELEMENTS_CAP = 33, 16  # along the side of a square sheet, and as many in all on any other
+ELEMENTS = 8  # unless asked for: a shell of 8 × 8 elements answers in a tenth of a second
+OWN = "scene"  # the calibration's name where the scene brings its own [springs]
+SETTINGS = ("grid", "grading", "elements")  # sliders of the models, not of the scene
+
+
+@dataclass(frozen=True)
+class Slider:
+    """A number that can be dragged: its bounds and value in SI units, and how it is shown, times `factor`."""
+
+    name: str
+    label: str
+    unit: str
+    factor: float
+    low: float
+    high: float
+    value: float
+    whole: bool = False
+    logarithmic: bool = False
+
+
+@dataclass(frozen=True)
+class Question:
+    """One setting of all sliders; number: rising, so that the newest is known."""
+
+    number: int
+    values: dict[str, float]
+    calibration: str
+    copy: str = ""
+
+    @property
+    def own(self) -> dict[str, Any]:
+        """The lattice's settings, as `comparisons.models.registry` takes them."""
+        if self.calibration == OWN:
+            return {}
+        grading = self.values["grading"]
+        own = {"grid": int(self.values["grid"]), "calibration": self.calibration}
+        return own | ({"grading": grading} if grading else {})
+
+    @property
+    def elements(self) -> int:
+        """Along the shorter side."""
+        return int(self.values["elements"])
+
+
+class Panel:
+    """The sliders of a scene."""
+
+    def __init__(self, scene: Scene, elements: int = ELEMENTS, **given: Any) -> None:
+        """given: grid, grading, calibration to start with. Raises BadInput for what is beyond the bounds."""
+        self.scene = scene
+        self.sliders = {s.name: s for s in (*_of_scene(scene), *_of_models(scene, elements, given))}
+        self.calibrations = _calibrations(scene)
+        self.start = given.get("calibration") or next(iter(self.calibrations))
+        for slider in self.sliders.values():
+            self._within(slider, slider.value)
+        if self.start not in self.calibrations:
+            _refuse(f"calibration = '{self.start}': choose from {', '.join(self.calibrations)}")
+
+    def first(self) -> Question:
+        """The question that the page starts with."""
+        return Question(0, {name: float(s.value) for name, s in self.sliders.items()}, self.start)
+
+    def document(self) -> dict[str, Any]:
+        """The panel as the page builds it."""
+        scene = self.scene
+        return {
+            "name": scene.name,
+            "title": scene.title,
+            "outline": outline(scene.sheet),
+            "from": free_side(scene),
+            "probes": {name: [*point] for name, point in scene.probes.items()},
+            "sliders": [asdict(slider) for slider in self.sliders.values()],
+            "calibrations": self.calibrations,
+            "calibration": self.start,
+        }
+
+    def read(self, text: str | bytes) -> Question:
+        """The question of a message. Raises BadInput, in a line."""
+        try:
+            found = json.loads(text, parse_constant=lambda name: _refuse(f"{name}: not a finite number"))
+        except (ValueError, RecursionError) as error:
+            if isinstance(error, BadInput):
+                raise
+            raise BadInput("not a question: no JSON") from None
+        keys = {"number", "values", "calibration", "copy"}
+        if not isinstance(found, dict) or not isinstance(found.get("values"), dict) or set(found) - keys:
+            _refuse(f"not a question: it has {', '.join(sorted(keys))}")
+        number, values = found.get("number"), found["values"]
+        if type(number) is not int or not 0 <= number < 2**53:
+            _refuse("number: a whole number from 0")
+        if unlike := set(values) ^ set(self.sliders):
+            _refuse(
+                f"values: {', '.join(sorted(map(str, unlike)))[:80]}: {', '.join(self.sliders)} are asked for"
+            )
+        read = {name: self._within(slider, values[name]) for name, slider in self.sliders.items()}
+        if found.get("calibration") not in self.calibrations:
+            _refuse(f"calibration: choose from {', '.join(self.calibrations)}")
+        if found.get("copy", "") not in ("", "springs", "scene"):
+            _refuse("copy: springs or scene")
+        return Question(number, read, found["calibration"], found.get("copy", ""))
+
+    def asked(self, question: Question) -> Scene:
+        """The scene of a question. Raises SceneError where the values do not go together."""
+        scene = self.scene
+        for name, value in question.values.items():
+            if name not in SETTINGS and value != self.sliders[name].value:
+                scene = _CHANGES.get(name, put)(scene, name, value)
+        return scene
+
+    def _within(self, slider: Slider, value: Any) -> float:
+        if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) > 1e300:
+            _refuse(f"{slider.name}: a finite number is asked for")
+        if not isfinite(value) or not slider.low <= value <= slider.high:
+            bounds = f"{slider.low:g} to {slider.high:g}"
+            _refuse(f"{slider.name} = {value:g}: from {bounds} on this page")
+        if slider.whole and value != int(value):
+            _refuse(f"{slider.name} = {value:g}: a whole number is asked for")
+        return float(value)
+
+
+def _refuse(said: str) -> NoReturn:
+    raise BadInput(said)
+
+
+def _of_scene(scene: Scene) -> Iterator[Slider]:
+    young, thickness = scene.material.young, scene.sheet.thickness
+    yield Slider("young", "Young's modulus E", "MPa", 1e-6, young / 30, young * 30, young, logarithmic=True)
+    yield Slider("poisson", "Poisson's ratio ν", "", 1.0, 0.0, 0.495, scene.material.poisson)
+    thickest = min(4 * thickness, 0.5 * min(scene.sheet.lengths))
+    thin = (thickness / 4, max(thickest, thickness))
+    yield Slider("thickness", "Thickness h", "mm", 1e3, *thin, thickness, logarithmic=True)
+    if scene.gravity is not None:
+        yield Slider("gravity", "Gravity", "× the scene's", 1.0, 0.0, 3.0, 1.0)
+    if len(scene.loads) == 1 and isinstance(pressure := scene.loads[0], Pressure) and pressure.value:
+        most = 3 * abs(pressure.value)
+        yield Slider("pressure", "Pressure", "Pa", 1.0, -most, most, pressure.value)
+    elif scene.loads:
+        yield Slider("loads", "Loads", "× the scene's", 1.0, -3.0, 3.0, 1.0)
+    edges = dict.fromkeys(
+        h.edge for h in (*scene.supports, *scene.actuators) if isinstance(h, Curved | Chain)
+    )
+    for edge in edges:
+        try:
+            bent = parameter(scene, f"curvature_{edge}")
+        except BadInput:  # a chain's list of curvatures, or one over time, is no single number
+            continue
+        most = max(2 * abs(bent.value), 1.5 / min(scene.sheet.lengths))
+        yield Slider(bent.name, f"Curvature of edge {edge}", "1/m", 1.0, -most, most, bent.value)
+
+
+def _of_models(scene: Scene, elements: int, given: dict[str, Any]) -> Iterator[Slider]:
+    masses, fine = most(scene.sheet, MASSES_CAP - 1) + 1, most(scene.sheet, ELEMENTS_CAP)
+    grid, grading = given.get("grid") or min(MASSES, masses), given.get("grading") or 0.0
+    yield Slider("grid", "Masses along the shorter side", "", 1.0, 3, masses, grid, whole=True)
+    yield Slider("grading", "Grading towards the edges", "", 1.0, 0.0, 1.0, grading)
+    yield Slider("elements", "Shell elements along it", "", 1.0, 2, fine, min(elements, fine), whole=True)
+
+
+def most(sheet: Sheet, cap: int) -> int:
+    """Near-square cells along the shorter side of a sheet, of which it has cap² in all at most."""
+    counts = range(2, cap + 1)
+    within = [n for n in counts if near_square(sheet, n)[0] * near_square(sheet, n)[1] <= cap**2]
+    return max(within, default=2)
+
+
+def _calibrations(scene: Scene) -> dict[str, dict[str, Any]]:
+    """Those that take no fit, the one to start with first, and whether their cells may differ."""
+    closed = {name: method for name, method in CALIBRATIONS.items() if not method.fitted}
+    found = {name: {"said": m.summary, "graded": "grading" in m.takes} for name, m in closed.items()}
+    usual = {CALIBRATION: found.pop(CALIBRATION), **found}
+    if scene.springs is None:
+        return usual
+    return {OWN: {"said": "the scene's own [springs], on their grid", "graded": False}, **usual}
+
+
+def _gravity(scene: Scene, name: str, factor: float) -> Scene:
+    assert scene.gravity is not None
+    weight = tuple(factor * g for g in scene.gravity.acceleration)
+    return scene.replace(gravity=scene.gravity.replace(acceleration=weight))
+
+
+def _pressure(scene: Scene, name: str, value: float) -> Scene:
+    return scene.replace(loads=tuple(load.replace(value=value) for load in scene.loads))
+
+
+def _loads(scene: Scene, name: str, factor: float) -> Scene:
+    return scene.replace(loads=tuple(_times(load, factor) for load in scene.loads))
+
+
+def _times(load: Any, factor: float) -> Any:
+    """A load with all its forces, moments or pressures times a factor."""
+    given = {name: getattr(load, name) for name in ("force", "force_per_length") if hasattr(load, name)}
+    vectors = {name: tuple(factor * f for f in force) for name, force in given.items()}
+    numbers = ("moment_per_length", "value")
+    scalars = {name: factor * getattr(load, name) for name in numbers if hasattr(load, name)}
+    return load.replace(**vectors, **scalars)
+
+
+_CHANGES: dict[str, Callable[[Scene, str, float], Scene]] = {
+    "gravity": _gravity,
+    "pressure": _pressure,
+    "loads": _loads,
+}

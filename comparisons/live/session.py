@@ -1,0 +1,106 @@
+"""One page that is open: it asks as fast as one drags, and is answered as fast as the models are.
+
+A question that waits is dropped for a newer one, for the lattice and for the shell apart; whatever arrives is
+in the order of its questions, and says by its number which one it answers. The shell is asked what the
+lattice has answered, so that the two can be compared.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import sys
+import traceback
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import suppress
+from typing import Any, TypeVar
+
+import numpy as np
+
+from comparisons.live.answers import Answered
+from comparisons.live.models import Models
+from comparisons.live.newest import Newest
+from comparisons.live.panel import Panel, Question
+from sheetbench.scenes.errors import BadInput
+
+Send = Callable[[str], Awaitable[None]]
+T = TypeVar("T")
+
+
+class Session:
+    """The conversation with one page."""
+
+    def __init__(self, panel: Panel, models: Models, warm: Awaitable[None], send: Send) -> None:
+        """warm: over when the models are ready."""
+        self._panel, self._models, self._warm, self._send = panel, models, warm, send
+        self._asked: Newest[Question] = Newest()
+        self._answered: Newest[Answered] = Newest()
+        self._known: np.ndarray | None = None  # rest places of the masses that the page has
+
+    async def run(self, messages: AsyncIterator[str | bytes]) -> None:
+        """Answer what comes until nothing comes any more."""
+        await self._say({"kind": "panel", **self._panel.document()})
+        await self._warm
+        await self._say({"kind": "ready"})
+        loops = [asyncio.ensure_future(loop()) for loop in (self._lattices, self._shells)]
+        try:
+            async for message in messages:
+                await self._hear(message)
+        finally:
+            for loop in loops:
+                loop.cancel()
+            for loop in loops:
+                with suppress(asyncio.CancelledError, Exception):
+                    await loop
+
+    async def _hear(self, message: str | bytes) -> None:
+        try:
+            question = self._panel.read(message)
+        except BadInput as error:
+            await self._say({"kind": "refused", "number": None, "said": str(error)})
+            return
+        if question.copy:
+            text = await self._of(question, self._text(question))
+            if text is not None:
+                await self._say(
+                    {"kind": "text", "number": question.number, "of": question.copy, "text": text}
+                )
+        else:
+            self._asked.put(question)
+
+    async def _lattices(self) -> None:
+        while True:
+            question = await self._asked.get()
+            found = await self._of(question, self._lattice(question))
+            if found is not None:
+                await self._say(found.document(self._known))
+                self._known = found.solution.mesh.points
+                self._answered.put(found)
+
+    async def _shells(self) -> None:
+        while True:
+            answered = await self._answered.get()
+            found = await self._of(answered.question, self._models.shell(answered))
+            if found is not None:
+                await self._say(found)
+
+    async def _lattice(self, question: Question) -> Answered:
+        return await self._models.lattice(self._panel.asked(question), question)
+
+    async def _text(self, question: Question) -> str:
+        return await self._models.text(self._panel.asked(question), question)
+
+    async def _of(self, question: Question, work: Awaitable[T]) -> T | None:
+        """What the work comes to; None where it is refused or fails, which the page is told in a line."""
+        try:
+            return await work
+        except BadInput as error:
+            said = str(error)
+        except Exception as error:  # a fault of the program: the page goes on, and the terminal shows it
+            traceback.print_exception(error, file=sys.stderr)
+            said = "a fault of the program; the terminal that it was started from says more"
+        await self._say({"kind": "refused", "number": question.number, "said": said})
+        return None
+
+    async def _say(self, document: dict[str, Any]) -> None:
+        await self._send(json.dumps(document, allow_nan=False))

@@ -175,8 +175,11 @@
     if (message.sheet && (model === "lattice" || !viewer?.sheets.has(model))) {
       const sheets = Object.values(given);
       const views = given.shell ? VIEWS : VIEWS.slice(0, 1);
-      if (viewer) viewer.setSheets(sheets, views);
-      else {
+      if (viewer) {
+        const both = model === "shell"; // its first answer
+        viewer.setSheets(sheets, views);
+        if (both) viewer.setSheet("both");
+      } else {
         const { outline, from } = panel;
         viewer = Sheets.createViewer(at("stage"), { sheets, views, outline, from, label: "Lattice and shell" });
         window.live.viewer = viewer;

@@ -1,0 +1,128 @@
+"""The page of `sheetbench live` in a browser: a slider is dragged, lattice and shell answer."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from browser import browser, opened  # noqa: F401
+from live_server import serving
+
+import sheetbench as sb
+from comparisons.live.panel import Panel
+
+ANSWERED = "live.shown.shell !== undefined && live.shown.shell.number === live.asked()"
+PLACES = "Array.from(live.viewer.sheets.get('lattice').positions.array)"
+
+
+def until(page: Any, expression: str) -> None:
+    """Wait for an expression to hold; the page's policy lets nobody wait within it. The limit only ends a
+    test that hangs."""
+    for _ in range(4000):
+        if page.evaluate(f"window.live !== undefined && ({expression})"):
+            return
+        page.wait_for_timeout(30)
+    raise AssertionError(f"never: {expression}")
+
+
+@pytest.fixture(scope="module")
+def address():
+    with serving(Panel(sb.load("two-edges-clamped"), 2, grid=3)) as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def page(browser, address):  # noqa: F811
+    with opened(browser, address, offline=False) as (found, watch):
+        until(found, ANSWERED)
+        yield found, watch
+
+
+def cell(page: Any, fact: str, model: str) -> str:
+    return page.inner_text(f"[data-fact^='{fact}'] [data-model={model}]")
+
+
+def test_dragging_moves_the_lattice_and_the_shell_follows(page):
+    page, watch = page
+    before = page.evaluate(PLACES), cell(page, "Largest", "lattice"), cell(page, "Largest", "shell")
+    asked = page.evaluate("live.asked()")
+    box = page.locator("#slider-young").bounding_box()
+    across, height = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(across, height)
+    page.mouse.down()
+    for step in range(8):
+        page.mouse.move(across - 10 * step, height)
+    page.mouse.up()
+    until(page, ANSWERED)
+    after = page.evaluate(PLACES), cell(page, "Largest", "lattice"), cell(page, "Largest", "shell")
+    assert page.evaluate("live.asked()") > asked + 3
+    assert min(after[0][2::3]) < 1.1 * min(before[0][2::3])  # softer: it hangs lower
+    assert all(float(new) > 1.1 * float(old) for new, old in zip(after[1:], before[1:], strict=True))
+    assert cell(page, "Status", "lattice") == cell(page, "Status", "shell") == "converged"
+    assert page.inner_text("#error").endswith(" %")
+    assert page.evaluate("live.latencies.length") > 0
+    assert watch.troubles == []
+
+
+def test_another_grid_is_another_lattice(page):
+    page, watch = page
+    page.locator("#slider-grid").focus()
+    for _ in range(2):
+        page.keyboard.press("ArrowRight")
+    until(page, ANSWERED)
+    assert len(page.evaluate(PLACES)) == 3 * 5 * 5 * 2
+    assert page.evaluate("live.viewer.sheets.get('lattice').fields.at(-1).values.some((value) => value > 0)")
+    assert watch.troubles == []
+
+
+def test_what_is_beyond_the_bounds_is_refused_in_a_line(page):
+    page, _ = page
+    start = page.input_value(".slider:has(#slider-poisson) input[type=text]")
+    box = page.locator(".slider:has(#slider-poisson) input[type=text]")
+    box.fill("0.7")
+    box.press("Enter")
+    until(page, "document.getElementById('refused').textContent !== ''")
+    assert "poisson = 0.7: from 0 to 0.495" in page.inner_text("#refused")
+    box.fill(start)
+    box.press("Enter")
+    until(page, ANSWERED)
+    assert page.inner_text("#refused") == ""
+
+
+def test_springs_and_scene_are_copied(page):
+    page, watch = page
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    for of, begins in {
+        "springs": "[springs]\ngrid = [5, 5, 2]",
+        "scene": 'name = "two-edges-clamped"',
+    }.items():
+        page.click(f"[data-copy={of}]")
+        until(page, f"document.getElementById('copied').textContent.startsWith('Copied: the {of}')")
+        assert page.evaluate("navigator.clipboard.readText()").startswith(begins)
+    assert watch.troubles == []
+
+
+def test_grading_is_for_springs_cell_by_cell(page):
+    page, _ = page
+    page.select_option("#calibration", "uniform")
+    until(page, ANSWERED)
+    assert page.is_disabled("#slider-grading") and cell(page, "Status", "lattice") == "converged"
+    page.click("#reset")
+    until(page, ANSWERED)
+    assert page.input_value("#calibration") == "consistent" and page.is_enabled("#slider-grading")
+
+
+def test_it_asks_nobody_else(page, address):
+    _, watch = page
+    assert watch.asked and all(url.startswith(address) for url in watch.asked)
+
+
+def test_it_fits_a_phone(browser, address):  # noqa: F811
+    phone = {"width": 360, "height": 740}
+    with opened(browser, address, offline=False, viewport=phone) as (page, watch):
+        until(page, ANSWERED)
+        assert page.evaluate("document.documentElement.scrollWidth") <= 360
+        page.locator("#reset").scroll_into_view_if_needed()
+        seen = page.locator("#stage canvas").first.bounding_box()
+        assert seen["y"] >= -1 and page.locator("#headline").bounding_box()["y"] < 740
+        assert watch.troubles == []

@@ -27,10 +27,11 @@ from lumped.fitting import (
 )
 from lumped.footprint import footprint
 from lumped.lattice import Lattice
-from lumped.linearised import Linear, StateSpace, linearise
+from lumped.linearised import Linear, linearise
 from lumped.masses import Inertia
 from lumped.mid_surface import MidSurface
 from lumped.sensitivity import Sensitivity, gradient, sensitivity
+from lumped.state_space import Balanced, StateSpace
 from lumped.statics.buckling import buckling_loads
 from lumped.statics.continuation import Path, trace
 from lumped.statics.equilibrium import at_rest, follow
@@ -42,6 +43,7 @@ __all__ = [
     "CALIBRATIONS",
     "INTEGRATORS",
     "Assembly",
+    "Balanced",
     "Calibration",
     "Description",
     "FittedCalibration",

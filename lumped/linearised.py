@@ -15,8 +15,8 @@ state space of the states (ω η, η̇), which is as well scaled as the sheet is
     ẋ = A x + B w,   y = C x + D w,   A = [0, Ω; −Ω, −φᵀ C φ]
 
 With n modes instead of all, D holds what those left out do at rest: slow inputs are answered exactly. F′ ẇ is
-taken into x itself, x − (0, φᵀ F′) w being the state. Source: e.g. Craig and Kurdila, Fundamentals of
-Structural Dynamics, 2006, on modal truncation with static correction.
+taken into x itself, x − (0, φᵀ F′) w being the state. `lumped.state_space` reduces it further. Source: e.g.
+Craig and Kurdila, Fundamentals of Structural Dynamics, 2006, on modal truncation with static correction.
 """
 
 from __future__ import annotations
@@ -35,6 +35,7 @@ from lumped.linear.threads import one_blas_thread
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
 from lumped.sensitivity import rates
+from lumped.state_space import StateSpace
 from lumped.statics.problem import Problem
 from lumped.statics.solver import pose, settle
 from sheetbench.scenes import (
@@ -53,42 +54,6 @@ from sheetbench.scenes.errors import BadInput, NoEquilibrium
 
 MODES = 20  # of the state space unless asked for
 LAST = 1e9  # s: when every history has its last value, as in statics
-
-
-@dataclass(frozen=True, eq=False)
-class StateSpace:
-    """A (2n, 2n), B, C, D; frequencies: undamped, (n,) [Hz]."""
-
-    a: np.ndarray
-    b: np.ndarray
-    c: np.ndarray
-    d: np.ndarray
-    frequencies: np.ndarray
-
-    @cached_property
-    def poles(self) -> np.ndarray:
-        """Eigenvalues of A [rad/s], the slowest first, those above the real axis before their conjugates."""
-        found = np.linalg.eigvals(self.a)
-        return found[np.lexsort((-found.imag, np.round(abs(found), 9)))]
-
-    def response(self, frequencies: np.ndarray) -> np.ndarray:
-        """C (iω − A)⁻¹ B + D at frequencies (f,) [Hz], (f, outputs, inputs)."""
-        unit = np.eye(len(self.a))
-        at = 2j * np.pi * np.asarray(frequencies)
-        return np.stack([self.c @ np.linalg.solve(s * unit - self.a, self.b) + self.d for s in at])
-
-    def after_step(self, time: np.ndarray, number: int) -> np.ndarray:
-        """Outputs (t, outputs) at even times (t,) [s] after input `number` has stepped to 1 at 0 s."""
-        step = float(time[1] - time[0])
-        size = len(self.a)
-        whole = np.zeros((size + 1, size + 1))
-        whole[:size, :size], whole[:size, size] = self.a, self.b[:, number]
-        forward = scipy.linalg.expm(step * whole)
-        state, found = np.append(np.zeros(size), 1.0), []
-        for _ in time:
-            found.append(self.c @ state[:size] + self.d[:, number])
-            state = forward @ state
-        return np.array(found)
 
 
 @dataclass(frozen=True, eq=False)

@@ -31,7 +31,7 @@ GRADED: tuple[Option, ...] = ("layer_distance", "grading")
 CALIBRATIONS: dict[str, Method] = {
     "consistent": Method("every modulus met, and the twist that free edges let go", GRADED),
     "consistent-interior": Method("the moduli alone, edges like the interior", GRADED),
-    "consistent-membrane": Method("consistent, and cells bend in their plane: for soft rubber", GRADED),
+    "consistent-membrane": Method("consistent, and cells bend in their plane as the sheet", GRADED),
     "moduli": Method("bounded least squares on the moduli"),
     "fit-static": Method("fitted to displacements", (*GRADED, "targets")),
     "fit-modal": Method("fitted to natural frequencies", ("layer_distance", "targets")),
@@ -41,6 +41,8 @@ CALIBRATIONS: dict[str, Method] = {
     "van-gelder": Method("Van Gelder's areas over squared lengths, in each layer"),
     "lloyd": Method("off-diagonal stiffness of the bilinear element at ν = 1/3, in each layer"),
 }
+# Those that meet the sheet's moduli on every grid: as cells shrink answers tend to the sheet's.
+EXTRAPOLATED = ("consistent", "consistent-interior", "consistent-membrane")
 
 MASSES = {
     "higher-order": "the inertia of edges corrected, shared by neighbours",

@@ -19,6 +19,15 @@ def command(
     modes: Annotated[
         int, typer.Option(min=0, metavar="N", help="Modes of the state space; 0 for all.")
     ] = MODES,
+    reduce: Annotated[
+        str | None,
+        typer.Option(
+            metavar="HOW",
+            help="balanced:8, the modes' 8 most important states; balanced:0.01, as few as answer every "
+            "input within that share of what it does at rest, at any frequency.",
+            show_default=False,
+        ),
+    ] = None,
     about: Annotated[
         str, typer.Option(metavar="WHAT", help="deformed: under the scene's loads; flat: without them.")
     ] = "deformed",
@@ -44,6 +53,7 @@ def command(
             grading=grading,
             calibration=calibration,
             modes=modes or None,
+            reduce=reduce,
             about=about,
             large=large,
             progress=end.progress,

@@ -135,8 +135,8 @@ Models = Annotated[
     typer.Option(
         "--model",
         metavar="MODEL",
-        help="A model more: a plug-in's NAME, FILE.py:CLASS or exec:PROGRAM of your own, or lumped, plate, "
-        "shell, solid; settings after it, as NAME:grid=9x5. May be repeated.",
+        help="A model more: a plug-in's NAME, FILE.py:CLASS or exec:PROGRAM of your own, or lumped, "
+        "lumped-pair, plate, shell, solid; settings after it, as NAME:grid=9x5. May be repeated.",
         show_default=False,
     ),
 ]

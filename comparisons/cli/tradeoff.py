@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from comparisons.tradeoff.motion import DynamicTradeoff
     from comparisons.tradeoff.statics import Tradeoff
 
-GRIDS = "3,5,9,17,33"
+GRIDS, PAIRS = "3,5,9,17,33", "5:9,9:17"
 
 
 def command(
@@ -40,6 +40,16 @@ def command(
             metavar="GRIDS",
             help="Masses of lattices: along the shorter side with near-square cells, or NxM, NxMxL. "
             f"{GRIDS} unless given; with --duration one lattice, 9 unless given.",
+            show_default=False,
+        ),
+    ] = None,
+    lumped_pair: Annotated[
+        str | None,
+        typer.Option(
+            "--lumped-pair",
+            metavar="PAIRS",
+            help="Pairs of grids, the coarser first, and one answer extrapolated from both, with its bar. "
+            f"{PAIRS} unless grids or other springs are listed.",
             show_default=False,
         ),
     ] = None,
@@ -103,6 +113,7 @@ def command(
 
     from comparisons.cli.finish import finish
     from comparisons.comparison.comparison import load_static
+    from comparisons.models.candidate import items
     from comparisons.tradeoff.asked import of_motion, of_statics
     from sheetbench.scenes import load
 
@@ -113,9 +124,12 @@ def command(
     else:
         asked = load_static(scene)
         grids = GRIDS if lumped is None else lumped
+        if lumped_pair is None:
+            usual = lumped is None and CALIBRATION in items(calibration)
+            lumped_pair = PAIRS if usual else ""
         meshes = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
         measure = of_statics(
-            asked, grids, calibration, meshes, model or (), symmetry, elements, repeats, grading
+            asked, grids, calibration, meshes, model or (), symmetry, elements, repeats, grading, lumped_pair
         )
     with finish("tradeoff", json, out, overwrite, scene=asked) as end:
         with end.campaign(scheduler, wait) as (store, pool, progress):

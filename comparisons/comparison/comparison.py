@@ -126,6 +126,22 @@ class Comparison(summary.Summarised):
                 found.append(Difference(name, solution.model, self.reference.model, off, told_apart))
         return tuple(found)
 
+    def own_bar(self, solution: Solution) -> dict[str, np.ndarray] | None:
+        """Half a length (3,) [m] of the bar at each probe that a solution brings with it, None of most."""
+        if solution.bar is None:
+            return None
+        return dict(zip(self.scene.probes, solution.bar(self.scene.probe_points()), strict=True))
+
+    def bar_of(self, solution: Solution) -> float | None:
+        """By how much a solution says that it may be off: its largest bar over its largest displacement."""
+        if solution is self.reference and self.bar is not None:
+            return self.bar.error
+        if solution.bar is None:
+            return None
+        points = self.scene.probe_points()
+        u = solution.displacement(points)
+        return error(u + solution.bar(points), u)
+
     def distinguishable(self, solution: Solution) -> bool | None:
         """Whether a solution's error is above the reference's own; None where either is not known."""
         off = self.error(solution)
@@ -169,7 +185,9 @@ class Comparison(summary.Summarised):
         ]
 
     def _solution_as_dict(self, solution: Solution) -> dict[str, Any]:
-        bar = self.bar if solution is self.reference else None
+        bar = self.bar.as_dict() if solution is self.reference and self.bar is not None else {}
+        if (own := self.own_bar(solution)) is not None:
+            bar = {"error": self.bar_of(solution), "probes": own}
         return {
             "model": solution.model,
             "label": solution.label,
@@ -188,7 +206,7 @@ class Comparison(summary.Summarised):
             "reactions": solution.reactions,
             "energies": solution.energies,
             "balance": solution.balance.document() if solution.balance is not None else None,
-            **({} if bar is None else {"uncertainty": bar.as_dict()}),
+            **({"uncertainty": bar} if bar else {}),
         }
 
 

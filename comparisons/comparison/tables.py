@@ -66,16 +66,11 @@ def _millimetres(name: str) -> Column:
 
 
 def displacements(comparison: Comparison) -> Table:
-    """A row per probe and model, the reference first; ±: its own error bar, by its mesh."""
+    """A row per probe and model, the reference first; ±: its own error bar, by its mesh or grids."""
     relative = {(d.probe, d.of): d.relative for d in comparison.differences}
     probes = {solution.model: comparison.probes(solution) for solution in comparison.solutions}
     ordered = sorted(comparison.solutions, key=lambda solution: solution is not comparison.reference)
-    bars = {}
-    if comparison.bar is not None:
-        size = {probe: float(np.linalg.norm(u)) for probe, u in probes[comparison.reference.model].items()}
-        bars = {
-            probe: comparison.bar.at(probe) / size[probe] for probe in size if size[probe] > comparison.least
-        }
+    bars = {s.model: _bars(comparison, s) for s in ordered}
     rows = [
         (
             probe,
@@ -84,7 +79,7 @@ def displacements(comparison: Comparison) -> Table:
             s.model,
             *(float(u) for u in probes[s.model][probe]),
             relative.get((probe, s.model)),
-            bars.get(probe) if s is comparison.reference else None,
+            bars[s.model].get(probe),
         )
         for probe, (x, y) in comparison.scene.probes.items()
         for s in ordered
@@ -101,6 +96,19 @@ def displacements(comparison: Comparison) -> Table:
         Column("±", "", "%", 100.0, ".2g"),
     )
     return Table("Displacement of the mid-surface", columns, tuple(rows), "table", grouped=True)
+
+
+def _bars(comparison: Comparison, solution: Solution) -> dict[str, float]:
+    """The bar of a model that has one over its displacement, at the probes where it moves."""
+    lengths = comparison.own_bar(solution)
+    if solution is comparison.reference and comparison.bar is not None:
+        lengths = dict(zip(comparison.bar.names, comparison.bar.uncertainty.bar, strict=True))
+    moved = {probe: float(np.linalg.norm(u)) for probe, u in comparison.probes(solution).items()}
+    return {
+        probe: float(np.linalg.norm(length)) / moved[probe]
+        for probe, length in (lengths or {}).items()
+        if moved[probe] > comparison.least
+    }
 
 
 def costs(comparison: Comparison) -> Table:
@@ -168,10 +176,14 @@ def sheet(sheet: Sheet, material: Material) -> str:
 def uncertainty(comparison: Comparison) -> list[str]:
     """The reference's error bar in words, the models that differ from it by less, and what is due to laws of
     strain."""
-    laws = [comparison.laws] if comparison.laws else []
+    said = [comparison.laws] if comparison.laws else []
+    for solution in comparison.solutions:
+        if solution.bar is not None:
+            share = 100.0 * (comparison.bar_of(solution) or 0.0)
+            said.append(f"{solution.model}: ± {share:.2g} % by its grids.")
     if comparison.bar is None:
-        return laws
-    said = [*laws, comparison.bar.note(comparison.reference.model)]
+        return said
+    said = [*said, comparison.bar.note(comparison.reference.model)]
     for solution in comparison.solutions:
         if comparison.distinguishable(solution) is False:
             said.append(f"{solution.model}: not distinguishable from {comparison.reference.model}.")

@@ -1,4 +1,5 @@
-"""A scene's lattice, linear about its equilibrium: matrices, state space of the lowest modes, their files."""
+"""A scene's lattice, linear about its equilibrium: matrices, state space of the lowest modes or of the most
+important states, their files."""
 
 from __future__ import annotations
 
@@ -23,21 +24,29 @@ from sheetbench.scenes import AnyScene, Scene, scene_of
 from sheetbench.scenes.errors import BadInput, require_choice
 
 if TYPE_CHECKING:
-    from lumped import Linear, StateSpace
+    from lumped import Balanced, Linear, StateSpace
 
 MODES = 20
+BALANCED = "balanced"
 ABOUT = ("deformed", "flat")
 
 
 @dataclass(frozen=True, eq=False)
 class Linearisation:
-    """matrices: of all unknowns; space: of the modes asked for; label: of the lattice."""
+    """matrices: of all unknowns; modal: state space of the modes asked for; balanced: what it was reduced to,
+    if it was; label: of the lattice."""
 
     scene: Scene
     label: str
     about: str
     matrices: Linear
-    space: StateSpace
+    modal: StateSpace
+    balanced: Balanced | None = None
+
+    @property
+    def space(self) -> StateSpace:
+        """The state space that is shown and written."""
+        return self.modal if self.balanced is None else self.balanced.space
 
     @cached_property
     def damping_ratios(self) -> np.ndarray:
@@ -65,7 +74,15 @@ class Linearisation:
             "inputs": list(matrices.inputs),
             "outputs": list(matrices.outputs),
             "jacobian": matrices.jacobian,
+            **self._reduction,
         }
+
+    @property
+    def _reduction(self) -> dict[str, Any]:
+        """Of the balanced truncation, where there is one."""
+        if self.balanced is None:
+            return {}
+        return {"hankel": self.balanced.hankel, "bound": self.balanced.bound, "scale": self.balanced.scale}
 
     def arrays(self) -> dict[str, Any]:
         """What `linear.mat` and `linear.npz` hold; matrices of all unknowns are sparse."""
@@ -86,6 +103,7 @@ class Linearisation:
             "frequencies_hz": space.frequencies,
             "inputs": np.array(matrices.inputs),
             "outputs": np.array(matrices.outputs),
+            **self._reduction,
         }
 
     def write_npz(self, path: Path) -> None:
@@ -119,14 +137,17 @@ def linearise(
     grading: Grading = None,
     calibration: str | None = None,
     modes: int | None = MODES,
+    reduce: str | None = None,
     about: str = "deformed",
     large: bool = False,
     progress: Progress = silent,
 ) -> Linearisation:
     """The lattice of a scene about its equilibrium under its loads, or about the flat sheet.
 
-    modes: of the state space, all for None; those that there are where they are fewer. Raises BadInput for
-    choices that do not exist and for what has no linear form (`lumped.linearise`).
+    modes: of the state space, all for None; those that there are where they are fewer. reduce: them further,
+    "balanced:8" to that many states, "balanced:0.01" to as few as keep the bound on the error within that
+    share of what an input does at rest. Raises BadInput for choices that do not exist, for what has no linear
+    form (`lumped.linearise`) and what cannot be balanced (`lumped.StateSpace`).
     """
     import lumped
 
@@ -134,6 +155,7 @@ def linearise(
     require_choice("about", about, ABOUT)
     if modes is not None and modes < 1:
         raise BadInput(f"modes = {modes}: at least 1")
+    order, tolerance = _balance(reduce)
     own = {"grid": grid, "grading": grading, "calibration": calibration}
     lattice = Candidate("lumped", own)
     check(asked, lattice, large)
@@ -142,4 +164,21 @@ def linearise(
     found = lumped.linearise(asked, springs, "flat" if about == "flat" else "deformed")
     most = found.mass.shape[0]
     space = found.state_space(None if modes is None else min(modes, most))
-    return Linearisation(asked, f"lumped {springs.title}", about, found, space)
+    balanced = None if reduce is None else space.balanced(order, tolerance)
+    return Linearisation(asked, f"lumped {springs.title}", about, found, space, balanced)
+
+
+def _balance(reduce: str | None) -> tuple[int | None, float | None]:
+    """The order or the tolerance that "balanced:8" or "balanced:0.01" asks for."""
+    if reduce is None:
+        return None, None
+    name, _, number = reduce.partition(":")
+    if name == BALANCED and number.isdecimal() and len(number) < 10:
+        return int(number), None
+    try:
+        tolerance = float(number) if name == BALANCED else np.nan
+    except ValueError:
+        tolerance = np.nan
+    if not 0.0 < tolerance < np.inf:
+        raise BadInput(f"--reduce = '{reduce}': {BALANCED}:8 for states, {BALANCED}:0.01 for a bound")
+    return None, tolerance

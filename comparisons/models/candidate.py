@@ -15,10 +15,12 @@ from typing import Any
 from comparisons.models import plugins
 from comparisons.models.grids import parse_elements, parse_grid
 from comparisons.models.programs import PREFIX
+from sheetbench.choices import EXTRAPOLATED
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import LAYERS
 
+SIZES = ("grid", "coarser", "elements")
 _PROGRAM = re.compile(rf"(?P<file>{PREFIX}[^:]+)(:(?P<rest>.*))?")
 _FROM_FILE = re.compile(r"(?P<file>.+\.py)(:(?P<object>\w+)(?![\w=]))?(:(?P<rest>.*=.*))?")
 _COUNTS = re.compile(r"\d{1,9}(x\d{1,9})+")
@@ -50,7 +52,7 @@ def series(model: str, settings: dict[str, Any]) -> str:
     said += [
         name if value is True else f"{name} {value}"
         for name, value in sorted(settings.items())
-        if name not in ("grid", "elements", "calibration") and value is not False
+        if name not in (*SIZES, "calibration") and value is not False
     ]
     return " ".join(part for part in (model, *said) if part)
 
@@ -63,6 +65,20 @@ def lattices(sheet: Sheet, grids: Iterable[str], calibrations: Iterable[str]) ->
         for name in calibrations
         for shape in shapes
     ]
+
+
+def pairs(sheet: Sheet, grids: Iterable[str], calibrations: Iterable[str]) -> list[Candidate]:
+    """Every calibration that is extrapolated on every pair of grids, 5:9. Raises BadInput for other text."""
+    shapes = []
+    for text in grids:
+        coarser, colon, finer = text.partition(":")
+        if not colon:
+            raise BadInput(f"--lumped-pair = '{text}': two grids are written 5:9, the coarser first")
+        shapes.append({"grid": list(parse_grid(sheet, finer)), "coarser": list(parse_grid(sheet, coarser))})
+    named = [name for name in calibrations if name in EXTRAPOLATED]
+    if shapes and not named:
+        raise BadInput(f"--lumped-pair: of calibrations there is none of {', '.join(EXTRAPOLATED)}")
+    return [Candidate("lumped-pair", {**shape, "calibration": name}) for name in named for shape in shapes]
 
 
 def references(model: str, elements: Iterable[str]) -> list[Candidate]:

@@ -77,7 +77,8 @@ def graded(
     takers = 0
     for candidate in candidates:
         settings = candidate.settings
-        if asked is not None and candidate.model == "lumped" and not _impossible(settings["grid"], settings):
+        lattice = candidate.model in ("lumped", "lumped-pair")
+        if asked is not None and lattice and not _impossible(settings["grid"], settings):
             takers += 1
             value, why = grading_of(scene, settings["grid"], asked, calibration=settings["calibration"])
             masses = f"{settings['grid'][0]} × {settings['grid'][1]}"

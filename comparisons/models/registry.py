@@ -10,31 +10,25 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
-from inspect import Parameter, signature
 from time import perf_counter
 from typing import Any
 
 from comparisons.models import plugins
 from comparisons.models.candidate import Candidate
-from comparisons.models.grading import Grading, number
+from comparisons.models.grading import Grading
 from comparisons.models.grids import Asked, scene_grid
+from comparisons.models.lattice import Solve, Watch, check_settings, lattice
+from comparisons.models.pair import check_pair, lattice_pair
 from comparisons.models.sizes import require_room, size
-from comparisons.models.springs import (
-    calibrate,
-    check_lattice,
-    has_own_springs,
-    is_fitted,
-    require_room_to_fit,
-    scene_springs,
-)
-from comparisons.models.symmetry import cut_axes, half, whole
+from comparisons.models.springs import is_fitted, require_room_to_fit, scene_springs
+from comparisons.models.symmetry import by_parts, cut_axes
 from comparisons.report.work import Progress, Work, silent
 from sheetbench.choices import ELEMENTS, REFERENCE, REFERENCES
-from sheetbench.scenes import History, Iteration, Scene, Solution, load
+from sheetbench.scenes import History, Scene, Solution, load
 from sheetbench.scenes.errors import BadInput, require_choice
 from sheetbench.scenes.grid import near_square
 
-ASIDE = ("training", "large", "progress")  # of `calibrate`, but no settings
+LATTICES = {"lumped": check_settings, "lumped-pair": check_pair}  # what looks at their settings
 
 
 def check_reference(
@@ -54,30 +48,6 @@ def check_reference(
 
 def _whole(counts: Any) -> bool:
     return isinstance(counts, list | tuple) and len(counts) > 0 and all(type(n) is int for n in counts)
-
-
-Watch = Callable[[Iteration], None]  # called once an iteration
-Solve = Callable[[Watch | None], Solution]
-
-
-def lattice(scene: Scene, *, linear: bool = False, symmetry: bool = False, **settings: Any) -> Solve:
-    """The lattice with the settings of `scene_springs`, ready to be solved.
-
-    linear: one step with the flat sheet's tangent. symmetry: solve a half or a quarter where scene and grid
-    allow it (see `comparisons.models.symmetry`).
-    """
-    import lumped
-
-    springs, because = scene_springs(scene, **settings)
-    axes = cut_axes(scene, springs.grid, masses=True) if symmetry else []
-    for axis in axes:
-        springs = springs.halved(axis)
-
-    def answer(part: Scene, watch: Watch | None) -> Solution:
-        solution = lumped.solve(part, springs, linear=linear, progress=watch)
-        return replace(solution, settings={**solution.settings, **because})
-
-    return lambda watch: _by_parts(scene, axes, partial(answer, watch=watch))
 
 
 def simulate(
@@ -152,31 +122,12 @@ def reference(
     def answer(part: Scene, watch: Watch | None) -> Solution:
         return fem_reference.solve(part, model=model, elements=counts, progress=watch, **options)
 
-    return lambda watch: _by_parts(scene, axes, partial(answer, watch=watch))
-
-
-def _by_parts(scene: Scene, axes: Sequence[int], answer: Callable[[Scene], Solution]) -> Solution:
-    """The answer for the whole scene from that for the part left after halving across `axes`."""
-    if not axes:
-        return answer(scene)
-    scenes = [scene]
-    for axis in axes:
-        scenes.append(half(scenes[-1], axis))
-    solution = answer(scenes[-1])
-    for axis, of in zip(reversed(axes), reversed(scenes[:-1]), strict=True):
-        solution = whole(solution, of, axis)
-    cut = "half" if len(axes) == 1 else "quarter"
-    settings: dict[str, Any] = {**solution.settings, "symmetry": ["xy"[axis] for axis in axes]}
-    for name in {"grid", "elements"} & set(settings):
-        size = list(settings[name])
-        for axis in axes:
-            size[axis] = 2 * size[axis] - (name == "grid")
-        settings[name] = size
-    return replace(solution, label=f"{solution.label}, a {cut} of the sheet", settings=settings)
+    return lambda watch: by_parts(scene, axes, partial(answer, watch=watch))
 
 
 MODELS: dict[str, Callable[..., Solve]] = {
     "lumped": lattice,
+    "lumped-pair": lattice_pair,
     **{name: partial(reference, model=name) for name in REFERENCES},
 }
 
@@ -231,24 +182,15 @@ def check(scene: Scene, candidate: Candidate, large: bool = False, option: str =
     _check_settings(scene, candidate)
     if not large:
         require_room(scene, candidate, option)
-        fitted = candidate.model == "lumped" and is_fitted(candidate.settings.get("calibration"))
+        fitted = candidate.model in LATTICES and is_fitted(candidate.settings.get("calibration"))
         if fitted and candidate.settings.get("k") is None:
             require_room_to_fit(scene, scene_grid(scene, candidate.settings.get("grid")))
 
 
 def _check_settings(scene: Scene, candidate: Candidate) -> None:
     model, settings = candidate.model, candidate.settings
-    if model == "lumped":
-        known = [name for name in (*_keywords(calibrate), *_keywords(lattice)) if name not in ASIDE]
-        unknown = [name for name in settings if name not in known]
-        if unknown:
-            raise BadInput(f"lumped: no setting '{unknown[0]}'; it has {', '.join(known)}")
-        check_lattice(*(settings.get(name) for name in ("calibration", "k", "layer_distance", "grading")))
-        grid = scene_grid(scene, settings.get("grid"))
-        if has_own_springs(scene, **settings):
-            import lumped
-
-            lumped.given(scene, grid, number(settings.get("grading")))
+    if model in LATTICES:
+        LATTICES[model](scene, settings)
     elif model in MODELS:
         own = {name: value for name, value in settings.items() if name not in ("elements", "symmetry")}
         check_reference(model, settings.get("elements", ELEMENTS), own)
@@ -259,16 +201,11 @@ def _check_settings(scene: Scene, candidate: Candidate) -> None:
         plugins.settings_of(plugins.plugin(model), settings)
 
 
-def _keywords(function: Callable[..., Any]) -> list[str]:
-    parameters = signature(function).parameters.values()
-    return [parameter.name for parameter in parameters if parameter.kind is Parameter.KEYWORD_ONLY]
-
-
 @cache
 def warm(model: str) -> None:
     """Import and compile what a model needs, once in a process: solve a coarse sheet, load a plug-in."""
     if model not in MODELS:
         plugins.plugin(model)
         return
-    coarse = {"grid": (3, 3, 2)} if model == "lumped" else {"elements": 2}
+    coarse = {"grid": (3, 3, 2)} if model in LATTICES else {"elements": 2}
     MODELS[model](load("one-edge-clamped"), **coarse)(None)

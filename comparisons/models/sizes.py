@@ -20,7 +20,8 @@ from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import grid_of, near_square
 from sheetbench.scenes.size import Size
 
-OWN = ("lumped", "plate", "shell", "solid")  # models whose size is known
+LATTICES = ("lumped", "lumped-pair")  # of a pair the finer one: they are solved one after the other
+OWN = (*LATTICES, "plate", "shell", "solid")  # models whose size is known
 
 
 def size(scene: Scene, candidate: Candidate) -> Size | None:
@@ -28,7 +29,7 @@ def size(scene: Scene, candidate: Candidate) -> Size | None:
     if candidate.model not in OWN:
         return None
     counts = _counts(scene, candidate)
-    lattice = candidate.model == "lumped"
+    lattice = candidate.model in LATTICES
     if candidate.settings.get("symmetry", False):
         for axis in cut_axes(scene, counts[:2], masses=lattice):
             counts[axis] = (counts[axis] + lattice) // 2
@@ -51,8 +52,8 @@ def require_room(scene: Scene, candidate: Candidate, option: str = "", instead: 
     if room is None or asked is None or asked.memory <= room:
         return
     counts = "x".join(str(n) for n in _counts(scene, candidate))
-    option = option or ("--lumped" if candidate.model == "lumped" else "--elements")
-    least = 2 if candidate.model == "lumped" else 1
+    option = option or (f"--{candidate.model}" if candidate.model in LATTICES else "--elements")
+    least = 2 if candidate.model in LATTICES else 1
     fitting = _largest(
         least, lambda n: _estimate(candidate, _along(scene.sheet, candidate, n)).memory <= room
     )
@@ -67,7 +68,7 @@ def require_room(scene: Scene, candidate: Candidate, option: str = "", instead: 
 
 def _counts(scene: Scene, candidate: Candidate) -> list[int]:
     """Masses (nx, ny, layers), or elements (nx, ny) and bricks through the thickness."""
-    if candidate.model == "lumped":
+    if candidate.model in LATTICES:
         return list(scene_grid(scene, candidate.settings.get("grid")))
     elements = candidate.settings.get("elements", ELEMENTS)
     asked = [elements] if isinstance(elements, int) else list(elements)
@@ -77,7 +78,7 @@ def _counts(scene: Scene, candidate: Candidate) -> list[int]:
 
 def _along(sheet: Sheet, candidate: Candidate, number: int) -> list[int]:
     """The same for so many along the shorter side, as they are asked for by one number."""
-    if candidate.model == "lumped":
+    if candidate.model in LATTICES:
         return list(grid_of(sheet, number))
     return [*near_square(sheet, number), *_layers(candidate)]
 
@@ -87,7 +88,7 @@ def _layers(candidate: Candidate) -> list[int]:
 
 
 def _estimate(candidate: Candidate, counts: list[int]) -> Size:
-    if candidate.model == "lumped":
+    if candidate.model in LATTICES:
         import lumped
 
         return lumped.footprint((counts[0], counts[1], counts[2]))

@@ -10,7 +10,7 @@ and the part cannot tell.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import isclose
 from typing import Any
@@ -103,6 +103,26 @@ def whole(part: Solution, scene: Scene, axis: int) -> Solution:
         mesh=_mirrored(part.mesh, axis, middle),
         balance=part.balance.mirrored(axis, middle) if part.balance is not None else None,
     )
+
+
+def by_parts(scene: Scene, axes: Sequence[int], answer: Callable[[Scene], Solution]) -> Solution:
+    """The answer for the whole scene from that for the part left after halving across `axes`."""
+    if not axes:
+        return answer(scene)
+    scenes = [scene]
+    for axis in axes:
+        scenes.append(half(scenes[-1], axis))
+    solution = answer(scenes[-1])
+    for axis, of in zip(reversed(axes), reversed(scenes[:-1]), strict=True):
+        solution = whole(solution, of, axis)
+    cut = "half" if len(axes) == 1 else "quarter"
+    settings: dict[str, Any] = {**solution.settings, "symmetry": ["xy"[axis] for axis in axes]}
+    for name in {"grid", "elements"} & set(settings):
+        size = list(settings[name])
+        for axis in axes:
+            size[axis] = 2 * size[axis] - (name == "grid")
+        settings[name] = size
+    return replace(solution, label=f"{solution.label}, a {cut} of the sheet", settings=settings)
 
 
 def _mirrors(scene: Scene, axis: int) -> bool:

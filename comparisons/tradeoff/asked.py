@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
-from comparisons.models.candidate import Candidate, items, lattices, parse_model, references
+from comparisons.models.candidate import Candidate, items, lattices, pairs, parse_model, references
 from comparisons.models.grading import Grading, graded
 from comparisons.models.grids import parse_elements
 from comparisons.tradeoff.motion import DynamicTradeoff, dynamic_tradeoff
@@ -26,14 +26,17 @@ def of_statics(
     elements: str | None = None,
     repeats: int = 5,
     grading: Grading = None,
+    of_two: str = "",
 ) -> Callable[..., Tradeoff]:
     """The trade of lattices, of references on meshes by name, and of models as `parse_model` reads them.
 
     symmetry: of all but solids and the models; elements: of the reference that all are held against;
-    grading: of the lattices whose calibration takes one.
+    grading: of the lattices whose calibration takes one; of_two: pairs of grids, extrapolated.
     Raises BadInput for what cannot be read, no model at all, and a reference of a single element.
     """
-    candidates, reasons = graded(scene, lattices(scene.sheet, items(grids), items(calibrations)), grading)
+    springs = items(calibrations)
+    asked = lattices(scene.sheet, items(grids), springs) + pairs(scene.sheet, items(of_two), springs)
+    candidates, reasons = graded(scene, asked, grading)
     for name, sizes in meshes.items():
         candidates += references(name, items(sizes))
     if symmetry:

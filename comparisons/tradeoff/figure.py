@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from comparisons.tradeoff.statics import Tradeoff
 
 WIDTH, HEIGHT = 7.2, 3.9  # inches: the text width of a two-column paper
-MARKERS = {"lumped": "o", "plate": "v", "shell": "s", "solid": "D"}
+MARKERS = {"lumped": "o", "lumped-pair": "*", "plate": "v", "shell": "s", "solid": "D"}
 # Okabe and Ito's colours, which everyone tells apart; lattices take the first ones in turn.
 REFERENCE_COLOURS = {"plate": "#8a8a8a", "shell": "#222222", "solid": "#a0522d"}
 COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999933", "#882255")
@@ -101,10 +101,9 @@ def _against_time(
 
 
 def _size(row: TradeoffRow) -> str:
-    size = row.size or ""
-    if isinstance(size, list | tuple):
-        return str(size[0]) if size[0] == size[1] else f"{size[0]}×{size[1]}"
-    return str(size)
+    """Counts along both sides, or one where they are alike."""
+    counts = [size.split("×")[:2] for size in row.size.split(":")]
+    return ":".join(along[0] if len(set(along)) == 1 else "×".join(along) for along in counts)
 
 
 def _front(axis: Axes, tradeoff: Tradeoff) -> None:

@@ -22,7 +22,7 @@ class TradeoffRow:
 
     A run that ended without an answer has what was asked and its status. series: the family whose order is
     looked for; cell_size [m]: where the settings tell; solve_seconds: every sample; error, field_error:
-    fractions; started, finished: UTC.
+    fractions; bar: by which the model says that it may be off, likewise; started, finished: UTC.
     """
 
     model: str
@@ -41,6 +41,7 @@ class TradeoffRow:
     peak_memory_bytes: int | None = None
     error: float | None = None
     field_error: float | None = None
+    bar: float | None = None
     load_factor: float | None = None
     probes: Mapping[str, Any] | None = None
     machine: Mapping[str, Any] | None = None
@@ -53,15 +54,20 @@ class TradeoffRow:
         return statistics.median(self.solve_seconds) if self.solve_seconds else None
 
     @property
-    def size(self) -> Any:
-        """The grid or the elements, as they were asked for; None where the settings have neither."""
-        return self.settings.get("grid") or self.settings.get("elements")
+    def size(self) -> str:
+        """The grid, or both of a pair, or the elements, as asked for; nothing where there are none."""
+        sizes = (self.settings.get(name) for name in ("coarser", "grid", "elements"))
+        return ":".join(_written(size) for size in sizes if size is not None)
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
         found = asdict(self)
         known = {key: value for key, value in found.items() if key not in _OF_AN_ANSWER or value is not None}
         return known | {"solve_seconds": {"median": self.seconds, "samples": self.solve_seconds}}
+
+
+def _written(size: Any) -> str:
+    return "×".join(str(n) for n in size) if isinstance(size, list | tuple) else str(size)
 
 
 def measured_row(

@@ -63,6 +63,7 @@ def rows(tradeoff: Tradeoff) -> Table:
         Column("to", "s", "ms", 1e3, ".2f", detail=True),
         Column("memory", "B", "MB", 1e-6, ".1f"),
         Column("error", "", "%", 100.0, ".3g"),
+        Column("own bar", "", "%", 100.0, ".2g", detail=True),
         Column("field error", "", "%", 100.0, ".3g"),
         Column("front"),
         Column("status", detail=True),
@@ -72,11 +73,10 @@ def rows(tradeoff: Tradeoff) -> Table:
 
 
 def _row(number: int, row: TradeoffRow, on_front: bool) -> tuple[Any, ...]:
-    size = row.size or ""
     return (
         number,
         row.series,
-        "×".join(str(n) for n in size) if isinstance(size, list | tuple) else str(size),
+        row.size,
         row.unknowns,
         row.iterations,
         row.setup_seconds,
@@ -85,6 +85,7 @@ def _row(number: int, row: TradeoffRow, on_front: bool) -> tuple[Any, ...]:
         max(row.solve_seconds, default=None),
         row.peak_memory_bytes,
         row.error,
+        row.bar,
         row.field_error,
         "yes" if on_front else "",
         row.status,

@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.comparison.comparison import error
 from comparisons.models import plugins
 from comparisons.models import registry as models
 from comparisons.runs import manifest
@@ -72,6 +73,8 @@ def measure(
         samples.append(solve().solve_seconds)
     if not samples:
         samples = [solution.solve_seconds]
+    points = asked.probe_points()
+    probes = solution.displacement(points)
     return {
         "model": plugins.shown_name(model),
         "label": solution.label,
@@ -84,7 +87,8 @@ def measure(
         "solve_seconds": {"median": statistics.median(samples), "samples": samples},
         "setup_seconds": solution.setup_seconds,
         "peak_memory_bytes": memory,
-        "probes": dict(zip(asked.probes, solution.displacement(asked.probe_points()), strict=True)),
+        "bar": None if solution.bar is None else error(probes + solution.bar(points), probes),
+        "probes": dict(zip(asked.probes, probes, strict=True)),
         "field": solution.displacement(field_points(asked.sheet)[0]),
         "machine": manifest.machine(),
         "versions": {"sheetbench": manifest.version(), **manifest.versions()},

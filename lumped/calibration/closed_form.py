@@ -20,21 +20,17 @@ A12, the rest to strain springs, with lz the least for which none is negative. O
 vanish if P is G11/3. A cell of a graded grid has its layers as far apart as its neighbours: lz is then given,
 and larger.
 
-That leaves free what a strain costs that varies across a cell. A cell bent in its plane, ε_x = χ y, has the
-links along x on its two sides stretched and nothing else: with E_x of C11 in those it stores ½ E_x (χ ly/2)²
-per area, where the sheet, free to contract, stores ½ (C11 − C12²/C22) χ² ly²/12. So links along the sides
-should carry E_x = (C11 − C12²/C22)/3, a third of an isotropic sheet's E h, and what belongs to the whole cell
-the rest: with all they can they make a coarse lattice up to twice too stiff in its plane, and layers at bent
-edges and in soft sheets too wide (`gradients`). So for the cross-layer links' part, of which (A66 − L C66)/(L
-− 1) = P goes with the diagonals and G11 − P r² with the sides,
+What lz leaves free is the cost of a strain that varies across a cell. A cell bent in its plane, ε_x = χ y,
+has the links along x on its two sides stretched and nothing else: with E_x of A11 in those it stores ½ E_x (χ
+ly/2)² per area, where the sheet, free to contract, stores ½ (A11 − A12²/A22) χ² ly²/12. So links along the
+sides should carry E_x = (A11 − A12²/A22)/3, a third of an isotropic sheet's E h, and what belongs to the
+whole cell the rest. At the least lz they carry up to three times as much, so that a coarse lattice is too
+stiff in its plane, and layers at bent edges and in soft sheets too wide. Further apart the layers bend and
+shear as before with less in each: the sides carry a third (`gradients`) from
 
-    P = min(G11/(r² + c), G22/(1/r² + c)),      c = E_x/A66 (2 (1 + ν)/3 of an isotropic sheet),
+    lz² = [L (C11 − C12 + (1 − r²) f C66) + (L − 1)(G11 − P r²)] lz²/E_x
 
-but no more than ⅔ G11/r² and ⅔ G22 r²: of transverse shear that varies across the cell the sides have a
-third. Axial links give what they have beyond a third of the layer's to `stretch`, in the share t = S* l²/(12
-D) that the grid has in the flexibility to shear: all of it where cells are many times as wide as the sheet is
-thick, little in cells as fine as the layers at free edges, whose sides see those (else a free corner
-converges at order 1.3 only).
+on, and its like along y; the mid-surface has the rest.
 """
 
 from __future__ import annotations
@@ -57,19 +53,16 @@ def closed_form(
 ) -> SpringSet | None:
     """The springs that have the moduli asked; None where a link would be negative (many layers on coarse
     grids: there the cross-layer links alone bend too stiffly), and where a layer distance [m] that is given
-    is less than the cell needs. gradients: whether strains that vary across a cell cost what they cost the
-    sheet, or links take all they can."""
+    is less than the cell needs. gradients: whether layers are so far apart that strains in the plane that
+    vary across a cell cost what they cost the sheet."""
     lx, ly = spacing
     heights = np.arange(layers) - (layers - 1) / 2
     sigma = float((heights**2).sum())
     sigma_gap = float((((heights[1:] + heights[:-1]) / 2) ** 2).sum())
     gap = asked.shear * np.array([lx**2, ly**2]) / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
-    on_sides = _on_sides(asked.membrane)
-    if gradients:
-        ratios = np.array([lx**2 / ly**2, ly**2 / lx**2])
-        p = float((gap / np.maximum(ratios + on_sides / asked.membrane[2, 2], 1.5 * ratios)).min())
-    else:
-        p = float(min(gap.max(), gap[0] * ly**2 / lx**2 * 1.5, gap[1] * lx**2 / ly**2 * 1.5)) / 3.0
+    ratios = np.array([lx**2 / ly**2, ly**2 / lx**2])
+    p = float(min(gap.max(), *(1.5 * gap / ratios))) / 3.0
+    by_diagonals = 1.0 if ratios.max() <= 2.0 else 1.0 / (ratios.max() - 1.0)  # the share of a layer's C66
     gap_form = np.array([[gap[0], p, 0.0], [p, gap[1], 0.0], [0.0, 0.0, p]])
 
     lz2 = 0.0 if layer_distance is None else layer_distance**2
@@ -83,6 +76,10 @@ def closed_form(
             (lattice[1, 1] - lattice[0, 1]) / (asked.membrane[1, 1] - asked.membrane[0, 1]),
             lattice[2, 2] / asked.membrane[2, 2],
         )
+        axial = np.diag(layer)[:2] - layer[0, 1] + by_diagonals * layer[2, 2] * (1.0 - ratios)
+        if gradients:
+            on_sides = layers * axial + (layers - 1) * (gap - p * ratios)
+            needed = max(needed, float((on_sides / _on_sides(asked.membrane)).max()))
         if layer_distance is not None:
             if needed > lz2 * (1.0 + 1e-9):
                 return None
@@ -94,17 +91,9 @@ def closed_form(
     if lz2 <= 0.0 or layer[2, 2] <= 0.0:
         return None
 
-    ratio = max(lx / ly, ly / lx)
-    share = 1.0 if ratio**2 <= 2.0 else 1.0 / (ratio**2 - 1.0)
-    by_diagonals = share * layer[2, 2]
-    area = layer[0, 1] - by_diagonals
-    left = np.diag(layer)[:2] - area - by_diagonals * np.array([lx**2 / ly**2, ly**2 / lx**2])
-    grid_share = asked.shear * np.array([lx**2, ly**2]) / (12.0 * np.diag(asked.bending)[:2])
-    excess = np.maximum(left - _on_sides(layer), 0.0)
-    axial = left - grid_share * excess if gradients else left
+    area = layer[0, 1] - by_diagonals * layer[2, 2]
     if min(axial) < 0.0:
         return None
-    stretch = left - axial
     l1x, l1y, l2 = lx**2 + lz2, ly**2 + lz2, lx**2 + ly**2 + lz2
     rest = asked.membrane * lz2 - lattice
     rest[:2, :2] -= rest[0, 1]
@@ -112,17 +101,16 @@ def closed_form(
     mid_area = asked.membrane[0, 1] * lz2 - lattice[0, 1]
     return SpringSet(
         axial=by_direction(axial[0] * ly / lx / lz2, axial[1] * lx / ly / lz2),
-        diagonal=by_diagonals * (lx**2 + ly**2) / (2.0 * lx * ly * lz2),
+        diagonal=by_diagonals * layer[2, 2] * (lx**2 + ly**2) / (2.0 * lx * ly * lz2),
         vertical=_vertical(asked, spacing, lz2),
         cross=by_direction(
-            (gap[0] - p * lx**2 / ly**2) * l1x * ly / (2.0 * lx**3 * lz2),
-            (gap[1] - p * ly**2 / lx**2) * l1y * lx / (2.0 * ly**3 * lz2),
+            (gap[0] - p * ratios[0]) * l1x * ly / (2.0 * lx**3 * lz2),
+            (gap[1] - p * ratios[1]) * l1y * lx / (2.0 * ly**3 * lz2),
         ),
         cross_diagonal=p * l2 / (4.0 * lx * ly * lz2),
         area=area / lz2,
         mid_area=mid_area / lz2,
-        shear=(layer[2, 2] - by_diagonals) / lz2,
-        stretch=by_direction(*(stretch / lz2)),
+        shear=(1.0 - by_diagonals) * layer[2, 2] / lz2,
         mid_shear=rest[2, 2] / lz2,
         mid_stretch=by_direction(rest[0, 0] / lz2, rest[1, 1] / lz2),
         layer_distance=math.sqrt(lz2),

@@ -42,7 +42,7 @@ def consistent_membrane(
     layer_distance: float | None = None,
     grading: float = 0.0,
 ) -> Calibration:
-    """As `consistent`, with the right cost of strains that vary across a cell.
+    """As `consistent`, with layers so far apart that a cell bends in its own plane as the sheet does.
 
     Raises BadInput as `consistent_interior`.
     """
@@ -65,8 +65,8 @@ def consistent_interior(
 ) -> Calibration:
     """The moduli alone, cells along edges like those inside: the closed form; with a given layer distance, or
     where it would need a negative link, bounded least squares on the same moduli. grading: of the grid
-    (`lumped.grid_lines`), gradients: whether strains that vary across a cell cost what they cost the sheet
-    (`lumped.calibration.closed_form`), both in closed form only.
+    (`lumped.grid_lines`), gradients: whether layers are so far apart that strains in the plane that vary
+    across a cell cost what they cost the sheet (`lumped.calibration.closed_form`), both in closed form only.
 
     Raises BadInput where area springs would leave a cell without positive energy, and for a graded grid whose
     cells have no closed form.

@@ -126,7 +126,8 @@ class Solution(summary.Summarised):
     `diverged`. snaps: load factors at which the
     sheet left its load path for an equilibrium far away; fallback: what was solved in place of what was
     asked, and why; notes: what else there is to say, a clause each. stretch: the largest elongation of the
-    mid-surface, None where a model does not tell.
+    mid-surface, None where a model does not tell. bar: plan points (n, 2) [m] → how far each component of
+    the displacement (n, 3) [m] may be off, None where a model does not tell.
     """
 
     model: str
@@ -149,6 +150,7 @@ class Solution(summary.Summarised):
     fallback: str = ""
     notes: tuple[str, ...] = ()
     stretch: float | None = None
+    bar: Callable[[np.ndarray], np.ndarray] | None = None
 
     def __post_init__(self) -> None:
         if self.status in _EQUILIBRIA and self.balance is not None and not self.balance.holds:

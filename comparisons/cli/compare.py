@@ -10,6 +10,7 @@ from comparisons.cli.options import (
     Calibration,
     Elements,
     Export,
+    Figure,
     Grading,
     Grid,
     Json,
@@ -58,6 +59,7 @@ def command(
     large: Large = False,
     json: Json = False,
     out: Out = None,
+    figure: Figure = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Solve a scene with the lattice and with a reference, and show what differs and what it cost.
@@ -83,7 +85,7 @@ def command(
     named = calibration is not None or k is not None
     models = {"--reference": reference, "--calibration": "named" if named else "open", "--auto": auto}
     models |= {"--model": " ".join(model)} if model else {}
-    with finish("compare", json, out, overwrite, scene=asked, apart=models) as end:
+    with finish("compare", json, out, overwrite, scene=asked, apart=models, figure=figure) as end:
         advice = None
         if auto:
             allowed = 0.01 if tolerance is None else tolerance

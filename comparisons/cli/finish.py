@@ -17,6 +17,7 @@ import typer
 from comparisons.cli import console, warned
 
 if TYPE_CHECKING:
+    from comparisons.report.look import Look
     from comparisons.report.report import Report, Write
     from comparisons.report.work import Work
     from comparisons.runs.campaign import Progress
@@ -32,9 +33,10 @@ NOT_CONVERGED = 3
 class End:
     """What a verb may do while it works, and its end when called with the report."""
 
-    def __init__(self, json: bool, folder: Folder | None) -> None:
+    def __init__(self, json: bool, folder: Folder | None, look: Look) -> None:
         self._json = json
         self._folder = folder
+        self._look = look
         self._also: list[str] = []
         self._spinning = ExitStack()
         self._say: Callable[[Work | str], None] | None = None
@@ -97,7 +99,8 @@ class End:
         """Write the files, print the document or the tables or what is wanted `instead` of them, warn, and
         leave with 3 where the question was not met."""
         found = report.document.get("warnings", ())  # the question's own, before those about its scene
-        report = replace(report, document={**report.document, "warnings": [*found, *warned.said]})
+        document = {**report.document, "warnings": [*found, *warned.said]}
+        report = replace(report, document=document).dressed(self._look)
         missing: list[str] = []
         if self._folder is not None:
             missing = [f"No picture: {said}" for said in self._folder.report(report, self.progress)]
@@ -143,14 +146,21 @@ def finish(
     scene: Scene | None = None,
     about: Mapping[str, Any] | None = None,
     apart: Mapping[str, Any] | None = None,
+    figure: str | None = None,
     alone: bool = False,
 ) -> Iterator[End]:
     """The end of a verb, to be called with its report.
 
-    scene, or about: what the answer is about; apart: options that decide which files it leaves; alone: no
-    other process may write to the folder meanwhile (campaigns see to that themselves). Raises BadInput for a
-    folder that cannot be had, or that holds files of something else.
+    scene, or about: what the answer is about; apart: options that decide which files it leaves; figure: the
+    look of its pictures; alone: no other process may write to the folder meanwhile (campaigns see to that
+    themselves). Raises BadInput for a folder that cannot be had, or that holds files of something else.
     """
+    from comparisons.report.look import parse_figure
+    from sheetbench.scenes.errors import BadInput
+
+    look = parse_figure(figure)
+    if figure is not None and out is None:
+        raise BadInput("--figure: needs --out, a folder to draw into")
     with ExitStack() as held:
         folder = None
         if out is not None:
@@ -164,4 +174,4 @@ def finish(
             if alone:
                 held.enter_context(only_writer(files.folder(out)))
             folder = Folder(out, verb, command_line(), about=about, apart=apart, overwrite=overwrite)
-        yield held.enter_context(closing(End(json, folder)))
+        yield held.enter_context(closing(End(json, folder, look)))

@@ -7,7 +7,18 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Calibration, Elements, Grading, Grid, Json, Large, Out, Overwrite, Scene
+from comparisons.cli.options import (
+    Calibration,
+    Elements,
+    Figure,
+    Grading,
+    Grid,
+    Json,
+    Large,
+    Out,
+    Overwrite,
+    Scene,
+)
 from sheetbench.choices import ELEMENTS
 
 
@@ -44,6 +55,7 @@ def command(
     large: Large = False,
     json: Json = False,
     out: Out = None,
+    figure: Figure = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Find the values with which a model comes nearest to what was measured, with 95 % intervals.
@@ -60,7 +72,7 @@ def command(
 
     asked = load_static(scene)
     data = read(measured, asked)
-    with finish("identify", json, out, overwrite, scene=asked) as end:
+    with finish("identify", json, out, overwrite, scene=asked, figure=figure) as end:
         try:
             found = identify(
                 asked,

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Calibration, Grading, Grid, Json, Large, Out, Overwrite, Scene
+from comparisons.cli.options import Calibration, Figure, Grading, Grid, Json, Large, Out, Overwrite, Scene
 
 MODES = 20
 
@@ -34,6 +34,7 @@ def command(
     large: Large = False,
     json: Json = False,
     out: Out = None,
+    figure: Figure = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Make the lattice linear about its equilibrium: poles, what commands do, matrices for control.
@@ -46,7 +47,7 @@ def command(
     from sheetbench import scenes
 
     asked = scenes.load(scene)
-    with finish("linearise", json, out, overwrite, scene=asked) as end:
+    with finish("linearise", json, out, overwrite, scene=asked, figure=figure) as end:
         found = linearise(
             asked,
             grid=lumped,

@@ -6,7 +6,18 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Calibration, Elements, Grading, Grid, Json, Large, Out, Overwrite, Scene
+from comparisons.cli.options import (
+    Calibration,
+    Elements,
+    Figure,
+    Grading,
+    Grid,
+    Json,
+    Large,
+    Out,
+    Overwrite,
+    Scene,
+)
 from sheetbench.choices import ELEMENTS, MASSES, REFERENCE, REFERENCES, listed
 
 
@@ -41,6 +52,7 @@ def command(
     large: Large = False,
     json: Json = False,
     out: Out = None,
+    figure: Figure = None,
     overwrite: Overwrite = False,
 ) -> None:
     """List the natural frequencies of the lattice and a reference, about the flat sheet or the deformed."""
@@ -51,7 +63,7 @@ def command(
     from sheetbench.scenes.errors import NoEquilibrium
 
     asked = load(scene)
-    with finish("modes", json, out, overwrite, scene=asked) as end:
+    with finish("modes", json, out, overwrite, scene=asked, figure=figure) as end:
         try:
             found = spectra(
                 asked,

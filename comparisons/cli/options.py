@@ -48,6 +48,16 @@ Grading = Annotated[
         show_default=False,
     ),
 ]
+Figure = Annotated[
+    str | None,
+    typer.Option(
+        "--figure",
+        metavar="FORMAT",
+        help="With --out: pictures for a paper, without a title, as pdf, svg or png, several with commas; "
+        "pdf:single as wide as one column (89 mm), else as both (183 mm).",
+        show_default=False,
+    ),
+]
 Overwrite = Annotated[
     bool,
     typer.Option(

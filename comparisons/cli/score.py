@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, Overwrite
+from comparisons.cli.options import Figure, Json, Out, Overwrite
 
 
 def command(
@@ -25,6 +25,7 @@ def command(
     ] = None,
     json: Json = False,
     out: Out = None,
+    figure: Figure = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Score answers to the reference set: errors, what is wrong with them, the place beside our own models.
@@ -38,5 +39,7 @@ def command(
     from sheetbench.scenes.errors import require_choice
 
     require_choice("--suite", suite, SUITES)
-    with finish("score", json, out, overwrite, apart={"--suite": suite, "--case": case}) as end:
+    with finish(
+        "score", json, out, overwrite, apart={"--suite": suite, "--case": case}, figure=figure
+    ) as end:
         end(score(answers, suite, case).report())

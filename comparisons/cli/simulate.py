@@ -7,7 +7,18 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Calibration, Export, Grading, Grid, Json, Large, Out, Overwrite, Scene
+from comparisons.cli.options import (
+    Calibration,
+    Export,
+    Figure,
+    Grading,
+    Grid,
+    Json,
+    Large,
+    Out,
+    Overwrite,
+    Scene,
+)
 from sheetbench.choices import INTEGRATOR, INTEGRATORS
 
 FRAMES = 100
@@ -44,6 +55,7 @@ def command(
     large: Large = False,
     json: Json = False,
     out: Out = None,
+    figure: Figure = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Simulate the lattice from rest. With --out the run streams to a folder; the same command resumes it."""
@@ -76,7 +88,7 @@ def command(
         "--step": step,
         "--every": every,
     }
-    with finish("simulate", json, out, overwrite, scene=asked, apart=run, alone=True) as end:
+    with finish("simulate", json, out, overwrite, scene=asked, apart=run, alone=True, figure=figure) as end:
         pace = Pace(duration)
 
         def reached(time: float) -> None:

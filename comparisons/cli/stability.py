@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Large, Out, Overwrite, Retry, Scheduler, Wait, Workers
+from comparisons.cli.options import Figure, Json, Large, Out, Overwrite, Retry, Scheduler, Wait, Workers
 
 
 def command(
@@ -28,6 +28,7 @@ def command(
     large: Large = False,
     json: Json = False,
     out: Out = None,
+    figure: Figure = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Measure the cells of every study, in the order of docs/stability.md; an interrupted run can be resumed.
@@ -37,15 +38,18 @@ def command(
     import os
 
     from comparisons.cli.finish import finish
+    from comparisons.report.look import parse_figure
     from comparisons.stability import STUDIES, survey
     from comparisons.stability.texts import report
-    from sheetbench.scenes.errors import require_choice
+    from sheetbench.scenes.errors import BadInput, require_choice
 
+    if parse_figure(figure).narrow:
+        raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")
     names = [name.strip().replace(" ", "-") for name in study or STUDIES]
     for name in names:
         require_choice("study", name, STUDIES)
     chosen = [STUDIES[name] for name in dict.fromkeys(names)]
-    with finish("stability", json, out, overwrite) as end:
+    with finish("stability", json, out, overwrite, figure=figure) as end:
         with end.campaign(scheduler, wait) as (store, pool, progress):
             rows = survey(
                 chosen,

@@ -9,6 +9,7 @@ import typer
 
 from comparisons.cli import options
 from comparisons.cli.options import (
+    Figure,
     Grading,
     Json,
     Large,
@@ -103,6 +104,7 @@ def command(
     large: Large = False,
     json: Json = False,
     out: Out = None,
+    figure: Figure = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Measure what each model of a scene gets wrong and what it costs; an interrupted run can be resumed.
@@ -131,7 +133,7 @@ def command(
         measure = of_statics(
             asked, grids, calibration, meshes, model or (), symmetry, elements, repeats, grading, lumped_pair
         )
-    with finish("tradeoff", json, out, overwrite, scene=asked) as end:
+    with finish("tradeoff", json, out, overwrite, scene=asked, figure=figure) as end:
         with end.campaign(scheduler, wait) as (store, pool, progress):
             found = measure(
                 store=store,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, Overwrite, Retry, Workers
+from comparisons.cli.options import Figure, Json, Out, Overwrite, Retry, Workers
 
 if TYPE_CHECKING:
     from comparisons.cli.finish import End
@@ -61,6 +61,7 @@ def command(
     retry: Retry = False,
     json: Json = False,
     out: Out = None,
+    figure: Figure = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Check the references against published values, one row each: exit status 3 unless all pass."""
@@ -81,7 +82,9 @@ def command(
     if not coverage and (scenes or seed is not None or model or workers or retry):
         raise BadInput("--scenes, --seed, --model, --workers and --retry are of --coverage")
     chosen = list(MODELS) if locking else ["strain-laws"] if laws else case
-    with finish("verify", json, out, overwrite, apart={key: parts[key] for key in list(parts)[:3]}) as end:
+    with finish(
+        "verify", json, out, overwrite, apart={key: parts[key] for key in list(parts)[:3]}, figure=figure
+    ) as end:
         if coverage:
             _coverage(end, scenes, seed, model, workers, retry)
             return

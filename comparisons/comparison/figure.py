@@ -19,6 +19,7 @@ from matplotlib.figure import Figure
 
 from comparisons.report import acting
 from comparisons.report.labels import place_labels
+from comparisons.report.look import PLAIN, Look
 from comparisons.report.stage import Stage
 from comparisons.report.style import GREY, STYLE, plain, save
 from comparisons.report.vtk import plan_mesh
@@ -27,7 +28,6 @@ from sheetbench.scenes import Scene, Solution
 if TYPE_CHECKING:
     from comparisons.comparison.comparison import Comparison
 
-WIDTH = 7.2  # inches: the text width of a two-column paper
 LINE = 105  # characters of a title in full size
 VISIBLE, DRAWN = 0.02, 0.08  # of the longer side: what moves less than the first is drawn as the second
 HEIGHTS, DIFFERENCES = "viridis", "magma_r"
@@ -39,13 +39,13 @@ MODEL_NAMES = {
 }
 
 
-def picture(paths: Sequence[Path], comparison: Comparison) -> None:
+def picture(paths: Sequence[Path], comparison: Comparison, look: Look = PLAIN) -> None:
     """Write the picture. Needs off-screen drawing: ask `report.offscreen.why_not` first."""
     with matplotlib.rc_context(STYLE):
-        save(compose(comparison), paths)
+        save(compose(comparison, look), paths)
 
 
-def compose(comparison: Comparison) -> Figure:
+def compose(comparison: Comparison, look: Look = PLAIN) -> Figure:
     """The figure with its three panels."""
     scene = comparison.scene
     lattice, reference = comparison.solutions[:2]
@@ -73,7 +73,9 @@ def compose(comparison: Comparison) -> Figure:
     probes = scene.probe_points()
     shots = [stage.take(seen, stage.deformed(solution, probes)) for stage, solution in shown]
 
-    figure, axes, bars = _layout(shots[0][0].shape[0] / shots[0][0].shape[1])
+    aspect = shots[0][0].shape[0] / shots[0][0].shape[1]
+    head = 0.2 if look.titled or scale != 1.0 else 0.0
+    figure, axes, bars = (_stacked if look.narrow else _in_a_row)(look.width, aspect, head)
     titles = [
         MODEL_NAMES.get(lattice.model.removesuffix("-advised"), lattice.model),
         MODEL_NAMES.get(reference.model, reference.model),
@@ -89,9 +91,10 @@ def compose(comparison: Comparison) -> Figure:
     colour_bar(figure, bars[0], HEIGHTS, height_limits, "$u_z$  [mm]")
     colour_bar(figure, bars[1], DIFFERENCES, difference_limits, "|$u$ − $u_{ref}$|  [mm]")
     drawn = "drawn at true scale" if scale == 1.0 else f"displacements drawn {scale:g} times as large"
-    title = plain(f"{scene.title or scene.name}  ({drawn})", longest=2 * LINE)
-    size = 8.0 * min(1.0, LINE / len(title))
-    figure.text(0.5, 0.975, title, ha="center", va="top", fontsize=max(size, 5.0))
+    if head:
+        title = plain(f"{scene.title or scene.name}  ({drawn})" if look.titled else drawn, longest=2 * LINE)
+        size = 8.0 * min(1.0, LINE / len(title))
+        figure.text(0.5, 0.975, title, ha="center", va="top", fontsize=max(size, 5.0))
     return figure
 
 
@@ -117,16 +120,28 @@ def _elements(solution: Solution) -> int:
     return min(np.min(solution.settings.get("elements", 16)), 16)
 
 
-def _layout(aspect: float) -> tuple[Figure, list[Axes], list[Axes]]:
+def _in_a_row(width: float, aspect: float, head: float) -> tuple[Figure, list[Axes], list[Axes]]:
     """Three panels of height / width `aspect`, a colour bar below the first two and one below the third."""
-    panel = WIDTH / 3
-    top, bottom = 0.56, 0.46
+    panel = width / 3
+    top, bottom = 0.36 + head, 0.46
     height = panel * aspect + top + bottom
-    figure = Figure(figsize=(WIDTH, height))
+    figure = Figure(figsize=(width, height))
     axes = [figure.add_axes((i / 3, bottom / height, 1 / 3, panel * aspect / height)) for i in range(3)]
     bars = [
         figure.add_axes((x, 0.3 / height, width, 0.07 / height)) for x, width in ((0.17, 1 / 3), (0.72, 0.23))
     ]
+    return figure, axes, bars
+
+
+def _stacked(width: float, aspect: float, head: float) -> tuple[Figure, list[Axes], list[Axes]]:
+    """The first two panels above, the third below beside both colour bars."""
+    panel = 0.5 * width * aspect
+    row = max(panel + 0.36, 1.1)
+    figure = Figure(figsize=(width, 2 * row + head))
+    height = figure.get_figheight()
+    corners = ((0.0, row), (0.5, row), (0.0, 0.0))
+    axes = [figure.add_axes((x, y / height, 0.5, panel / height)) for x, y in corners]
+    bars = [figure.add_axes((0.57, y / height, 0.37, 0.07 / height)) for y in (0.86, 0.34)]
     return figure, axes, bars
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.models.grading import told
+from comparisons.report.look import PLAIN, Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 from comparisons.report.vtk import plan_mesh, write_mesh, write_solution
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 _MODEL = Column("model")
 
-FIGURES = ("comparison.png", "comparison.pdf")
+FIGURES, PROBES = ("comparison.png", "comparison.pdf"), ("probes.png", "probes.pdf")
 
 
 def report(comparison: Comparison, advice: Advice | None = None) -> Report:
@@ -50,7 +51,10 @@ def report(comparison: Comparison, advice: Advice | None = None) -> Report:
             *chosen,
         ),
         complaints=tuple(complaints(comparison)),
-        pictures=(Picture(FIGURES, partial(draw, comparison), "drawing the picture …"),),
+        pictures=(
+            Picture(FIGURES, partial(draw, comparison), "drawing the picture …"),
+            Picture(PROBES, partial(draw_probes, comparison)),
+        ),
         attachments={
             **{f"{s.model}.vtu": partial(write_solution, solution=s) for s in comparison.solutions},
             "comparison.vtu": partial(write_plan, comparison=comparison),
@@ -222,7 +226,7 @@ def write_plan(path: Path, comparison: Comparison) -> None:
     write_mesh(path, plan)
 
 
-def draw(comparison: Comparison, paths: Sequence[Path]) -> str | None:
+def draw(comparison: Comparison, paths: Sequence[Path], look: Look = PLAIN) -> str | None:
     """Draw the comparison; where it cannot be drawn, the reason in a sentence."""
     from comparisons.report.offscreen import why_not
 
@@ -233,5 +237,15 @@ def draw(comparison: Comparison, paths: Sequence[Path]) -> str | None:
     if impossible is None:
         from comparisons.comparison.figure import picture
 
-        picture(paths, comparison)
+        picture(paths, comparison, look)
     return impossible
+
+
+def draw_probes(comparison: Comparison, paths: Sequence[Path], look: Look = PLAIN) -> str | None:
+    """Draw what every model is off by at the probes; where no probe moves, that in a sentence."""
+    from comparisons.comparison.probes_figure import picture, shown
+
+    if not shown(comparison):
+        return "no probe has a displacement to be off from"
+    picture(paths, comparison, look)
+    return None

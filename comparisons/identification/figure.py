@@ -12,11 +12,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.identification.measurements import Displacements
-from comparisons.report.style import DARK, GREY, STYLE, plain, save
+from comparisons.report.look import PLAIN, Look
+from comparisons.report.style import COMPONENTS, DARK, GREY, STYLE, plain, save
 from comparisons.report.table import quantity
 
-WIDTH, HEIGHT = 7.2, 3.0  # inches
-COLOURS = {"ux": "#1b6ca8", "uy": "#3a9d6e", "uz": "#b5453c"}
+HEIGHT = 3.0  # of a panel [inches]
 SHADES = "magma_r"
 
 
@@ -24,26 +24,27 @@ if TYPE_CHECKING:
     from comparisons.identification.found import Identification
 
 
-def picture(paths: Sequence[Path], found: Identification) -> None:
+def picture(paths: Sequence[Path], found: Identification, look: Look = PLAIN) -> None:
     """Write the picture."""
     with matplotlib.rc_context(STYLE):
-        save(compose(found), paths)
+        save(compose(found, look), paths)
 
 
-def compose(found: Identification) -> Figure:
+def compose(found: Identification, look: Look = PLAIN) -> Figure:
     """Model over measurement at the left (of a point cloud, how the distances are spread), residuals at the
     right: over the plan, or of a motion over time. Lengths in millimetres."""
-    figure = Figure(figsize=(WIDTH, HEIGHT), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    rows, columns = look.panels(2)
+    figure = Figure(figsize=(look.width, rows * HEIGHT), layout="constrained")
+    left, right = figure.subplots(rows, columns)
     measured = found.measured
     if isinstance(measured, Displacements):
         _fit(left, 1e3 * measured.displacement, 1e3 * found.residuals)
     else:
-        left.hist(1e3 * found.residuals, bins="auto", color=COLOURS["uz"])
+        left.hist(1e3 * found.residuals, bins="auto", color=COMPONENTS["uz"])
         left.set(xlabel="distance from the model's surface [mm]", ylabel="points")
     if isinstance(measured, Displacements) and measured.time is not None:
-        for name, column in zip(COLOURS, 1e3 * found.residuals.T, strict=True):
-            right.plot(measured.time, column, ".", color=COLOURS[name], markersize=3, label=name)
+        for name, column in zip(COMPONENTS, 1e3 * found.residuals.T, strict=True):
+            right.plot(measured.time, column, ".", color=COMPONENTS[name], markersize=3, label=name)
         right.axhline(0.0, color=GREY, linewidth=0.6)
         right.set(xlabel="time [s]", ylabel="model less measurement [mm]")
         right.legend(frameon=False, ncols=3)
@@ -53,16 +54,18 @@ def compose(found: Identification) -> Figure:
     for axis, title in ((left, f"Fit: {said}"), (right, "What is left")):
         axis.set_title(title, loc="left", fontsize=7.5, fontweight="bold")
         axis.spines[["top", "right"]].set_visible(False)
-    figure.suptitle(plain(found.scene.title or found.scene.name, longest=105), fontsize=8)
+    if look.titled:
+        figure.suptitle(plain(found.scene.title or found.scene.name, longest=105), fontsize=8)
     return figure
 
 
 def _fit(axis: Axes, measured: np.ndarray, residuals: np.ndarray) -> None:
     ends = [np.nanmin(measured), np.nanmax(measured)]
     axis.plot(ends, ends, color=GREY, linewidth=0.8, label="equal")
-    for name, values, off in zip(COLOURS, measured.T, residuals.T, strict=True):
-        axis.plot(values, values + off, "o", color=COLOURS[name], markersize=3, alpha=0.7, label=name)
+    for name, values, off in zip(COMPONENTS, measured.T, residuals.T, strict=True):
+        axis.plot(values, values + off, "o", color=COMPONENTS[name], markersize=3, alpha=0.7, label=name)
     axis.set(xlabel="measured [mm]", ylabel="model [mm]")
+    axis.locator_params(nbins=6)
     axis.legend(frameon=False)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from comparisons.identification.measurements import Displacements
 from comparisons.models.grading import told
+from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table, unit
 
@@ -42,10 +43,10 @@ def report(found: Identification, file: str) -> Report:
     )
 
 
-def _picture(found: Identification, paths: Sequence[Path]) -> None:
+def _picture(found: Identification, paths: Sequence[Path], look: Look) -> None:
     from comparisons.identification.figure import picture
 
-    picture(paths, found)
+    picture(paths, found, look)
 
 
 def unknowns(found: Identification) -> Table:

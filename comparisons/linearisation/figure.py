@@ -10,6 +10,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from comparisons.report.look import PLAIN, Look
 from comparisons.report.style import GREY, STYLE, plain, save
 
 if TYPE_CHECKING:
@@ -20,13 +21,13 @@ SHOWN = 6  # inputs: a line each
 PAST = 2.0  # times the highest frequency of the state space
 
 
-def picture(paths: Sequence[Path], found: Linearisation) -> None:
+def picture(paths: Sequence[Path], found: Linearisation, look: Look = PLAIN) -> None:
     """Write the picture."""
     with matplotlib.rc_context(STYLE):
-        save(compose(found), paths)
+        save(compose(found, look), paths)
 
 
-def compose(found: Linearisation) -> Figure:
+def compose(found: Linearisation, look: Look = PLAIN) -> Figure:
     """Amplitude above, phase below."""
     space, matrices = found.space, found.matrices
     probe = list(found.scene.probes)[-1]
@@ -34,21 +35,23 @@ def compose(found: Linearisation) -> Figure:
     shown = [i for i, name in enumerate(matrices.inputs) if _worth(name, probe)][:SHOWN]
     at = np.geomspace(0.2 * space.frequencies[0], PAST * space.frequencies[-1], POINTS)
     response = space.response(at)[:, output][:, shown]
-    figure = Figure(figsize=(7.2, 4.4), layout="constrained")
+    figure = Figure(figsize=(look.width, 4.4), layout="constrained")
     size, phase = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
     for column, number in enumerate(shown):
         name = matrices.inputs[number]
         values = response[:, column]
-        size.loglog(at, np.abs(values), lw=1.0, label=f"{name} [{_unit(name)}]")
-        phase.semilogx(at, np.degrees(np.angle(values)), lw=0.8)
+        dashes = "-" if column % 2 == 0 else (0, (4, 2))  # the answers of a symmetric sheet lie on each other
+        size.loglog(at, np.abs(values), ls=dashes, lw=1.0, label=f"{name} [{_unit(name)}]")
+        phase.semilogx(at, np.degrees(np.angle(values)), ls=dashes, lw=0.8)
     for axis in (size, phase):
         axis.grid(color=GREY, lw=0.3, alpha=0.4)
     size.set_ylabel(f"{plain(probe, longest=20)} uz [m per unit of input]")
     phase.set_ylabel("phase [°]")
     phase.set_yticks([-180, -90, 0, 90, 180])
     phase.set_xlabel("frequency [Hz]")
-    size.legend(frameon=False, fontsize=6.5, ncols=2)
-    size.set_title(plain(found.scene.title or found.scene.name, longest=100), fontsize=8.5, loc="left")
+    size.legend(frameon=False, fontsize=6.5, ncols=1 if look.narrow else 2)
+    if look.titled:
+        size.set_title(plain(found.scene.title or found.scene.name, longest=100), fontsize=8.5, loc="left")
     return figure
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 
@@ -97,8 +98,8 @@ def _unit(name: str) -> str:
     return UNITS.get(name.split()[-1], "–")
 
 
-def _draw(found: Linearisation, paths: Sequence[Path]) -> str | None:
+def _draw(found: Linearisation, paths: Sequence[Path], look: Look) -> str | None:
     from comparisons.linearisation.figure import picture
 
-    picture(paths, found)
+    picture(paths, found, look)
     return None

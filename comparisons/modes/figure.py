@@ -11,10 +11,11 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.ndimage import maximum_filter
 
+from comparisons.report.look import PLAIN, Look
 from comparisons.report.style import DARK, GREY, STYLE, plain, save
 from comparisons.report.vtk import plan_mesh
 
-MOST, CELLS, WIDTH = 6, 24, 7.2  # modes; cells along the shorter side; inches
+MOST, CELLS = 6, 24  # modes; cells along the shorter side
 SHADES = "RdBu_r"
 STILL = 0.02  # of the largest displacement: where less moves, as along a clamp, there is no nodal line
 
@@ -23,24 +24,26 @@ if TYPE_CHECKING:
     from comparisons.modes.spectra import Spectra
 
 
-def picture(paths: Sequence[Path], found: Spectra) -> None:
+def picture(paths: Sequence[Path], found: Spectra, look: Look = PLAIN) -> None:
     """Write the picture of the first modes of every model."""
     with matplotlib.rc_context(STYLE):
-        save(compose(found), paths)
+        save(compose(found, look), paths)
 
 
-def compose(found: Spectra) -> Figure:
+def compose(found: Spectra, look: Look = PLAIN) -> Figure:
     """The figure. Heights of every shape are in units of its largest displacement; where a mode moves in the
     plane, the length of its displacement stands for them."""
     scene = found.scene
     plan = plan_mesh(scene.sheet, CELLS).points[:, :2]
     x, y = (np.unique(1e3 * values) for values in plan.T)
     count = min(len(found[0].frequencies), MOST)
-    panel = WIDTH / MOST
+    across = MOST // 2 if look.narrow else MOST
+    rows = -(-count // across)  # of one model
     aspect = scene.sheet.length_y / scene.sheet.length_x
-    height = len(found) * (panel * min(max(aspect, 0.3), 2.0) + 0.2) + 0.3
-    figure = Figure(figsize=(WIDTH, height), layout="constrained")
-    panels = figure.subplots(len(found), MOST, squeeze=False)
+    panel = look.width / across * min(max(aspect, 0.3), 2.0) + 0.2
+    size = (look.width, len(found) * rows * panel + (0.3 if look.titled else 0.05))
+    figure = Figure(figsize=size, layout="constrained")
+    panels = figure.subplots(len(found) * rows, across, squeeze=False).reshape(len(found), rows * across)
     shapes = [spectrum.shapes(plan)[:count] for spectrum in found]
     for row, (spectrum, own) in enumerate(zip(found, shapes, strict=True)):
         for number, axis in enumerate(panels[row]):
@@ -48,21 +51,22 @@ def compose(found: Spectra) -> Figure:
             if number >= count:
                 continue
             shape = own[number] * (1.0 if np.sum(own[number] * shapes[0][number]) >= 0.0 else -1.0)
-            across = np.abs(shape[:, 2]).max() < 0.5 * np.abs(shape).max()
-            value = np.linalg.norm(shape, axis=1) if across else shape[:, 2]
+            flat = np.abs(shape[:, 2]).max() < 0.5 * np.abs(shape).max()
+            value = np.linalg.norm(shape, axis=1) if flat else shape[:, 2]
             value = (value / (np.abs(value).max() or 1.0)).reshape(len(y), len(x))
             axis.pcolormesh(x, y, value, cmap=SHADES, vmin=-1, vmax=1, shading="gouraud", rasterized=True)
-            if not across and value.min() < 0.0 < value.max():
+            if not flat and value.min() < 0.0 < value.max():
                 still = maximum_filter(np.abs(value), 3) < STILL
                 nodal = np.ma.masked_where(still, value)
                 axis.contour(x, y, nodal, levels=[0.0], colors=DARK, linewidths=0.6)
             axis.plot(x[[0, -1, -1, 0, 0]], y[[0, 0, -1, -1, 0]], color=GREY, linewidth=0.6)
             axis.set_aspect("equal")
-            said = f"{number + 1}: {spectrum.frequencies[number]:.4g} Hz{' (in plane)' if across else ''}"
+            said = f"{number + 1}: {spectrum.frequencies[number]:.4g} Hz{' (in plane)' if flat else ''}"
             axis.set_title(said, fontsize=6.5, pad=2)
         panels[row, 0].text(
             -0.06, 0.5, spectrum.model, rotation=90, ha="right", va="center", fontsize=7.5,
             transform=panels[row, 0].transAxes,
         )  # fmt: skip
-    figure.suptitle(plain(scene.title or scene.name, longest=105), fontsize=8)
+    if look.titled:
+        figure.suptitle(plain(scene.title or scene.name, longest=105), fontsize=8)
     return figure

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from comparisons.models.grading import told
+from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 
@@ -64,10 +65,10 @@ def write_shapes(found: Spectra, path: Path) -> None:
     write_mesh(path, plan)
 
 
-def _picture(found: Spectra, paths: Sequence[Path]) -> None:
+def _picture(found: Spectra, paths: Sequence[Path], look: Look) -> None:
     from comparisons.modes.figure import picture
 
-    picture(paths, found)
+    picture(paths, found, look)
 
 
 def complaints(found: Spectra) -> list[str]:

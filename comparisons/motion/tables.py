@@ -11,6 +11,7 @@ from comparisons.models.grading import told
 from comparisons.motion import frames
 from comparisons.motion.history import Measured, as_dict, left_out, series, summary
 from comparisons.report.files import write_text
+from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import number
 from sheetbench.scenes import History, Scene, Status
@@ -60,13 +61,15 @@ def balance(history: History) -> str:
     return f"energy balance held to {held} of the largest energy"
 
 
-def _plot(history: History, scene: Scene, measured: dict[str, Measured], paths: Sequence[Path]) -> None:
+def _plot(
+    history: History, scene: Scene, measured: dict[str, Measured], paths: Sequence[Path], look: Look
+) -> None:
     from comparisons.motion.figure import plot
 
-    plot(paths, history, scene.title or scene.name, measured)
+    plot(paths, history, scene.title or scene.name, measured, look)
 
 
-def _animate(history: History, scene: Scene, paths: Sequence[Path]) -> str | None:
+def _animate(history: History, scene: Scene, paths: Sequence[Path], _: Look) -> str | None:
     from comparisons.report.offscreen import why_not
 
     impossible = why_not()

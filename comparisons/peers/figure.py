@@ -9,16 +9,17 @@ import matplotlib
 from matplotlib.figure import Figure
 
 from comparisons.peers.row import PeerRow
+from comparisons.report.look import PLAIN, Look
 from comparisons.report.style import GREY, STYLE, save
 
 COLOURS = ("#0072b2", "#222222", "#a0522d", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00")
 
 
-def draw(rows: Sequence[PeerRow], paths: Sequence[Path]) -> None:
+def draw(rows: Sequence[PeerRow], paths: Sequence[Path], look: Look = PLAIN) -> None:
     """Write the picture to every path."""
     asked = list(dict.fromkeys(row.question for row in rows))
     with matplotlib.rc_context(STYLE):
-        figure = Figure(figsize=(7.2, 3.2), layout="constrained")
+        figure = Figure(figsize=(look.width, 3.2), layout="constrained")
         for axis, question in zip(figure.subplots(1, len(asked), squeeze=False)[0], asked, strict=True):
             of = [row for row in rows if row.question == question and row.error and row.median]
             for code, colour in zip(dict.fromkeys(row.code for row in of), COLOURS * 2, strict=False):

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from comparisons.peers import settling, statics
 from comparisons.peers.row import PeerRow, faster
+from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 
@@ -68,7 +69,7 @@ def table(question: str, rows: Sequence[PeerRow]) -> Table:
     return Table(caption, columns, shown, question, text=TEXTS[question])
 
 
-def _draw(rows: Sequence[PeerRow], paths: Sequence[Path]) -> None:
+def _draw(rows: Sequence[PeerRow], paths: Sequence[Path], look: Look) -> None:
     from comparisons.peers.figure import draw
 
-    draw(rows, paths)
+    draw(rows, paths, look)

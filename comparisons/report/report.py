@@ -7,7 +7,7 @@ what its tables, notes and pictures are.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,7 @@ from typing import Any
 from comparisons.report.escape import html, markdown, terminal
 from comparisons.report.files import folder as made
 from comparisons.report.files import to_json, write_text
+from comparisons.report.look import FORMATS, PLAIN, Look, parse_figure
 from comparisons.report.table import Table
 from sheetbench.scenes import Scene
 
@@ -25,12 +26,24 @@ Write = Callable[[Path], None]
 class Picture:
     """A picture in one or more files; `draw` writes them, or answers in a sentence why there is none.
 
-    starting: what to say before, where drawing takes long enough to wonder.
+    starting: what to say before, where drawing takes long enough to wonder; look: how it is dressed.
     """
 
     names: tuple[str, ...]
-    draw: Callable[[Sequence[Path]], str | None]
+    draw: Callable[[Sequence[Path], Look], str | None]
     starting: str = ""
+    look: Look = PLAIN
+
+    def write(self, folder: Path) -> str | None:
+        """Write the files into a folder; a sentence that says why there are none."""
+        return self.draw([folder / name for name in self.names], self.look)
+
+    def dressed(self, look: Look) -> Picture:
+        """The picture with another look, in its formats; a film keeps its own."""
+        stills = [Path(name) for name in self.names if Path(name).suffix[1:] in FORMATS]
+        if not look.formats or not stills:
+            return self
+        return replace(self, names=tuple(f"{stills[0].stem}.{form}" for form in look.formats), look=look)
 
 
 @dataclass(frozen=True, repr=False)
@@ -65,13 +78,20 @@ class Report:
         """The tables for a terminal."""
         return self.tables if self.printed is None else self.printed
 
-    def save(self, folder: Path | str) -> tuple[str, ...]:
-        """Write every file and picture into a folder; sentences that say why a picture is missing."""
-        target = made(folder, "folder")
-        for name, write in self.files().items():
+    def save(self, folder: Path | str, figure: str | None = None) -> tuple[str, ...]:
+        """Write every file and picture into a folder; sentences that say why a picture is missing.
+
+        figure: pictures for a paper, as `--figure` has them: "pdf", "svg:single". Raises BadInput.
+        """
+        dressed, target = self.dressed(parse_figure(figure)), made(folder, "folder")
+        for name, write in dressed.files().items():
             write(target / name)
-        drawn = (picture.draw([target / name for name in picture.names]) for picture in self.pictures)
+        drawn = (picture.write(target) for picture in dressed.pictures)
         return tuple(said for said in drawn if said)
+
+    def dressed(self, look: Look) -> Report:
+        """The report with its pictures in another look."""
+        return replace(self, pictures=tuple(picture.dressed(look) for picture in self.pictures))
 
     def __repr__(self) -> str:
         heading = " ".join(filter(None, [self.title, self.subtitle]))

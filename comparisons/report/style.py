@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from cycler import cycler
 from matplotlib.figure import Figure
 
 from sheetbench.files import whole
@@ -14,26 +15,35 @@ from sheetbench.files import whole
 DPI = 300  # of pictures as PNG, and of what is rendered inside those as PDF or SVG
 MOST = 12  # probes with a panel or a line of their own
 DARK, GREY = "#222222", "#8a8a8a"
+# Okabe and Ito's colours, which everyone tells apart.
+SERIES = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999933", "#882255")
+COMPONENTS = dict(zip(("ux", "uy", "uz"), (SERIES[0], SERIES[2], SERIES[5]), strict=True))
 STYLE: Any = {
     "font.family": "DejaVu Sans",
     "font.size": 7.5,
+    "axes.prop_cycle": cycler(color=SERIES),
     "axes.edgecolor": GREY,
     "axes.linewidth": 0.6,
     "axes.labelcolor": DARK,
     "text.color": DARK,
     "xtick.color": DARK,
     "ytick.color": DARK,
-    "pdf.fonttype": 42,
-    "svg.fonttype": "path",
+    "pdf.fonttype": 42,  # TrueType, embedded: journals refuse Type 3
+    "svg.fonttype": "path",  # text as curves: the same on machines that have not this font
+    "svg.hashsalt": "sheetbench",
 }
+UNDATED: Any = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}, ".png": {}}
 
 
 def save(figure: Figure, paths: Iterable[Path]) -> None:
-    """Write a figure to every path, in the format of its suffix (.png, .pdf, .svg), whole or not at all."""
+    """Write a figure to every path, in the format of its suffix (.png, .pdf, .svg), whole or not at all.
+
+    The same figure is the same bytes: no file says when it was made.
+    """
     for path in paths:
         lossless: Any = {"pil_kwargs": {"optimize": True}} if path.suffix == ".png" else {}
         with whole(path) as partial:
-            figure.savefig(partial, dpi=DPI, facecolor="white", **lossless)
+            figure.savefig(partial, dpi=DPI, facecolor="white", metadata=UNDATED[path.suffix], **lossless)
 
 
 def plain(text: str, width: int | None = None, longest: int | None = None) -> str:

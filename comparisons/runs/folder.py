@@ -82,7 +82,7 @@ class Folder:
         for picture in report.pictures:
             if picture.starting:
                 progress(picture.starting)
-            if said := picture.draw([self.path / name for name in picture.names]):
+            if said := picture.write(self.path):
                 missing.append(said)
             else:
                 self.written += picture.names

@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from comparisons.report.look import PLAIN, Look
 from comparisons.report.style import DARK, GREY, STYLE, plain, save
 
 if TYPE_CHECKING:
@@ -21,17 +22,20 @@ OWN = "#c1272d"
 LEAST = 1e-3  # percent, where an error of nothing is drawn
 
 
-def picture(paths: Sequence[Path], found: Score) -> None:
+def picture(paths: Sequence[Path], found: Score, look: Look = PLAIN) -> None:
     """Write the picture."""
     with matplotlib.rc_context(STYLE):
-        save(compose(found), paths)
+        save(compose(found, look), paths)
 
 
-def compose(found: Score) -> Figure:
+def compose(found: Score, look: Look = PLAIN) -> Figure:
     """The figure: cases on the left; on the right time and score, where our own models were measured."""
     beside = len(found.standing) > 1
-    figure = Figure(figsize=(7.2, 1.2 + 0.17 * max(8, len(found.answers))), layout="constrained")
-    axes = figure.subplots(1, 2 if beside else 1, squeeze=False)[0]
+    cases = 1.2 + 0.17 * max(8, len(found.answers))
+    below = 2.8 if beside and look.narrow else 0.0
+    figure = Figure(figsize=(look.width, cases + below), layout="constrained")
+    heights = (cases, below) if below else None
+    axes = figure.subplots(*look.panels(1 + beside), squeeze=False, height_ratios=heights).ravel()
     _cases(axes[0], found)
     if beside:
         _place(axes[1], found)

@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table, number
 from comparisons.suite.reference import document
@@ -103,8 +104,8 @@ def _where(found: Score) -> list[str]:
     return [said]
 
 
-def _draw(found: Score, paths: Sequence[Path]) -> str | None:
+def _draw(found: Score, paths: Sequence[Path], look: Look) -> str | None:
     from comparisons.scoring.figure import picture
 
-    picture(paths, found)
+    picture(paths, found, look)
     return None

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
+from comparisons.report.look import PLAIN, Look
 from comparisons.report.style import GREY, STYLE, save
 from comparisons.stability.study import LARGE, Row, Study, percent
 
@@ -36,12 +37,13 @@ OUTCOMES = {
 THEORY: Any = {"color": "#b2182b", "lw": 1.3, "zorder": 5}
 
 
-def picture(study: Study, rows: list[Row], paths: list[Path]) -> None:
+def picture(study: Study, rows: list[Row], paths: Sequence[Path], look: Look = PLAIN) -> None:
     """Write a study's map to every path, in the format of its suffix."""
     with matplotlib.rc_context(MAP_STYLE):
         figure = Figure(figsize=study.size, layout="constrained")
         study.draw(figure, rows)
-        figure.suptitle(study.title, x=0.01, ha="left", fontsize=9, fontweight="bold")
+        if look.titled:
+            figure.suptitle(study.title, x=0.01, ha="left", fontsize=9, fontweight="bold")
         save(figure, paths)
 
 

@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 from comparisons.stability.study import Row, Study, doubtful, percent
@@ -41,10 +42,10 @@ def report(studies: Sequence[Study], rows: list[Row]) -> Report:
     )
 
 
-def _draw(study: Study, rows: list[Row], paths: Sequence[Path]) -> None:
+def _draw(study: Study, rows: list[Row], paths: Sequence[Path], look: Look) -> None:
     from comparisons.stability.figure import picture
 
-    picture(study, rows, list(paths))
+    picture(study, rows, paths, look)
 
 
 def table(study: Study, rows: list[Row]) -> Table:

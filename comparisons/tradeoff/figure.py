@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,32 +13,33 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from comparisons.report.style import GREY, STYLE, plain, save
+from comparisons.report.look import PLAIN, Look
+from comparisons.report.style import GREY, SERIES, STYLE, plain, save
 from comparisons.tradeoff.pareto import grouped
 from comparisons.tradeoff.row import TradeoffRow
 
 if TYPE_CHECKING:
     from comparisons.tradeoff.statics import Tradeoff
 
-WIDTH, HEIGHT = 7.2, 3.9  # inches: the text width of a two-column paper
+# Heights [inches]: of a panel, of its label and title, of a row of names, of the title over all.
+PANEL, LABEL, TITLE, NAMES, OVER = 2.5, 0.49, 0.3, 0.195, 0.25
 MARKERS = {"lumped": "o", "lumped-pair": "*", "plate": "v", "shell": "s", "solid": "D"}
-# Okabe and Ito's colours, which everyone tells apart; lattices take the first ones in turn.
 REFERENCE_COLOURS = {"plate": "#8a8a8a", "shell": "#222222", "solid": "#a0522d"}
-COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999933", "#882255")
 
 
-def draw(tradeoff: Tradeoff, paths: list[Path]) -> None:
+def draw(tradeoff: Tradeoff, paths: Sequence[Path], look: Look = PLAIN) -> None:
     """Write the picture to every path, in the format of its suffix (.png, .pdf, .svg)."""
     with matplotlib.rc_context(STYLE):
-        save(compose(tradeoff), paths)
+        save(compose(tradeoff, look), paths)
 
 
-def compose(tradeoff: Tradeoff) -> Figure:
+def compose(tradeoff: Tradeoff, look: Look = PLAIN) -> Figure:
     """The figure: error against time at the left, against the size of a cell at the right."""
-    figure = Figure(figsize=(WIDTH, HEIGHT))
-    left, right = figure.subplots(1, 2, sharey=True, width_ratios=(1.35, 1.0))
+    figure = Figure()
+    ratios = None if look.narrow else (1.35, 1.0)
+    left, right = figure.subplots(*look.panels(2), sharey=True, width_ratios=ratios)
     families = grouped([row.series for row in tradeoff.rows])
-    colours = iter(COLOURS * (1 + len(families) // len(COLOURS)))
+    colours = cycle(SERIES)  # lattices take the first ones
     orders = {family.series: family.error_order for family in tradeoff.orders}
     on_front = set(tradeoff.front)
     for name, numbers in families.items():
@@ -62,24 +65,43 @@ def compose(tradeoff: Tradeoff) -> Figure:
     left.set_xlabel("solve time [ms], one thread")
     left.set_ylabel("error at the probes [%]")
     right.set_xlabel("size of a cell or element [mm]")
+    if look.narrow:
+        right.set_ylabel("error at the probes [%]")
     left.set_title("Error against time, and the front", fontsize=8, fontweight="bold", loc="left")
     right.set_title("Convergence", fontsize=8, fontweight="bold", loc="left")
     handles, labels = left.get_legend_handles_labels()
+    names = 2 if look.narrow else 4
     figure.legend(
         handles,
         labels,
         loc="lower center",
-        ncols=4,
+        ncols=names,
         frameon=False,
         fontsize=7,
         handlelength=2.6,
         columnspacing=1.4,
     )
-    legend_rows = -(-len(labels) // 4)
-    figure.subplots_adjust(left=0.085, right=0.985, bottom=0.125 + 0.05 * legend_rows, top=0.86, wspace=0.06)
-    title = plain(tradeoff.scene.title or tradeoff.scene.name, longest=110)
-    figure.text(0.085, 0.975, title, va="top", fontsize=8.5)
+    title = plain(tradeoff.scene.title or tradeoff.scene.name, longest=110) if look.titled else ""
+    _set(figure, look, rows_of_names=-(-len(labels) // names), title=title)
     return figure
+
+
+def _set(figure: Figure, look: Look, rows_of_names: int, title: str) -> None:
+    """The page's size and margins, and the title over all if there is one."""
+    above, _ = look.panels(2)
+    head, foot = TITLE + (OVER if title else 0.0), LABEL + NAMES * rows_of_names
+    height = head + above * PANEL + (above - 1) * (LABEL + TITLE) + foot
+    figure.set_size_inches(look.width, height)
+    edge = 0.61 / look.width
+    figure.subplots_adjust(
+        left=edge,
+        right=0.955 if look.narrow else 0.985,
+        bottom=foot / height,
+        top=1.0 - head / height,
+        wspace=0.06,
+        hspace=(LABEL + TITLE) / PANEL,
+    )
+    figure.text(edge, 1.0 - 0.1 / height, title, va="top", fontsize=8.5)
 
 
 def _against_time(

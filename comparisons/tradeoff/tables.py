@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 from sheetbench.scenes import Status
@@ -41,10 +42,10 @@ def report(found: Tradeoff) -> Report:
     )
 
 
-def _draw(found: Tradeoff, paths: Sequence[Path]) -> None:
+def _draw(found: Tradeoff, paths: Sequence[Path], look: Look) -> None:
     from comparisons.tradeoff.figure import draw
 
-    draw(found, list(paths))
+    draw(found, paths, look)
 
 
 def rows(tradeoff: Tradeoff) -> Table:

@@ -9,25 +9,26 @@ from pathlib import Path
 import matplotlib
 from matplotlib.figure import Figure
 
+from comparisons.report.look import PLAIN, Look
 from comparisons.report.style import STYLE, save
 from fem_reference.verification import Row
 from fem_reference.verification.locking import MODELS
 
-SIZE = (4.6, 2.9)  # inches
+WIDEST, HEIGHT = 4.6, 2.9  # inches
 MARKERS = {"plate": "s", "shell": "o", "solid": "^"}
 COLOURS = {"plate": "#7d848c", "shell": "#20252b"}
 SOLID_COLOURS = ("#fbb061", "#ee6a5a", "#b8327a", "#5c187f")  # from compressible to incompressible
 
 
-def picture(paths: Sequence[Path], rows: Sequence[Row]) -> None:
+def picture(paths: Sequence[Path], rows: Sequence[Row], look: Look = PLAIN) -> None:
     """Write the picture of rows of the locking cases."""
     with matplotlib.rc_context(STYLE):
-        save(compose(rows), paths)
+        save(compose(rows, look), paths)
 
 
-def compose(rows: Sequence[Row]) -> Figure:
+def compose(rows: Sequence[Row], look: Look = PLAIN) -> Figure:
     """|w − w_converged| / w_converged in per cent over h/a, with the tolerances dashed."""
-    figure = Figure(figsize=SIZE, layout="constrained")
+    figure = Figure(figsize=(min(look.width, WIDEST), HEIGHT), layout="constrained")
     axes = figure.add_subplot()
     colours = iter(SOLID_COLOURS)
     for (model, poisson), curve in groupby(rows, key=_series):
@@ -46,7 +47,7 @@ def compose(rows: Sequence[Row]) -> Figure:
         axes.axhline(100.0 * row.tolerance, color="#c9ced4", linestyle="--", linewidth=1.0, zorder=0)
         axes.text(1.1e-5, 105.0 * row.tolerance, f"held to {100.0 * row.tolerance:g} %", color="#7d848c")
     axes.set(xscale="log", yscale="log", ylim=(5e-3, 6.0))
-    axes.set(xlabel="thickness / side", ylabel="deflection off its converged value [%]")
+    axes.set(xlabel="thickness / side [–]", ylabel="deflection off its converged value [%]")
     axes.spines[["top", "right"]].set_visible(False)
     axes.legend(frameon=False, ncols=2, loc="lower left", fontsize=6.5)
     return figure

@@ -9,6 +9,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
+from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table, number
 from fem_reference.verification import CASES, Row, strain_laws
@@ -49,10 +50,10 @@ def report(rows: Sequence[Row], locking: bool = False, laws: bool = False) -> Re
     )
 
 
-def _picture(rows: Sequence[Row], paths: Sequence[Path]) -> None:
+def _picture(rows: Sequence[Row], paths: Sequence[Path], look: Look) -> None:
     from comparisons.verification.locking import picture
 
-    picture(paths, rows)
+    picture(paths, rows, look)
 
 
 def table(rows: Sequence[Row]) -> Table:

@@ -1,0 +1,85 @@
+"""The scene's probes as a plot: what every model is off by there, the reference's error bar as a band.
+
+Of each probe |u − u_ref| / |u_ref| [%], the column `off by` of the table; what lies in the band cannot be
+told from the reference. A probe that the reference leaves still has no such number and no place in the plot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import cycle
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
+
+from comparisons.report.look import PLAIN, Look
+from comparisons.report.style import GREY, MOST, SERIES, STYLE, plain, save
+
+if TYPE_CHECKING:
+    from comparisons.comparison.comparison import Comparison
+
+HEIGHT = 2.4  # inches
+MARKERS = "osD^vP"
+LEAST = 1e-3  # percent, where an error of nothing is drawn
+HALF = 0.42  # of a probe's place on the axis
+
+
+def picture(paths: Sequence[Path], comparison: Comparison, look: Look = PLAIN) -> None:
+    """Write the picture."""
+    with matplotlib.rc_context(STYLE):
+        save(compose(comparison, look), paths)
+
+
+def shown(comparison: Comparison) -> list[str]:
+    """The probes with a place in the plot, in the scene's order: the first of those that move."""
+    moving = {difference.probe for difference in comparison.differences if difference.relative is not None}
+    return [probe for probe in comparison.scene.probes if probe in moving][:MOST]
+
+
+def compose(comparison: Comparison, look: Look = PLAIN) -> Figure:
+    """The figure: a place a probe, a marker a model, the band below the reference's bar."""
+    probes, reference = shown(comparison), comparison.reference
+    figure = Figure(figsize=(look.width, HEIGHT), layout="constrained")
+    axis = figure.add_subplot()
+    found = {(d.probe, d.of): 100.0 * d.relative for d in comparison.differences if d.relative is not None}
+    drawn = [max(LEAST, value) for value in found.values()]
+    bars = [100.0 * bar for bar in relative_bars(comparison, probes)]
+    bottom = 0.5 * min([*drawn, *(bar for bar in bars if bar > 0.0)])
+    for place, bar in enumerate(bars):
+        said = f"error bar of the {reference.model}" if place == 0 else None
+        axis.fill_between(
+            [place - HALF, place + HALF], bottom, max(bar, bottom), color=GREY, alpha=0.3, lw=0, label=said
+        )
+    judged = [s for s in comparison.solutions if s is not reference]
+    aside = np.linspace(-0.2, 0.2, len(judged)) if len(judged) > 1 else [0.0]
+    for solution, marker, colour, by in zip(judged, cycle(MARKERS), cycle(SERIES), aside, strict=False):
+        at = [place for place, probe in enumerate(probes) if (probe, solution.model) in found]
+        off = [max(LEAST, found[probes[place], solution.model]) for place in at]
+        axis.plot(np.add(at, by), off, marker, color=colour, ms=4.5, label=plain(solution.label, longest=40))
+    axis.set_yscale("log")
+    axis.set_ylim(bottom=bottom)
+    axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_xlim(-0.5, len(probes) - 0.5)
+    axis.set_xticks(range(len(probes)), [plain(probe, longest=14) for probe in probes])
+    axis.tick_params(axis="x", length=0)
+    axis.set_xlabel("probe")
+    axis.set_ylabel(f"off the {reference.model} [%]")
+    axis.grid(axis="y", which="major", color="#e4e4e4", lw=0.5)
+    axis.set_axisbelow(True)
+    axis.spines[["top", "right"]].set_visible(False)
+    figure.legend(loc="outside lower center", ncols=2 if look.narrow else 4, frameon=False, fontsize=6.5)
+    if look.titled:
+        figure.suptitle(plain(comparison.scene.title or comparison.scene.name, longest=105), fontsize=8)
+    return figure
+
+
+def relative_bars(comparison: Comparison, probes: Sequence[str]) -> list[float]:
+    """The reference's bar at each probe over its displacement there; none where it has no bar."""
+    if comparison.bar is None:
+        return []
+    moved = comparison.probes(comparison.reference)
+    return [comparison.bar.at(probe) / float(np.linalg.norm(moved[probe])) for probe in probes]

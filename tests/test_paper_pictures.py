@@ -1,0 +1,175 @@
+"""Pictures for papers: a column's width, no title, embedded fonts, the same bytes again, error bars."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import pytest
+from commands import one_line, run
+from fake_solutions import solution
+from matplotlib.figure import Figure
+
+from comparisons.comparison import figure as comparing
+from comparisons.comparison import probes_figure
+from comparisons.comparison.comparison import Comparison
+from comparisons.comparison.error_bar import ErrorBar
+from comparisons.linearisation import figure as responding
+from comparisons.linearisation.linearisation import linearise
+from comparisons.modes import figure as swinging
+from comparisons.modes.spectra import spectra
+from comparisons.motion import figure as moving
+from comparisons.report.look import PLAIN, WIDTHS, Look, parse_figure
+from comparisons.report.style import STYLE, save
+from comparisons.tradeoff import figure as trading
+from comparisons.tradeoff.row import TradeoffRow
+from comparisons.tradeoff.statics import Tradeoff
+from comparisons.verification import locking
+from fem_reference.uncertainty import Uncertainty
+from fem_reference.verification.rows import relatively
+from sheetbench import scenes
+from sheetbench.scenes import History, Scene, Status
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.history import ENERGIES
+
+Compose = Callable[[Look], Figure]
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    return scenes.load("two-edges-clamped")
+
+
+@pytest.fixture(scope="module")
+def comparison(scene: Scene) -> Comparison:
+    """A lattice 10 % off a shell whose own bar is 2 % at every probe but the last, and 20 % there."""
+    reference = solution(scene, "shell")
+    truth = reference.displacement(scene.probe_points())
+    share = np.array([0.02, 0.02, 0.02, 0.2])[:, None]
+    same = np.ones_like(truth)
+    bar = Uncertainty((1.0, 2.0), truth, truth, 2.0 * same, np.abs(truth) * share, same > 0.0)
+    lattice = solution(scene, size=-0.011)
+    return Comparison(scene, (lattice, reference), ErrorBar(bar, tuple(scene.probes), (16, 8), 0.1))
+
+
+@pytest.fixture(scope="module")
+def composed(scene: Scene, comparison: Comparison) -> dict[str, Compose]:
+    time = np.linspace(0.0, 1.0, 5)
+    moved = {"tip": np.outer(time, [0.0, 0.0, 1e-3])}
+    energies = dict.fromkeys(ENERGIES, time)
+    history = History(
+        "lumped", "verlet", {}, Status.CONVERGED, "", time, moved, energies, {}, {}, 4, 0.0, 0.0
+    )
+    rows = [
+        TradeoffRow(
+            "lumped", "", {"grid": n}, "converged", "", "lumped consistent", 0.188 / n, "", "",
+            solve_seconds=(1e-3 * n,), error=0.1 / n,
+        )
+        for n in (3, 5, 9)
+    ]  # fmt: skip
+    trade = Tradeoff(scene, tuple(rows), rows[-1], 1e-3, 1e-3)
+    locked = [
+        relatively(f"locking-{model}", "w", "8 × 8", 1.0, "", 1.001, 0.02, at={"h/a": ratio, "ν": 0.3})
+        for model in ("plate", "solid")
+        for ratio in (1e-5, 0.1)
+    ]
+    linear = linearise(scene, grid=3)
+    swings = spectra(scene, count=4, grid=3, references=["plate"], elements=2)
+    return {
+        "probes": partial(probes_figure.compose, comparison),
+        "history": partial(moving.compose, history, scene.title, {}),
+        "tradeoff": partial(trading.compose, trade),
+        "locking": partial(locking.compose, locked),
+        "responses": partial(responding.compose, linear),
+        "modes": partial(swinging.compose, swings),
+    }
+
+
+def test_what_a_figure_may_be() -> None:
+    assert parse_figure(None) == PLAIN and not PLAIN.formats
+    assert parse_figure("pdf") == Look(("pdf",), narrow=False, titled=False)
+    assert parse_figure("PNG, svg:single") == Look(("png", "svg"), narrow=True, titled=False)
+    for wrong in ("", "eps", "pdf:wide", "pdf;png"):
+        with pytest.raises(BadInput, match="--figure"):
+            parse_figure(wrong)
+
+
+NAMES = ("probes", "history", "tradeoff", "locking", "responses", "modes")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_paper_has_its_columns_width_units_and_no_title(
+    composed: dict[str, Compose], scene: Scene, name: str
+) -> None:
+    with matplotlib.rc_context(STYLE):
+        titled, paper = composed[name](PLAIN), composed[name](parse_figure("pdf:single"))
+    assert paper.get_figwidth() == pytest.approx(WIDTHS["single"])
+    said = [text.get_text() for text in paper.findobj(matplotlib.text.Text)]
+    assert not any(scene.title in text for text in said)
+    if name != "locking":
+        assert any(scene.title in t.get_text() for t in titled.findobj(matplotlib.text.Text))
+    for axis in paper.axes:
+        if axis.axison and name != "locking":
+            assert axis.get_xlabel() == "probe" or "[" in axis.get_xlabel() + axis.get_ylabel()
+    paper.draw_without_rendering()
+    box = paper.get_tightbbox()
+    assert box.width <= paper.get_figwidth() + 0.1
+
+
+@pytest.mark.parametrize("name", ["probes", "tradeoff"])
+def test_the_same_picture_is_the_same_bytes_with_its_fonts(
+    composed: dict[str, Compose], tmp_path: Path, name: str
+) -> None:
+    files = [tmp_path / f"{name}.{form}" for form in ("pdf", "svg")]
+    written = []
+    for _ in range(2):
+        with matplotlib.rc_context(STYLE):
+            save(composed[name](parse_figure("pdf")), files)
+        written.append([path.read_bytes() for path in files])
+    assert written[0] == written[1]
+    pdf, svg = written[0]
+    assert b"/FontFile2" in pdf and b"/Type3" not in pdf and b"CreationDate" not in pdf
+    assert b"<text" not in svg and b"dc:date" not in svg
+
+
+def test_the_references_bar_is_a_band_at_every_probe(comparison: Comparison) -> None:
+    figure = probes_figure.compose(comparison)
+    axis = figure.axes[0]
+    tops = [band.get_paths()[0].vertices[:, 1].max() for band in axis.collections]
+    assert tops == pytest.approx([2.0, 2.0, 2.0, 20.0], rel=1e-9)  # percent
+    assert axis.lines[0].get_ydata() == pytest.approx([10.0] * 4)
+    assert [label.get_text() for label in axis.get_xticklabels()] == list(comparison.scene.probes)
+    still = Comparison(
+        comparison.scene, (solution(comparison.scene), solution(comparison.scene, "shell", 0.0))
+    )
+    assert probes_figure.shown(still) == []
+
+
+@pytest.mark.parametrize("aspect", [0.3, 0.7, 1.4])
+def test_the_sheets_in_one_column_keep_off_the_colour_bars(aspect: float) -> None:
+    figure, panels, bars = comparing._stacked(WIDTHS["single"], aspect, head=0.0)
+    boxes = [axis.get_position() for axis in (*panels, *bars)]
+    assert all(0.0 <= box.x0 < box.x1 <= 1.0 and 0.0 <= box.y0 < box.y1 <= 1.0 for box in boxes)
+    assert not any(one.overlaps(other) for one in boxes[2:3] for other in boxes[3:])
+    label = 0.3 / figure.get_figheight()
+    assert all(box.y0 >= label for box in boxes[3:]) and boxes[3].y0 - boxes[4].y1 > label
+
+
+def test_the_option(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "out"
+    asked = ["modes", "two-edges-clamped", "--grid", "3", "--reference", "plate", "--elements", "2"]
+    assert run(*asked, "--figure", "svg,pdf", "--out", str(out)) == 0
+    files = json.loads((out / "manifest.json").read_text(encoding="utf-8"))["runs"]["modes"]["files"]
+    drawn = {name for name in files if name.endswith((".png", ".pdf", ".svg"))}
+    assert drawn == {"modes.svg", "modes.pdf"} and all((out / name).is_file() for name in drawn)
+    capsys.readouterr()
+    assert run(*asked, "--figure", "svg") == 2
+    assert "needs --out" in one_line(capsys)
+    assert run(*asked, "--figure", "jpg", "--out", str(out)) == 2
+    assert "--figure" in one_line(capsys)
+    assert run("stability", "--study", "mass", "--figure", "pdf:single", "--out", str(tmp_path / "s")) == 2
+    assert "both columns" in one_line(capsys) and not (tmp_path / "s").exists()

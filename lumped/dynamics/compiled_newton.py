@@ -34,14 +34,25 @@ class Arrays(NamedTuple):
     width: int
 
 
+class Room(NamedTuple):
+    """What the iteration is computed in: force and velocity, û and v̂ (n, 3), and the right side in the band's
+    order, padded."""
+
+    force: np.ndarray
+    velocity: np.ndarray
+    base_u: np.ndarray
+    base_v: np.ndarray
+    right: np.ndarray
+
+
 class CompiledNewton:
-    """The iteration for a system that `serves`."""
+    """The iteration for a system that `serves`. arrays, room, factors: what it takes."""
 
     def __init__(self, system: System):
         band = system.problem.system.band
         assert band is not None
         self._system, self._band = system, band
-        self._arrays = Arrays(
+        self.arrays = Arrays(
             system.packing,
             system.scratch,
             system.damping.rate,
@@ -51,9 +62,9 @@ class CompiledNewton:
             band.width,
         )
         size = system.assembly.pattern.size
-        self._force, self._velocity = np.zeros((size, 3)), np.zeros((size, 3))
-        self._factors = np.empty((0, 0))
-        self._right = np.empty(0)
+        vectors = (np.zeros((size, 3)) for _ in range(4))
+        self.room = Room(*vectors, np.zeros(banded.rows(len(band.order)) + band.width))
+        self.factors = np.empty((0, 0))
 
     @staticmethod
     def serves(system: System) -> bool:
@@ -67,8 +78,7 @@ class CompiledNewton:
         self._system.problem.factorisations += 1
         if not banded.factor(factors, len(self._band.order), self._band.width):
             return False
-        self._factors = factors
-        self._right = np.zeros(len(factors) + self._band.width)
+        self.factors = factors
         return True
 
     def iterate(
@@ -82,15 +92,15 @@ class CompiledNewton:
         corrections: int,
     ) -> tuple[int, int]:
         """Correct u (n, 3) in place with the factors kept; how that ended, and after how many corrections."""
-        found: tuple[int, int] = _iterate(
+        found: tuple[int, int] = iterate(
             u, *base, *by, external, tolerance, self._system.problem.size, stale, corrections,
-            self._arrays, self._factors, self._force, self._velocity, self._right,
+            self.arrays, self.factors, self.room,
         )  # fmt: skip
         return found
 
 
 @njit(cache=True)
-def _iterate(
+def iterate(
     u: np.ndarray,
     base_u: np.ndarray,
     base_v: np.ndarray,
@@ -103,11 +113,11 @@ def _iterate(
     corrections: int,
     arrays: Arrays,
     factors: np.ndarray,
-    force: np.ndarray,
-    velocity: np.ndarray,
-    right: np.ndarray,
+    room: Room,
 ) -> tuple[int, int]:
+    """Correct u in place; how that ended, and after how many corrections."""
     last, n = np.inf, len(arrays.place)
+    force, velocity, right = room.force, room.velocity, room.right
     mass, free = arrays.mass, arrays.free
     moved, held, began = u.reshape(-1), base_u.reshape(-1), base_v.reshape(-1)
     pull, speed, acting = force.reshape(-1), velocity.reshape(-1), external.reshape(-1)

@@ -19,6 +19,9 @@ from typing import Any
 
 import numpy as np
 
+from numba import njit
+
+from lumped.dynamics.compiled_stages import Stages, Step
 from lumped.dynamics.integrator import Advance, DenseIntegrator, Passed, StepFailed
 from lumped.dynamics.newton import Motion, Newton
 from lumped.dynamics.system import State, System
@@ -46,7 +49,7 @@ class Esdirk(DenseIntegrator):
         self._fixed, self._first = fixed, step
         self._newton = Newton(system, CLOSE, STALE)
         self._largest = 0.0
-        self._powers: tuple[State | None, np.ndarray] = None, np.zeros(2)  # at the last state
+        self._end: tuple[State | None, np.ndarray] = None, np.zeros(2)  # the last state, and its power
         self._curve: np.ndarray | None = None  # of the last step, once it is asked for
 
     @classmethod
@@ -84,8 +87,8 @@ class Esdirk(DenseIntegrator):
                 continue
             if self._fixed:
                 break
-            error = h * float(np.abs(np.tensordot(ERRORS, [s.v for s in stages], 1)).max())
-            largest = max(self._largest, float(np.abs(stages[-1].u).max()))
+            error = h * float(np.abs(np.tensordot(ERRORS, stages.v, 1)).max())
+            largest = max(self._largest, float(np.abs(stages.u[-1]).max()))
             ratio = 0.9 * (ERROR * max(largest, 1e-6 * size) / max(error, 1e-30)) ** (1.0 / 5.0)
             if ratio < 0.9 and h > shortest:
                 self.step = h * max(ratio, 0.2)
@@ -94,7 +97,7 @@ class Esdirk(DenseIntegrator):
                 self.step = h * min(max(ratio, 0.5), 4.0)
             self._largest = largest
             break
-        return self._advance(stages, h)
+        return self._advance(state, stages, h)
 
     def _from_kink(self, state: State, at_most: float) -> tuple[State, float]:
         """The state with its acceleration from now on, and how long nothing changes its course at most."""
@@ -108,85 +111,116 @@ class Esdirk(DenseIntegrator):
         ahead = system.kinks[system.kinks > now + near]
         return state, min([at_most, *(ahead[:1] - now)])
 
-    def _stages(self, state: State, h: float, tolerance: float | None) -> list[State]:
-        """The states of all stages of a step, the first included."""
-        system, found, by = self.system, [state], 1.0 / (GAMMA * h)
+    def _stages(self, state: State, h: float, tolerance: float | None) -> Stages:
+        """All stages of a step."""
+        by, tables = 1.0 / (GAMMA * h), np.empty((3, len(ABSCISSAE), *state.u.shape))
+        tables[:, 0] = state.u, state.v, state.a
+        stages = Stages(state.time + h * ABSCISSAE, *tables, np.zeros((len(ABSCISSAE), 2)))
         middle = state.u + 0.5 * h * state.v
         self._newton.renew(Motion(state.time + 0.5 * h, middle, state.v, by * by, by), middle)
+        step = Step(h, STAGES, GUESSES, by, by * by, self._shifts(stages.time), self._loads(stages.time))
+        if not self._newton.solve_stages(step, stages, tolerance):
+            self._solve_one_by_one(step, stages, tolerance)
+        return stages
+
+    def _shifts(self, times: np.ndarray) -> np.ndarray:
+        """How far supports are off their straight course where a step goes past a kink, (7, n, 3) [m], or
+        empty."""
+        system, began = self.system, float(times[0])
+        if not system.moving:
+            return np.empty((0, *system.problem.loads.dead.shape))
+        start, rate = system.place(began), system.place_rate(began)
+        return np.array([system.place(float(time)) - start - (time - began) * rate for time in times])
+
+    def _loads(self, times: np.ndarray) -> np.ndarray:
+        """Loads at the stages if they change, those that do not follow the sheet, (7 or 1, n, 3) [N]."""
+        rest = self.system.problem.loads.dead
+        changing = times if self.system.working else times[:1]
+        return np.array([self.system.external(rest, float(time)) for time in changing])
+
+    def _solve_one_by_one(self, step: Step, stages: Stages, tolerance: float | None) -> None:
+        """Fill the tables of stages by the general iteration."""
+        h, by_u, by_v = step.length, step.by_u, step.by_v
         for i in range(1, len(ABSCISSAE)):
-            time = state.time + ABSCISSAE[i] * h
-            u, v = state.u.copy(), state.v.copy()
-            for weight, stage in zip(STAGES[i], found, strict=False):
-                if weight:
-                    u += (weight * h) * stage.v
-                    v += (weight * h) * stage.a
-            if system.moving:  # off their straight course where a step goes past a kink
-                held = system.place(time) - system.place(state.time)
-                u += held - (time - state.time) * system.place_rate(state.time)
-            motion = Motion(time, u + v / by, v, by * by, by)
-            a = sum(weight * stage.a for weight, stage in zip(GUESSES[i], found, strict=False) if weight)
-            u = self._newton.solve_motion(motion, motion.base_u + a / by**2, tolerance)
-            found.append(State(time, u, *self._newton.state(motion, u)))
-        return found
+            u = stages.u[0] + h * np.tensordot(STAGES[i, :i], stages.v[:i], 1)
+            v = stages.v[0] + h * np.tensordot(STAGES[i, :i], stages.a[:i], 1)
+            if len(step.shifts):
+                u += step.shifts[i]
+            motion = Motion(float(stages.time[i]), u + v / by_v, v, by_u, by_v)
+            guess = motion.base_u + np.tensordot(GUESSES[i, :i], stages.a[:i], 1) / by_v**2
+            u = self._newton.solve_motion(motion, guess, tolerance)
+            stages.u[i] = u
+            stages.v[i], stages.a[i] = self._newton.state(motion, u)
+            stages.power[i, 0], _ = self.system.damping_force(u, stages.v[i])
 
     def at(self, time: float) -> Passed:
         """The state at a time within the last step, and what was taken and put in since its start."""
-        first, last, h, powers = self._step
+        stages, h = self._step
         if self._curve is None:
-            self._curve = _curve(first, last, h)
-        theta = (time - first.time) / h
-        taken, put_in = h * (theta ** np.arange(len(CUMULATIVE)) @ CUMULATIVE @ powers)
-        order = np.arange(6)
-        rates = np.array(
-            [
-                theta**order,
-                order * theta ** np.maximum(order - 1, 0) / h,
-                order * (order - 1) * theta ** np.maximum(order - 2, 0) / h**2,
-            ]
-        )
-        u, v, a = (rates @ self._curve).reshape(3, *first.u.shape)
-        return Passed(State(time, u, v, a), float(taken), float(put_in))
+            self._curve = _curve(stages, h)
+        theta = (time - float(stages.time[0])) / h
+        taken, put_in = h * (theta ** np.arange(len(CUMULATIVE)) @ CUMULATIVE @ stages.power)
+        return Passed(State(time, *_at(self._curve, theta, h)), float(taken), float(put_in))
 
-    def _advance(self, stages: list[State], h: float) -> Advance:
-        system, first, last = self.system, stages[0], stages[-1]
-        known = self._powers[1] if self._powers[0] is first else self._power(first, first.time)
-        powers = np.array([known, *(self._power(stage, first.time) for stage in stages[1:])])
-        self._step, self._curve = (first, last, h, powers), None
-        taken, put_in = h * (CUMULATIVE.sum(axis=0) @ powers)
-        end = last
+    def _advance(self, start: State, stages: Stages, h: float) -> Advance:
+        system, power = self.system, stages.power
+        if self._end[0] is start:
+            power[0] = self._end[1]
+        else:
+            power[0, 0], _ = system.damping_force(start.u, start.v)
+            power[0, 1] = self._put_in(start, start.time)
+        end = State(float(stages.time[-1]), stages.u[-1], stages.v[-1], stages.a[-1])
+        if system.moving or system.working:
+            for i in range(1, len(power)):
+                stage = State(float(stages.time[i]), stages.u[i], stages.v[i], stages.a[i])
+                power[i, 1] = self._put_in(stage, start.time)
+        self._step, self._curve = (stages, h), None
+        taken, put_in = h * (STAGES[-1] @ power)
         if system.moving:
-            turn = system.place_rate(last.time) - system.place_rate(first.time)
+            last, turn = end, system.place_rate(end.time) - system.place_rate(start.time)
             end = State(last.time, last.u, last.v + turn, last.a)
             put_in += system.kinetic_of_placed(end) - system.kinetic_of_placed(last)
-        self._powers = end, powers[-1]
+        self._end = end, power[-1]
         return Advance(end, float(taken), float(put_in))
 
-    def _power(self, stage: State, began: float) -> np.ndarray:
-        """Power [W] that dampers take, and that moving supports and loads without a potential put in, (2,),
-        in a step that began then."""
+    def _put_in(self, stage: State, began: float) -> float:
+        """Power [W] that moving supports and loads without a potential put in, in a step that began then."""
         system, put_in = self.system, 0.0
-        taken, _ = system.damping_force(stage.u, stage.v)
         if system.moving:
             put_in += float(np.sum(system.exerted(stage) * system.place_rate(began)))
         if system.working:
             force = system.external(stage.u, stage.time) - system.problem.loads.dead
             put_in += float(np.sum(force * stage.v))
-        return np.array([taken, put_in])
+        return put_in
 
 
-def _curve(first: State, last: State, h: float) -> np.ndarray:
+@njit(cache=True)
+def _curve(stages: Stages, h: float) -> np.ndarray:
     """Coefficients (6, 3 n) of θ⁰ to θ⁵: the polynomial with the displacements, velocities and accelerations
     of both ends of a step."""
-    change = last.u - first.u - h * first.v - 0.5 * h * h * first.a
-    speed = h * (last.v - first.v - h * first.a)
-    bend = h * h * (last.a - first.a)
-    return np.array(
-        [
-            first.u,
-            h * first.v,
-            0.5 * h * h * first.a,
-            10.0 * change - 4.0 * speed + 0.5 * bend,
-            -15.0 * change + 7.0 * speed - bend,
-            6.0 * change - 3.0 * speed + 0.5 * bend,
-        ]
-    ).reshape(6, -1)
+    u0, v0, a0 = stages.u[0].ravel(), stages.v[0].ravel(), stages.a[0].ravel()
+    u1, v1, a1 = stages.u[-1].ravel(), stages.v[-1].ravel(), stages.a[-1].ravel()
+    out = np.empty((6, len(u0)))
+    for i in range(len(u0)):
+        change = u1[i] - u0[i] - h * v0[i] - 0.5 * h * h * a0[i]
+        speed = h * (v1[i] - v0[i] - h * a0[i])
+        bend = h * h * (a1[i] - a0[i])
+        out[0, i], out[1, i], out[2, i] = u0[i], h * v0[i], 0.5 * h * h * a0[i]
+        out[3, i] = 10.0 * change - 4.0 * speed + 0.5 * bend
+        out[4, i] = -15.0 * change + 7.0 * speed - bend
+        out[5, i] = 6.0 * change - 3.0 * speed + 0.5 * bend
+    return out
+
+
+@njit(cache=True)
+def _at(curve: np.ndarray, theta: float, h: float) -> np.ndarray:
+    """Displacement, velocity and acceleration (3, n, 3) at θ of a step of length h [s]."""
+    out = np.empty((3, curve.shape[1]))
+    for i in range(curve.shape[1]):
+        u = v = a = 0.0
+        for power in range(5, -1, -1):  # Horner's rule, with the derivatives
+            a = a * theta + 2.0 * v
+            v = v * theta + u
+            u = u * theta + curve[power, i]
+        out[0, i], out[1, i], out[2, i] = u, v / h, a / (h * h)
+    return out.reshape(3, -1, 3)

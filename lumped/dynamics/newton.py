@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 
 from lumped.dynamics import compiled_newton
-from lumped.dynamics.compiled_newton import CompiledNewton
+from lumped.dynamics.compiled_newton import CONVERGED, CompiledNewton
+from lumped.dynamics.compiled_stages import Stages, Step, solve_stages
 from lumped.dynamics.integrator import StepFailed
 from lumped.dynamics.system import System
 from lumped.linear.solver import Factor
@@ -115,6 +116,34 @@ class Newton:
         key = (motion.by_u, motion.by_v)
         return self.solve(key, residual, lambda u: self._blocks(motion, u), guess, tolerance=small)
 
+    def solve_stages(self, step: Step, stages: Stages, tolerance: float | None) -> bool:
+        """Fill the tables of a step's stages, which hold its start, compiled; False where that cannot be
+        done, as where the tangent is not positive definite. tolerance [m]: as in `solve_motion`. Raises
+        StepFailed."""
+        compiled, first, left = self._compiled, 1, 0
+        small = self.tolerance if tolerance is None else tolerance
+        if compiled is None or not self._near(step.by_u):
+            return False
+        while True:
+            status, first, left = solve_stages(
+                first, left, step, stages, small, self._system.problem.size, self._stale, CORRECTIONS,
+                compiled.arrays, compiled.factors, compiled.room,
+            )  # fmt: skip
+            if status == CONVERGED:
+                return True
+            self._factored = None
+            if status != compiled_newton.STALE or left == 0:
+                raise StepFailed(UNSOLVED)
+            base = compiled.room.base_u, compiled.room.base_v
+            motion = Motion(float(stages.time[first]), *base, step.by_u, step.by_v)
+            if not compiled.factorise(self._blocks(motion, stages.u[first])):
+                return False
+            self._factored = step.by_u
+
+    def _near(self, by_u: float) -> bool:
+        """Whether the compiled iteration's factors serve an equation with this c₂."""
+        return self._factored is not None and abs(by_u / self._factored - 1.0) < NEAR
+
     def renew(self, motion: Motion, u: np.ndarray) -> None:
         """Make the factors for an equation and those like it anew, at u. Raises SingularMatrixError."""
         blocks = self._blocks(motion, u)
@@ -135,7 +164,7 @@ class Newton:
         external = self._system.external(u, motion.time)
         base, by = (motion.base_u, motion.base_v), (motion.by_u, motion.by_v)
         left, status = CORRECTIONS, compiled_newton.STALE
-        if self._factored is not None and abs(motion.by_u / self._factored - 1.0) < NEAR:
+        if self._near(motion.by_u):
             status, done = compiled.iterate(u, base, by, external, small, self._stale, left)
             left -= done
         while status == compiled_newton.STALE and left > 0:

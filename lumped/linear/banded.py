@@ -84,9 +84,15 @@ def band_of(
 
 
 @njit(cache=True, nogil=True)
+def rows(n: int) -> int:
+    """Rows of the storage: whole panels, and two that the loops run over into."""
+    return -(-n // PANEL) * PANEL + 2
+
+
+@njit(cache=True, nogil=True)
 def stored(blocks: np.ndarray, band: Band) -> np.ndarray:
     """The matrix of blocks (b, 3, 3) in band storage: whole panels, and zeros where the loops run over."""
-    out = np.zeros((-(-len(band.order) // PANEL) * PANEL + 2, band.width + 1 + PANEL))
+    out = np.zeros((rows(len(band.order)), band.width + 1 + PANEL))
     entries = blocks.ravel()
     for e in range(len(band.source)):
         out[band.column[e], band.below[e]] += band.weight[e] * entries[band.source[e]]

@@ -1,0 +1,127 @@
+"""The stages of a Runge–Kutta step in one compiled call, on what `lumped.dynamics.compiled_newton` serves.
+
+Every stage begins from the ones before it, is corrected with the factors kept, and leaves its velocity,
+acceleration and the power that its dampers take, in tables whose first row is the step's start. The call
+comes back early where a stage needs other factors, which Python makes, and goes on there.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from lumped.dynamics.compiled_newton import CONVERGED, Arrays, Room, iterate
+from lumped.springs.all_forces import add_forces
+
+
+class Stages(NamedTuple):
+    """Stages of a step, the first its start: times (s,) [s]; displacements, velocities, accelerations
+    (s, n, 3); power [W] that dampers take, and that moving supports and loads without a potential put in,
+    (s, 2)."""
+
+    time: np.ndarray
+    u: np.ndarray
+    v: np.ndarray
+    a: np.ndarray
+    power: np.ndarray
+
+
+class Step(NamedTuple):
+    """What the stages of a step share: its length [s]; coefficients of velocities and accelerations, and of
+    the guess of an acceleration, (s, s); c₁ and c₂ of their equation; what supports do beside their course at
+    the start, (s, n, 3) [m] or empty; the loads, (s, n, 3) or (1, n, 3) if they stay the same [N]."""
+
+    length: float
+    weights: np.ndarray
+    guesses: np.ndarray
+    by_v: float
+    by_u: float
+    shifts: np.ndarray
+    loads: np.ndarray
+
+
+@njit(cache=True)
+def solve_stages(
+    first: int,
+    left: int,
+    step: Step,
+    stages: Stages,
+    tolerance: float,
+    largest: float,
+    stale: float,
+    corrections: int,
+    arrays: Arrays,
+    factors: np.ndarray,
+    room: Room,
+) -> tuple[int, int, int]:
+    """Solve the stages from the `first` on; that one is begun if it has corrections `left`. How that ended,
+    the stage where it did, and what corrections that one has left."""
+    for i in range(first, len(stages.u)):
+        u, v, a = stages.u[i].reshape(-1), stages.v[i].reshape(-1), stages.a[i].reshape(-1)
+        base_u, base_v = room.base_u.reshape(-1), room.base_v.reshape(-1)
+        _begin(i, step, stages, base_u, base_v)
+        if i > first or left == 0:
+            left = corrections
+            _guess(i, step, stages, base_u, u)
+        load = step.loads[min(i, len(step.loads) - 1)]
+        status, done = iterate(
+            stages.u[i], room.base_u, room.base_v, step.by_u, step.by_v, load, tolerance, largest, stale,
+            left, arrays, factors, room,
+        )  # fmt: skip
+        left -= done
+        if status != CONVERGED:
+            return status, i, left
+        for row in range(len(u)):
+            change = u[row] - base_u[row]
+            v[row] = base_v[row] + step.by_v * change
+            a[row] = step.by_u * change
+        stages.power[i, 0] = power_taken(stages.u[i], stages.v[i], arrays, room)
+    return CONVERGED, len(stages.u), 0
+
+
+@njit(cache=True)
+def _begin(i: int, step: Step, stages: Stages, base_u: np.ndarray, base_v: np.ndarray) -> None:
+    """û and v̂ of stage i."""
+    start, speed = stages.u[0].reshape(-1), stages.v[0].reshape(-1)
+    for row in range(len(base_u)):
+        base_u[row], base_v[row] = start[row], speed[row]
+    for j in range(i):
+        weight = step.length * step.weights[i, j]
+        if weight != 0.0:
+            v, a = stages.v[j].reshape(-1), stages.a[j].reshape(-1)
+            for row in range(len(base_u)):
+                base_u[row] += weight * v[row]
+                base_v[row] += weight * a[row]
+    if len(step.shifts):
+        shift = step.shifts[i].reshape(-1)
+        for row in range(len(base_u)):
+            base_u[row] += shift[row]
+    own = 1.0 / step.by_v
+    for row in range(len(base_u)):
+        base_u[row] += own * base_v[row]
+
+
+@njit(cache=True)
+def _guess(i: int, step: Step, stages: Stages, base_u: np.ndarray, u: np.ndarray) -> None:
+    """What the accelerations of the stages before let expect."""
+    u[:] = base_u
+    for j in range(i):
+        weight = step.guesses[i, j] / (step.by_v * step.by_v)
+        if weight != 0.0:
+            a = stages.a[j].reshape(-1)
+            for row in range(len(u)):
+                u[row] += weight * a[row]
+
+
+@njit(cache=True)
+def power_taken(u: np.ndarray, v: np.ndarray, arrays: Arrays, room: Room) -> float:
+    """Power [W] of the lattice's dampers and of the masses' own damping."""
+    power = 0.0
+    if arrays.packing.damped:
+        _, power = add_forces(u, v, False, True, arrays.packing, arrays.scratch, room.force)
+    for i in range(len(arrays.rate)):
+        for q in range(3):
+            power += arrays.rate[i] * v[i, q] * v[i, q]
+    return power

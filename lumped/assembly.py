@@ -67,6 +67,11 @@ class Assembly:
         single = precision == "single"
         self._forcing = tuple(family.rounded() for family in self.springs) if single else self.springs
 
+    @cached_property
+    def plan(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Masses by plan position, positions at rest, and areas of the cells: made once for all samples."""
+        return self.lattice.columns(), self.lattice.positions, self.lattice.cell_areas
+
     @property
     def rounding(self) -> float:
         """Relative spacing of the numbers that the internal force is computed with."""

@@ -11,6 +11,7 @@ as loads do it among the four next to it (order 1).
 from __future__ import annotations
 
 import numpy as np
+import scipy.sparse as sp
 
 from lumped.lattice import Lattice
 from sheetbench.scenes.errors import BadInput
@@ -40,6 +41,17 @@ class MidSurface:
         """Values (n, 3) at the points of a field of vectors over the masses, (masses and more, 3)."""
         values: np.ndarray = np.einsum("pcq,pclq->pq", self._share, field[self._nodes])
         return values
+
+    def matrix(self, size: int) -> sp.csr_array:
+        """The map of displacements (size, 3) to values at the points, (3 points, 3 size), both flat."""
+        points, around, layers = self._nodes.shape
+        axes = np.arange(3)
+        shape = (points, around, layers, 3)
+        rows = np.broadcast_to(3 * np.arange(points)[:, None, None, None] + axes, shape)
+        columns = 3 * self._nodes[..., None] + axes
+        values = np.broadcast_to(self._share[:, :, None, :], shape)
+        entries = (values.ravel(), (rows.ravel(), columns.ravel()))
+        return sp.csr_array(sp.coo_array(entries, shape=(3 * points, 3 * size)))
 
     def shared(self, values: np.ndarray, size: int) -> np.ndarray:
         """The transpose: values (n, 3) at the points shared among the masses, (size, 3)."""

@@ -54,6 +54,18 @@ class Constraints:
             per_edge[edge] = share
         return per_edge, on_masses
 
+    def summed(self) -> sp.csr_array:
+        """The map of what holds the masses, (3 n,) [N], to the force of each support, (3 supports,); without
+        chains."""
+        rows, columns, values = [np.empty(0, int)], [np.empty(0, int)], [np.empty(0)]
+        for number, ((masses, axes), _, weight) in enumerate(self._shares.values()):
+            places = 3 * masses + np.array(axes)
+            rows.append(np.broadcast_to(3 * number + np.array(axes), places.shape).ravel())
+            columns.append(places.ravel())
+            values.append((weight * self.held[masses, axes]).ravel())
+        entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
+        return sp.csr_array(sp.coo_array(entries, shape=(3 * len(self.holders), self.held.size)))
+
     @cached_property
     def _shares(self) -> dict[str, tuple[tuple[np.ndarray, list[int]], list[int], np.ndarray]]:
         """Of every edge: its block of components, its axes, and what share of each component is its own."""

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from lumped.dynamics.observation import Observed, observe
 from lumped.dynamics.system import State, System
+from lumped.linear.maps import rows
 from lumped.mid_surface import MidSurface
 from sheetbench.scenes.history import ENERGIES
 
@@ -27,11 +29,32 @@ class Sampling:
             *(("reaction", edge, (3,)) for edge in [*self._supports, *holders]),
             *(("actuator", name, wrench.shape) for name, wrench in actuators.items()),
         ]
+        self._observed: Observed | None = None
+        if system.coupling is None and system.assembly.precision == "double":
+            masses = system.assembly.pattern.size
+            self._observed = Observed(
+                system.packing,
+                system.scratch,
+                rows(system.mass),
+                system.damping.rate,
+                system.problem.loads.dead,
+                rows(self._probes.matrix(masses)),
+                rows(system.problem.constraints.summed()),
+            )
         self.width = sum(int(np.prod(shape)) for _, _, shape in self.columns)
 
     def row(self, state: State, dissipated: float, work: float) -> np.ndarray:
         """The sample of a state, (width,)."""
         system = self._system
+        if self._observed is not None:
+            row, first = np.empty(self.width), 1 + len(ENERGIES)
+            last = len(row) - 3 * len(self._supports)
+            external = system.external(state.u, state.time)
+            found = observe(
+                state.u, state.v, state.a, external, self._observed, row[first:last], row[last:]
+            )
+            row[:first] = state.time, *found, dissipated, work
+            return row
         energies, exerted = system.balance(state)
         energies |= {"dissipated": dissipated, "work": work}
         reactions, _ = system.problem.constraints.reactions(exerted)

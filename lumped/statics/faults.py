@@ -28,10 +28,10 @@ class Fault(NamedTuple):
 
 def broken(assembly: Assembly, u: np.ndarray) -> Fault | None:
     """The first of: a number that is not finite, a collapsed link, an inverted cell; u: (n, 3) [m]."""
-    lattice = assembly.lattice
-    masses = u[: lattice.mass_count]
     if _sound(assembly, u):
         return None
+    lattice = assembly.lattice
+    masses = u[: lattice.mass_count]
     finite = np.isfinite(masses).all(axis=1)
     if not finite.all():
         where = place(lattice, int(np.argmin(finite)))
@@ -53,8 +53,7 @@ def broken(assembly: Assembly, u: np.ndarray) -> Fault | None:
 
 def _sound(assembly: Assembly, u: np.ndarray) -> bool:
     """Whether nothing is wrong, by compiled loops: a run looks at every sample."""
-    lattice = assembly.lattice
-    if not upright(lattice.columns(), lattice.positions, lattice.cell_areas, u):
+    if not upright(*assembly.plan, u):
         return False
     links = (links for links in assembly.springs if isinstance(links, Links))
     return all(long_enough(u, each.nodes, each.offset, each.rest_length, COLLAPSED) for each in links)

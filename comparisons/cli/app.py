@@ -19,7 +19,7 @@ from typing import Any
 
 import typer
 
-from comparisons.cli import characters, interruption, warned
+from comparisons.cli import announced, characters, interruption, warned
 
 VERBS = (
     "new",
@@ -103,7 +103,7 @@ def main(arguments: list[str] | None = None) -> None:
     for stream in (sys.stdout, sys.stderr):
         characters.adapt(stream)
     app.rich_markup_mode = "rich" if get_terminal_size().columns >= BOXES else None
-    with interruption.heeded(), warned.in_a_line():
+    with interruption.heeded(), warned.in_a_line(), announced.in_a_line():
         try:
             app(args=arguments, prog_name="sheetbench")
         except SystemExit as leaving:

@@ -32,7 +32,7 @@ def _said(text: str, keep: str = "") -> str:
 def progress() -> Iterator[Callable[[Work | str], None]]:
     """A function that says on standard error what is being done: a spinner on a terminal, else lines."""
     if not err.is_terminal:
-        with Lines(_line) as lines:
+        with Lines(tell) as lines:
             yield lines.say
         return
     with err.status("", spinner="dots" if takes_everything(err.encoding) else "line") as spinner:
@@ -43,8 +43,8 @@ def progress() -> Iterator[Callable[[Work | str], None]]:
 def campaign_progress() -> Iterator[Callable[[Progress], None]]:
     """A function that shows how far a campaign is: a bar with the time left on a terminal, else lines."""
     if not err.is_terminal:
-        with Lines(_line) as lines:
-            yield lambda progress: _tell(progress, lines)
+        with Lines(tell) as lines:
+            yield lambda progress: _reported(progress, lines)
         return
     from rich.progress import BarColumn, MofNCompleteColumn, TextColumn
     from rich.progress import Progress as Bar
@@ -62,7 +62,7 @@ def campaign_progress() -> Iterator[Callable[[Progress], None]]:
         yield show
 
 
-def _tell(progress: Progress, lines: Lines) -> None:
+def _reported(progress: Progress, lines: Lines) -> None:
     """A line of every run that is done; of those that go on, when they have for a while."""
     so_far = f"{progress.done}/{progress.total}"
     from comparisons.runs.campaign import GOING
@@ -82,7 +82,8 @@ def _going(progress: Progress) -> str:
     return progress.going[0] + (f", and {more} more" if more else "")
 
 
-def _line(text: str) -> None:
+def tell(text: str) -> None:
+    """A line on standard error."""
     err.print(Text(spelled(terminal(text), err.encoding)), soft_wrap=True)
 
 

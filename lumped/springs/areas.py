@@ -201,52 +201,46 @@ def add_tangent(
     slots: np.ndarray,
     blocks: np.ndarray,
 ) -> None:
-    """Add (k/a0) ∇a ∇aᵀ + τ ∇²a of every cell to the 3×3 blocks."""
+    """Add (k/a0) ∇a ∇aᵀ + τ ∇²a of every cell to the 3×3 blocks; in δd1 and δd2 the latter is τ/2|c| times
+
+    |d2|² I − d2 d2ᵀ − 4 g1 g1ᵀ,   d1 d2ᵀ − (d1·d2) I − 4 g1 g2ᵀ + |c| N,   |d1|² I − d1 d1ᵀ − 4 g2 g2ᵀ
+
+    with g = ∇a and aᵀ N b = n·(a × b).
+    """
     change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     normal, work = np.empty(3), np.empty(3)
+    hessian = np.empty((4, 9))  # of (d1, d1), (d1, d2), (d2, d1), (d2, d2)
+    flat = blocks.reshape(-1, 9)
     p = nodes.shape[2]
-    hessian = np.empty((2, 3, 2, 3))  # in (δd1, δd2)
-    spin = np.empty((2, 3, 3))  # δc = spin[0] δd1 + spin[1] δd2
     for c in range(len(nodes)):
         _, area, size = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        share = 1.0 / (p * p)
+        material, turning = share * stiffness[c] / area, share * 0.5 * stress[c] / size
+        outer = material - 4.0 * turning
+        g11, g12, g22 = _products(current)
         for q in range(3):
             for r in range(3):
-                spin[0, q, r] = spin[1, q, r] = 0.0
-        for d, sign in ((0, 1.0), (1, -1.0)):  # −[d2]× and [d1]×
-            v = current[1 - d]
-            spin[d, 0, 1], spin[d, 0, 2] = sign * v[2], -sign * v[1]
-            spin[d, 1, 0], spin[d, 1, 2] = -sign * v[2], sign * v[0]
-            spin[d, 2, 0], spin[d, 2, 1] = sign * v[1], -sign * v[0]
-        material, geometric = stiffness[c] / area, 0.5 * stress[c]
-        for d in range(2):
-            for q in range(3):
-                for e in range(2):
-                    for r in range(3):
-                        turn = 0.0
-                        for s in range(3):
-                            turn += spin[d, s, q] * spin[e, s, r]
-                        # spin[d]ᵀ n = 2 gradient[d], since ∂a/∂d = ½ spin[d]ᵀ n
-                        turn -= 4.0 * gradient[d, q] * gradient[e, r]
-                        hessian[d, q, e, r] = (
-                            material * gradient[d, q] * gradient[e, r] + geometric * turn / size
-                        )
-        # n·(δd1 × δd2) couples the diagonals by −[n]×
-        hessian[0, 0, 1, 1] += geometric * normal[2]
-        hessian[0, 1, 1, 0] -= geometric * normal[2]
-        hessian[0, 1, 1, 2] += geometric * normal[0]
-        hessian[0, 2, 1, 1] -= geometric * normal[0]
-        hessian[0, 2, 1, 0] += geometric * normal[1]
-        hessian[0, 0, 1, 2] -= geometric * normal[1]
+                at, d1, d2 = 3 * q + r, current[0, q], current[1, q]
+                g1, g2 = outer * gradient[0, q], outer * gradient[1, q]
+                hessian[0, at] = g1 * gradient[0, r] - turning * d2 * current[1, r]
+                hessian[1, at] = g1 * gradient[1, r] + turning * d1 * current[1, r]
+                hessian[3, at] = g2 * gradient[1, r] - turning * d1 * current[0, r]
+        for q in range(3):
+            hessian[0, 4 * q] += turning * g22
+            hessian[1, 4 * q] -= turning * g12
+            hessian[3, 4 * q] += turning * g11
+            ahead, behind, along = (q + 1) % 3, (q + 2) % 3, turning * size * normal[q]
+            hessian[1, 3 * ahead + behind] += along
+            hessian[1, 3 * behind + ahead] -= along
         for q in range(3):
             for r in range(3):
-                hessian[1, r, 0, q] = hessian[0, q, 1, r]
+                hessian[2, 3 * r + q] = hessian[1, 3 * q + r]
         for corner in range(4):
-            d, sign = corner % 2, -1.0 if corner < 2 else 1.0
             for other in range(4):
-                e, scale = other % 2, sign * (-1.0 if other < 2 else 1.0) / (p * p)
+                part = hessian[2 * (corner % 2) + other % 2]
+                sign = 1.0 if (corner < 2) == (other < 2) else -1.0
                 for s in range(p):
                     for t in range(p):
-                        slot = slots[c, corner * p + s, other * p + t]
-                        for q in range(3):
-                            for r in range(3):
-                                blocks[slot, q, r] += scale * hessian[d, q, e, r]
+                        block = flat[slots[c, corner * p + s, other * p + t]]
+                        for e in range(9):
+                            block[e] += sign * part[e]

@@ -127,18 +127,31 @@ def add_tangent(
     blocks: np.ndarray,
 ) -> None:
     """Add k n nᵀ + (N/r)(I − n nᵀ) of every link to the 3×3 blocks."""
-    n = np.empty(3)
+    flat = blocks.reshape(-1, 9)
     for m in range(len(nodes)):
-        _, length, n[0], n[1], n[2] = stretch(u, nodes, offset, rest_length, m)
+        _, length, x, y, z = stretch(u, nodes, offset, rest_length, m)
         across = tension[m] / length
         along = stiffness[m] - across
-        aa, ab, ba, bb = slots[m, 0], slots[m, 1], slots[m, 2], slots[m, 3]
-        for p in range(3):
-            for q in range(3):
-                value = along * n[p] * n[q]
-                if p == q:
-                    value += across
-                blocks[aa, p, q] += value
-                blocks[bb, p, q] += value
-                blocks[ab, p, q] -= value
-                blocks[ba, p, q] -= value
+        xx, xy, xz = along * x * x + across, along * x * y, along * x * z
+        yy, yz, zz = along * y * y + across, along * y * z, along * z * z + across
+        for e in range(2):
+            block = flat[slots[m, 3 * e]]
+            block[0] += xx
+            block[1] += xy
+            block[2] += xz
+            block[3] += xy
+            block[4] += yy
+            block[5] += yz
+            block[6] += xz
+            block[7] += yz
+            block[8] += zz
+            block = flat[slots[m, 1 + e]]
+            block[0] -= xx
+            block[1] -= xy
+            block[2] -= xz
+            block[3] -= xy
+            block[4] -= yy
+            block[5] -= yz
+            block[6] -= xz
+            block[7] -= yz
+            block[8] -= zz

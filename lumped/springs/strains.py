@@ -173,11 +173,13 @@ def add_tangent(
 ) -> None:
     """Add Σ k g gᵀ and the stresses' geometric part of every cell to the 3×3 blocks."""
     change, sides = np.empty((2, 3)), np.empty((2, 3))
-    gradient = np.empty((3, 4, 3))  # of each strain at each corner
+    gradient, hessian = np.empty((3, 4, 3)), np.empty(9)  # of each strain at each corner; of two corners
+    flat = blocks.reshape(-1, 9)
     p = nodes.shape[2]
     for c in range(len(nodes)):
         _, _, _, a0, b0 = measure(u, nodes, diagonals, c, change, sides)
         area = np.sqrt(a0 * b0)
+        share = area / (p * p)
         for corner in range(4):
             for q in range(3):
                 gradient[0, corner, q] = A_SIGNS[corner] * sides[0, q] / a0
@@ -187,17 +189,20 @@ def add_tangent(
                 ) / area
         for m in range(4):
             for n in range(4):
+                for q in range(3):
+                    g1, g2 = stiffness[c, 0] * gradient[0, m, q], stiffness[c, 1] * gradient[1, m, q]
+                    g3 = stiffness[c, 2] * gradient[2, m, q]
+                    for r in range(3):
+                        value = g1 * gradient[0, n, r] + g2 * gradient[1, n, r] + g3 * gradient[2, n, r]
+                        hessian[3 * q + r] = share * value
                 across = (
                     stress[c, 0] * A_SIGNS[m] * A_SIGNS[n] / a0 + stress[c, 1] * B_SIGNS[m] * B_SIGNS[n] / b0
                 )
                 across += stress[c, 2] * (A_SIGNS[m] * B_SIGNS[n] + B_SIGNS[m] * A_SIGNS[n]) / area
+                for q in range(3):
+                    hessian[4 * q] += share * across
                 for s in range(p):
                     for t in range(p):
-                        slot = slots[c, m * p + s, n * p + t]
-                        for q in range(3):
-                            for r in range(3):
-                                value = 0.0
-                                for i in range(3):
-                                    value += stiffness[c, i] * gradient[i, m, q] * gradient[i, n, r]
-                                blocks[slot, q, r] += value * area / (p * p)
-                            blocks[slot, q, q] += across * area / (p * p)
+                        block = flat[slots[c, m * p + s, n * p + t]]
+                        for e in range(9):
+                            block[e] += hessian[e]

@@ -1,0 +1,39 @@
+"""Compiled kernels: kept, compiled anew with what they are made of, and announced."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from sheetbench.kernels import ROOT, SAID, made_of
+
+ASK = """
+import logging, sys
+logging.basicConfig(level=logging.INFO, format="%(message)s")
+import numpy as np
+import lumped.linear.threads
+from lumped.linear.maps import Rows, product
+product(Rows(np.array([0, 1]), np.array([0]), np.array([2.0])), np.array([3.0]))
+"""
+
+
+def test_a_kernel_is_made_of_the_files_whose_kernels_it_calls():
+    found = {str(path.relative_to(ROOT)) for path in made_of(ROOT / "lumped/statics/fused.py")}
+    assert {"lumped/springs/together.py", "lumped/springs/areas.py", "lumped/linear/banded.py"} <= found
+    tuples = {path.name for path in made_of(ROOT / "lumped/springs/all_forces.py")}
+    assert {"packing.py", "tiles.py", "cell_tiles.py"} <= tuples  # a tuple's fields count too
+    assert "assembly.py" not in {path.name for path in made_of(ROOT / "lumped/dynamics/compiled_newton.py")}
+
+
+def test_the_first_compilation_is_announced_and_the_second_run_compiles_nothing(tmp_path: Path):
+    said = [
+        subprocess.run(
+            [sys.executable, "-c", ASK],
+            env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stderr
+        for _ in range(2)
+    ]
+    assert said == [SAID + "\n", ""]

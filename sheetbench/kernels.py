@@ -1,9 +1,9 @@
 """Where compiled kernels are kept, when they are compiled anew, and that somebody hears of it.
 
-They are kept in the user's cache, unless NUMBA_CACHE_DIR names another place: numba would keep them inside the
-installed package, where uninstalling leaves them behind. By itself numba compiles a kernel anew when its own
-file changes; one that calls kernels of other files would go on with what they were. So a kernel's stamp here
-is that of all files with kernels, or with the tuples that they take, which its file imports, and theirs.
+They are kept in the user's cache, unless NUMBA_CACHE_DIR names another place: numba would keep them inside
+the installed package, where uninstalling leaves them behind. By itself numba compiles a kernel anew when its
+own file changes; one that calls kernels of other files would go on with what they were. So a kernel's stamp
+here is that of all files with kernels, or with the tuples that they take, which its file imports, and theirs.
 
 To be imported before numba is. Whoever wants to know that something is compiled listens to the logger
 "sheetbench"; nothing is said where all is in the cache.
@@ -24,7 +24,7 @@ from platformdirs import user_cache_path
 
 os.environ.setdefault("NUMBA_CACHE_DIR", str(user_cache_path("sheetbench") / "numba"))  # numba reads it once
 
-from numba.core import caching, event  # noqa: E402  # after its directory is set
+from numba.core import caching, event  # after its directory is set
 
 ROOT = Path(__file__).resolve().parent.parent
 OURS = ("lumped", "fem_reference")

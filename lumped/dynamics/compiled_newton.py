@@ -62,8 +62,9 @@ class CompiledNewton:
             band.width,
         )
         size = system.assembly.pattern.size
-        vectors = (np.zeros((size, 3)) for _ in range(4))
-        self.room = Room(*vectors, np.zeros(banded.rows(len(band.order)) + band.width))
+        force, velocity, base_u, base_v = np.zeros((4, size, 3))
+        right = np.zeros(banded.rows(len(band.order)) + band.width)
+        self.room = Room(force, velocity, base_u, base_v, right)
         self.factors = np.empty((0, 0))
 
     @staticmethod

@@ -18,7 +18,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-
 from numba import njit
 
 from lumped.dynamics.compiled_stages import Stages, Step
@@ -113,12 +112,13 @@ class Esdirk(DenseIntegrator):
 
     def _stages(self, state: State, h: float, tolerance: float | None) -> Stages:
         """All stages of a step."""
-        by, tables = 1.0 / (GAMMA * h), np.empty((3, len(ABSCISSAE), *state.u.shape))
-        tables[:, 0] = state.u, state.v, state.a
-        stages = Stages(state.time + h * ABSCISSAE, *tables, np.zeros((len(ABSCISSAE), 2)))
+        by, times = 1.0 / (GAMMA * h), state.time + h * ABSCISSAE
+        u, v, a = np.empty((3, len(times), *state.u.shape))
+        u[0], v[0], a[0] = state.u, state.v, state.a
+        stages = Stages(times, u, v, a, np.zeros((len(times), 2)))
         middle = state.u + 0.5 * h * state.v
         self._newton.renew(Motion(state.time + 0.5 * h, middle, state.v, by * by, by), middle)
-        step = Step(h, STAGES, GUESSES, by, by * by, self._shifts(stages.time), self._loads(stages.time))
+        step = Step(h, STAGES, GUESSES, by, by * by, self._shifts(times), self._loads(times))
         if not self._newton.solve_stages(step, stages, tolerance):
             self._solve_one_by_one(step, stages, tolerance)
         return stages

@@ -50,9 +50,7 @@ class Sampling:
             row, first = np.empty(self.width), 1 + len(ENERGIES)
             last = len(row) - 3 * len(self._supports)
             external = system.external(state.u, state.time)
-            found = observe(
-                state.u, state.v, state.a, external, self._observed, row[first:last], row[last:]
-            )
+            found = observe(state.u, state.v, state.a, external, self._observed, row[first:last], row[last:])
             row[:first] = state.time, *found, dissipated, work
             return row
         energies, exerted = system.balance(state)

@@ -13,11 +13,11 @@ import pytest
 import lumped
 
 ROOT = Path(__file__).parent.parent
-GROUND = ("sheetbench.scenes", "sheetbench.choices", "sheetbench.files")
+GROUND = ("sheetbench.scenes", "sheetbench.choices", "sheetbench.files", "sheetbench.kernels")
 ALLOWED = {
     "sheetbench/scenes": {"sheetbench.scenes"},
-    "lumped": {"sheetbench.scenes", "sheetbench.choices", "sheetbench.files", "lumped"},
-    "fem_reference": {"sheetbench.scenes", "sheetbench.choices", "fem_reference"},
+    "lumped": {*GROUND, "lumped"},
+    "fem_reference": {"sheetbench.scenes", "sheetbench.choices", "sheetbench.kernels", "fem_reference"},
     "comparisons": {*GROUND, "lumped", "fem_reference", "comparisons"},
 }
 

@@ -4,19 +4,21 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 OUT    ?= demo
 FUZZ   ?= 20000
+SAMPLE ?= 300
 CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogue.py cli.py compare.py \
             lattice.py lattice_mechanics.py lumped_statics.py calibration.py balance.py dynamics_forces.py \
             shell_element.py shell_linear.py solid_element.py sections.py snaps.py campaign.py \
             report.py measurements.py) tests/fuzz
 
 .PHONY: docs docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer tradeoff \
-        advisor-study crosscheck peers bench stability suite viewer wheel-check lint clean
+        advisor-study crosscheck peers bench stability suite mutants viewer wheel-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
 	@echo "make check     the linter and the part of the tests that finds most faults soonest (a minute and a half)"
 	@echo "make slow      the tests that take minutes"
 	@echo "make fuzz      20 000 scenes, command lines and measured files that no one would write (FUZZ=n for others)"
+	@echo "make mutants   how many of 300 faults put into the solvers the tests notice: docs/quality.md (hours; goes on where it stopped)"
 	@echo "make catalogue the table of the catalogue's answers, tests/catalogue.json, for a change that is meant"
 	@echo "make verify    the references against published values, every row (about a minute)"
 	@echo "make locking   the locking sweeps and their picture (files in $(OUT)/)"
@@ -127,6 +129,16 @@ bench: install
 docs-scene: install
 	@$(BIN)/python docs/scene_sketch.py
 	@$(BIN)/sheetbench schema --markdown > docs/scene.md
+
+# a session of $(OUT)/mutants goes on where it stopped; another sample or another commit: remove the folder
+.venv-mutants/installed: constraints.txt
+	@echo "setting up .venv-mutants"
+	@$(PYTHON) -m venv .venv-mutants
+	@.venv-mutants/bin/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt cosmic-ray
+	@touch $@
+
+mutants: install .venv-mutants/installed
+	@.ci/mutants $(BIN)/python .venv-mutants/bin $(OUT)/mutants $(SAMPLE) $(CHECK)
 
 wheel-check: install
 	@.ci/wheel-check $(BIN)/python

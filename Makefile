@@ -23,6 +23,7 @@ help:
 	@echo "make verify    the references against published values, every row (about a minute)"
 	@echo "make locking   the locking sweeps and their picture (files in $(OUT)/)"
 	@echo "make coverage  how often the references' error bars hold, on forty drawn scenes (20 minutes; files in $(OUT)/coverage/)"
+	@echo "make central   the table of the calibration central, trained anew (three minutes)"
 	@echo "make transfer  every calibration on every scene of the transfer study (ten minutes; files in $(OUT)/transfer/)"
 	@echo "make tradeoff  error against time on the seed's test 1, with the picture (files in $(OUT)/)"
 	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/; up to half an hour)"
@@ -76,6 +77,9 @@ locking: install
 
 coverage: install
 	@$(BIN)/sheetbench verify --coverage --out $(OUT)/coverage
+
+central: install
+	@$(BIN)/python -m comparisons.cli.central_table
 
 transfer: install
 	@$(BIN)/sheetbench transfer --out $(OUT)/transfer

@@ -37,6 +37,7 @@ CALIBRATIONS: dict[str, Method] = {
     "fit-modal": Method("fitted to natural frequencies", ("layer_distance", "targets")),
     "uniform": Method("one k for all links, matched to D11 unless given", ("k", "layer_distance")),
     "cauchy": Method("the isotropic central-force lattice, ν = 1/3; square cells", ()),
+    "central": Method("links alone, for simulators without area springs: the least wrong at this ν", ()),
     "axial": Method("every link a bar, k = E A/L"),
     "van-gelder": Method("Van Gelder's areas over squared lengths, in each layer"),
     "lloyd": Method("off-diagonal stiffness of the bilinear element at ν = 1/3, in each layer"),

@@ -164,7 +164,7 @@ def test_a_given_layer_distance_is_kept():
 
 
 def test_cauchy_relation_is_named():
-    for method in ("uniform", "cauchy", "axial", "van-gelder", "lloyd"):
+    for method in ("uniform", "cauchy", "central", "axial", "van-gelder", "lloyd"):
         calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), method)
         got = {row["name"]: row["got"] for row in calibration.moduli}
         assert got["D12"] == pytest.approx(got["D66"], rel=1e-12)

@@ -40,7 +40,7 @@ def test_the_usual_choices_are_those_of_the_functions() -> None:
 
 def test_the_published_study_keeps_its_methods_in_their_order() -> None:
     assert FITTED == ("fit-static", "fit-modal")
-    others = ["consistent", "moduli", "uniform", "cauchy", "axial", "van-gelder", "lloyd"]
+    others = ["consistent", "moduli", "uniform", "cauchy", "central", "axial", "van-gelder", "lloyd"]
     assert [name for name in METHODS if name not in FITTED] == others
 
 

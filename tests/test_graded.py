@@ -280,7 +280,7 @@ def test_two_free_edges_leave_their_corner_its_twisting_stiffness(monkeypatch: p
 
 
 def test_what_has_no_cell_by_cell_form_is_refused() -> None:
-    for method in ("uniform", "moduli", "cauchy", "axial", "van-gelder", "lloyd"):
+    for method in ("uniform", "moduli", "cauchy", "central", "axial", "van-gelder", "lloyd"):
         with pytest.raises(
             BadInput, match=r"grading = 0.5: .*takes no grading; grading goes with 'consistent'"
         ):

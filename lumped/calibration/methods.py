@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from lumped.calibration.calibration import Calibration
+from lumped.calibration.central import central
 from lumped.calibration.consistent import consistent, consistent_interior, consistent_membrane
 from lumped.calibration.least_squares import fit_moduli
 from lumped.calibration.report import report
@@ -42,6 +43,7 @@ MAKERS: dict[str, Callable[..., Calibration]] = {
     "moduli": fit_moduli,
     "uniform": uniform,
     "cauchy": cauchy,
+    "central": central,
     "axial": axial,
     "van-gelder": van_gelder,
     "lloyd": lloyd,

@@ -35,9 +35,9 @@ class Models:
             shell = self._shell(scene, question, np.zeros((1, 2)))
         await asyncio.gather(shell, self.lattice(scene, question), return_exceptions=True)
 
-    async def lattice(self, scene: Scene, question: Question) -> Answered:
+    async def lattice(self, scene: Scene, question: Question, last: Answered | None = None) -> Answered:
         """As `answers.lattice`."""
-        return await self._on_thread(partial(answers.lattice, scene, question))
+        return await self._on_thread(partial(answers.lattice, scene, question, last))
 
     async def shell(self, answered: Answered) -> dict[str, Any]:
         """The shell's message for the question that the lattice has answered."""

@@ -20,6 +20,14 @@ class Newest(Generic[T]):
         self._waiting = value
         self._there.set()
 
+    async def comes_within(self, seconds: float) -> bool:
+        """Whether there is a value to be got by then."""
+        try:
+            await asyncio.wait_for(self._there.wait(), seconds)
+        except TimeoutError:
+            return False
+        return True
+
     async def get(self) -> T:
         """The newest value, as soon as there is one; it is gone then."""
         await self._there.wait()

@@ -3,6 +3,9 @@
 A question that waits is dropped for a newer one, for the lattice and for the shell apart; whatever arrives is
 in the order of its questions, and says by its number which one it answers. The shell is asked what the
 lattice has answered, so that the two can be compared.
+
+While one drags, the lattice's equilibrium is sought from the one before. When one rests it is found from flat
+too, as `sheetbench compare` finds it: if the sheet has several equilibria, the page ends with that one.
 """
 
 from __future__ import annotations
@@ -23,6 +26,7 @@ from comparisons.live.newest import Newest
 from comparisons.live.panel import Panel, Question
 from sheetbench.scenes.errors import BadInput
 
+PAUSE = 0.3  # s without a new question: one rests
 Send = Callable[[str], Awaitable[None]]
 T = TypeVar("T")
 
@@ -69,13 +73,24 @@ class Session:
             self._asked.put(question)
 
     async def _lattices(self) -> None:
+        last: Answered | None = None
         while True:
             question = await self._asked.get()
-            found = await self._of(question, self._lattice(question))
-            if found is not None:
-                await self._say(found.document(self._known))
-                self._known = found.solution.mesh.points
-                self._answered.put(found)
+            last = await self._of(question, self._lattice(question, last))
+            if last is None:
+                continue
+            await self._tell(last)
+            if last.from_flat or await self._asked.comes_within(PAUSE):
+                continue
+            settled = await self._of(question, self._lattice(question))
+            if settled is not None and not settled.agrees(last):
+                last = settled
+                await self._tell(last)
+
+    async def _tell(self, answered: Answered) -> None:
+        await self._say(answered.document(self._known))
+        self._known = answered.solution.mesh.points
+        self._answered.put(answered)
 
     async def _shells(self) -> None:
         while True:
@@ -84,8 +99,8 @@ class Session:
             if found is not None:
                 await self._say(found)
 
-    async def _lattice(self, question: Question) -> Answered:
-        return await self._models.lattice(self._panel.asked(question), question)
+    async def _lattice(self, question: Question, last: Answered | None = None) -> Answered:
+        return await self._models.lattice(self._panel.asked(question), question, last)
 
     async def _text(self, question: Question) -> str:
         return await self._models.text(self._panel.asked(question), question)

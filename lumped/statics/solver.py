@@ -79,6 +79,7 @@ def solve(
     weights: Weights = "tributary",
     linear: bool = False,
     precision: Precision = "double",
+    near: np.ndarray | None = None,
     progress: Callable[[Iteration], None] | None = None,
 ) -> Solution:
     """Static equilibrium of the scene on a lattice with these springs, from flat to full load.
@@ -88,15 +89,16 @@ def solve(
     branch: "path" reports the equilibrium on the load path, stable or not; "stable" leaves an unstable one
     along a direction of negative curvature and descends to a stable equilibrium. weights: "full" gives
     boundary links and masses full shares, as the seed has them. linear: the answer for small displacements,
-    one step with the flat sheet's tangent. precision: of the internal force (`lumped.assembly`). progress:
-    called once an iteration.
+    one step with the flat sheet's tangent. precision: of the internal force (`lumped.assembly`). near: the
+    masses' displacement (n, 3) [m] in an equilibrium of a scene much like this one on this grid, to be sought
+    from first; where that leads to no stable one, and with actuators, from flat. progress: called once an
+    iteration.
 
-    Raises scenes.SceneError when nothing stops a rigid motion, BadInput for linear with actuators. Every
-    other outcome is a status; where the full load was not reached, the last converged load is kept and
-    `load_factor` says which.
+    Raises scenes.SceneError when nothing stops a rigid motion, BadInput for linear with actuators and for
+    `near` of another grid. Every other outcome is a status; where the full load was not reached, the last
+    converged load is kept and `load_factor` says which.
     """
-    scene = scene_of(scene)
-    require_static(scene)
+    require_static(scene := scene_of(scene))
     if linear and scene.actuators:
         raise BadInput("linear = True: actuators turn with the sheet; solve without")
     began = time.perf_counter()
@@ -108,9 +110,10 @@ def solve(
     with one_blas_thread():
         if linear:
             outcome = flat_step(scene, problem)
+        elif weights == "tributary" and branch == "path":
+            outcome = equilibrium(scene, problem, calibration, near)
         else:
-            started = weights == "tributary" and branch == "path"
-            outcome = equilibrium(scene, problem, calibration) if started else settle(scene, problem, branch)
+            outcome = settle(scene, problem, branch)
     done = time.perf_counter()
     usual = {"branch": "path", "weights": "tributary", "precision": "double", "linear": False}
     options = {"branch": branch, "weights": weights, "precision": precision, "linear": linear}
@@ -201,9 +204,10 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
     return Outcome(status, state, tuple(snaps), (*notes, *judged))
 
 
-def equilibrium(scene: Scene, problem: Problem, calibration: Calibration) -> Outcome:
-    """The equilibrium on the load path at full load, from a smaller lattice's where that is quicker."""
-    return _from_coarser(scene, problem, calibration) or settle(scene, problem, "path")
+def equilibrium(scene: Scene, problem: Problem, springs: Calibration, near: np.ndarray | None) -> Outcome:
+    """The equilibrium on the load path at full load, from one nearby or a smaller lattice's if that does."""
+    found = None if near is None else _from_near(scene, problem, near)
+    return found or _from_coarser(scene, problem, springs) or settle(scene, problem, "path")
 
 
 def _from_coarser(scene: Scene, problem: Problem, calibration: Calibration) -> Outcome | None:
@@ -213,13 +217,22 @@ def _from_coarser(scene: Scene, problem: Problem, calibration: Calibration) -> O
         return None
     smaller = pose(scene, springs, precision=problem.assembly.precision)
     smaller.progress = problem.progress
-    outcome = equilibrium(scene, smaller, springs)
+    outcome = equilibrium(scene, smaller, springs, None)
     problem.factorisations += smaller.factorisations
     problem.history.extend(smaller.history)
     if outcome.status is not Status.CONVERGED or outcome.snaps or outcome.notes:
         return None
     u = refined(smaller.assembly.lattice, outcome.state.u, problem.assembly.lattice)
     del smaller, outcome  # and the memory of their factors
+    return _from_near(scene, problem, u)
+
+
+def _from_near(scene: Scene, problem: Problem, u: np.ndarray) -> Outcome | None:
+    """The stable equilibrium that corrections lead to from u, or None."""
+    if problem.assembly.coupling is not None:
+        return None
+    if u.shape != problem.loads.dead.shape:
+        raise BadInput(f"near: of shape {u.shape}, and the lattice's {problem.loads.dead.shape}")
     u = problem.placed(u, 1.0)
     try:
         state = corrected(problem, u, problem.assembly.stresses(u), 1.0, u)
@@ -290,11 +303,7 @@ def _solution(
 ) -> Solution:
     """The answer of an outcome; asked: the options that are not their defaults."""
     state, lattice = outcome.state, problem.assembly.lattice
-    assembly, u, stresses = (
-        problem.assembly,
-        state.u,
-        state.stresses,
-    )  # what outlives the solve: not the factors
+    assembly, u, stresses = problem.assembly, state.u, state.stresses  # they outlive the solve
     linear = asked.get("linear", False)
     exerted, energies = _of_small_displacements(problem, state) if linear else _at(problem, state)
     reactions, on_masses = problem.constraints.reactions(exerted)

@@ -36,6 +36,7 @@ from lumped.statics.buckling import buckling_loads
 from lumped.statics.continuation import Path, trace
 from lumped.statics.equilibrium import at_rest, follow
 from lumped.statics.many import solve_many
+from lumped.statics.polygon import polygons
 from lumped.statics.solver import pose, solve
 from lumped.vibration import Modes, modes, usual_masses
 
@@ -76,6 +77,7 @@ __all__ = [
     "linearise",
     "modes",
     "moduli",
+    "polygons",
     "pose",
     "sensitivity",
     "simulate",

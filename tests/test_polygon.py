@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from functools import cache
+import json
+from pathlib import Path
 
 import numpy as np
 import pytest
+from commands import run
 
 import fem_reference
 import lumped
-from lumped.lattice import build
 from lumped.statics.polygon import lost_bending
-from sheetbench.scenes import Scene, load
+from sheetbench.scenes import Scene, Solution, load
 
 
 def scene(young: float, segments: int) -> Scene:
@@ -22,27 +23,61 @@ def scene(young: float, segments: int) -> Scene:
     return base.replace(material=material, actuators=(chain,), gravity=None)
 
 
-@cache
-def rod(young: float) -> np.ndarray:
-    """The shell with an elastic rod, which knows no segments."""
-    asked = scene(young, 8)
-    found: np.ndarray = fem_reference.solve(asked, "shell", elements=8).displacement(asked.probe_points())
-    return found
+def bending(asked: Scene, solution: Solution) -> float:
+    """Mean curvature [1/m] of the edge with the chain."""
+    y = np.linspace(0.0, asked.sheet.length_y, 33)
+    edge = np.column_stack([np.full_like(y, asked.sheet.length_x), y])
+    return 2.0 * float(np.polyfit(y, solution.displacement(edge)[:, 2], 2)[0])
 
 
-@pytest.mark.parametrize("young", [54.5e6, 545e6])
-@pytest.mark.parametrize("masses, segments", [(9, 4), (17, 4), (17, 8), (33, 8)])
-def test_lost_bending_is_foretold_within_a_factor_of_two(young: float, masses: int, segments: int) -> None:
-    """Largest difference at the probes: 5.1, 9.7, 1.7, 2.7 % with the seed's rubber, 27, 42, 10, 15 % with a
-    sheet ten times as stiff, the grid's own error among it."""
+def bent(asked: Scene, cells: int) -> float:
+    """The same of a lattice of square cells, so many along the edge; the sentence stands where it should."""
+    across = round(cells * asked.sheet.length_x / asked.sheet.length_y)
+    solution = lumped.solve(asked, lumped.calibrate(asked.sheet, asked.material, (across + 1, cells + 1, 2)))
+    (chain,) = asked.actuators
+    assert ("holds several cells straight" in solution.message) == (chain.segments < cells)
+    return bending(asked, solution)
+
+
+@pytest.mark.parametrize(
+    "young, length, curvature, stiffness, cells, segments",
+    [
+        (54.5e6, 0.188, 4.0, 0.2, 8, 4),
+        (54.5e6, 0.188, 4.0, 0.2, 16, 4),
+        (545e6, 0.188, 1.0, 0.2, 16, 4),
+        (545e6, 0.376, 4.0, 0.2, 16, 8),
+        (54.5e6, 0.094, 12.0, 0.01, 16, 8),
+        (5e6, 0.188, -8.0, 0.01, 16, 4),
+    ],
+)
+def test_lost_bending_is_foretold_within_a_factor_of_one_and_a_half(
+    young: float, length: float, curvature: float, stiffness: float, cells: int, segments: int
+) -> None:
+    """Against the same grid with a segment a cell: 2.4, 7.7, 32, 6.8, 5.3 and 11 % of the bending; the last
+    two chains are none of those that the law was fitted to."""
     asked = scene(young, segments)
-    springs = lumped.calibrate(asked.sheet, asked.material, masses)
-    solution = lumped.solve(asked, springs)
-    right = rod(young)
-    measured = np.abs(solution.displacement(asked.probe_points()) - right).max() / np.abs(right).max()
-    (foretold,) = lost_bending(asked, build(asked.sheet, springs.grid, springs.layer_distance)).values()
-    assert 0.5 < foretold / measured < 2.0
-    assert "holds several cells straight" in solution.message
+    chain = asked.actuators[0].replace(curvature=curvature, bending_stiffness=stiffness)
+    asked = asked.replace(sheet=asked.sheet.replace(length_x=length), actuators=(chain,), probes={})
+    (foretold,) = lost_bending(asked, (9, cells + 1, 2)).values()
+    fully = bent(asked.replace(actuators=(chain.replace(segments=cells),)), cells)
+    measured = 1.0 - bent(asked, cells) / fully
+    assert 1.0 / 1.52 < foretold / measured < 1.52
+
+
+def test_against_the_elastic_rod() -> None:
+    """The shell's, which knows no segments."""
+    asked = scene(545e6, 4)
+    rod = bending(asked, fem_reference.solve(asked, "shell", elements=8))
+    assert lost_bending(asked, (17, 17, 2))["x1"] == pytest.approx(1.0 - bent(asked, 16) / rod, rel=0.15)
+
+
+def test_it_is_said_before_solving(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "chain.toml"
+    scene(545e6, 4).save(path)
+    for verb, key in (("check", "foretold"), ("calibrate", "notes")):
+        assert run(verb, str(path), "--json") == 0
+        (said,) = json.loads(capsys.readouterr().out)[key]
+        assert said.startswith("the chain on x1 bends it some 16 % less than an elastic rod would")
 
 
 def test_one_segment_a_cell_keeps_nothing_back() -> None:
@@ -50,5 +85,6 @@ def test_one_segment_a_cell_keeps_nothing_back() -> None:
     springs = lumped.calibrate(asked.sheet, asked.material, 9)
     solution = lumped.solve(asked, springs)
     assert solution.message == ""
-    right = rod(545e6)
-    assert np.abs(solution.displacement(asked.probe_points()) - right).max() < 0.03 * np.abs(right).max()
+    points = asked.probe_points()
+    right = fem_reference.solve(asked, "shell", elements=8).displacement(points)
+    assert np.abs(solution.displacement(points) - right).max() < 0.03 * np.abs(right).max()

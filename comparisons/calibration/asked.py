@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 from warnings import warn
 
+import lumped
 from comparisons.comparison.comparison import load_static
 from comparisons.models.grading import AUTO, grading_of, number
 from comparisons.models.quantities import checked
@@ -62,6 +63,14 @@ def grading(
     changed = scenes.load(scene).model_copy(update={"sheet": sheet, "material": material})
     value, why = grading_of(changed, grid, asked, **own)
     return value or 0.0, why
+
+
+def foretold(scene: str | None, sheet: Sheet, material: Material, grid: Grid) -> list[str]:
+    """What is known before solving of how far the named scene's answer on a grid will be off."""
+    if scene is None:
+        return []
+    changed = scenes.load(scene).model_copy(update={"sheet": sheet, "material": material})
+    return [said] if (said := lumped.polygons(changed, grid)) else []
 
 
 def exported(scene: str | None, sheet: Sheet, material: Material) -> Scene:

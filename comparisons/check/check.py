@@ -21,21 +21,34 @@ def check(scene: AnyScene, called: str | None = None) -> Report:
     called = called or (scene.name if isinstance(scene, Scene) else str(scene))
     scene = scene_of(scene)
     parts = [*in_words(scene), ("lattice", _lattice(scene)), ("shell", _shell(scene))]
-    free = free_rigid_motions(scene)
+    free, foretold = free_rigid_motions(scene), _foretold(scene)
     return Report(
         name="check",
         title=scene.name,
         subtitle=scene.title,
         tables=(Table("What will be solved", (Column("part"), Column("what", prose=True)), tuple(parts)),),
-        notes=() if free else (f"Solve it with:\nsheetbench compare {shlex.quote(called)}",),
+        notes=(
+            *foretold,
+            *([] if free else [f"Solve it with:\nsheetbench compare {shlex.quote(called)}"]),
+        ),
         complaints=("nothing holds the sheet: only `modes` and `simulate` can answer",) if free else (),
         document={
             "scene": scene.document(),
             "parts": [{"part": part, "what": what} for part, what in parts],
             "free_rigid_motions": free,
+            "foretold": foretold,
         },
         scene=scene,
     )
+
+
+def _foretold(scene: Scene) -> list[str]:
+    """What the lattice's answer will be off by, as far as it is known before solving."""
+    if not scene.actuators:
+        return []
+    from lumped import polygons
+
+    return [said] if (said := polygons(scene, scene_grid(scene))) else []
 
 
 def _lattice(scene: Scene) -> str:

@@ -96,7 +96,9 @@ def command(
             large=large,
             progress=end.progress,
         )
-        found = replace(found, notes=(f"grading {graded:g}: {why}", *found.notes)) if why else found
+        notes = [f"grading {graded:g}: {why}"] if why else []
+        notes += asked.foretold(scene, sheet, material, masses)
+        found = replace(found, notes=(*notes, *found.notes))
         report = tables.report(found, sheet, material)
         if export is not None:
             of = asked.exported(scene, sheet, material)

@@ -263,7 +263,7 @@ def _judge(scene: Scene, problem: Problem, state: State) -> tuple[Status, list[s
             None,
             [
                 doubts,
-                polygons(scene, problem.assembly.lattice),
+                polygons(scene, problem.assembly.lattice.grid),
                 rounded.message if rounded is not None else "",
             ],
         )

@@ -8,6 +8,7 @@ from warnings import warn
 
 import lumped
 from comparisons.comparison.comparison import load_static
+from comparisons.models.expected_error import ExpectedError, expected_error
 from comparisons.models.grading import AUTO, grading_of, number
 from comparisons.models.quantities import checked
 from sheetbench import scenes
@@ -71,6 +72,16 @@ def foretold(scene: str | None, sheet: Sheet, material: Material, grid: Grid) ->
         return []
     changed = scenes.load(scene).model_copy(update={"sheet": sheet, "material": material})
     return [said] if (said := lumped.polygons(changed, grid)) else []
+
+
+def expected(
+    scene: str | None, sheet: Sheet, material: Material, springs: lumped.Calibration
+) -> ExpectedError | None:
+    """The error to expect of these springs in the named scene with this sheet and material."""
+    if scene is None:
+        return None
+    changed = scenes.load(scene).model_copy(update={"sheet": sheet, "material": material})
+    return expected_error(changed, springs.method, springs.grid, springs.grading)
 
 
 def exported(scene: str | None, sheet: Sheet, material: Material) -> Scene:

@@ -14,6 +14,7 @@ from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
 
 if TYPE_CHECKING:
+    from comparisons.models.expected_error import ExpectedError
     from lumped import Calibration
     from sheetbench.scenes import Material, Sheet
 
@@ -35,9 +36,11 @@ _MEANINGS = {
 }
 
 
-def report(calibration: Calibration, sheet: Sheet, material: Material) -> Report:
-    """What `sheetbench calibrate` shows of the springs for a sheet."""
-    found = document(calibration)
+def report(
+    calibration: Calibration, sheet: Sheet, material: Material, expected: ExpectedError | None = None
+) -> Report:
+    """What `sheetbench calibrate` shows of the springs for a sheet; expected: their error in a scene."""
+    found = document(calibration) | ({"expected_error": expected.as_dict()} if expected else {})
     nx, ny, layers = found.get("grid", ("?", "?", "?"))
     graded = f", grading {found['grading']:g}" if found.get("grading") else ""
     fitted = [f"the targets are met within {100 * found['fit']['residual']:.2g} %"] if "fit" in found else []
@@ -49,7 +52,7 @@ def report(calibration: Calibration, sheet: Sheet, material: Material) -> Report
         lead=summary.sheet(sheet, material),
         document=found,
         tables=(springs(found), moduli(found), *([fit(found)] if "fit" in found else [])),
-        notes=(*fitted, *found.get("notes", ())),
+        notes=(*fitted, *found.get("notes", ()), *([str(expected)] if expected else [])),
         attachments={"springs.toml": partial(write_text, text=to_toml(found))},
         settings={"method": found["method"], "grid": found.get("grid")},
     )

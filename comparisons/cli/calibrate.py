@@ -99,7 +99,7 @@ def command(
         notes = [f"grading {graded:g}: {why}"] if why else []
         notes += asked.foretold(scene, sheet, material, masses)
         found = replace(found, notes=(*notes, *found.notes))
-        report = tables.report(found, sheet, material)
+        report = tables.report(found, sheet, material, asked.expected(scene, sheet, material, found))
         if export is not None:
             of = asked.exported(scene, sheet, material)
             report = end.export(export, of, found, report, overwrite)

@@ -21,6 +21,7 @@ import numpy as np
 from comparisons.comparison import strain_law, tables
 from comparisons.comparison.error_bar import CHEAP, ErrorBar, error_bar
 from comparisons.models.candidate import Candidate
+from comparisons.models.expected_error import ExpectedError, expected_error
 from comparisons.models.grading import Grading
 from comparisons.models.grids import Asked, Elements
 from comparisons.models.plugins import shown_name
@@ -147,6 +148,14 @@ class Comparison(summary.Summarised):
         off = self.error(solution)
         return None if self.bar is None or off is None else off > self.bar.error
 
+    def expected_error(self, solution: Solution) -> ExpectedError | None:
+        """What error cells and layers make likely of a lattice, before it is solved."""
+        found = solution.settings
+        if solution.model != "lumped" or "calibration" not in found:
+            return None
+        nx, ny, layers = found["grid"]
+        return expected_error(self.scene, found["calibration"], (nx, ny, layers), found.get("grading", 0.0))
+
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench compare`: metres, newtons, seconds."""
         return {
@@ -188,6 +197,7 @@ class Comparison(summary.Summarised):
         bar = self.bar.as_dict() if solution is self.reference and self.bar is not None else {}
         if (own := self.own_bar(solution)) is not None:
             bar = {"error": self.bar_of(solution), "probes": own}
+        expected = self.expected_error(solution)
         return {
             "model": solution.model,
             "label": solution.label,
@@ -207,6 +217,7 @@ class Comparison(summary.Summarised):
             "energies": solution.energies,
             "balance": solution.balance.document() if solution.balance is not None else None,
             **({"uncertainty": bar} if bar else {}),
+            **({"expected_error": expected.as_dict()} if expected else {}),
         }
 
 

@@ -46,6 +46,7 @@ def report(comparison: Comparison, advice: Advice | None = None) -> Report:
         notes=(
             " · ".join(solution.label for solution in comparison.solutions),
             *dict.fromkeys(said for s in comparison.solutions for said in told(s.settings)),
+            *(f"{s.label}: {said}" for s in comparison.solutions if (said := comparison.expected_error(s))),
             *uncertainty(comparison),
             explanation(comparison),
             *chosen,

@@ -1,17 +1,11 @@
 """How much finer a lattice's cells are at the edges: as asked, or as the scene's layers have it.
 
-`auto` looks at the widths of the layers that form at the edges, before anything is solved:
-
-    bent edge   a sheet clamped to a rod (or a chain) of curvature κ keeps its stretching within
-                δ = √(h/κ)/(12 (1 − ν²))^¼ of it (e.g. Calladine, Theory of Shell Structures, 1983)
-    load        q per area bends the sheet within δ = (D/q)^⅓ of a clamp, D = E h³/12(1 − ν²): the length in
-                which a heavy elastica turns
-
-and grades the grid where the narrowest is less than NARROW of the shorter side and less than RESOLVED cells
-wide. On the transfer study's scenes that tells those that grading mends (curved edges, soft and thin sheets,
-pressure) from those whose smooth interior it would make coarser; on scenes that were drawn after the rule was
-made, of eight that it grades by GRADED seven are nearer and one is not, by ½ two are much farther off
-(docs/theory.md).
+`auto` looks at the widths of the layers that form at the edges (`comparisons.models.layers`), before anything
+is solved, and grades the grid where the narrowest is less than NARROW of the shorter side and less than
+RESOLVED cells wide. On the transfer study's scenes that tells those that grading mends (curved edges, soft
+and thin sheets, pressure) from those whose smooth interior it would make coarser; on scenes that were drawn
+after the rule was made, of eight that it grades by GRADED seven are nearer and one is not, by ½ two are much
+farther off (docs/theory.md).
 """
 
 from __future__ import annotations
@@ -19,12 +13,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
 from comparisons.models.candidate import Candidate
-from comparisons.models.scales import scales
+from comparisons.models.layers import layers
 from sheetbench.choices import CALIBRATIONS, method_of
-from sheetbench.scenes import Chain, Curved, Scene
+from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import LAYERS
 
@@ -107,37 +99,14 @@ def _impossible(grid: Sequence[int], settings: Mapping[str, Any]) -> str:
 
 
 def _by_layers(scene: Scene, grid: Sequence[int]) -> tuple[float, str]:
-    layers = _layers(scene)
-    if not layers:
+    found = layers(scene)
+    if not found:
         return 0.0, "nothing bends the sheet, so that it has no layers at its edges"
-    width, cause = min(layers)
+    layer = min(found)
+    width = layer.width
     side = min(scene.sheet.lengths)
     cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
-    layer = f"{cause} within {1e3 * width:.3g} mm of the edge"
     cells = f"{width / cell:.2g} cells of {1e3 * cell:.3g} mm where all are alike"
     if width >= NARROW * side:
         return 0.0, f"{layer}, no narrow layer on a side of {1e3 * side:.3g} mm"
     return (0.0 if cell * RESOLVED < width else GRADED), f"{layer}, {cells}"
-
-
-def _layers(scene: Scene) -> list[tuple[float, str]]:
-    """Widths [m] of the layers, and what happens in them."""
-    sheet, material, numbers = scene.sheet, scene.material, scales(scene)
-    found = []
-    bends = [(s.edge, s.curvature) for s in scene.supports if isinstance(s, Curved)]
-    bends += [(a.edge, _curvature(a)) for a in scene.actuators if isinstance(a, Chain)]
-    for edge, curvature in bends:
-        if curvature:
-            width = np.sqrt(sheet.thickness / abs(curvature)) / (12.0 * (1.0 - material.poisson**2)) ** 0.25
-            found.append((float(width), f"edge {edge}, bent by {curvature:g} 1/m, stretches the sheet"))
-    if numbers.load > 0.0:
-        width = min(sheet.lengths) * numbers.load_number ** (-1.0 / 3.0)
-        found.append((width, f"its load of {numbers.load:.3g} Pa bends the sheet"))
-    return found
-
-
-def _curvature(chain: Chain) -> float:
-    """The curvature [1/m] of largest size that a chain is commanded to in the end."""
-    command = chain.curvature
-    values = np.atleast_1d(command if isinstance(command, float | tuple) else command.value[-1])
-    return float(values[np.argmax(np.abs(values))])

@@ -1,0 +1,52 @@
+"""Layers at the edges of a bent sheet, by their widths, before anything is solved.
+
+bent edge   a sheet clamped to a rod (or a chain) of curvature κ keeps its stretching within
+            δ = √(h/κ)/(12 (1 − ν²))^¼ of it (e.g. Calladine, Theory of Shell Structures, 1983)
+load        q per area bends the sheet within δ = (D/q)^⅓ of a clamp, D = E h³/12(1 − ν²): the length in
+            which a heavy elastica turns
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from comparisons.models.scales import scales
+from sheetbench.scenes import Chain, Curved, Scene
+
+
+@dataclass(frozen=True, order=True)
+class Layer:
+    """width [m]; what happens in it, in words; whether it is a bent edge's, or the load's."""
+
+    width: float
+    cause: str
+    bent_edge: bool
+
+    def __str__(self) -> str:
+        return f"{self.cause} within {1e3 * self.width:.3g} mm of the edge"
+
+
+def layers(scene: Scene) -> list[Layer]:
+    """The layers of a scene: one for every edge that is bent, one for its load."""
+    sheet, material, numbers = scene.sheet, scene.material, scales(scene)
+    found = []
+    bends = [(s.edge, s.curvature) for s in scene.supports if isinstance(s, Curved)]
+    bends += [(a.edge, _curvature(a)) for a in scene.actuators if isinstance(a, Chain)]
+    for edge, curvature in bends:
+        if curvature:
+            width = np.sqrt(sheet.thickness / abs(curvature)) / (12.0 * (1.0 - material.poisson**2)) ** 0.25
+            cause = f"edge {edge}, bent by {curvature:g} 1/m, stretches the sheet"
+            found.append(Layer(float(width), cause, bent_edge=True))
+    if numbers.load > 0.0:
+        width = min(sheet.lengths) * numbers.load_number ** (-1.0 / 3.0)
+        found.append(Layer(width, f"its load of {numbers.load:.3g} Pa bends the sheet", bent_edge=False))
+    return found
+
+
+def _curvature(chain: Chain) -> float:
+    """The curvature [1/m] of largest size that a chain is commanded to in the end."""
+    command = chain.curvature
+    values = np.atleast_1d(command if isinstance(command, float | tuple) else command.value[-1])
+    return float(values[np.argmax(np.abs(values))])

@@ -81,6 +81,7 @@ SMALL = {
     "suite": ["suite", "--suite", "modes"],
     "score": ["score", "answers.csv", "--case", "thick"],
     "linearise": ["linearise", "one-edge-clamped", "--lumped", "3", "--modes", "3"],
+    "report": ["report", "stability"],
 }
 WIDE = 400  # columns, where nothing has to give way
 WAYS: dict[str, tuple[int, dict[str, str], str]] = {

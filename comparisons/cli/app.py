@@ -41,6 +41,7 @@ VERBS = (
     "score",
     "linearise",
     "live",
+    "report",
 )
 FAULT = 1
 BAD_INPUT = 2

@@ -137,6 +137,23 @@ class Report:
         parts += [f"- {markdown(said)}\n" for said in self.complaints]
         return "\n".join([*parts, f"{made_with}\n"] if made_with else parts)
 
+    def words(self) -> dict[str, Any]:
+        """What the files do not say by themselves, ready for JSON: words, headings of tables, pictures.
+
+        Tables without a file of their own come with their rows.
+        """
+        return {
+            "title": self.title,
+            "subtitle": self.subtitle,
+            "lead": self.lead,
+            "document": f"{self.name}.json",
+            "tables": [table.words() for table in self.tables],
+            "notes": list(self.notes),
+            "complaints": list(self.complaints),
+            "pictures": [list(picture.names) for picture in self.pictures],
+            "met": self.met,
+        }
+
     def to_latex(self) -> str:
         """All tables without their details."""
         tables = "\n".join(table.to_latex() for table in self.tables)

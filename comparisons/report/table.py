@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import csv
 import io
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from comparisons.report.escape import cell, csv_cell, html, latex, markdown, terminal
@@ -144,6 +144,13 @@ class Table:
         rules = ["---:" if column.numeric else "---" for column in self.columns]
         lines = [headers, rules, *([cell(shown) for shown in row] for row in self.shown_rows())]
         return f"{markdown(self.caption)}\n\n" + "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+    def words(self) -> dict[str, Any]:
+        """What the CSV file does not say, ready for JSON; where there is none, the rows too."""
+        said = {"name": self.name, "caption": self.caption, "text": self.text, "grouped": self.grouped}
+        units = [any(isinstance(row[i], Unit) for row in self.rows) for i in range(len(self.columns))]
+        said |= {"columns": [{**asdict(c), "units": u} for c, u in zip(self.columns, units, strict=True)]}
+        return said if self.name else {**said, "rows": [list(row) for row in self.rows]}
 
     def to_latex(self) -> str:
         """A booktabs tabular with shown units and without details, its caption as a comment above it."""

@@ -86,12 +86,12 @@ class Folder:
                 missing.append(said)
             else:
                 self.written += picture.names
-        self.finish(report.settings)
+        self.finish(report.settings, report.words())
         return missing
 
-    def finish(self, settings: Mapping[str, Any]) -> None:
-        """Note in the manifest that the run has left all its files, and what it was made with."""
-        self._note(settings, finished=True)
+    def finish(self, settings: Mapping[str, Any], words: Mapping[str, Any] | None = None) -> None:
+        """Note in the manifest that the run has left all its files, what it was made with, and its words."""
+        self._note(settings, words, finished=True)
 
     def _clear(self) -> None:
         """Remove the files of runs that this one takes the place of, once there is something to put there."""
@@ -100,7 +100,12 @@ class Folder:
                 _remove(self.path, name)
         self._stale = []
 
-    def _note(self, settings: Mapping[str, Any] | None = None, finished: bool = False) -> None:
+    def _note(
+        self,
+        settings: Mapping[str, Any] | None = None,
+        words: Mapping[str, Any] | None = None,
+        finished: bool = False,
+    ) -> None:
         """Write the manifest."""
         self._clear()
         of_others = {
@@ -115,6 +120,7 @@ class Folder:
             "asked": self._apart,
             "files": [*self.written, *(name for name in earlier if (self.path / name).exists())],
             **self._about,
+            **({} if words is None else {"words": words, "settings": settings}),
         }
         said = {} if settings is None else {"settings": settings}
         whole = {**self._record, **said, **self._about, "runs": {**of_others, self._verb: mine}}

@@ -23,12 +23,23 @@ export class Eye {
     canvas.addEventListener("keydown", (event) => this.key(event));
   }
 
-  // Shows a ball {centre, radius} whole, from where the eye first was.
-  reset({ centre, radius }) {
+  // Shows a box whole, from where the eye first was.
+  reset(box) {
+    const centre = box.getCenter(new Vector3());
+    const radius = box.getSize(new Vector3()).length() / 2 || 1;
     this.ball = { centre, radius };
-    const half = MathUtils.degToRad(this.camera.fov / 2);
-    const narrow = Math.atan(Math.tan(half) * Math.min(this.camera.aspect, 1));
-    const far = (0.92 * radius) / Math.sin(narrow);
+    this.box = box;
+    const right = new Vector3().crossVectors(UP, this.from).normalize();
+    const above = new Vector3().crossVectors(this.from, right);
+    const up = Math.tan(MathUtils.degToRad(this.camera.fov / 2));
+    const aside = up * this.camera.aspect;
+    let far = radius;
+    for (let corner = 0; corner < 8; corner++) {
+      const [x, y, z] = [1, 2, 4].map((bit) => (corner & bit ? box.max : box.min));
+      const at = new Vector3(x.x, y.y, z.z).sub(centre);
+      const wide = Math.max(Math.abs(at.dot(right)) / aside, Math.abs(at.dot(above)) / up);
+      far = Math.max(far, 1.08 * (at.dot(this.from) + wide));
+    }
     this.camera.near = far / 200;
     this.camera.far = 20 * far;
     this.camera.position.copy(centre).addScaledVector(this.from, far);
@@ -66,8 +77,8 @@ export class Eye {
       "+": () => this.zoom(ZOOM),
       "=": () => this.zoom(ZOOM),
       "-": () => this.zoom(1 / ZOOM),
-      0: () => this.ball && this.reset(this.ball),
-      Home: () => this.ball && this.reset(this.ball),
+      0: () => this.box && this.reset(this.box),
+      Home: () => this.box && this.reset(this.box),
     };
     if (event.ctrlKey || event.metaKey || event.altKey || !deeds[event.key]) return;
     event.preventDefault();

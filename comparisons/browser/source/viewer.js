@@ -9,7 +9,6 @@ import {
   LineLoop,
   Raycaster,
   Scene,
-  Sphere,
   Vector2,
   Vector3,
   WebGLRenderer,
@@ -159,8 +158,7 @@ export class Viewer {
     const box = new Box3();
     for (const sheet of this.shown()) box.expandByObject(sheet.group);
     if (this.flat) box.expandByObject(this.flat);
-    const ball = box.getBoundingSphere(new Sphere());
-    this.eye.reset({ centre: ball.center, radius: ball.radius || 1 });
+    this.eye.reset(box);
     this.request();
   }
 

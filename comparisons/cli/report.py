@@ -1,0 +1,51 @@
+"""`sheetbench report DIR`: one HTML file of whatever studies a folder holds."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparisons.cli.options import Json
+
+
+def command(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder that verbs wrote to with --out.")],
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            metavar="FILE",
+            help="The page to write. DIR/report.html unless given.",
+            show_default=False,
+        ),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Write one HTML file of the studies in a folder and those below it, to read in any browser.
+
+    Sheets to turn, tables to sort, plots, findings and manifests; it needs no network.
+    """
+    from comparisons.cli import console
+    from comparisons.pages.page import memory_of, page
+    from comparisons.pages.studies import read
+    from comparisons.report.files import write_text
+
+    found = read(folder)
+    text = page(found, folder.resolve().name)
+    target = folder / "report.html" if out is None else out
+    write_text(target, text)
+    size = target.stat().st_size
+    troubles = [*found.troubles, *(said for study in found.studies for said in study.troubles)]
+    if json:
+        studies = [{"place": s.place, "verb": s.verb, "title": s.title} for s in found.studies]
+        others = [name for name, _ in found.others]
+        console.document(
+            {"file": str(target), "bytes": size, "studies": studies, "others": others, "troubles": troubles}
+        )
+    else:
+        many = len(found.studies)
+        console.note(f"{many} {'study' if many == 1 else 'studies'} in {target}, {memory_of(size)}")
+    for said in troubles:
+        console.warn(said)

@@ -1,0 +1,74 @@
+"""What a study was asked, in words: its command, its scene and its settings."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Mapping
+from typing import Any
+
+from comparisons.pages.studies import Study
+from comparisons.report.table import number
+from sheetbench.scenes.words import in_words
+
+QUESTIONS = {
+    "compare": "How far is a spring lattice from a finite-element reference of the same sheet?",
+    "calibrate": "Which spring constants belong to this material and grid?",
+    "simulate": "How does the lattice move from rest?",
+    "modes": "What are the natural frequencies of both models?",
+    "tradeoff": "What does speed cost in accuracy, over models and grids?",
+    "advise": "Which is the cheapest model within a tolerance?",
+    "identify": "Which material brings the model nearest to measured displacements?",
+    "transfer": "How well do calibrations carry over to other scenes?",
+    "stability": "Where does each solver hold, degrade, refuse or break?",
+    "verify": "Do the references meet published values?",
+    "crosscheck": "Do independent programs agree on this sheet?",
+    "linearise": "What are mass, damping and stiffness about the sheet's rest?",
+    "suite": "What are the cases of the reference set?",
+    "score": "How near are these answers to the reference set?",
+    "reproduce": "What do both models make of the published tests?",
+    "check": "What does this scene ask?",
+}
+
+
+def question(study: Study) -> str:
+    """The question that a verb answers."""
+    return QUESTIONS.get(study.verb, "")
+
+
+def command(study: Study) -> str:
+    """The command as it was typed."""
+    words = study.run.get("command") or ()
+    return shlex.join(map(str, words)) if isinstance(words, list) else ""
+
+
+def asked(study: Study) -> list[tuple[str, str]]:
+    """Pairs of a part's name and what it says: of the scene, then of the settings."""
+    scene = study.scene
+    parts = study.attempt("scene", lambda: in_words(scene)) if scene is not None else []
+    settings = study.run.get("settings")
+    chosen = _settings(settings) if isinstance(settings, dict) else []
+    return [*(parts or []), *chosen]
+
+
+def _settings(settings: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """A line a model, and one for what belongs to none."""
+    nested = {k: v for k, v in settings.items() if isinstance(v, dict)}
+    flat = {k: v for k, v in settings.items() if k not in nested}
+    lines = [(name, _line(values)) for name, values in nested.items() if values]
+    return [*lines, ("settings", _line(flat))] if _line(flat) else lines
+
+
+def _line(values: Mapping[str, Any]) -> str:
+    shown = ((key.replace("_", " "), short(value)) for key, value in values.items())
+    return ", ".join(f"{key} {value}" for key, value in shown if value)
+
+
+def short(value: Any) -> str:
+    """A setting in a few characters; nothing of one that is long, which the document has."""
+    if isinstance(value, bool) or value is None:
+        return "" if value is None else "on" if value else "off"
+    if isinstance(value, float):
+        return number(value, ".4g")
+    if isinstance(value, list) and all(isinstance(one, int) for one in value) and len(value) <= 3:
+        return " × ".join(map(str, value))
+    return str(value) if isinstance(value, str | int) and len(str(value)) <= 60 else ""

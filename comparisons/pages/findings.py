@@ -1,0 +1,121 @@
+"""What a study found, in sentences with units: a few of our own from its document, then its own remarks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from comparisons.pages.asked import short
+from comparisons.pages.studies import Study
+from comparisons.report.table import number
+
+Document = Mapping[str, Any]
+
+
+def findings(study: Study) -> list[str]:
+    """Sentences on a study's answer."""
+    say = SAID.get(study.verb)
+    own = study.attempt("document", lambda: say(study.document)) if say and study.document else None
+    notes = study.words.get("notes") or study.document.get("notes") or ()
+    return [*(own or []), *(str(note) for note in notes if "\n" not in str(note))]
+
+
+def complaints(study: Study) -> list[str]:
+    """What went wrong, and what is doubtful about the scene."""
+    found = [*study.words.get("complaints", ()), *(study.document.get("warnings") or ())]
+    return list(dict.fromkeys(map(str, found)))
+
+
+def _milliseconds(seconds: float) -> str:
+    return f"{number(1e3 * seconds, '.3g')} ms" if seconds < 1 else f"{number(seconds, '.3g')} s"
+
+
+def _percent(share: float) -> str:
+    return f"{number(100 * share, '.2g')} %"
+
+
+def _compare(document: Document) -> list[str]:
+    solutions = {one["model"]: one for one in document["solutions"]}
+    said = []
+    for error in document.get("errors", ()):
+        model, truth = solutions[error["of"]], solutions[error["against"]]
+        largest = max(abs(u) for moved in truth["probes"].values() for u in moved)
+        if error["error"] is None:
+            continue
+        said.append(
+            f"{model['label']} is off by {_percent(error['error'])} of the largest displacement, "
+            f"{number(1e3 * largest, '.3g')} mm, from {truth['label']}; it was solved in "
+            f"{_milliseconds(model['solve_seconds'])}, the reference in "
+            f"{_milliseconds(truth['solve_seconds'])}."
+        )
+    return said
+
+
+def _modes(document: Document) -> list[str]:
+    return [
+        f"{one['label']}: the lowest frequency is {number(one['frequencies_hz'][0], '.4g')} Hz."
+        for one in document["solutions"]
+        if one["frequencies_hz"]
+    ]
+
+
+def _simulate(document: Document) -> list[str]:
+    ends = {probe: u[-1] for probe, u in document["probes"].items() if u}
+    far, moved = max(ends.items(), key=lambda item: max(map(abs, item[1])))
+    return [
+        f"{document['label']}, {document['integrator']}: {document['steps']} steps to "
+        f"{number(document['time'][-1], '.4g')} s in {_milliseconds(document['solve_seconds'])}.",
+        f"{far} ends farthest out, at {', '.join(number(1e3 * u, '.3f') for u in moved)} mm.",
+    ]
+
+
+def _calibrate(document: Document) -> list[str]:
+    springs = document["springs"]
+    shown = ", ".join(
+        f"{name.replace('_', ' ')} {number(value, '.4g')}"
+        for name, value in springs.items()
+        if isinstance(value, int | float) and name in ("axial", "diagonal", "vertical", "cross")
+    )
+    worst = max(document["moduli"], key=lambda one: abs(one["miss"] or 0.0))
+    said = [f"Spring constants of {document['method']}: {shown} N/m."] if shown else []
+    met = f"{worst['name']} is missed most, by {_percent(abs(worst['miss'] or 0.0))}"
+    return [*said, "Every modulus is met." if abs(worst["miss"] or 0.0) < 1e-9 else f"{met}."]
+
+
+def _tradeoff(document: Document) -> list[str]:
+    front = [document["rows"][i] for i in document["front"]]
+    return [
+        f"{row['label']}: {_percent(row['error'])} off in {_milliseconds(row['solve_seconds']['median'])}; "
+        "nothing tried is both faster and nearer."
+        for row in front
+        if row.get("error") is not None
+    ]
+
+
+def _advise(document: Document) -> list[str]:
+    chosen, predicted = document.get("choice"), document.get("predicted") or {}
+    if not chosen:
+        return [str(document.get("message") or "No model tried meets the tolerance.")]
+    return [
+        f"Within {_percent(document['tolerance'])}, {chosen['model']} "
+        f"({', '.join(f'{k} {short(v)}' for k, v in chosen['settings'].items())}) is cheapest: predicted "
+        f"{_percent(predicted['error'])} off in {_milliseconds(predicted['solve_seconds'])}."
+    ]
+
+
+def _verify(document: Document) -> list[str]:
+    rows = document["rows"]
+    failed = [row for row in rows if not row["passed"]]
+    names = "; ".join(f"{row['case']}, {row['quantity']}" for row in failed[:5])
+    return [f"{len(rows) - len(failed)} of {len(rows)} rows pass." + (f" Not: {names}." if failed else "")]
+
+
+SAID: dict[str, Callable[[Document], list[str]]] = {
+    "compare": _compare,
+    "modes": _modes,
+    "simulate": _simulate,
+    "calibrate": _calibrate,
+    "tradeoff": _tradeoff,
+    "advise": _advise,
+    "verify": _verify,
+}

@@ -1,0 +1,128 @@
+"""The page of a folder: its studies put into one HTML file that asks for nothing.
+
+A content security policy lets the page's own script and style alone do anything, by their digests; whatever
+a scene or a file says is text (Jinja escapes all of it), and data are read as JSON. Scene points go as
+float32, pictures as WebP.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from base64 import b64encode
+from collections.abc import Mapping
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from comparisons.browser import viewer
+from comparisons.pages.asked import asked, command, question
+from comparisons.pages.charts import charts
+from comparisons.pages.findings import complaints, findings
+from comparisons.pages.pictures import pictures
+from comparisons.pages.stage import stage
+from comparisons.pages.studies import Found, Study
+from comparisons.pages.tables import tables
+from comparisons.report.amounts import memory
+from comparisons.report.escape import terminal
+from comparisons.report.files import plain
+from comparisons.runs.manifest import made_with
+
+PACKAGE = "comparisons.pages"
+
+
+def page(found: Found, title: str) -> str:
+    """The HTML of a folder's studies."""
+    shown = [_study(study, n) for n, study in enumerate(found.studies, start=1)]
+    troubles = [*found.troubles, *(said for study in found.studies for said in study.troubles)]
+    style, script = viewer.style() + _own("page.css"), viewer.script() + _own("page.js")
+    environment = Environment(
+        loader=PackageLoader(PACKAGE, "."), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
+        lstrip_blocks=True, finalize=_visible,
+    )  # fmt: skip
+    environment.policies["json.dumps_kwargs"] = {"allow_nan": False, "separators": (",", ":")}
+    return environment.get_template("page.html").render(
+        title=title,
+        studies=shown,
+        others=[(name, memory_of(size)) for name, size in found.others],
+        troubles=list(dict.fromkeys(troubles)),
+        made_with=made_with(),
+        policy=policy(script, style),
+        script=script,
+        style=style,
+    )
+
+
+def policy(script: str, style: str) -> str:
+    """The content security policy of a page with this script and style and no other."""
+    return (
+        f"default-src 'none'; script-src '{_digest(script)}'; style-src '{_digest(style)}'; img-src data:; "
+        "base-uri 'none'; form-action 'none'"
+    )
+
+
+def memory_of(size: int) -> str:
+    """A file's size."""
+    return memory(size) if size >= 1e6 else f"{max(size / 1e3, 0.1):.3g} kB"
+
+
+def _digest(text: str) -> str:
+    return f"sha256-{b64encode(hashlib.sha256(text.encode()).digest()).decode('ascii')}"
+
+
+def _own(name: str) -> str:
+    return resources.files(PACKAGE).joinpath(name).read_text(encoding="utf-8")
+
+
+def _visible(value: Any) -> Any:
+    """Text with its control characters spelled out; other values as they are."""
+    return terminal(value, keep="\n") if type(value) is str else value
+
+
+def _study(study: Study, number: int) -> dict[str, Any]:
+    """What the template shows of a study."""
+    sheets = stage(study)
+    words = study.words
+    record = study.record
+    return {
+        "id": f"study-{number}",
+        "title": study.title,
+        "subtitle": words.get("subtitle") or "",
+        "lead": words.get("lead") or "",
+        "verb": study.verb,
+        "place": study.place,
+        "question": question(study),
+        "command": command(study),
+        "asked": asked(study),
+        "findings": findings(study),
+        "complaints": complaints(study),
+        "unfinished": bool(study.run) and not study.run.get("finished", True),
+        "met": words.get("met", True),
+        "stage": plain({**sheets, "label": f"Sheet of {study.title}"}) if sheets else None,
+        "tables": tables(study),
+        "plots": charts(study),
+        "pictures": pictures(study),
+        "made": [*_made(record, study.run)],
+        "files": [(name, _size(study.folder / name)) for name in study.files],
+    }
+
+
+def _made(record: Mapping[str, Any], run: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """What a study was made with."""
+    machine = record.get("machine") or {}
+    versions = record.get("versions") or {}
+    parts = {
+        "date": run.get("date"),
+        "sheetbench": record.get("sheetbench"),
+        "source": record.get("source"),
+        "machine": ", ".join(
+            str(machine[key]) for key in ("processor", "cpu_count", "system", "python") if key in machine
+        ).replace(f", {machine.get('cpu_count')},", f", {machine.get('cpu_count')} processors,"),
+        "packages": ", ".join(f"{name} {version}" for name, version in versions.items()),
+    }
+    return [(name, str(value)) for name, value in parts.items() if value]
+
+
+def _size(path: Path) -> str:
+    return memory_of(path.stat().st_size) if path.is_file() else ""

@@ -1,0 +1,34 @@
+"""Pictures of a study, made small enough for a page."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from io import BytesIO
+from pathlib import Path
+
+from PIL import Image
+
+from comparisons.pages.studies import Study
+from sheetbench.scenes.errors import BadInput
+
+WIDEST = 1600  # pixels
+LARGEST = 80_000_000  # pixels of a picture that is opened
+
+
+def pictures(study: Study) -> list[tuple[str, str]]:
+    """Names and data addresses of a study's pictures."""
+    found = ((name, study.read(name, _small)) for name in study.ending(".png", ".gif"))
+    return [(name, address) for name, address in found if address]
+
+
+def _small(path: Path) -> str:
+    if path.suffix.lower() == ".gif":  # it moves: as it is
+        return f"data:image/gif;base64,{b64encode(path.read_bytes()).decode('ascii')}"
+    with Image.open(path) as picture:
+        if picture.width * picture.height > LARGEST:
+            raise BadInput("too many pixels for a page")
+        shown = picture.convert("RGB")
+    shown.thumbnail((WIDEST, 4 * WIDEST))
+    written = BytesIO()
+    shown.save(written, "WEBP", quality=88, method=4)
+    return f"data:image/webp;base64,{b64encode(written.getvalue()).decode('ascii')}"

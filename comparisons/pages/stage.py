@@ -1,0 +1,163 @@
+"""Sheets of a study in three dimensions: what its VTU files hold, as the viewer takes it.
+
+A file has point data `displacement`; a comparison's plan grid has one a model, and what it differs by; that
+of modes has one a mode. A PVD file lists the moments of a motion.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import meshio
+import numpy as np
+
+from comparisons.browser.sheets import displaced, drawn, field, free_side, outline
+from comparisons.pages.studies import Study
+from comparisons.report.vtk import PLAN_CELLS
+from sheetbench.scenes import FieldMesh, Scene
+from sheetbench.scenes.errors import BadInput
+
+FRAMES, MOVED = 60, 400_000  # moments of a motion on a page; numbers in all of them
+CELLS = 32  # a side of a plan grid on a page
+Options = dict[str, Any]
+
+
+def stage(study: Study) -> Options | None:
+    """The viewer's options, or None where there are no sheets to show."""
+    meshes = {name: mesh for name in study.ending(".vtu") if (mesh := study.read(name, _mesh))}
+    moving = {name: found for name in study.ending(".pvd") if (found := study.read(name, _series))}
+    sheets: list[Options] = []
+    views: list[Options] = []
+    for name, frames in moving.items():
+        sheets.append(_moving(name, frames, study.scene))
+        views.append({"name": name, "label": "Motion", "sheets": [name], "field": "displacement"})
+    for name, mesh in meshes.items():
+        parts = study.attempt(name, lambda n=name, m=mesh: _parts(n, m, study))  # type: ignore[misc]
+        for sheet, view in parts or []:
+            sheets.append(sheet)
+            views.append(view)
+    if not sheets:
+        return None
+    return {"sheets": sheets, "views": _ordered(views, study), **_seen(study.scene, [*meshes.values()])}
+
+
+def _parts(name: str, mesh: FieldMesh, study: Study) -> list[tuple[Options, Options]]:
+    """Sheets of a file with the view of each."""
+    data = mesh.point_data
+    modes = [key for key in data if re.fullmatch(r".+_mode_\d+", key)]
+    if modes:
+        return [_one(key, _with(mesh, data[key]), key.replace("_", " "), study.scene) for key in modes]
+    off = {key: data[key] for key in data if key == "difference" or key.startswith("difference_")}
+    if not off:
+        stem = Path(name).stem
+        return [_one(stem, mesh, stem, study.scene)]
+    chosen = _models(study.document)
+    label = {"difference": chosen[0] if chosen else "lattice"}
+    return [
+        _difference(key, mesh, vector, label.get(key, key.removeprefix("difference_")), study.scene)
+        for key, vector in off.items()
+    ]
+
+
+def _one(name: str, mesh: FieldMesh, label: str, scene: Scene | None) -> tuple[Options, Options]:
+    sheet = drawn(name, coarser(mesh), label, scene=scene)
+    return sheet, {"name": name, "label": label, "sheets": [name], "field": "displacement"}
+
+
+def _difference(
+    name: str, mesh: FieldMesh, vector: np.ndarray, of: str, scene: Scene | None
+) -> tuple[Options, Options]:
+    """The reference's sheet, coloured by how far a model is from it."""
+    small = coarser(FieldMesh(mesh.points, mesh.cells, {**mesh.point_data, "off": vector}))
+    off = small.point_data["off"]
+    fields = [
+        field("difference", "Distance from the reference", np.linalg.norm(off, axis=1), "mm", 1e3),
+        {**field("offz", "Difference in uz", off[:, 2], "mm", 1e3), "kind": "signed"},
+    ]
+    sheet = drawn(name, small, f"{of} − reference", fields, scene)
+    sheet["fields"] = [*fields, displaced()]
+    return sheet, {"name": name, "label": f"Difference: {of}", "sheets": [name], "field": "difference"}
+
+
+def _models(document: Mapping[str, Any]) -> list[str]:
+    """Models of a comparison, the one in question first."""
+    solutions = document.get("solutions")
+    return [str(one.get("model")) for one in solutions] if isinstance(solutions, list) else []
+
+
+def _ordered(views: list[Options], study: Study) -> list[Options]:
+    """The models in their order with both of a comparison together, then the rest."""
+    models = _models(study.document)
+    order = {name: place for place, name in enumerate(models)}
+    found = sorted(views, key=lambda view: order.get(view["name"], len(order)))
+    there = [view["name"] for view in found]
+    if len(models) > 1 and all(name in there for name in models[:2]) and study.verb == "compare":
+        both = {"name": "both", "label": f"{models[0]} and {models[1]}", "sheets": models[:2]}
+        found.insert(2, {**both, "field": "displacement"})
+    return found
+
+
+def _moving(name: str, frames: list[tuple[float, FieldMesh]], scene: Scene | None) -> Options:
+    size = frames[-1][1].points.size
+    most = max(2, min(FRAMES, MOVED // size))
+    kept = [frames[i] for i in np.unique(np.linspace(0, len(frames) - 1, most).astype(int))]
+    moments = [(time, mesh.point_data["displacement"]) for time, mesh in kept]
+    return drawn(name, kept[-1][1], "motion", scene=scene, frames=moments)
+
+
+def _seen(scene: Scene | None, meshes: list[FieldMesh]) -> Options:
+    if scene is not None:
+        return {"outline": outline(scene.sheet), "from": free_side(scene)}
+    return {}
+
+
+def _mesh(path: Path) -> FieldMesh:
+    read = meshio.read(path)
+    points = np.asarray(read.points, dtype=float)
+    u = np.asarray(read.point_data["displacement"], dtype=float)
+    if u.shape != points.shape or points.shape[1] != 3:
+        raise BadInput(f"displacement of shape {u.shape} at points of shape {points.shape}")
+    cells = [(block.type, np.asarray(block.data)) for block in read.cells]
+    if any(data.size and not 0 <= data.min() <= data.max() < len(points) for _, data in cells):
+        raise BadInput("a cell names a point that is not there")
+    vectors = {key: np.asarray(v) for key, v in read.point_data.items() if len(v) == len(points)}
+    return FieldMesh(points, cells, vectors)
+
+
+def _series(path: Path) -> list[tuple[float, FieldMesh]]:
+    """Times [s] and meshes that a PVD file lists, none of them from outside its folder."""
+    inside = path.parent.resolve()
+    found = []
+    for entry in ElementTree.fromstring(path.read_text(encoding="utf-8")).iter("DataSet"):
+        place = (path.parent / entry.attrib["file"]).resolve()
+        if not place.is_relative_to(inside):
+            raise BadInput(f"{entry.attrib['file']} lies outside the folder")
+        found.append((float(entry.attrib["timestep"]), place))
+    kept = np.unique(np.linspace(0, len(found) - 1, min(FRAMES, len(found))).astype(int))
+    return [(found[i][0], _mesh(found[i][1])) for i in kept]
+
+
+def _with(mesh: FieldMesh, displacement: np.ndarray) -> FieldMesh:
+    return FieldMesh(mesh.points, mesh.cells, {"displacement": displacement})
+
+
+def coarser(mesh: FieldMesh) -> FieldMesh:
+    """A plan grid with every other line left out until it has at most CELLS cells a side; others whole."""
+    kinds = [kind for kind, _ in mesh.cells]
+    lines = [np.unique(np.round(mesh.points[:, axis], 9)) for axis in (0, 1)]
+    nx, ny = (len(line) - 1 for line in lines)
+    regular = kinds == ["quad"] and (nx + 1) * (ny + 1) == len(mesh.points)
+    if not regular or min(nx, ny) <= CELLS or nx % 2 or ny % 2 or max(nx, ny) > 8 * PLAN_CELLS:
+        return mesh
+    i, j = (np.searchsorted(lines[a], np.round(mesh.points[:, a], 9)) for a in (0, 1))
+    kept = np.flatnonzero((i % 2 == 0) & (j % 2 == 0))
+    kept = kept[np.lexsort((i[kept], j[kept]))]
+    across = nx // 2 + 1
+    corner = (np.arange(ny // 2)[:, None] * across + np.arange(nx // 2)).ravel()
+    quads = np.column_stack([corner, corner + 1, corner + across + 1, corner + across])
+    data = {key: values[kept] for key, values in mesh.point_data.items()}
+    return coarser(FieldMesh(mesh.points[kept], [("quad", quads)], data))

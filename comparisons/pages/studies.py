@@ -1,0 +1,193 @@
+"""The studies that a folder holds: what every run was asked, what it said, and which files are its own.
+
+A manifest tells of its folder's runs; files that none of them owns are a study of their own where a page can
+show them, else they are named. A file that cannot be read costs a sentence and nothing else.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from comparisons.runs.folder import MANIFEST
+from sheetbench.scenes import Scene
+from sheetbench.scenes.errors import BadInput
+
+LARGEST = 64_000_000  # bytes of a file that a page reads
+SHOWN = (".csv", ".json", ".png", ".svg", ".vtu", ".pvd")  # what a page shows of files without a manifest
+OURS = ("report.html", MANIFEST)
+Say = Callable[[str], None]
+
+
+@dataclass
+class Study:
+    """A run's answer, or files that stand together.
+
+    folder: where its files are; place: that as the reader knows it; verb: of the run, "" for loose files;
+    run: its entry in the manifest; record: the manifest. troubles: a sentence for everything that cannot be
+    read.
+    """
+
+    folder: Path
+    place: str
+    verb: str
+    files: tuple[str, ...]
+    run: Mapping[str, Any] = field(default_factory=dict)
+    record: Mapping[str, Any] = field(default_factory=dict)
+    troubles: list[str] = field(default_factory=list)
+
+    @cached_property
+    def words(self) -> Mapping[str, Any]:
+        """What the run said of its answer; nothing of a run that has not ended."""
+        found = self.run.get("words")
+        return found if isinstance(found, dict) else {}
+
+    @cached_property
+    def document(self) -> Mapping[str, Any]:
+        """The run's JSON document; of loose files the only one. Empty where there is none."""
+        documents = [name for name in self.files if name.endswith(".json") and name not in OURS]
+        named = self.words.get("document")
+        found = self.json(named if named in documents else documents[0]) if documents else None
+        return found if isinstance(found, dict) else {}
+
+    @cached_property
+    def scene(self) -> Scene | None:
+        """The scene that was asked about, where there is one that can be read."""
+        asked = self.run.get("scene") or self.document.get("scene")
+        if not isinstance(asked, dict):
+            return None
+        try:
+            return Scene.model_validate(asked)
+        except (BadInput, ValueError) as error:
+            said = " ".join(str(error).split())
+            self.troubles.append(f"{self.place}: its scene cannot be read: {said[:200]}")
+            return None
+
+    @property
+    def title(self) -> str:
+        """What the study is about."""
+        named = self.words.get("title") or (self.run.get("scene") or {}).get("name")
+        return str(named or self.place or self.folder.resolve().name)
+
+    def path(self, name: str) -> Path | None:
+        """A file of the study; None, with a sentence said, where it is missing, outside or too large."""
+        found = self.folder / name
+        if not found.resolve().is_relative_to(self.folder.resolve()):
+            self.troubles.append(f"{name}: lies outside {self.folder.name}, left alone")
+        elif not found.is_file():
+            self.troubles.append(f"{self.named(name)}: the manifest names it, but it is not there")
+        elif found.stat().st_size > LARGEST:
+            self.troubles.append(f"{self.named(name)}: too large for a page, left out")
+        else:
+            return found
+        return None
+
+    def read(self, name: str, reader: Callable[[Path], Any]) -> Any:
+        """What a reader makes of a file; None, with a sentence said, where it makes nothing of it."""
+        path = self.path(name)
+        if path is None:
+            return None
+        try:
+            return reader(path)
+        except RecursionError:
+            self.troubles.append(f"{self.named(name)}: damaged, nested too deeply")
+        except (Exception, SystemExit) as error:  # readers of meshes raise and exit as they like
+            why = " ".join(str(error).split())[:160] or type(error).__name__
+            self.troubles.append(f"{self.named(name)}: damaged, cannot be read: {why}")
+        return None
+
+    def attempt(self, what: str, made: Callable[[], Any]) -> Any:
+        """What is made of words that may be damaged; None, with a sentence said, where nothing can be."""
+        try:
+            return made()
+        except Exception as error:  # the document may hold anything
+            self.troubles.append(
+                f"{self.named(what)}: cannot be shown: {type(error).__name__}: {error}"[:240]
+            )
+        return None
+
+    def json(self, name: str) -> Any:
+        """A JSON document."""
+        return self.read(name, lambda path: json.loads(path.read_text(encoding="utf-8")))
+
+    def named(self, name: str) -> str:
+        """A file as the reader finds it."""
+        return f"{self.place}/{name}" if self.place else name
+
+    def ending(self, *suffixes: str) -> list[str]:
+        """Names of its files that end so."""
+        return [name for name in self.files if name.lower().endswith(suffixes)]
+
+
+@dataclass(frozen=True)
+class Found:
+    """Studies in the order of a page, other files with their sizes [bytes], and sentences on damaged ones."""
+
+    studies: list[Study]
+    others: list[tuple[str, int]]
+    troubles: list[str]
+
+
+def read(root: Path) -> Found:
+    """Every study in a folder and those below it. Raises BadInput where there is no such folder."""
+    if not root.is_dir():
+        raise BadInput(f"'{root}': there is no such folder")
+    studies: list[Study] = []
+    others: list[tuple[str, int]] = []
+    troubles: list[str] = []
+    for folder in _folders(root):
+        place = folder.relative_to(root).as_posix().removeprefix(".")
+        record = _manifest(folder, place, troubles)
+        claimed: set[str] = set()
+        for verb, run in _runs(record).items():
+            names = tuple(name for name in run.get("files", ()) if isinstance(name, str))
+            claimed.update(names)
+            studies.append(Study(folder, place, verb, names, run, record))
+        loose = [path.name for path in sorted(folder.iterdir()) if _counts(path) and path.name not in claimed]
+        if not record and any(name.endswith(SHOWN) for name in loose):
+            shown = tuple(name for name in loose if name.endswith(SHOWN))
+            studies.append(Study(folder, place, "", shown))
+            loose = [name for name in loose if name not in shown]
+        others += [(f"{place}/{name}".lstrip("/"), (folder / name).stat().st_size) for name in loose]
+    return Found(studies, others, troubles)
+
+
+def _folders(root: Path) -> Iterator[Path]:
+    """The folder and all below it but those that a run keeps for itself, hidden ones and links."""
+    yield root
+    series = {path.stem for path in root.glob("*.pvd")}
+    kept = {name.rstrip("/") for run in _runs(_manifest(root, "", [])).values() for name in _names(run)}
+    for path in sorted(root.iterdir()):
+        if path.is_dir() and not path.is_symlink() and not path.name.startswith("."):
+            if path.name in series | kept or (path / "run.json").exists():
+                continue
+            yield from _folders(path)
+
+
+def _names(run: Mapping[str, Any]) -> list[str]:
+    return [name for name in run.get("files", ()) if isinstance(name, str) and name.endswith("/")]
+
+
+def _counts(path: Path) -> bool:
+    return path.is_file() and path.name not in OURS and not path.name.startswith(".")
+
+
+def _manifest(folder: Path, place: str, troubles: list[str]) -> Mapping[str, Any]:
+    try:
+        found = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return {}
+    except (OSError, ValueError, RecursionError) as error:
+        said = " ".join(str(error).split())
+        troubles.append(f"{place}/{MANIFEST}".lstrip("/") + f": damaged, cannot be read: {said[:160]}")
+        return {}
+    return found if isinstance(found, dict) else {}
+
+
+def _runs(record: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
+    runs = record.get("runs")
+    return {str(k): v for k, v in runs.items() if isinstance(v, dict)} if isinstance(runs, dict) else {}

@@ -1,0 +1,140 @@
+"""Tables of a study for a page: values with all their digits to sort by, shown as everywhere else.
+
+The manifest has the columns with their units and formats, the CSV file the values in SI units. A CSV file
+that no manifest tells of is shown as it is, its columns of numbers to five digits.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from comparisons.pages.studies import Study
+from comparisons.report.table import Column, Table, Unit, number, unit
+
+MOST = 500  # rows of a table on a page
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell: its text and, for numbers, the value to sort by."""
+
+    text: str
+    value: float | None = None
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A table for a page. heads: name and whether its column holds numbers; note: what is left out;
+    aside: shown when asked for only."""
+
+    caption: str
+    text: str
+    heads: list[tuple[str, bool]]
+    rows: list[list[Cell]]
+    note: str = ""
+    aside: bool = False
+
+
+def tables(study: Study) -> list[Sheet]:
+    """Every table of a study, those that its manifest tells of first."""
+    found, told = [], set()
+    for words in study.words.get("tables", ()):
+        name = f"{words.get('name')}.csv"
+        told.add(name)
+        rows = words.get("rows")
+        if rows is None:
+            read = study.read(name, _rows) if name in study.files else None
+            rows = read[1:] if read else None
+        made = study.attempt(name, partial(_told, words, rows)) if rows is not None else None
+        if made:
+            found.append(made)
+    for name in study.ending(".csv"):
+        if name not in told and (read := study.read(name, _rows)):
+            found.append(_loose(name, read, aside=bool(told)))
+    return found
+
+
+def _rows(path: Path) -> list[list[str]]:
+    with path.open(encoding="utf-8", newline="") as file:
+        return [[_plain(cell) for cell in row] for row in csv.reader(file, strict=True) if row]
+
+
+def _plain(cell: str) -> str:
+    """The cell without the apostrophe that keeps a spreadsheet from taking it for a formula."""
+    return cell[1:] if cell[:1] == "'" and cell[1:2] in ("=", "+", "-", "@", "\t", "\r") else cell
+
+
+def _value(text: Any) -> float | None:
+    try:
+        return float(text)
+    except (TypeError, ValueError):
+        return None
+
+
+def _told(words: Mapping[str, Any], rows: Sequence[Sequence[Any]]) -> Sheet:
+    known = {one.name for one in fields(Column)}
+    columns = [Column(**{k: v for k, v in column.items() if k in known}) for column in words["columns"]]
+    units = [bool(column.get("units")) for column in words["columns"]]
+    values = [
+        tuple(_cell(c, u, v) for c, u, v in zip(columns, units, row, strict=True)) for row in rows[:MOST]
+    ]
+    shown = Table("", tuple(columns), tuple(values)).shown_rows()
+    cells = [
+        [
+            Cell(text, float(v) if c.numeric and isinstance(v, int | float) else None)
+            for c, text, v in zip(columns, texts, row, strict=True)
+        ]
+        for texts, row in zip(shown, values, strict=True)
+    ]
+    heads = [(column.header(shown=True), column.numeric) for column in columns]
+    return Sheet(words.get("caption", ""), words.get("text", ""), heads, cells, _left_out(rows))
+
+
+def _cell(column: Column, of_units: bool, value: Any) -> Any:
+    """A value as the table had it: a number, a row's unit, text, or nothing."""
+    if value in ("", None):
+        return None
+    if of_units:
+        return Unit(*value) if isinstance(value, list) else unit(str(value))
+    if not column.numeric:
+        return str(value)
+    found = _value(value)
+    return int(found) if found is not None and column.form.endswith("d") and found == found else found
+
+
+def _loose(name: str, rows: list[list[str]], aside: bool) -> Sheet:
+    head, body = rows[0], rows[1 : MOST + 1]
+    width = len(head)
+    body = [(row + [""] * width)[:width] for row in body]
+    numeric = [all(_value(row[i]) is not None for row in body if row[i]) and bool(body) for i in range(width)]
+    shown = [_scaled(text) if numeric[i] else (text, Unit("", "")) for i, text in enumerate(head)]
+    cells = [
+        [
+            Cell(number(v * shown[i][1].scale, ".5g"), v)
+            if numeric[i] and (v := _value(text)) is not None
+            else Cell(text)
+            for i, text in enumerate(row)
+        ]
+        for row in body
+    ]
+    heads = [(text, numeric[i]) for i, (text, _) in enumerate(shown)]
+    return Sheet(name, "", heads, cells, _left_out(rows[1:]), aside)
+
+
+def _scaled(head: str) -> tuple[str, Unit]:
+    """A heading "name [m]" with the unit as people read it, and that unit."""
+    found = re.fullmatch(r"(.*) \[(.+)\]", head)
+    if not found:
+        return head, Unit("", "")
+    shown = unit(found[2])
+    return f"{found[1]} [{shown.shown}]", shown
+
+
+def _left_out(rows: Sequence[Any]) -> str:
+    return f"The first {MOST} of {len(rows)} rows; the file has all." if len(rows) > MOST else ""

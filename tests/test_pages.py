@@ -1,0 +1,175 @@
+"""`sheetbench report`: a folder's studies as one page, in a browser and as text."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from browser import browser, colours, opened, pixels  # noqa: F401
+from commands import run
+
+from comparisons.comparison.comparison import compare
+from comparisons.pages.page import page
+from comparisons.pages.studies import read
+from comparisons.pages.tables import tables
+from comparisons.report.report import Report
+from comparisons.report.table import Column, Table
+from comparisons.runs.folder import Folder
+from sheetbench.scenes import load
+
+EVIL = "<script>alert(1)</script>"
+VIEW = "canvas[tabindex]"
+
+
+@pytest.fixture(scope="module")
+def studies(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A comparison of a scene with an evil title, and modes, without pictures; a file that nobody knows."""
+    folder = tmp_path_factory.mktemp("studies")
+    scene = load("two-edges-clamped").model_copy(update={"title": EVIL})
+    found = compare(scene, grid=3, reference="plate", elements=2, uncertainty=False)
+    about = {"scene": scene.document()}
+    Folder(folder, "compare", ["sheetbench", "compare"], about=about).report(
+        replace(found.report(), pictures=(), attachments=found.report().attachments)
+    )
+    columns = (Column("mode", form="d"), Column("lumped", "Hz", "Hz", 1.0, ".4g"), Column("remark"))
+    rows = tuple((n, float(f), f"=r{n}") for n, f in enumerate((9.5, 10.25, 100.0), start=1))
+    document = {
+        "solutions": [{"model": "lumped", "label": "lumped 3", "frequencies_hz": [9.5, 10.25, 100.0]}]
+    }
+    modes = Report("modes", "modes", document, tables=(Table("Frequencies", columns, rows, "modes"),))
+    Folder(folder / "modes", "modes", ["sheetbench", "modes"]).report(modes)
+    (folder / "notes.xyz").write_text("?")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def shown(browser: Any, studies: Path) -> Iterator[Any]:  # noqa: F811
+    """The page in a browser; at the end nothing was complained of, by its policy neither, nor asked."""
+    path = studies.parent / "report.html"
+    path.write_text(page(read(studies), f"Report {EVIL}"), encoding="utf-8")
+    with opened(browser, path.as_uri()) as (found, watch):
+        dialogs: list[Any] = []
+        found.on("dialog", lambda dialog: dialogs.append(dialog))
+        yield found
+        assert watch.troubles == [] and watch.asked == [path.as_uri()] and not dialogs
+
+
+def test_its_policy_lets_nothing_but_its_own_script_and_style_in(shown: Any) -> None:
+    (said,) = (m.get_attribute("content") for m in shown.locator("meta[http-equiv]").all())
+    assert said.startswith("default-src 'none'; script-src 'sha256-") and "unsafe" not in said
+
+
+def test_what_a_scene_says_stays_text(shown: Any) -> None:
+    assert EVIL in shown.locator("article").first.text_content()
+    assert EVIL in shown.locator("h1").text_content()
+    assert "notes.xyz" in shown.locator("main").text_content()
+
+
+def test_the_sheets_are_drawn_and_turn(shown: Any) -> None:
+    shown.locator(".sv-stage").scroll_into_view_if_needed()
+    first = pixels(shown, VIEW)
+    assert colours(first) > 100
+    shown.locator(VIEW).press("ArrowLeft")
+    assert (np.abs(pixels(shown, VIEW) - first) > 20).any(axis=2).mean() > 0.01
+    options = shown.get_by_label("Show", exact=True).locator("option").all_text_contents()
+    assert options[:3] == ["lumped", "plate", "lumped and plate"]
+    assert "Difference: lumped" in options
+    shown.get_by_label("Show", exact=True).select_option("difference")
+    assert "Distance from the reference [mm]" in shown.locator(".sv-legend").text_content()
+
+
+def test_tables_sort_by_click_and_by_key_numbers_by_value(shown: Any) -> None:
+    table = shown.locator("#study-2 table").first
+    heading = table.get_by_role("button", name="lumped [Hz]")
+    column = table.locator("tbody td:nth-child(2)")
+    heading.click()
+    assert column.all_text_contents() == ["9.5", "10.25", "100"]
+    heading.press("Enter")
+    assert column.all_text_contents() == ["100", "10.25", "9.5"]
+    assert table.locator("th").nth(1).get_attribute("aria-sort") == "descending"
+    assert table.locator("tbody tr").first.locator("td").last.text_content() == "=r3"
+
+
+def test_a_plot_says_the_values_under_pointer_and_keys(shown: Any) -> None:
+    plot = shown.locator("#study-2 .plot .canvas")
+    plot.locator("svg").hover()
+    assert plot.locator(".value").text_content() == "lumped: mode 2, frequency [Hz] 10.25"
+    plot.locator("svg").press("ArrowRight")
+    assert plot.locator(".value").text_content() == "lumped: mode 3, frequency [Hz] 100"
+
+
+def test_a_phone_needs_no_sideways_scrolling(shown: Any) -> None:
+    before = shown.viewport_size
+    shown.set_viewport_size({"width": 360, "height": 740})
+    assert shown.evaluate("document.documentElement.scrollWidth") <= 360
+    shown.set_viewport_size(before)
+
+
+def test_print_has_pictures_for_sheets_and_all_open(shown: Any) -> None:
+    shown.emulate_media(media="print")
+    shown.evaluate("dispatchEvent(new Event('beforeprint'))")
+    taken = shown.locator(".taken")
+    assert taken.is_visible() and taken.get_attribute("src").startswith("data:image/png;base64,")
+    assert not shown.locator(".sv-stage").is_visible()
+    assert shown.locator("details:not([open])").count() == 0
+    shown.evaluate("dispatchEvent(new Event('afterprint'))")
+    assert shown.locator(".taken").count() == 0 and shown.locator("details[open]").count() == 0
+    shown.emulate_media(media="screen")
+
+
+def test_the_first_key_leads_past_the_contents(shown: Any) -> None:
+    shown.evaluate("document.activeElement.blur(); scrollTo(0, 0)")
+    shown.locator(".skip").focus()
+    assert shown.locator(".skip").bounding_box()["x"] >= 0
+    shown.keyboard.press("Enter")
+    assert shown.evaluate("document.activeElement.id") == "studies"
+
+
+def test_tables_are_shown_as_the_run_showed_them(studies: Path) -> None:
+    comparison = next(study for study in read(studies).studies if study.verb == "compare")
+    shown = tables(comparison)
+    text = (studies / "table.md").read_text(encoding="utf-8")
+    assert [table.caption for table in shown][:2] == [
+        "Displacement of the mid-surface",
+        "Cost and error of each model",
+    ]
+    for table in shown:
+        for row in table.rows:
+            assert f"| {' | '.join(cell.text for cell in row)} |" in text
+    assert not comparison.troubles
+
+
+def test_damage_costs_a_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "broken.vtu").write_text("<VTKFile")
+    (tmp_path / "broken.json").write_text("{")
+    (tmp_path / "broken.csv").write_bytes(b"\xff\xfe\x00")
+    (tmp_path / "broken.png").write_bytes(b"no picture")
+    (tmp_path / "broken.pvd").write_text("<a><DataSet timestep='0' file='../x.vtu'/></a>")
+    (tmp_path / "good.csv").write_text("x [m],what\n0.001,a\n")
+    (tmp_path / "deep").mkdir()
+    (tmp_path / "deep/manifest.json").write_text("[" * 100_000)
+    outside = {"files": ["../broken.csv", "gone.csv"], "command": 3, "scene": {"name": 1}}
+    (tmp_path / "odd").mkdir()
+    (tmp_path / "odd/manifest.json").write_text(json.dumps({"runs": {"compare": outside, "x": 7}}))
+    assert run("report", str(tmp_path), "--json") == 0
+    said = capsys.readouterr()
+    troubles = json.loads(said.out)["troubles"]
+    for name in ("broken.vtu", "broken.json", "broken.csv", "broken.png", "broken.pvd", "deep/manifest.json"):
+        assert any(one.startswith(name) for one in troubles), name
+    assert any("lies outside" in one for one in troubles) and any("not there" in one for one in troubles)
+    assert "Traceback" not in said.err
+    text = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert re.search(r'data-value="0.001">1<', text) and "x [mm]" in text
+
+
+def test_a_folder_that_is_none_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("report", str(tmp_path / "none")) == 2
+    assert "there is no such folder" in capsys.readouterr().err
+    assert run("report", str(tmp_path)) == 0
+    assert "0 studies" in capsys.readouterr().out

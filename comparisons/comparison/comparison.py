@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from comparisons.comparison import strain_law, tables
+from comparisons.comparison import far_apart, strain_law, tables
 from comparisons.comparison.error_bar import CHEAP, ErrorBar, error_bar
 from comparisons.models.candidate import Candidate
 from comparisons.models.expected_error import ExpectedError, expected_error
@@ -26,6 +26,7 @@ from comparisons.models.grading import Grading
 from comparisons.models.grids import Asked, Elements
 from comparisons.models.plugins import shown_name
 from comparisons.models.registry import answer, check, check_reference
+from comparisons.models.sizes import has_room
 from comparisons.models.springs import has_own_springs
 from comparisons.report.report import Report
 from comparisons.report.work import Progress, silent
@@ -75,13 +76,15 @@ class Comparison(summary.Summarised):
 
     Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
     reference's mesh leaves uncertain, where that was asked for; laws: a sentence where lattice and reference
-    have laws of strain that differ by more.
+    have laws of strain that differ by more. apart: a sentence where both are at rest and more than 100 %
+    apart.
     """
 
     scene: Scene
     solutions: tuple[Solution, ...]
     bar: ErrorBar | None = None
     laws: str = ""
+    apart: str = ""
 
     @property
     def reference(self) -> Solution:
@@ -162,6 +165,7 @@ class Comparison(summary.Summarised):
             "scene": self.scene.document(),
             "solutions": [self._solution_as_dict(solution) for solution in self.solutions],
             "laws": self.laws,
+            "apart": self.apart,
             "differences": [vars(difference) for difference in self.differences],
             "errors": [
                 {
@@ -293,10 +297,16 @@ def compare(
             return answer(scene, judge.but(elements=n), progress=progress)
 
         bar = error_bar(scene, solutions[1], elements, coarser)
-    laws = ""
+    laws = apart = ""
     if first.model == "lumped":
         laws = strain_law.said(scene, first, tuple(solutions), None if bar is None else bar.error)
-    return Comparison(scene, tuple(solutions), bar, laws)
+
+        def also(other: Candidate) -> Solution | None:
+            return answer(scene, other, progress=progress) if large or has_room(scene, other) else None
+
+        within = None if bar is None else bar.error
+        apart = far_apart.said(scene, first, tuple(solutions), error, within, also)
+    return Comparison(scene, tuple(solutions), bar, laws, apart)
 
 
 def _unlike(name: str, taken: Collection[str]) -> str:

@@ -163,8 +163,10 @@ def standing(solution: Solution) -> str:
 
 
 def complaints(comparison: Comparison) -> list[str]:
-    """A sentence for every model that did not converge: what happened and what can be done."""
-    return [
+    """A sentence for every model that did not converge: what happened and what can be done; and why lattice
+    and reference are far apart though both did."""
+    far = [comparison.apart] if comparison.apart else []
+    return far + [
         ": ".join(part for part in (s.model, standing(s), s.message, s.status.advice) if part)
         for s in comparison.solutions
         if s.status is not Status.CONVERGED

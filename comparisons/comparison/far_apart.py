@@ -1,0 +1,94 @@
+"""Why lattice and reference, both at rest, are more than 100 % apart: too coarse a grid, or other branches.
+
+A coarse grid's answer comes nearer to the reference's where its cells are halved; on another branch of
+equilibria it stays where it is, and as far off. The lattice is solved once more to tell. What else is known
+of either cause stands beside it: layers narrower than cells, springs that miss the sheet's moduli, snaps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from comparisons.models.candidate import Candidate
+from comparisons.models.grids import scene_grid
+from comparisons.models.layers import layers
+from comparisons.models.springs import scene_springs
+from sheetbench.choices import listed
+from sheetbench.scenes import Scene, Solution, Status
+
+FAR = 1.0  # error from which on a reason is looked for
+NEARER, STAYS = 0.6, 0.1  # of the error, that a finer grid leaves; of the displacement, by which it moves
+MISSED = 0.1  # share of a modulus from which on it is a reason
+UNKNOWN = 0.5  # bar of the reference that tells nothing any more
+
+
+def said(
+    scene: Scene,
+    lattice: Candidate,
+    solutions: tuple[Solution, ...],
+    error: Callable[[np.ndarray, np.ndarray], float | None],
+    bar: float | None,
+    solve: Callable[[Candidate], Solution | None],
+) -> str:
+    """A sentence where lattice and reference, the first two of the solutions, are FAR apart, else nothing.
+
+    error: of displacements against others; bar: of the reference, None where it is not known; solve: answers
+    other grids, None where that takes too much memory.
+    """
+    first, reference = solutions[:2]
+    if not first.status is reference.status is Status.CONVERGED:
+        return ""
+    points = scene.probe_points()
+    own, right = first.displacement(points), reference.displacement(points)
+    off = error(own, right)
+    if off is None or off <= FAR:
+        return ""
+    start = f"{first.model} and {reference.model} both converged, {100.0 * off:.3g} % apart: "
+    known = reasons(scene, lattice, first, reference)
+    because = f" ({'; '.join(known)})" if known else ""
+    finer = None
+    if scene.springs is None or lattice.settings.get("calibration") is not None:
+        nx, ny, layers = scene_grid(scene, lattice.settings.get("grid"))
+        finer = solve(lattice.but(grid=(2 * nx - 1, 2 * ny - 1, layers)))
+    if finer is None or finer.status is not Status.CONVERGED:
+        ended = "" if finer is None else f"; on twice as many cells a side the lattice ends {finer.status}"
+        return f"{start}different branches of equilibria, or too coarse a grid or mesh{because}{ended}."
+    fine = finer.displacement(points)
+    left, moved = error(fine, right) or 0.0, error(own, fine) or 0.0
+    masses = "×".join(str(n) for n in finer.settings["grid"])
+    if left < NEARER * off:
+        return f"{start}the grid is too coarse, on {masses} masses it is {100.0 * left:.3g} %{because}."
+    if bar is not None and bar > UNKNOWN:
+        mesh = f"the {reference.model}'s mesh leaves ± {100.0 * bar:.2g} %, more --elements tell"
+        return f"{start}{mesh}{because}."
+    if moved < STAYS:
+        trust = "" if bar is not None else f", if the {reference.model}'s mesh is fine enough"
+        return (
+            f"{start}they lie on different branches of equilibria{trust}, for on {masses} masses the lattice "
+            f"moves by {100.0 * moved:.2g} % only{because}."
+        )
+    return (
+        f"{start}different branches of equilibria, or too coarse a grid: on {masses} masses the lattice "
+        f"moves by {100.0 * moved:.2g} %, to {100.0 * left:.3g} % off{because}."
+    )
+
+
+def reasons(scene: Scene, lattice: Candidate, first: Solution, reference: Solution) -> list[str]:
+    """What is known that speaks for a coarse grid or for other branches, a clause each."""
+    found = []
+    grid = first.settings["grid"]
+    cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
+    layer = min(layers(scene), default=None)
+    if layer is not None and layer.width < cell:
+        found.append(f"{layer}, {layer.width / cell:.2g} cells of {1e3 * cell:.3g} mm")
+    asked = {k: v for k, v in lattice.settings.items() if k not in ("linear", "symmetry")}
+    moduli = scene_springs(scene, **asked)[0].as_dict()["moduli"]
+    off = [(abs(row["got"] / row["asked"] - 1.0), row["name"]) for row in moduli if row["asked"]]
+    if (missed := max(off, default=(0.0, "")))[0] > MISSED:
+        found.append(f"the springs miss {missed[1]} by {100.0 * missed[0]:.2g} %")
+    snapped = [s.model for s in (first, reference) if s.snaps]
+    if snapped:
+        found.append(f"{listed(snapped) if len(snapped) == 1 else 'both'} snapped on the way")
+    return found

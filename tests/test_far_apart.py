@@ -1,0 +1,85 @@
+"""Both at rest and more than 100 % apart: a coarse grid is told from another branch of equilibria."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from fake_solutions import solution
+
+from comparisons.comparison import far_apart
+from comparisons.comparison.comparison import compare, error
+from comparisons.models.candidate import Candidate
+from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Solution, Status
+
+SCENE = Scene(
+    name="arch",
+    sheet=Sheet(length_x=0.188, length_y=0.06, thickness=0.001),
+    material=Material(young=54.5e6, poisson=0.4, density=1000.0),
+    support=tuple(Clamped(edge=edge, tilt=0.3) for edge in ("x0", "x1")),
+    load=(Pressure(value=40.0),),
+)
+LATTICE = Candidate("lumped", {"grid": (5, 3), "calibration": "consistent"})
+
+
+def test_pressure_on_a_few_masses_between_tilted_clamps() -> None:
+    """5 × 3 masses are 261 % off the shell, 9 × 5 are 92 %."""
+    found = compare(SCENE, grid=(5, 3), calibration="consistent", elements=(8, 3), uncertainty=False)
+    assert found.apart.startswith("lumped and shell both converged, 26")
+    assert "the grid is too coarse, on 9×5×2 masses it is 9" in found.apart
+    assert found.as_dict()["apart"] == found.apart
+    report = found.report()
+    assert found.apart in report.complaints
+    assert "both converged" in report.to_markdown()
+    assert found.converged
+
+
+def said(first: float, finer: Solution | None, lattice: Candidate = LATTICE, **known: Any) -> str:
+    """Of a lattice whose corner moves by `first` [m], where the shell's moves by −10 mm."""
+    grid = {"settings": {"grid": [5, 3, 2]}}
+    both = (solution(SCENE, size=first, **grid), solution(SCENE, "shell", **known.pop("shell", {})))
+    return far_apart.said(SCENE, lattice, both, error, known.pop("bar", None), lambda other: finer)
+
+
+def fine(size: float, **changes: Any) -> Solution:
+    return solution(SCENE, size=size, settings={"grid": [9, 5, 2]}, **changes)
+
+
+def test_what_is_near_or_no_equilibrium_says_nothing() -> None:
+    assert said(-0.019, fine(-0.01)) == ""
+    assert said(0.01, fine(0.01), shell={"status": Status.UNSTABLE}) == ""
+
+
+def test_another_branch_stays_where_it_is() -> None:
+    found = said(0.01, fine(0.0101), bar=0.01)
+    assert "200 % apart: they lie on different branches of equilibria, for on 9×5×2 masses" in found
+    assert "if the shell's mesh is fine enough" in said(0.01, fine(0.0101))
+    snapped = said(0.01, fine(0.0101), bar=0.01, shell={"snaps": (0.4,)})
+    assert "shell snapped on the way" in snapped
+
+
+@pytest.mark.parametrize(
+    "finer, bar, expected",
+    [
+        (fine(0.007), 0.01, "different branches of equilibria, or too coarse a grid: on 9×5×2"),
+        (fine(0.0101), 0.8, "the shell's mesh leaves ± 80 %"),
+        (
+            fine(0.0101, status=Status.DIVERGED),
+            0.01,
+            "twice as many cells a side the lattice ends diverged",
+        ),
+        (None, 0.01, "different branches of equilibria, or too coarse a grid or mesh"),
+    ],
+)
+def test_what_cannot_be_told_is_said_so(finer: Solution | None, bar: float, expected: str) -> None:
+    assert expected in said(0.01, finer, bar=bar)
+
+
+def test_reasons_stand_beside_it() -> None:
+    """60 Pa bend within 45 mm, where 5 masses have cells of 47; one k misses the sheet's moduli."""
+    scene = SCENE.replace(loads=(Pressure(value=60.0),))
+    uniform = LATTICE.but(calibration="uniform")
+    both = solution(scene, settings={"grid": [5, 3, 2]}), solution(scene, "shell")
+    layer, moduli = far_apart.reasons(scene, uniform, *both)
+    assert "within 44.8 mm of the edge, 0.95 cells" in layer
+    assert moduli.startswith("the springs miss ")

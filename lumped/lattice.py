@@ -17,8 +17,9 @@ around them (of equal cells ½ on edges, ¼ at corners).
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -47,7 +48,7 @@ class LinkFamily:
     cells: np.ndarray
     shares: np.ndarray
 
-    @property
+    @cached_property
     def weight(self) -> np.ndarray:
         """Share of the family's stiffness that each link carries where all cells are alike, (m,)."""
         weight: np.ndarray = self.shares.sum(axis=1)
@@ -84,6 +85,22 @@ class Lattice:
     cells: tuple[CellFamily, ...]
     share: np.ndarray
     twisting: frozenset[str] = frozenset()
+
+    @cached_property
+    def joined(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Nodes, offsets and rest lengths of the links of all families, and the number of the name that each
+        one's family has among them."""
+        names = self.link_names
+        parts = [
+            (f.nodes, f.offset, f.rest_length, np.full(len(f.nodes), names.index(f.name))) for f in self.links
+        ]
+        nodes, offset, rest, number = (np.concatenate(part) for part in zip(*parts, strict=True))
+        return nodes, offset, rest, number
+
+    @cached_property
+    def link_names(self) -> tuple[str, ...]:
+        """The names of the families of links, once each."""
+        return tuple(dict.fromkeys(family.name for family in self.links))
 
     @property
     def mass_count(self) -> int:
@@ -148,8 +165,21 @@ def build(
     mass the same share, as the seed has them. grading, half: of the grid's lines (`lumped.grid_lines`).
 
     Raises BadInput for fewer than two masses a side or two layers, a grading outside 0 to 1, and full weights
-    on a graded grid.
+    on a graded grid. A small lattice is the same object every time: its arrays are not to be written to.
     """
+    small = math.prod(grid) <= KEPT
+    return (_kept_lattice if small else _build)(sheet, grid, layer_distance, weights, twisting, grading, half)
+
+
+def _build(
+    sheet: Sheet,
+    grid: Grid,
+    layer_distance: float,
+    weights: Weights,
+    twisting: frozenset[str],
+    grading: float,
+    half: tuple[bool, bool],
+) -> Lattice:
     nx, ny, layers = grid
     if min(grid) < 2:
         raise BadInput(f"grid = {nx}x{ny}x{layers}: a lattice has at least 2 masses a side and 2 layers")
@@ -190,6 +220,9 @@ def build(
         share=share,
         twisting=twisting,
     )
+
+
+_kept_lattice = lru_cache(maxsize=16)(_build)
 
 
 class _Step(NamedTuple):

@@ -9,6 +9,7 @@ import numpy as np
 from sheetbench.scenes.grid import Grid
 
 KEPT = 3000  # masses up to which what is the same for all sheets on a grid is kept for the next one
+ASKED = 32  # sets of masses whose blocks a small pattern keeps
 
 
 class Pattern:
@@ -19,6 +20,7 @@ class Pattern:
         self.size, self._keys = size, keys
         self.rows, self.indices = keys // size, (keys % size).astype(np.int32)
         self.indptr = np.searchsorted(self.rows, np.arange(size + 1)).astype(np.int32)
+        self._found: dict[tuple[tuple[int, ...], bytes], np.ndarray] = {}
 
     @property
     def blocks(self) -> int:
@@ -31,7 +33,19 @@ class Pattern:
         return found.astype(np.int32)
 
     def among(self, nodes: np.ndarray) -> np.ndarray:
-        """Block numbers of every pair within each row of masses (m, p): (m, p, p)."""
+        """Block numbers of every pair within each row of masses (m, p): (m, p, p), not to be written to; a
+        small pattern keeps those that it was asked for, which lattices on one grid share."""
+        if self.size > KEPT:
+            return self._among(nodes)
+        key = nodes.shape, nodes.tobytes()
+        found = self._found.get(key)
+        if found is None:
+            if len(self._found) == ASKED:
+                self._found.clear()
+            found = self._found[key] = self._among(nodes)
+        return found
+
+    def _among(self, nodes: np.ndarray) -> np.ndarray:
         return self.slots(nodes[:, :, None], nodes[:, None, :])
 
 

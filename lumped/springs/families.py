@@ -112,7 +112,8 @@ class Cells(Family):
     @cached_property
     def rest_area(self) -> np.ndarray:
         """a0, (c,) [m²]."""
-        area: np.ndarray = 0.5 * np.linalg.norm(np.cross(self.diagonals[:, 0], self.diagonals[:, 1]), axis=1)
+        (x, y, z), (p, q, r) = self.diagonals[:, 0].T, self.diagonals[:, 1].T
+        area: np.ndarray = 0.5 * np.sqrt((y * r - z * q) ** 2 + (z * p - x * r) ** 2 + (x * q - y * p) ** 2)
         return area
 
     def energies(self, stress: np.ndarray) -> np.ndarray:
@@ -148,8 +149,7 @@ class StrainSprings(Cells):
 
 def link_springs(lattice: Lattice, pattern: Pattern, table: SpringSet | DamperSet) -> Iterator[Links]:
     """Central links, first and even where there are none; then those of a per-direction law."""
-    names = tuple(dict.fromkeys(family.name for family in lattice.links))
-    stiffness, kind = [], []
+    stiffness = []
     for family in lattice.links:
         k = constants.along(table, family.name, family.direction)
         if k.ndim == 2:  # every cell its own
@@ -157,12 +157,8 @@ def link_springs(lattice: Lattice, pattern: Pattern, table: SpringSet | DamperSe
         else:
             of_links = family.weight[:, None] * k
         stiffness.append(of_links)
-        kind.append(np.full(len(family.nodes), names.index(family.name)))
-    k, number = np.concatenate(stiffness), np.concatenate(kind)
-    nodes, offset, rest = (
-        np.concatenate([getattr(family, part) for family in lattice.links])
-        for part in ("nodes", "offset", "rest_length")
-    )
+    k, names = np.concatenate(stiffness), lattice.link_names
+    nodes, offset, rest, number = lattice.joined
     unequal = (k != k[:, :1]).any(axis=1)
 
     def chosen(kind: type[Links], which: np.ndarray, k: np.ndarray) -> Links:

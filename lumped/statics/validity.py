@@ -42,9 +42,10 @@ def digits(problem: Problem, state: State) -> Fault | None:
     if state.factor is None or largest == 0.0:
         return None
     links = problem.assembly.links
-    relative = np.linalg.norm(np.diff(state.u[links.nodes], axis=1)[:, 0], axis=1)
-    carried = np.zeros((len(state.u), 1))
-    np.add.at(carried[:, 0], links.nodes.ravel(), np.repeat(links.stiffness * relative, 2))
+    a, b = links.nodes.T
+    pull = links.stiffness * np.sqrt(((state.u[b] - state.u[a]) ** 2).sum(axis=1))
+    size = len(state.u)
+    carried = (np.bincount(a, pull, size) + np.bincount(b, pull, size))[:, None]
     noise = np.random.default_rng(0).standard_normal((SAMPLES, *state.u.shape))
     moved = [problem.expand(state.factor.once(problem.reduce(carried * sample))) for sample in noise]
     share = problem.assembly.rounding * float(np.abs(moved).max()) / largest

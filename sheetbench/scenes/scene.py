@@ -6,6 +6,7 @@ once, and frozen; see `sheetbench.scenes.supports` and `sheetbench.scenes.loads`
 
 from __future__ import annotations
 
+from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -190,11 +191,17 @@ def free_rigid_motions(scene: Scene) -> list[str]:
     """
     if any(not isinstance(actuator, Chain) or actuator.base != "free" for actuator in scene.actuators):
         return []
-    centre = np.array([scene.sheet.length_x / 2, scene.sheet.length_y / 2, 0.0])
-    scale = max(scene.sheet.lengths)
+    return list(_left_free(scene.sheet, scene.supports))
+
+
+@lru_cache(maxsize=64)
+def _left_free(sheet: Sheet, supports: tuple[Support, ...]) -> tuple[str, ...]:
+    """Names of the rigid motions that supports leave free: asked again at every solve of a scene."""
+    centre = np.array([sheet.length_x / 2, sheet.length_y / 2, 0.0])
+    scale = max(sheet.lengths)
     rows = [np.zeros(6)]
-    for support in scene.supports:
-        for end in scene.sheet.edge_ends(support.edge):
+    for support in supports:
+        for end in sheet.edge_ends(support.edge):
             arm = (np.array([*end, 0.0]) - centre) / scale
             velocity = np.hstack([np.eye(3), -_cross_matrix(arm)])
             rows.extend(velocity[axis] for axis in held_axes(support))
@@ -205,7 +212,8 @@ def free_rigid_motions(scene: Scene) -> list[str]:
     rank = int(np.sum(singular > 1e-9))
     names = [f"{kind} {axis}" for kind in ("translation along", "rotation about") for axis in "xyz"]
     free = motions[rank:]
-    return [name for name, share in zip(names, np.linalg.norm(free, axis=0), strict=True) if share > 1e-6]
+    moved = np.linalg.norm(free, axis=0)
+    return tuple(name for name, share in zip(names, moved, strict=True) if share > 1e-6)
 
 
 def require_static(scene: Scene) -> None:

@@ -30,7 +30,7 @@ help:
 	@echo "make crosscheck every model and other people's programs on eight scenes: docs/crosscheck.md (ten minutes)"
 	@echo "make peers     ours and other people's codes in one run: docs/peers.md and its picture (six minutes)"
 	@echo "make stability where each solver holds, degrades, refuses or breaks: eight maps (six minutes; files in $(OUT)/stability/)"
-	@echo "make bench     the settling motion beside SciPy's BDF, and statics: time and what it goes to (files in $(OUT)/)"
+	@echo "make bench     settling beside SciPy's BDF, statics, explicit steps, start-up: time and what it goes to (files in $(OUT)/, history in benchmarks/history/)"
 	@echo "make suite     the reference set anew, comparisons/suite/data (ten minutes; a change of values is a new version)"
 	@echo "make viewer    the viewer of sheets in a browser, comparisons/browser/viewer.js, from its source (needs Node)"
 	@echo "make docs-scene  the page of every key of a scene and its sketch, docs/scene.md, from the types"
@@ -127,8 +127,10 @@ docs: install
 
 bench: install
 	@mkdir -p $(OUT)
-	@$(BIN)/python benchmarks/settling.py --json $(OUT)/settling.json
-	@$(BIN)/python benchmarks/statics.py --json $(OUT)/statics.json
+	@$(BIN)/python benchmarks/settling.py --json $(OUT)/settling.json --keep
+	@$(BIN)/python benchmarks/statics.py --json $(OUT)/statics.json --keep
+	@OMP_NUM_THREADS=1 $(BIN)/python benchmarks/explicit_steps.py --keep
+	@$(BIN)/python benchmarks/startup.py --first --keep
 
 docs-scene: install
 	@$(BIN)/python docs/scene_sketch.py

@@ -1,6 +1,6 @@
 """Microseconds of CPU a step of velocity Verlet, compiled and one by one, by grid, damping and precision.
 
-    OMP_NUM_THREADS=1 python benchmarks/explicit_steps.py 9 65
+    OMP_NUM_THREADS=1 python benchmarks/explicit_steps.py [--keep] 9 65
 
 The best of four alternating samples of each. A thousandth of the layers' distance in random displacements
 keeps single precision from numbers below its range, which are slow.
@@ -8,11 +8,14 @@ keeps single precision from numbers below its range, which are slow.
 
 from __future__ import annotations
 
-import sys
+import argparse
 import time
 from collections.abc import Callable
+from itertools import product
+from typing import Any
 
 import numpy as np
+from keeping import keep
 
 import lumped
 from lumped import INTEGRATORS, State, System, pose
@@ -57,14 +60,29 @@ def measure(masses: int, damping_time: float, precision: Precision) -> tuple[flo
     return float(compiled), float(single)
 
 
+def main() -> None:
+    """Measure, print, keep."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("masses", nargs="*", type=int, default=[9, 65], help="along each side")
+    parser.add_argument("--keep", action="store_true", help="keep the rows in benchmarks/history")
+    asked = parser.parse_args()
+    rows: list[dict[str, Any]] = []
+    kinds: tuple[Precision, ...] = ("double", "single")
+    for n, damping, kind in product(asked.masses, (0.0, 4e-3), kinds):
+        one, other = measure(n, damping, kind)
+        rate = 2e-6 * n * n / one
+        rows.append(
+            {"lattice": f"{n}×{n}×2", "dampers": bool(damping), "precision": kind, "step_seconds": one,
+             "alone_seconds": other}
+        )  # fmt: skip
+        print(
+            f"{n}x{n}x2, {'dampers' if damping else 'undamped'}, {kind}: {1e6 * one:.1f} µs a step, "
+            f"{1e6 * other:.0f} one by one; {rate:.1f} M mass-steps/s",
+            flush=True,
+        )
+    if asked.keep:
+        print(keep("explicit-steps", rows))
+
+
 if __name__ == "__main__":
-    for n in map(int, sys.argv[1:] or ("9", "65")):
-        for damping in (0.0, 4e-3):
-            for kind in ("double", "single"):
-                one, other = measure(n, damping, kind)
-                rate = 2e-6 * n * n / one
-                print(
-                    f"{n}x{n}x2, {'dampers' if damping else 'undamped'}, {kind}: {1e6 * one:.1f} µs a step, "
-                    f"{1e6 * other:.0f} one by one; {rate:.1f} M mass-steps/s",
-                    flush=True,
-                )
+    main()

@@ -1,6 +1,6 @@
 """Two seconds of the settling sheet by our integrators and by SciPy's BDF: time, steps and error, in one run.
 
-    python benchmarks/settling.py [--all] [--json FILE]
+    python benchmarks/settling.py [--all] [--json FILE] [--keep]
 
 BDF has the lattice's own sparse Jacobian and compiled right-hand side; it only returns displacements, where
 ours also keep energies and reactions and watch every sample, and set up within their time. Error: of P4 over
@@ -25,6 +25,7 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"):
 
 import numpy as np  # noqa: E402  # after the number of threads is set
 import scipy.sparse as sp  # noqa: E402
+from keeping import keep  # noqa: E402
 from scipy.integrate import solve_ivp  # noqa: E402
 
 import lumped  # noqa: E402
@@ -83,6 +84,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--all", action="store_true", help="verlet and midpoint too")
     parser.add_argument("--json", type=Path, help="a file for the rows")
+    parser.add_argument("--keep", action="store_true", help="keep the rows in benchmarks/history")
     asked = parser.parse_args()
     runs: dict[str, Callable[[], Answer]] = {
         "SciPy BDF, rtol 1e-3": bdf(1e-3),
@@ -118,6 +120,8 @@ def main() -> None:
         sys.stdout.flush()
     if asked.json is not None:
         asked.json.write_text(json.dumps(rows, indent=1), encoding="utf-8")
+    if asked.keep:
+        print(keep("settling", rows))
 
 
 if __name__ == "__main__":

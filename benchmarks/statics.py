@@ -1,6 +1,6 @@
 """Equilibria of lattices and shells: time, what it goes to, and the rate of the factorisations, in one run.
 
-    python benchmarks/statics.py [--large] [--batch N] [--json FILE]
+    python benchmarks/statics.py [--large] [--batch N] [--json FILE] [--keep]
 
 Of every lattice the best of its solves, the call with its set-up over the solve, factorisations, their share
 of the solve and the rate that they reach; then a batch, by the clock, and the shell with the share of its
@@ -19,6 +19,7 @@ from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
+from keeping import keep
 
 import fem_reference
 import lumped
@@ -126,6 +127,7 @@ def main() -> None:
     parser.add_argument("--large", action="store_true", help="129×129×2 and 257×257×2 too (minutes, 3 GB)")
     parser.add_argument("--batch", type=int, default=BATCH, help="lattices in the batch")
     parser.add_argument("--json", metavar="FILE", help="where to keep the numbers")
+    parser.add_argument("--keep", action="store_true", help="keep the rows in benchmarks/history")
     asked = parser.parse_args()
     rows: list[dict[str, Any]] = []
     for masses in LATTICES + (LARGE if asked.large else ()):
@@ -150,6 +152,8 @@ def main() -> None:
         about = {"machine": platform.processor() or platform.machine(), "python": platform.python_version()}
         with open(asked.json, "w", encoding="utf-8") as file:
             json.dump({"about": about, "rows": rows}, file, indent=1)
+    if asked.keep:
+        print(keep("statics", rows))
 
 
 if __name__ == "__main__":

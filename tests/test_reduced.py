@@ -1,5 +1,7 @@
 """The condensed model: its equilibrium, its motion, and where it stops."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from dynamic_cases import ROD, scene, springs, system
@@ -50,6 +52,40 @@ def test_four_modes_follow_the_settling_sheet():
     assert np.abs(few.probes["P4"] - full.probes["P4"]).max() < 0.08 * largest
     taken = few.energies["dissipated"][-1]
     assert taken == pytest.approx(full.energies["dissipated"][-1], rel=0.05)
+
+
+def test_steps_of_the_model_are_of_second_order():
+    equations, rest = system(scenes.load("two-edges-settling"), 5)
+    method, ends = Reduced(equations, 1e-3), []
+    for count in (20, 40, 80):
+        method.recall({"algorithm": None, "largest": 0.0, "unseen": 0})
+        advance, _ = method.march(rest, 0.1 / count, count)
+        ends.append(advance.state.u)
+    changes = [np.abs(a - b).max() for a, b in pairwise(ends)]
+    assert np.log2(changes[0] / changes[1]) == pytest.approx(Reduced.order, abs=0.15)
+    assert changes[1] < 2e-2 * np.abs(ends[-1]).max()
+
+
+class Stopped(Exception):
+    """What ends a run from outside."""
+
+
+def test_a_stopped_run_resumes_to_the_last_digit(tmp_path):
+    asked, seen = scenes.load("two-edges-settling"), []
+    options = {"integrator": "reduced", "step": 1e-3, "every": 2e-3, "frames": 20}
+
+    def stop(time):
+        seen.append(time)
+        if len(seen) > 55:  # samples after the checkpoint, to be dropped
+            raise Stopped
+
+    whole = lumped.simulate(asked, springs(asked, 4), 0.12, store=tmp_path / "whole", **options)
+    with pytest.raises(Stopped):
+        lumped.simulate(asked, springs(asked, 4), 0.12, store=tmp_path / "cut", progress=stop, **options)
+    resumed = lumped.simulate(asked, springs(asked, 4), 0.12, store=tmp_path / "cut", **options)
+    assert resumed.resumed_from == pytest.approx(0.1) and resumed.steps == whole.steps == 120
+    for file in ("samples.bin", "frames.bin"):
+        assert (tmp_path / "cut" / file).read_bytes() == (tmp_path / "whole" / file).read_bytes()
 
 
 def test_motion_that_the_model_does_not_know_ends_the_run():

@@ -13,13 +13,14 @@ from comparisons.comparison import strain_law
 from comparisons.comparison.comparison import compare
 from comparisons.models.candidate import Candidate
 from comparisons.models.registry import solve
+from fem_reference.pulled_strip import curving, pulled
 from fem_reference.shell.element import Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
 from fem_reference.solid.materials import LAWS as SOLID_LAWS
 from fem_reference.surface.materials import plane_stress, section_of
 from fem_reference.verification import run
-from fem_reference.verification.strain_laws import STRAINS, WAYS, curving, pulled, stress
+from fem_reference.verification.strain_laws import STRAINS, WAYS, stress
 from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
 from sheetbench.scenes import Material, Scene, Sheet, Status
 from sheetbench.scenes.errors import BadInput

@@ -13,7 +13,7 @@ import numpy as np
 
 from comparisons.models.candidate import Candidate
 from comparisons.models.registry import answer
-from fem_reference.verification.strain_laws import curving, pulled
+from fem_reference.pulled_strip import curving, pulled
 from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
 from sheetbench.scenes import Scene, Solution
 

@@ -7,7 +7,7 @@
 
 with P the force per area of the unstrained section and λ_t the stretch across, through the thickness too:
 μ (λ_t² − 1) + λ_L ln J = 0, J = λ λ_t² one way and λ² λ_t both ways. The strip is loaded by P, and the
-stretch that it shows is held to ε. P = E ε (1 + c ε + …) one way, with c of `curving`.
+stretch that it shows is held to ε. P = E ε (1 + c ε + …) one way, with c of `pulled_strip.curving`.
 """
 
 from __future__ import annotations
@@ -19,16 +19,14 @@ import numpy as np
 from scipy.optimize import brentq
 
 from fem_reference import solve
+from fem_reference.pulled_strip import MATERIAL, SHEET, pulled
 from fem_reference.verification.rows import EXACT, Row, relatively
 from sheetbench.choices import STRAIN_LAWS
-from sheetbench.scenes import EdgeLoad, Held, Material, Scene, Sheet
 
 STRAINS = (0.001, 0.01, 0.1)
 WAYS = {"one way": 1, "both ways": 2}
 MODELS = ("shell", "solid")
 TOLERANCE = 1e-6
-SHEET = Sheet(length_x=0.2, length_y=0.1, thickness=0.01)
-MATERIAL = Material(young=1e6, poisson=0.3, density=1000.0)
 
 
 def rows(case: str) -> Iterator[Row]:
@@ -53,20 +51,6 @@ def stress(law: str, way: str, strain: float, poisson: float = MATERIAL.poisson)
         return shear * (stretch - across**2 / stretch)
     elongation = strain if law == "biot" else 0.5 * stretch * (stretch**2 - 1.0)
     return elongation if ways == 1 else elongation / (1.0 - poisson)
-
-
-def curving(law: str, poisson: float) -> float:
-    """c of P = E ε (1 + c ε + …) one way."""
-    neo = (1.0 - 2.0 * poisson**3) / (1.0 + poisson) - 1.5
-    return {"biot": 0.0, "st-venant-kirchhoff": 1.5, "neo-hookean": neo}[law]
-
-
-def pulled(pulls: tuple[float, float], sheet: Sheet = SHEET, material: Material = MATERIAL) -> Scene:
-    """A strip free to contract, under forces per length [N/m] on x1 along x and on y1 along y."""
-    held = (Held(edge="x0", components=("x", "z")), Held(edge="y0", components=("y", "z")))
-    along_x = EdgeLoad(edge="x1", force_per_length=(pulls[0], 0.0, 0.0))
-    along_y = EdgeLoad(edge="y1", force_per_length=(0.0, pulls[1], 0.0))
-    return Scene(name="pulled", sheet=sheet, material=material, support=held, load=(along_x, along_y))
 
 
 def _stretch(model: str, law: str, way: str, strain: float) -> float:

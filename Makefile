@@ -11,7 +11,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
             report.py measurements.py) tests/fuzz
 
 .PHONY: docs docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer tradeoff \
-        advisor-study crosscheck peers bench stability suite mutants viewer wheel-check lint clean
+        advisor-study reproduce crosscheck peers bench stability suite mutants viewer wheel-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
@@ -27,6 +27,7 @@ help:
 	@echo "make transfer  every calibration on every scene of the transfer study (ten minutes; files in $(OUT)/transfer/)"
 	@echo "make tradeoff  error against time on the seed's test 1, with the picture (files in $(OUT)/)"
 	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/; up to half an hour)"
+	@echo "make reproduce the seed's study again: docs/reproduction.md and its pictures (a minute and a half)"
 	@echo "make crosscheck every model and other people's programs on eight scenes: docs/crosscheck.md (ten minutes)"
 	@echo "make peers     ours and other people's codes in one run: docs/peers.md and its picture (six minutes)"
 	@echo "make stability where each solver holds, degrades, refuses or breaks: eight maps (six minutes; files in $(OUT)/stability/)"
@@ -103,6 +104,12 @@ peers: .venv-peers/installed
 	  .venv-peers/bin/python -m comparisons.cli.peers_study --out $(OUT)/peers
 	@sed 's#(peers.png)#(images/peers.png)#' $(OUT)/peers/peers.md > docs/peers.md
 	@cp $(OUT)/peers/peers.png docs/images/peers.png
+
+reproduce: install
+	@$(BIN)/sheetbench reproduce --out $(OUT)/reproduction --overwrite
+	@sed 's#](\([a-z0-9-]*\)\.png)#](images/reproduction/\1.png)#' $(OUT)/reproduction/reproduction.md > docs/reproduction.md
+	@mkdir -p docs/images/reproduction
+	@cp $(OUT)/reproduction/*.png docs/images/reproduction/
 
 crosscheck: install
 	@$(BIN)/python -m sheetbench crosscheck all docs/crosscheck/*.toml --out $(OUT)/crosscheck

@@ -34,6 +34,7 @@ VERBS = (
     "advise",
     "stability",
     "verify",
+    "reproduce",
     "crosscheck",
     "modes",
     "schema",

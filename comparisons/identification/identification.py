@@ -23,7 +23,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from comparisons.identification import surface
 from comparisons.identification.found import Found, Identification
@@ -31,11 +30,13 @@ from comparisons.identification.measurements import Displacements, Measured, Sur
 from comparisons.identification.misfit import Misfit, require_same_way
 from comparisons.identification.prediction import (
     NotReached,
+    Prediction,
     Predictor,
     lattice,
     motion,
     reference,
 )
+from comparisons.identification.search import search
 from comparisons.identification.unknowns import DAMPING, Unknown, unknown
 from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading, grading_of
@@ -52,10 +53,6 @@ from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import Grid, near_square
 
 MODELS = ("lumped", *(name for name in REFERENCES if name != "plate"))  # whose large displacements hold
-REFUSED = 1e3  # residual, in units of the data, where the model has no answer: the step is shortened
-SMALLEST = 1e-10  # change of x, or of the sum of squares, that ends the search
-PULL = 1e-6  # residual, in units of the data, that a unit of x is worth
-EVALUATIONS = 60
 POOR = 0.05  # standard deviation of the residuals, of the largest measurement: more than noise usually is
 
 
@@ -101,45 +98,16 @@ def identify(
         scene, measured, model, grid, calibration, grading, elements, progress
     )
     misfit = Misfit(measured, axes, offset)
-    kept: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
-    count = 0
 
-    def at(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        nonlocal count
-        key = x.tobytes()
-        if key not in kept:
-            predicted = predict(unknowns, x, misfit.asked)
-            if not kept and not any(u.turns for u in unknowns):
-                require_same_way(measured, predicted, axes)
-            kept[key] = misfit.of(predicted)
-            count += 1
-            size = float(np.sqrt(np.mean(kept[key][0] ** 2)))
-            values = ", ".join(f"{u.name} = {u.value(z):.6g}" for u, z in zip(unknowns, x, strict=True))
-            progress(f"{values}: off by {100 * size:.3g} % of the largest measurement")
-        return kept[key]
+    def first(predicted: Prediction) -> None:
+        if not any(u.turns for u in unknowns):
+            require_same_way(measured, predicted, axes)
+        count = len(misfit.of(predicted)[0])
+        if count <= len(unknowns):
+            raise BadInput(f"{count} measured numbers cannot give intervals of {len(unknowns)} unknowns")
 
-    def residuals(x: np.ndarray) -> np.ndarray:
-        try:
-            return np.concatenate([at(x)[0], PULL * x])
-        except NotReached as error:
-            progress(f"no answer there: {error}")
-            return np.concatenate([np.full_like(first, REFUSED), PULL * x])
-
-    first = at(np.zeros(len(unknowns)))[0]
-    if len(first) <= len(unknowns):
-        raise BadInput(f"{len(first)} measured numbers cannot give intervals of {len(unknowns)} unknowns")
-    low, high = np.array([u.bounds() for u in unknowns]).T
-    best = least_squares(
-        residuals,
-        np.zeros(len(unknowns)),
-        jac=lambda x: np.vstack([at(x)[1], PULL * np.eye(len(x))]),
-        bounds=(low, high),
-        xtol=SMALLEST,
-        ftol=SMALLEST,
-        gtol=1e-12,
-        max_nfev=EVALUATIONS,
-    )
-    final, slopes = at(best.x)
+    best = search(predict, unknowns, misfit, first=first, progress=progress)
+    final, slopes = best.residuals, best.slopes
     known = identifiability([u.name for u in unknowns], slopes, final)
     steps: Sequence[float | None] = [None] * len(unknowns)
     unseen = []
@@ -170,7 +138,7 @@ def identify(
         *(
             f"{u.name} ended at {quantity(u.value(x), u.unit)}, as far from the scene's own value as the "
             "search goes: the data pull it further"
-            for u, x, active in zip(unknowns, best.x, best.active_mask, strict=True)
+            for u, x, active in zip(unknowns, best.x, best.against_bounds, strict=True)
             if active
         ),
     ]
@@ -199,8 +167,8 @@ def identify(
         residuals=misfit.per_point(final),
         noise=measured.scale * noise,
         relative=float(np.abs(final).max()),
-        evaluations=count,
-        converged=best.status > 0,
+        evaluations=best.evaluations,
+        converged=best.converged,
         warnings=tuple(warnings),
     )
 

@@ -1,4 +1,4 @@
-"""The seed's published figures, as data: displacements in metres, printed errors, and what does not add up.
+"""The seed's published figures, as data: inputs and displacements in SI units, printed errors, known faults.
 
 Source: Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for large-deformation continuum
 surfaces. See scenes/published/README.md.
@@ -10,7 +10,7 @@ import csv
 from dataclasses import dataclass
 from importlib import resources
 
-_METRES = {"mm": 1e-3, "m": 1.0}
+_SI = {"mm": 1e-3, "GPa": 1e9, "percent": 1e-2}
 PROBES = ("P1", "P2", "P3", "P4")
 
 KNOWN_FAULTS = (
@@ -19,8 +19,8 @@ KNOWN_FAULTS = (
     "Experimental uy(P4) of test 1 is printed −1.86; the symmetry of the test asks +1.86.",
     "In test 1 the published y axis points the other way than in a scene with edges x0 and y0 clamped: "
     "compare −uy.",
-    "The printed percentage errors are relative to the experiment in some cells and to the model in others; "
-    "their mean is 4.92 %, not the 4.8 % quoted.",
+    "The printed percentage errors are relative to the experiment in some cells and to the model in others, "
+    "whichever is larger; their mean is 4.92 %, not the 4.8 % quoted.",
     "Young's modulus was found by matching samples to the surface model itself: E and k are not independent "
     "evidence. k = 550 N/m follows from no standard formula, and the layer distance is not given.",
     "The published inputs do not determine the published displacements: converged plate theory with "
@@ -53,11 +53,19 @@ def seed_displacements() -> tuple[SeedDisplacement, ...]:
     """Every published displacement as printed, in metres and in the published axes."""
     return tuple(
         SeedDisplacement(
-            int(row["test"]), row["source"], row["component"], probe, float(row[probe]) * _METRES[row["unit"]]
+            int(row["test"]), row["source"], row["component"], probe, float(row[probe]) * _SI[row["unit"]]
         )
         for row in _rows("seed_displacements.csv")
         for probe in PROBES
     )
+
+
+def seed_inputs() -> dict[str, float]:
+    """Every published input and figure by name, in SI units, errors as fractions; see the file for what each
+    is."""
+    return {
+        row["quantity"]: float(row["value"]) * _SI.get(row["unit"], 1.0) for row in _rows("seed_inputs.csv")
+    }
 
 
 def seed_errors() -> tuple[SeedError, ...]:

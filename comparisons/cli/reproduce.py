@@ -1,0 +1,43 @@
+"""`sheetbench reproduce`: the seed's study again."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from comparisons.cli.options import Elements, Json, Out, Overwrite
+from sheetbench.choices import ELEMENTS
+
+
+def command(
+    part: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--part",
+            metavar="NAME",
+            help="Only errors, tables, settling or nearest; may be repeated. All unless given.",
+            show_default=False,
+        ),
+    ] = None,
+    elements: Elements = str(ELEMENTS),
+    json: Json = False,
+    out: Out = None,
+    overwrite: Overwrite = False,
+) -> None:
+    """Reproduce the seed's study: tables beside our models, errors, the settling run, what fits best.
+
+    With the published inputs; where they do not give the published tables, which sheets come nearest, and
+    what in the tables no sheet can have.
+    """
+    from comparisons.cli.finish import finish
+    from comparisons.models.grids import parse_elements
+    from comparisons.reproduction.reproduction import PARTS, reproduce
+    from sheetbench.scenes.errors import require_choice
+
+    for name in part or ():
+        require_choice("--part", name, PARTS)
+    parts = [name for name in PARTS if name in (part or PARTS)]
+    with finish("reproduce", json, out, overwrite, apart={"--part": parts}) as end:
+        found = reproduce(parts, elements=parse_elements(elements), progress=end.progress)
+        end(found.report())

@@ -1,0 +1,79 @@
+"""What our models say of the seed's tests with the published inputs.
+
+Beside the lattice of `consistent` springs and the shell with its error bar stand lattices as the seed has
+them: k as published for all springs, equal masses, full springs along edges. Their layer distance is not
+published; it is the sheet's thickness in one, √(D/k) in the other, with which it bends like the sheet
+(`comparisons.reproduction.inputs`). Whether the rod of test 2 lifts its ends is not published either.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import lumped
+from comparisons.comparison.comparison import Comparison, compare
+from comparisons.models.grids import Elements
+from comparisons.report.work import Progress, Work, silent
+from comparisons.reproduction.inputs import asked_layer_distance
+from comparisons.reproduction.published import scene
+from comparisons.reproduction.sheets import masses
+from sheetbench.scenes import Solution
+from sheetbench.scenes.seed import seed_inputs
+
+SETS = ((1, 0), (2, 1), (2, -1))  # tests, and the sense of the rod
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The answers to a test; sense: 1 where the rod of test 2 lifts its ends, -1 where it lowers them."""
+
+    test: int
+    sense: int
+    comparison: Comparison
+
+    @property
+    def name(self) -> str:
+        """Of its tables and files."""
+        return f"test-{self.test}" + {0: "", 1: "-up", -1: "-down"}[self.sense]
+
+    @property
+    def title(self) -> str:
+        """In words."""
+        rod = {0: "", 1: ", the rod's ends up", -1: ", the rod's ends down"}[self.sense]
+        return f"Test {self.test}{rod}"
+
+
+def answers(elements: Elements, progress: Progress = silent) -> list[Answer]:
+    """Every test by every model; elements: of the shell."""
+    return [answer(test, sense, elements, progress) for test, sense in SETS]
+
+
+def answer(test: int, sense: int, elements: Elements, progress: Progress = silent) -> Answer:
+    """A test by every model."""
+    asked = scene(test, sense or 1)
+    found = compare(asked, grid=masses(), calibration="consistent", elements=elements, progress=progress)
+    of_seed = []
+    for distance in (seed_inputs()["thickness"], asked_layer_distance()):
+        name = seed_lattice(distance)
+        progress(Work(f"solving {name}"))
+        springs = seed_springs(distance)
+        of_seed.append(replace(lumped.solve(asked, springs, weights="full"), model=name))
+    return Answer(test, sense, replace(found, solutions=(*found.solutions, *of_seed)))
+
+
+def seed_lattice(distance: float) -> str:
+    """What a lattice of the published k with a layer distance [m] is called."""
+    return f"k{seed_inputs()['k']:g}-lz{1e3 * distance:.3g}"
+
+
+def seed_springs(distance: float) -> lumped.Calibration:
+    """The published k for every spring, with a layer distance [m]."""
+    asked, k = scene(1), seed_inputs()["k"]
+    return lumped.calibrate(
+        asked.sheet, asked.material, grid=masses(), method="uniform", k=k, layer_distance=distance
+    )
+
+
+def of_model(answer: Answer, model: str) -> Solution:
+    """The solution of a model by its name."""
+    return next(one for one in answer.comparison.solutions if one.model == model)

@@ -1,0 +1,143 @@
+"""What the numbers say, a sentence or two each, with the numbers they rest on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.report.table import number
+from comparisons.reproduction import nearness
+from comparisons.reproduction.answers import Answer, of_model
+from comparisons.reproduction.printed_errors import means
+from comparisons.reproduction.published import published
+from comparisons.reproduction.settling import PROBE, SETTLED
+from comparisons.reproduction.words import millimetres, percent
+from sheetbench.scenes import Solution, Status
+from sheetbench.scenes.seed import PROBES, seed_inputs
+
+if TYPE_CHECKING:
+    from comparisons.reproduction.reproduction import Reproduction
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What it is about, and the finding."""
+
+    about: str
+    finding: str
+
+
+def all_of(found: Reproduction) -> list[Finding]:
+    """Every finding of the parts there are."""
+    parts = (_errors, _inputs, _tables, _settling, *nearness.PARTS)
+    return [Finding(about, said) for part in parts for about, said in part(found)]
+
+
+Said = Iterator[tuple[str, str]]
+
+
+def _errors(found: Reproduction) -> Said:
+    if not (cells := found.cells):
+        return
+    mean, quoted = means(list(cells)), seed_inputs()["mean_error"]
+    explained = [cell for cell in cells if cell.by_larger]
+    cut = sum(cell.digits == "cut off" for cell in explained)
+    changed = sum(cell.changes for cell in cells)
+    yield (
+        "printed errors",
+        f"{len(explained)} of {len(cells)} printed errors are the difference over the larger of the two "
+        f"values, {cut} of them cut off instead of rounded. {changed} are therefore relative to the model "
+        f"and not to the experiment; relative to the experiment throughout their mean is "
+        f"{percent(mean['of_experiment'], '.2f')}.",
+    )
+    yield (
+        "printed errors",
+        f"The printed errors have a mean of {percent(mean['printed'], '.2f')}; {percent(quoted)} is quoted.",
+    )
+
+
+def _inputs(found: Reproduction) -> Said:
+    if not (checks := found.checks):
+        return
+    given = seed_inputs()
+    for check in checks:
+        if check.what == "equations" and not check.agrees:
+            yield (
+                "inputs",
+                f"{check.printed:g} equations are printed; {check.follows} are {check.computed:g}.",
+            )
+    formulas = [check for check in checks if check.what == "k"]
+    nearest = min(formulas, key=lambda check: abs(np.log(check.computed / given["k"])))
+    yield (
+        "inputs",
+        f"None of {len(formulas)} usual formulas gives k = {given['k']:g} N/m; the nearest, "
+        f"{nearest.follows}, gives {nearest.computed:.0f} N/m.",
+    )
+    distance = next(check for check in checks if check.what == "layer distance").computed
+    yield (
+        "inputs",
+        "The distance of the layers is not published. With the published k a lattice bends like the "
+        f"published sheet where it is {millimetres(distance, '.3g')}, {distance / given['thickness']:.1f} "
+        "times the thickness.",
+    )
+
+
+def _tables(found: Reproduction) -> Said:
+    for one in found.answers:
+        comparison = one.comparison
+        off = comparison.error(comparison.solutions[0])
+        if off is not None and comparison.bar is not None:
+            yield (
+                one.title,
+                f"Our lattice with consistent springs is {percent(off)} from our shell, whose own mesh "
+                f"leaves {percent(comparison.bar.error)} open.",
+            )
+        moved, wanted = _moved(one, comparison.reference.model), published(one.test, "experiment")
+        pairs = ", ".join(
+            f"{name} {number(1e3 * u, '.2f')} ({number(1e3 * p, '.2f')})"
+            for name, u, p in zip(PROBES, moved[:, 2], wanted[:, 2], strict=True)
+        )
+        yield (
+            one.title,
+            "With the published inputs the shell's uz, and the published experiment's in brackets, are in "
+            f"mm: {pairs}.",
+        )
+        table = published(one.test, "model")
+        for solution in comparison.solutions[2:]:
+            apart = np.nanmax(np.abs(_moved(one, solution.model) - table)) / np.nanmax(np.abs(table))
+            how = "" if solution.status is Status.CONVERGED else f" (its answer is {solution.status})"
+            yield (
+                one.title,
+                f"A lattice of the published k with layers {_layers(solution)} "
+                f"apart{how} is off the published model by up to {percent(float(apart), '.0f')} of its "
+                "largest displacement.",
+            )
+
+
+def _layers(solution: Solution) -> str:
+    return millimetres(solution.settings["layer_distance"], ".3g")
+
+
+def _moved(one: Answer, model: str) -> np.ndarray:
+    return np.array(list(one.comparison.probes(of_model(one, model)).values()))
+
+
+def _settling(found: Reproduction) -> Said:
+    if (settling := found.settling) is None:
+        return
+    for model, run in settling.runs.items():
+        settled = settling.settled(model)
+        still = "is not at rest at its end"
+        if settled is not None:
+            still = f"stays within {percent(SETTLED)} of it from {settled:.2f} s on"
+        yield (
+            "settling",
+            f"{model}: uz of {PROBE} swings to {settling.largest(model):.2f} times its static value and "
+            f"{still}. "
+            f"The {run.time[-1]:g} s took {settling.seconds(model):.1f} s here, set-up included; "
+            f"{seed_inputs()['run_time']:g} s are published as the average of one simulation, whose length "
+            "and machine are not named.",
+        )

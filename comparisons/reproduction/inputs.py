@@ -1,0 +1,97 @@
+"""The published inputs held against one another: what follows from the others, and what does not.
+
+D = E h³/12(1 − ν²), l = a/(n − 1). A lattice of equal springs bends along its axes like a plate of k lz²
+(`lumped.calibration.uniform`), so that a layer distance √(D/k) is what the published k asks for.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import sqrt
+
+import numpy as np
+
+from comparisons.reproduction.printed_errors import cells, means
+from comparisons.reproduction.published import scene
+from sheetbench.scenes.seed import seed_inputs
+
+SAME = 0.005  # of a printed figure: what its two digits leave open
+
+
+@dataclass(frozen=True)
+class Check:
+    """A printed figure beside what follows from the others, in the unit (SI), and from what; printed is None
+    where none is given."""
+
+    what: str
+    unit: str
+    printed: float | None
+    computed: float
+    follows: str
+
+    @property
+    def agrees(self) -> bool | None:
+        """Whether the two are the same to the printed digits; None where there is none to be the same as."""
+        return None if self.printed is None else abs(self.computed - self.printed) <= SAME * abs(self.printed)
+
+
+def bending_stiffness() -> float:
+    """D [N·m] of the published sheet."""
+    given = seed_inputs()
+    return float(given["young"] * given["thickness"] ** 3 / (12.0 * (1.0 - given["poisson"] ** 2)))
+
+
+def asked_layer_distance() -> float:
+    """√(D/k) [m], with which a lattice of the published k bends like the published sheet."""
+    return sqrt(bending_stiffness() / seed_inputs()["k"])
+
+
+def checks() -> list[Check]:
+    """Every check."""
+    given = seed_inputs()
+    masses = given["masses_per_side"] ** 2 * given["layers"]
+    weighs = given["density"] * given["side"] ** 2 * given["thickness"]
+    spacing = given["side"] / (given["masses_per_side"] - 1.0)
+    rigidity, membrane = bending_stiffness(), given["young"] * given["thickness"]
+    inertia = given["thickness"] ** 3 * spacing / 12.0
+    k = given["k"]
+    stiffnesses = {
+        "E h": membrane,
+        "12 E I/l³, I = l h³/12": 12.0 * given["young"] * inertia / spacing**3,
+        "3 E I/l³": 3.0 * given["young"] * inertia / spacing**3,
+        "D/l²": rigidity / spacing**2,
+        "2 D/l²": 2.0 * rigidity / spacing**2,
+    }
+    return [
+        Check("mass of a point", "kg", given["mass"], weighs / masses, "ρ a² h over the masses"),
+        Check("equations", "", given["equations"], 3.0 * masses, "three a mass"),
+        *_links(),
+        Check("mean of the printed errors", "", given["mean_error"], means(cells())["printed"], "its cells"),
+        *(Check("k", "N/m", k, value, formula) for formula, value in stiffnesses.items()),
+        Check("layer distance", "m", None, asked_layer_distance(), "√(D/k), D = E h³/12(1 − ν²)"),
+    ]
+
+
+def _links() -> list[Check]:
+    """Links of a mass in the interior, on an edge and at a corner, counted on a lattice of that grid."""
+    import lumped
+
+    given, asked = seed_inputs(), scene(1)
+    side, layers = int(given["masses_per_side"]), int(given["layers"])
+    grid = (side, side, layers)
+    springs = lumped.calibrate(asked.sheet, asked.material, grid=grid, method="uniform")
+    lattice = lumped.pose(asked, springs).assembly.lattice
+    ends = np.concatenate([family.nodes.ravel() for family in lattice.links])
+    counts = np.bincount(ends)
+    middle = side // 2
+    places = {"interior": (middle, middle), "edge": (middle, 0), "corner": (0, 0)}
+    return [
+        Check(
+            f"links of a mass, {name}",
+            "",
+            given[f"links_{name}"],
+            float(counts[lattice.number(*map(np.array, (*at, 0)))]),
+            "counted on the grid",
+        )
+        for name, at in places.items()
+    ]

@@ -1,0 +1,138 @@
+"""What the nearest sheets say of the published tables: how near, by which numbers, and what none can have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import degrees
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.report.table import number
+from comparisons.reproduction.chords import nearer
+from comparisons.reproduction.nearest import MOST, NEAR, SQUARES, Fit
+from comparisons.reproduction.published import published
+from comparisons.reproduction.words import (
+    KINDS,
+    ROD,
+    millimetres,
+    missed,
+    percent,
+    scanned,
+    tests,
+    values,
+)
+from sheetbench.scenes.seed import PROBES
+
+if TYPE_CHECKING:
+    from comparisons.reproduction.reproduction import Reproduction
+
+Said = Iterator[tuple[str, str]]
+
+
+def _nearest(found: Reproduction) -> Said:
+    for kind, of in dict.fromkeys((fit.kind, fit.tests) for fit in found.fits):
+        fits = [fit for fit in found.fits if (fit.kind, fit.tests) == (kind, of)]
+        best = min((fit for fit in fits if fit.by == SQUARES), key=lambda fit: fit.rms)
+        none = "" if best.met.sum() == best.entries else f"No {KINDS[kind]} that was tried has all of the"
+        first = f"{none} published {best.source}'s entries. " if none else ""
+        yield (
+            "nearest",
+            f"{tests(of)}: {first}The nearest to the published {best.source} "
+            f"({values(best)}{ROD[best.sense]}) "
+            f"differs by {percent(best.rms)} of the largest displacement (root mean square), by "
+            f"{percent(best.error)} at most, and has {int(best.met.sum())} of {best.entries} entries within "
+            f"{percent(NEAR)}.",
+        )
+        most = max((fit for fit in fits if fit.by == MOST), key=lambda fit: int(fit.met.sum()))
+        if most.met.sum() > best.met.sum():
+            rest = " and k as published" if kind == "lattice" else ""
+            yield (
+                "nearest",
+                f"{tests(of)}: with {values(most)}{rest}{ROD[most.sense]} a {kind} has {int(most.met.sum())} "
+                f"of {most.entries} entries within {percent(NEAR)}, but not {missed(most)}.",
+            )
+
+
+def _senses(found: Reproduction) -> Said:
+    if not found.fits:
+        return
+    table = published(2, "model")
+    rise = [millimetres(table[j, 2] - table[i, 2]) for i, j in ((0, 1), (2, 3))]
+    said = []
+    for kind in KINDS:
+        of_rod = [f for f in found.fits if f.tests == (2,) and f.kind == kind and "curvature" not in f.sought]
+        up, down = (min(f.rms for f in of_rod if f.sense == sense) for sense in (1, -1))
+        said.append(f"{kind} {percent(up)} with the ends up, {percent(down)} down")
+    yield (
+        "sense of curvature",
+        f"The published model has the side {rise[0]} above the middle half-way (P2 over P1) and {rise[1]} at "
+        "the free edge (P4 over P3), as a rod whose ends are up would lift it. The least misfit with the "
+        f"published curvature, root mean square of the largest displacement: {'; '.join(said)}.",
+    )
+
+
+def _ratios(found: Reproduction) -> Said:
+    for kind, test, sense in dict.fromkeys((r.kind, r.test, r.sense) for r in found.ratios):
+        of = [r for r in found.ratios if (r.kind, r.test, r.sense) == (kind, test, sense)]
+        never = [
+            f"{r.name} is {number(r.published['model'], '.3g')} and "
+            f"{number(r.published['experiment'], '.3g')}, theirs {number(r.least, '.3g')} to "
+            f"{number(r.most, '.3g')}"
+            for r in of
+            if r.least is not None and r.most is not None and not any(map(r.met, r.published))
+        ]
+        if never:
+            yield (
+                "ratios",
+                f"Test {test}{ROD[sense]}: {len(never)} of {len(of)} ratios, of the published model and "
+                f"experiment, are those of none of the {scanned(kind)}: {'; '.join(never)}.",
+            )
+
+
+def _stretch(found: Reproduction) -> Said:
+    lines = [chord for chord in found.chords if chord.stretch > 0.0]
+    for test, source in dict.fromkeys((chord.test, chord.source) for chord in lines):
+        worst = max((c for c in lines if (c.test, c.source) == (test, source)), key=lambda c: c.stretch)
+        fits = [f for f in found.fits if test in f.tests and f.by == SQUARES and f.kind == "sheet"]
+        own = [fit.stretch for fit in fits if fit.stretch is not None]
+        most = f" The nearest plates are stretched by {percent(max(own))} at most, anywhere." if own else ""
+        yield (
+            "stretch",
+            f"Test {test}, published {source}: {worst.start} and {worst.end} are "
+            f"{millimetres(worst.published)} apart, {millimetres(worst.flat)} on the flat sheet. Whatever "
+            f"the sheet is made of, the line between them is stretched by "
+            f"{percent(worst.stretch)} at least.{most}",
+        )
+
+
+def _shortening(found: Reproduction) -> Said:
+    between = [chord for chord in found.chords if chord.start in PROBES]
+    for source in dict.fromkeys(chord.source for chord in between):
+        worst = max((c for c in between if c.source == source), key=lambda c: c.turning)
+        own = [
+            nearer(worst.test, worst.start, worst.end, _of_test(fit, worst.test))
+            for fit in found.fits
+            if worst.test in fit.tests and fit.by == SQUARES
+        ]
+        most = (
+            f" In the nearest sheets and lattices it is {millimetres(max(own), '.1f')} at most."
+            if own
+            else ""
+        )
+        yield (
+            "shortening",
+            f"Test {worst.test}, published {source}: {worst.start} and {worst.end} are "
+            f"{millimetres(worst.flat - worst.published, '.1f')} nearer to each other than on the flat "
+            "sheet. Unless it is compressed, the line between them has directions that span "
+            f"{degrees(worst.turning):.0f}° at least.{most}",
+        )
+
+
+def _of_test(fit: Fit, test: int) -> np.ndarray:
+    """The displacements (4, 3) [m] of one of its tests."""
+    first = fit.tests.index(test) * len(PROBES)
+    return fit.displacement[first : first + len(PROBES)]
+
+
+PARTS = (_nearest, _senses, _ratios, _stretch, _shortening)

@@ -1,0 +1,94 @@
+"""The printed error table computed again from the displacement tables it stands beside.
+
+    error = | |u_model| − |u_experiment| | / n,    n = |u_experiment|, |u_model|, or the larger of the two
+
+Magnitudes, as one printed sign is a misprint; 0 where neither moves. A printed cell belongs to a
+normalisation if it has all its digits: rounded, or cut off after the last.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import floor
+
+import numpy as np
+
+from comparisons.reproduction.published import COMPONENTS, printed
+from sheetbench.scenes.seed import PROBES, seed_errors
+
+PRINTED = 1e-3  # the last digit of a printed error, 0.1 %
+_SLACK = 1e-6  # of that digit, for what decimals leave
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A printed error and what it would be of the experiment, of the model and of the larger of the two, as
+    fractions; of: whose magnitude the printed one is relative to, "experiment", "model", "both" where that
+    makes no difference to its digits, "neither"; digits: "rounded" or "cut off", "" where of neither;
+    changes: whether it is relative to something else than the experiment, as an error is."""
+
+    test: int
+    component: str
+    probe: str
+    printed: float
+    of_experiment: float
+    of_model: float
+    of_larger: float
+    of: str
+    digits: str
+
+    @property
+    def by_larger(self) -> bool:
+        """Whether it is the difference over the larger of the two."""
+        return bool(_digits(self.of_larger, self.printed))
+
+    @property
+    def changes(self) -> bool:
+        """Whether the cell is not relative to the experiment."""
+        return self.of not in ("experiment", "both")
+
+
+def cells() -> list[Cell]:
+    """Every printed error, in its order."""
+    return [_cell(e.test, e.component, e.probe, e.value) for e in seed_errors()]
+
+
+def _cell(test: int, component: str, probe: str, value: float) -> Cell:
+    row, column = PROBES.index(probe), COMPONENTS.index(component)
+    model, experiment = (abs(printed(test, source)[row, column]) for source in ("model", "experiment"))
+    of = {
+        "experiment": _relative(model, experiment, experiment),
+        "model": _relative(model, experiment, model),
+    }
+    larger = _relative(model, experiment, max(model, experiment))
+    said = {name: _digits(computed, value) for name, computed in of.items()}
+    matching = [name for name, digits in said.items() if digits]
+    return Cell(
+        test=test,
+        component=component,
+        probe=probe,
+        printed=value,
+        of_experiment=of["experiment"],
+        of_model=of["model"],
+        of_larger=larger,
+        of="both" if len(matching) == 2 else matching[0] if matching else "neither",
+        digits=_digits(larger, value) or next(filter(None, said.values()), ""),
+    )
+
+
+def _relative(model: float, experiment: float, size: float) -> float:
+    return abs(model - experiment) / size if size else 0.0
+
+
+def _digits(computed: float, value: float) -> str:
+    """How a computed error becomes the printed one, "" where it does not."""
+    digit = round(value / PRINTED)
+    if floor(computed / PRINTED + 0.5 + _SLACK) == digit:
+        return "rounded"
+    return "cut off" if floor(computed / PRINTED + _SLACK) == digit else ""
+
+
+def means(found: list[Cell]) -> dict[str, float]:
+    """The mean of the cells as printed, of the experiment, of the model, and of the larger of the two."""
+    names = ("printed", "of_experiment", "of_model", "of_larger")
+    return {name: float(np.mean([getattr(cell, name) for cell in found])) for name in names}

@@ -1,0 +1,95 @@
+"""The seed's dynamics again: gravity on at t = 0, test 1 oscillates and settles.
+
+Published are the inputs of test 1, a plot of ux, uy and uz of P4 over time without numbers, and the time that
+a simulation took. The dampers are not published: those of our scene `two-edges-settling` are taken. Two
+lattices are run: `consistent` springs, and the published k with √(D/k) between the layers, equal masses and
+full springs along edges, as the seed has them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+import lumped
+from comparisons.reproduction.answers import seed_lattice, seed_springs
+from comparisons.reproduction.inputs import asked_layer_distance
+from comparisons.reproduction.sheets import masses
+from sheetbench.scenes import History, Scene, load
+from sheetbench.scenes.seed import seed_inputs
+
+SCENE, PROBE = "two-edges-settling", "P4"
+DURATION = 2.0  # s
+SETTLED = 0.05  # of the static displacement
+
+
+@dataclass(frozen=True)
+class Settling:
+    """The scene, by each lattice's name its run, and where its static equilibrium has P4, (3,) [m]."""
+
+    scene: Scene
+    runs: dict[str, History]
+    rest: dict[str, np.ndarray]
+
+    def settled(self, model: str) -> float | None:
+        """When uz of P4 is last farther than SETTLED of its static value from it [s], None if that is at the
+        end of the run."""
+        run, rest = self.runs[model], self.rest[model][2]
+        away = np.flatnonzero(np.abs(run.probes[PROBE][:, 2] - rest) > SETTLED * abs(rest))
+        last = int(away[-1]) if len(away) else 0
+        return float(run.time[last]) if last + 1 < len(run.time) else None
+
+    def largest(self, model: str) -> float:
+        """How far uz of P4 swings, of its static value."""
+        return float(np.abs(self.runs[model].probes[PROBE][:, 2]).max() / abs(self.rest[model][2]))
+
+    def seconds(self, model: str) -> float:
+        """What the run took, set-up and all."""
+        run = self.runs[model]
+        return run.setup_seconds + run.solve_seconds
+
+    def faster(self, model: str) -> float:
+        """How many times longer the published simulation took."""
+        return seed_inputs()["run_time"] / self.seconds(model)
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON: seconds and metres."""
+        return {
+            "scene": self.scene.document(),
+            "published_seconds": seed_inputs()["run_time"],
+            "runs": {
+                model: {
+                    "label": run.label,
+                    "integrator": run.integrator,
+                    "status": str(run.status),
+                    "time": run.time,
+                    "probes": {PROBE: run.probes[PROBE]},
+                    "steps": run.steps,
+                    "setup_seconds": run.setup_seconds,
+                    "solve_seconds": run.solve_seconds,
+                    "settled": self.settled(model),
+                    "rest": self.rest[model],
+                }
+                for model, run in self.runs.items()
+            },
+        }
+
+
+def settling(duration: float = DURATION, progress: Callable[[str], None] = lambda what: None) -> Settling:
+    """Both runs, and where they ought to end."""
+    scene, distance = load(SCENE), asked_layer_distance()
+    consistent = lumped.calibrate(scene.sheet, scene.material, grid=masses(), method="consistent")
+    lattices: dict[str, tuple[lumped.Calibration, Literal["tributary", "full"]]] = {
+        "lumped": (consistent, "tributary"),
+        seed_lattice(distance): (seed_springs(distance), "full"),
+    }
+    runs, rest = {}, {}
+    at = np.array([scene.probes[PROBE]])
+    for name, (springs, weights) in lattices.items():
+        progress(f"simulating the settling sheet: {name}")
+        runs[name] = lumped.simulate(scene, springs, duration, weights=weights)
+        rest[name] = lumped.solve(scene, springs, weights=weights).displacement(at)[0]
+    return Settling(scene, runs, rest)

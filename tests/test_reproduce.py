@@ -83,7 +83,7 @@ def test_inputs_against_one_another() -> None:
     found = {check.what: check for check in checks() if check.what != "k"}
     assert found["mass of a point"].agrees and not found["equations"].agrees
     assert found["equations"].computed == 486
-    assert all(found[f"links of a mass, {where}"].agrees for where in ("interior", "edge", "corner"))
+    assert all(found[f"links, {where}"].agrees for where in ("interior", "edge", "corner"))
     assert found["layer distance"].computed == pytest.approx(0.01702, abs=1e-5)
     assert found["layer distance"].agrees is None
 

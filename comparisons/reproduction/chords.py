@@ -82,11 +82,12 @@ def of_table(test: int, source: str, table: np.ndarray | None = None) -> list[Ch
     return [chord for chord in found if np.isfinite(chord.published)]
 
 
-def nearer(test: int, start: str, end: str, moved: np.ndarray) -> float:
-    """By how much two points are nearer to each other than on the flat sheet [m] where the probes are moved
-    by (4, 3) [m]."""
-    both = next(c for c in of_table(test, "", moved) if (c.start, c.end) == (start, end))
-    return both.flat - both.published
+def nearer(of: Chord, moved: np.ndarray) -> float:
+    """By how much the two points are nearer to each other than on the flat sheet [m], the probes moved by (4,
+    3) [m]."""
+    ends = (of.start, of.end, of.sense)
+    same = next(c for c in of_table(of.test, of.source, moved) if (c.start, c.end, c.sense) == ends)
+    return same.flat - same.published
 
 
 def _chord(

@@ -1,7 +1,7 @@
 """The published inputs held against one another: what follows from the others, and what does not.
 
-D = E h³/12(1 − ν²), l = a/(n − 1). A lattice of equal springs bends along its axes like a plate of k lz²
-(`lumped.calibration.uniform`), so that a layer distance √(D/k) is what the published k asks for.
+D = E h³/12(1 − ν²), I = l h³/12, l = a/(n − 1). A lattice of equal springs bends along its axes like a plate
+of k lz² (`lumped.calibration.uniform`), so that a layer distance √(D/k) is what the published k asks for.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def checks() -> list[Check]:
     k = given["k"]
     stiffnesses = {
         "E h": membrane,
-        "12 E I/l³, I = l h³/12": 12.0 * given["young"] * inertia / spacing**3,
+        "12 E I/l³": 12.0 * given["young"] * inertia / spacing**3,
         "3 E I/l³": 3.0 * given["young"] * inertia / spacing**3,
         "D/l²": rigidity / spacing**2,
         "2 D/l²": 2.0 * rigidity / spacing**2,
@@ -66,9 +66,9 @@ def checks() -> list[Check]:
         Check("mass of a point", "kg", given["mass"], weighs / masses, "ρ a² h over the masses"),
         Check("equations", "", given["equations"], 3.0 * masses, "three a mass"),
         *_links(),
-        Check("mean of the printed errors", "", given["mean_error"], means(cells())["printed"], "its cells"),
+        Check("mean of the errors", "", given["mean_error"], means(cells())["printed"], "its cells"),
         *(Check("k", "N/m", k, value, formula) for formula, value in stiffnesses.items()),
-        Check("layer distance", "m", None, asked_layer_distance(), "√(D/k), D = E h³/12(1 − ν²)"),
+        Check("layer distance", "m", None, asked_layer_distance(), "√(D/k)"),
     ]
 
 
@@ -87,7 +87,7 @@ def _links() -> list[Check]:
     places = {"interior": (middle, middle), "edge": (middle, 0), "corner": (0, 0)}
     return [
         Check(
-            f"links of a mass, {name}",
+            f"links, {name}",
             "",
             given[f"links_{name}"],
             float(counts[lattice.number(*map(np.array, (*at, 0)))]),

@@ -59,8 +59,7 @@ class Fit:
     """The sheet of a kind that comes nearest to a published table.
 
     sought: what was free, with the value found; displacement (probes, 3) [m] beside what is published; by:
-    the measure that it is the nearest in; converged: whether a search reached its end; stretch: the largest
-    elongation of the mid-surface in any test.
+    the measure that it is the nearest in; converged: whether a search reached its end.
     """
 
     kind: str
@@ -71,7 +70,6 @@ class Fit:
     target: np.ndarray
     by: str
     converged: bool
-    stretch: float | None
 
     @property
     def source(self) -> str:
@@ -121,7 +119,6 @@ class Fit:
             "met": int(self.met.sum()),
             "entries": self.entries,
             "converged": self.converged,
-            "stretch": self.stretch,
             "displacement": self.displacement,
             "published": self.target,
         }
@@ -174,9 +171,7 @@ def fits(found: Scan, wanted: np.ndarray, progress: Callable[[str], None] = lamb
     }
 
     def fit(values: Mapping[str, float], moved: np.ndarray, by: str, converged: bool) -> Fit:
-        (solutions,) = sheets.solutions([values])
-        stretch = max((one.stretch for one in solutions if one.stretch is not None), default=None)
-        return Fit(found.kind, found.tests, found.sense, values, moved, wanted, by, converged, stretch)
+        return Fit(found.kind, found.tests, found.sense, values, moved, wanted, by, converged)
 
     reached = []
     for names in _sought(found):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.report.table import number
-from comparisons.reproduction.chords import nearer
+from comparisons.reproduction.chords import Chord, nearer
 from comparisons.reproduction.nearest import MOST, NEAR, SQUARES, Fit
 from comparisons.reproduction.published import published
 from comparisons.reproduction.words import (
@@ -39,7 +39,7 @@ def _nearest(found: Reproduction) -> Said:
         yield (
             "nearest",
             f"{tests(of)}: {first}The nearest to the published {best.source} "
-            f"({values(best)}{ROD[best.sense]}) "
+            f"({values(best)}{_rod(best)}) "
             f"differs by {percent(best.rms)} of the largest displacement (root mean square), by "
             f"{percent(best.error)} at most, and has {int(best.met.sum())} of {best.entries} entries within "
             f"{percent(NEAR)}.",
@@ -52,6 +52,10 @@ def _nearest(found: Reproduction) -> Said:
                 f"{tests(of)}: with {values(most)}{rest}{ROD[most.sense]} a {kind} has {int(most.met.sum())} "
                 f"of {most.entries} entries within {percent(NEAR)}, but not {missed(most)}.",
             )
+
+
+def _rod(fit: Fit) -> str:
+    return "" if "curvature" in fit.sought else ROD[fit.sense]
 
 
 def _senses(found: Reproduction) -> Said:
@@ -76,17 +80,17 @@ def _ratios(found: Reproduction) -> Said:
     for kind, test, sense in dict.fromkeys((r.kind, r.test, r.sense) for r in found.ratios):
         of = [r for r in found.ratios if (r.kind, r.test, r.sense) == (kind, test, sense)]
         never = [
-            f"{r.name} is {number(r.published['model'], '.3g')} and "
-            f"{number(r.published['experiment'], '.3g')}, theirs {number(r.least, '.3g')} to "
-            f"{number(r.most, '.3g')}"
+            f"{r.name} is {number(r.published['model'], '.3g')} in the model and "
+            f"{number(r.published['experiment'], '.3g')} in the experiment, {number(r.least, '.3g')} to "
+            f"{number(r.most, '.3g')} there"
             for r in of
             if r.least is not None and r.most is not None and not any(map(r.met, r.published))
         ]
         if never:
             yield (
                 "ratios",
-                f"Test {test}{ROD[sense]}: {len(never)} of {len(of)} ratios, of the published model and "
-                f"experiment, are those of none of the {scanned(kind)}: {'; '.join(never)}.",
+                f"Test {test}{ROD[sense]}: none of the {scanned(kind)} has {len(never)} of the {len(of)} "
+                f"published ratios: {'; '.join(never)}.",
             )
 
 
@@ -94,15 +98,14 @@ def _stretch(found: Reproduction) -> Said:
     lines = [chord for chord in found.chords if chord.stretch > 0.0]
     for test, source in dict.fromkeys((chord.test, chord.source) for chord in lines):
         worst = max((c for c in lines if (c.test, c.source) == (test, source)), key=lambda c: c.stretch)
-        fits = [f for f in found.fits if test in f.tests and f.by == SQUARES and f.kind == "sheet"]
-        own = [fit.stretch for fit in fits if fit.stretch is not None]
-        most = f" The nearest plates are stretched by {percent(max(own))} at most, anywhere." if own else ""
+        longest = max(0.0, *(-closer / worst.flat for closer in _nearer(found, worst)))
         yield (
             "stretch",
             f"Test {test}, published {source}: {worst.start} and {worst.end} are "
             f"{millimetres(worst.published)} apart, {millimetres(worst.flat)} on the flat sheet. Whatever "
-            f"the sheet is made of, the line between them is stretched by "
-            f"{percent(worst.stretch)} at least.{most}",
+            "the sheet is made of, the line between them is stretched by "
+            f"{percent(worst.stretch)} at least. In the nearest sheets and lattices the two are farther "
+            f"apart by {percent(longest)} at most.",
         )
 
 
@@ -110,23 +113,23 @@ def _shortening(found: Reproduction) -> Said:
     between = [chord for chord in found.chords if chord.start in PROBES]
     for source in dict.fromkeys(chord.source for chord in between):
         worst = max((c for c in between if c.source == source), key=lambda c: c.turning)
-        own = [
-            nearer(worst.test, worst.start, worst.end, _of_test(fit, worst.test))
-            for fit in found.fits
-            if worst.test in fit.tests and fit.by == SQUARES
-        ]
-        most = (
-            f" In the nearest sheets and lattices it is {millimetres(max(own), '.1f')} at most."
-            if own
-            else ""
-        )
         yield (
             "shortening",
             f"Test {worst.test}, published {source}: {worst.start} and {worst.end} are "
             f"{millimetres(worst.flat - worst.published, '.1f')} nearer to each other than on the flat "
             "sheet. Unless it is compressed, the line between them has directions that span "
-            f"{degrees(worst.turning):.0f}° at least.{most}",
+            f"{degrees(worst.turning):.0f}° at least. In the nearest sheets and lattices it is "
+            f"{millimetres(max(0.0, *_nearer(found, worst)), '.1f')} at most.",
         )
+
+
+def _nearer(found: Reproduction, chord: Chord) -> list[float]:
+    """By how much [m] the chord's points are nearer to each other in each sheet of the least misfit."""
+    return [
+        nearer(chord, _of_test(fit, chord.test))
+        for fit in found.fits
+        if chord.test in fit.tests and fit.by == SQUARES
+    ]
 
 
 def _of_test(fit: Fit, test: int) -> np.ndarray:

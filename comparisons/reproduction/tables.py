@@ -26,6 +26,7 @@ from sheetbench.scenes.seed import PROBES, seed_inputs
 
 if TYPE_CHECKING:
     from comparisons.reproduction.chords import Chord
+    from comparisons.reproduction.nearest import Fit
     from comparisons.reproduction.ratios import Ratio
     from comparisons.reproduction.reproduction import Reproduction
 
@@ -118,7 +119,7 @@ def errors(found: Reproduction) -> Table:
 
 def inputs(found: Reproduction) -> Table:
     """A row per printed figure that others should give."""
-    words = {True: "yes", False: "no", None: "not published"}
+    words = {True: "yes", False: "no", None: "–"}
     shown = {"": Unit("", ""), "kg": Unit("kg", "g", 1e3)}
     rows = [
         (
@@ -135,11 +136,15 @@ def inputs(found: Reproduction) -> Table:
         Column("figure"),
         Column("unit"),
         Column("printed", form=".4g"),
-        Column("from the others", form=".4g"),
+        Column("others give", form=".4g"),
         Column("by"),
         Column("agrees"),
     )
-    return Table("Published inputs held against one another", columns, tuple(rows), "inputs")
+    text = (
+        "What the other inputs give for a printed figure. D = E h³/12(1 − ν²), I = l h³/12, l the distance "
+        "of the masses; the layer distance is not published."
+    )
+    return Table("Published inputs held against one another", columns, tuple(rows), "inputs", text=text)
 
 
 def displacements(one: Answer) -> Table:
@@ -211,7 +216,7 @@ def nearest(found: Reproduction) -> Table:
     """A row per fit: what was sought, what was found, how near."""
     rows = [
         (
-            " and ".join(map(str, fit.tests)), RODS[fit.sense], fit.kind, fit.source,
+            " and ".join(map(str, fit.tests)), _rod(fit), fit.kind, fit.source,
             *(fit.sought.get(name) for name in ("young", "k", "layer_distance", "tilt", "curvature")),
             fit.by, fit.rms, fit.error, f"{int(fit.met.sum())} of {fit.entries}",
         )
@@ -240,6 +245,10 @@ def nearest(found: Reproduction) -> Table:
         f"within {percent(NEAR)} of themselves. The picture: misfit over E, and over the layer distance."
     )
     return Table("The nearest sheets", columns, tuple(rows), "nearest", text=text)
+
+
+def _rod(fit: Fit) -> str:
+    return "sought" if "curvature" in fit.sought else RODS[fit.sense]
 
 
 def ratios(found: Reproduction) -> Table:

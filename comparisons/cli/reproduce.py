@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Elements, Json, Out, Overwrite
+from comparisons.cli.options import Elements, Figure, Json, Out, Overwrite
 from sheetbench.choices import ELEMENTS
 
 
@@ -23,6 +23,7 @@ def command(
     elements: Elements = str(ELEMENTS),
     json: Json = False,
     out: Out = None,
+    figure: Figure = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Reproduce the seed's study: tables beside our models, errors, the settling run, what fits best.
@@ -38,6 +39,6 @@ def command(
     for name in part or ():
         require_choice("--part", name, PARTS)
     parts = [name for name in PARTS if name in (part or PARTS)]
-    with finish("reproduce", json, out, overwrite, apart={"--part": parts}) as end:
+    with finish("reproduce", json, out, overwrite, apart={"--part": parts}, figure=figure) as end:
         found = reproduce(parts, elements=parse_elements(elements), progress=end.progress)
         end(found.report())

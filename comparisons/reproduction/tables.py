@@ -12,6 +12,7 @@ import numpy as np
 from comparisons.comparison.tables import sheet, write_plan
 from comparisons.motion.history import series
 from comparisons.report.files import write_text
+from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report, Write
 from comparisons.report.table import Column, Table, Unit, unit
 from comparisons.report.vtk import write_solution
@@ -45,7 +46,7 @@ def _length(name: str, form: str = "z.2f", **kind: bool) -> Column:
 
 def report(found: Reproduction) -> Report:
     """What `sheetbench reproduce` shows."""
-    parts: list[tuple[Table, Callable[[Sequence[Path]], str | None] | None]] = [(said(found), None)]
+    parts: list[tuple[Table, Callable[[Sequence[Path], Look], str | None] | None]] = [(said(found), None)]
     if found.cells:
         parts += [(errors(found), None), (inputs(found), None)]
     parts += [(displacements(one), partial(_draw, "test", one)) for one in found.answers]
@@ -341,7 +342,7 @@ def _attachments(found: Reproduction) -> dict[str, Write]:
     return files
 
 
-def _draw(kind: str, of: Any, paths: Sequence[Path]) -> None:
+def _draw(kind: str, of: Any, paths: Sequence[Path], look: Look) -> None:
     from comparisons.reproduction.figure import PICTURES, picture
 
-    picture(paths, PICTURES[kind](of))
+    picture(paths, PICTURES[kind], of, look)

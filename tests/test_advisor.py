@@ -18,6 +18,7 @@ from comparisons.advice import validation as advisor_study
 from comparisons.advice.advisor import Advice, advise
 from comparisons.advice.validation import scenes_at_random, study
 from comparisons.comparison.comparison import error
+from comparisons.models.candidate import Candidate
 from comparisons.models.registry import solve
 from comparisons.models.scales import scales
 from comparisons.runs.campaign import campaign
@@ -84,6 +85,28 @@ def test_a_loose_tolerance_costs_no_more_than_a_tight_one() -> None:
     assert loose.seconds is not None and tight.seconds is not None
     assert loose.seconds < tight.seconds
     assert tight.choice is not None and tight.choice.model == "shell"
+
+
+def test_graded_lattices_are_tried_where_layers_ask_for_them() -> None:
+    """The curved edge: nearer than even ones on the same grid, and the advice says why, or why not."""
+    curved = advise(scenes.load("curved-edge"), 0.03, grading="auto")
+    errors = {
+        (tuple(row["settings"]["grid"]), row["settings"].get("grading", 0.0)): row["error"]
+        for row in curved.tried
+        if row["model"] == "lumped"
+    }
+    graded = [grid for grid, grading in errors if grading]
+    assert graded and all(errors[grid, 0.3] < errors[grid, 0.0] for grid in graded if (grid, 0.0) in errors)
+    assert "bent by 4 1/m" in curved.grading and curved.as_dict()["grading"] == curved.grading
+    taken = Candidate("lumped", {"grid": [9, 9, 2], "calibration": "consistent", "grading": 0.3})
+    line = replace(curved, choice=taken).report().document["command"]
+    assert line == "sheetbench compare curved-edge --lumped 9x9x2 --grading 0.3"
+
+
+def test_the_advice_says_why_nothing_is_graded() -> None:
+    even = advise(lighter(scenes.load("one-edge-clamped"), 0.01), 0.05, grading="auto")
+    assert even.grading.startswith("no grading") and "no narrow layer" in even.grading
+    assert not any(row["settings"].get("grading") for row in even.tried)
 
 
 def test_what_the_scene_does_not_need_is_left_out() -> None:

@@ -18,11 +18,13 @@ from typing import Any
 from comparisons.advice import tables
 from comparisons.advice.probing import Probing, Trial
 from comparisons.models.candidate import Candidate
+from comparisons.models.grading import Grading
 from comparisons.models.scales import Scales, scales
 from comparisons.report.report import Report
 from comparisons.report.work import Progress, silent
 from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grid import MASSES
 
 NEGLIGIBLE = 0.25  # of the tolerance: an effect smaller than that is left out
 LINEAR_LOAD_NUMBER = 2.0  # beyond which no linear model is worth trying
@@ -33,7 +35,8 @@ STEEP = 0.1  # of the tolerance: the finest error bar a decision may hang on
 class Advice:
     """What to solve, and why. error, seconds: predicted for the choice; bar: of the judge.
 
-    choice is None, with `message` saying why, where no model converges or none in `budget` is known.
+    choice is None, with `message` saying why, where no model converges or none in `budget` is known. grading:
+    what was made of graded lattices, where they were asked for.
     """
 
     scene: Scene
@@ -49,6 +52,7 @@ class Advice:
     probing_seconds: float
     tried: tuple[dict[str, Any], ...] = field(repr=False)
     message: str = ""
+    grading: str = ""
 
     @property
     def reason(self) -> str:
@@ -84,6 +88,7 @@ class Advice:
             "probing_seconds": self.probing_seconds,
             "tried": list(self.tried),
             "message": self.message,
+            **({"grading": self.grading} if self.grading else {}),
         }
 
     def report(self, named: str = "") -> Report:
@@ -96,19 +101,21 @@ def advise(
     tolerance: float | None = 0.01,
     budget: float | None = None,
     *,
+    grading: Grading = None,
     large: bool = False,
     progress: Progress = silent,
 ) -> Advice:
     """The cheapest model predicted to meet `tolerance` (a fraction), or the most accurate in `budget` [s].
 
     With both, the cheapest that meets the tolerance; where that takes longer, the most accurate in time, and
-    `met` is false. Models that take more memory than there is are left out unless `large`. progress: told of
+    `met` is false. grading: lattices so graded may be chosen too, a number or "auto" (`comparisons.models.
+    grading`). Models that take more memory than there is are left out unless `large`. progress: told of
     every solve. Raises SceneError for a scene without a static answer, BadInput where not even the coarsest
     judges fit.
     """
     scene = scene_of(scene)
     require_static(scene)
-    probing = Probing(scene, large, progress)
+    probing = Probing(scene, large, progress, grading)
     sizes = scales(scene)
     resolution = tolerance or 0.01
     for _ in range(3):
@@ -234,7 +241,22 @@ def _advice(
         probing_seconds=probing.seconds,
         tried=tried,
         message=message,
+        grading=_grading(probing, chosen),
     )
+
+
+def _grading(probing: Probing, chosen: Trial | None) -> str:
+    """What was made of graded lattices: of the choice, or of the usual grid where that is no lattice."""
+    if probing.grading is None:
+        return ""
+    lattice = probing.candidate("lumped", MASSES - 1)
+    if chosen is not None and chosen.candidate.model == "lumped":
+        lattice = chosen.candidate
+    value, why = probing.grading_of(lattice)
+    masses = " × ".join(map(str, lattice.settings["grid"][:2]))
+    taken = "taken" if lattice.settings.get("grading") else "not taken"
+    said = f"grading {value:g} {taken}" if value else "no grading"
+    return f"{said}, {masses} masses" + (f": {why}" if why else "")
 
 
 def _effects(

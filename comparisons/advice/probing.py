@@ -17,7 +17,8 @@ from threadpoolctl import threadpool_limits
 
 from comparisons.comparison.comparison import error
 from comparisons.models import registry as models
-from comparisons.models.candidate import Candidate
+from comparisons.models.candidate import Candidate, series
+from comparisons.models.grading import Grading, grading_of, read
 from comparisons.models.sizes import has_room, require_room
 from comparisons.models.symmetry import planes
 from comparisons.report.work import Progress, silent
@@ -49,10 +50,14 @@ class Trial:
 class Probing:
     """The solves of a scene so far."""
 
-    def __init__(self, scene: Scene, large: bool = False, progress: Progress = silent) -> None:
-        """large: whether to try what takes more memory than there is. Raises BadInput where the first judges
-        do, otherwise the larger models are left out."""
+    def __init__(
+        self, scene: Scene, large: bool = False, progress: Progress = silent, grading: Grading = None
+    ) -> None:
+        """large: whether to try what takes more memory than there is; grading: by how much lattices may be
+        graded too. Raises BadInput for a grading that is none and where the first judges take too much
+        memory, otherwise the larger models are left out."""
         self.scene, self.large, self.progress = scene, large, progress
+        self.grading = read(grading)
         self.points = scene.probe_points()
         self.planes = planes(scene)
         self.trials: dict[str, Trial] = {}
@@ -78,11 +83,21 @@ class Probing:
     def candidates(self, linear: bool) -> list[Candidate]:
         """What may be chosen: lattices and shells; the linear lattice and the plate where `linear`."""
         found = [self.candidate("lumped", n) for n in CELLS["lumped"]]
+        found += self.graded(found)
         found += [self.candidate("shell", n) for n in CELLS["shell"]]
         if linear:
             found += [self.candidate("lumped", n, linear=True) for n in CELLS["lumped"]]
             found += [self.candidate("plate", n) for n in CELLS["plate"]]
         return [one for one in found if self.large or has_room(self.scene, one)]
+
+    def graded(self, lattices: list[Candidate]) -> list[Candidate]:
+        """Those of these lattices that are to be graded too, as asked or by the scene's layers."""
+        found = [(one, self.grading_of(one)[0]) for one in lattices]
+        return [one.but(grading=value) for one, value in found if value]
+
+    def grading_of(self, lattice: Candidate) -> tuple[float | None, str]:
+        """The grading that a lattice may have, and why where that is chosen."""
+        return grading_of(self.scene, lattice.settings["grid"], self.grading)
 
     def trial(self, candidate: Candidate, repeats: int = REPEATS) -> Trial:
         """The candidate's answer and time; solved once, whoever asks."""
@@ -138,20 +153,26 @@ class Probing:
         """Time of a candidate: as measured, or by the rates of its family."""
         if repr(candidate) in self.trials:
             return self.trials[repr(candidate)].seconds
-        family = [t for t in self.trials.values() if t.candidate.series == candidate.series]
+        family = [t for t in self.trials.values() if _rate(t.candidate) == _rate(candidate)]
         size = unknowns(candidate)
         if not family:
             return size * 1e-5
         family.sort(key=lambda t: abs(np.log(unknowns(t.candidate) / size)))
         near = family[0]
         exponent = EXPONENT
-        if len(family) > 1:
-            ratio = unknowns(near.candidate) / unknowns(family[1].candidate)
-            exponent = float(np.clip(np.log(near.seconds / family[1].seconds) / np.log(ratio), 0.3, 1.6))
+        others = [t for t in family[1:] if unknowns(t.candidate) != unknowns(near.candidate)]
+        if others:
+            ratio = unknowns(near.candidate) / unknowns(others[0].candidate)
+            exponent = float(np.clip(np.log(near.seconds / others[0].seconds) / np.log(ratio), 0.3, 1.6))
         return near.seconds * float(size / unknowns(near.candidate)) ** exponent
 
     def _judge(self, cells: int) -> Candidate:
         return self.candidate("shell", cells)
+
+
+def _rate(candidate: Candidate) -> str:
+    """What stays the same in time as the grid is refined: graded cells take no longer than even ones."""
+    return series(candidate.model, {k: v for k, v in candidate.settings.items() if k != "grading"})
 
 
 def unknowns(candidate: Candidate) -> float:

@@ -63,6 +63,7 @@ def sentences(advice: Advice) -> list[str]:
         f"h/a = {number(scales.slenderness, '.3g')}, q a/(E h) = {number(scales.strain, '.2g')}",
         f"needs {', '.join(advice.needs)}",
         *(f"leaves out {left}" for left in advice.left_out),
+        *([advice.grading] if advice.grading else []),
         f"{advice.reason} (probing took {advice.probing_seconds:.2g} s)",
     ]
 
@@ -73,6 +74,8 @@ def command(advice: Advice, named: str = "") -> str | None:
         return None
     model, settings = advice.choice.model, dict(advice.choice.settings)
     mirrored = ["--symmetry"] if settings.pop("symmetry", False) else []
+    graded = settings.pop("grading", 0.0) if model == "lumped" and "linear" not in settings else 0.0
+    mirrored += ["--grading", f"{graded:g}"] if graded else []
     if (
         model == "lumped"
         and settings.keys() == {"grid", "calibration"}

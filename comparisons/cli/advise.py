@@ -18,6 +18,14 @@ def command(
     budget: Annotated[
         float | None, typer.Option(metavar="SECONDS", help="Time that a solve may take; setting up apart.")
     ] = None,
+    grading: Annotated[
+        str | None,
+        typer.Option(
+            metavar="G",
+            help="Lattices graded by this, 0 to 1, may be chosen too; auto: as the scene's layers need.",
+            show_default=False,
+        ),
+    ] = None,
     large: Large = False,
     json: Json = False,
     out: Out = None,
@@ -40,4 +48,5 @@ def command(
     if tolerance is not None:
         checked_tolerance(tolerance)
     with finish("advise", json, out, overwrite, scene=asked) as end:
-        end(advise(asked, tolerance, budget, large=large, progress=end.progress).report(scene))
+        found = advise(asked, tolerance, budget, grading=grading, large=large, progress=end.progress)
+        end(found.report(scene))

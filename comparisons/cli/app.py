@@ -41,6 +41,7 @@ VERBS = (
     "suite",
     "score",
     "linearise",
+    "view",
     "live",
     "report",
 )

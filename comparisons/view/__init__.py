@@ -1,0 +1,1 @@
+"""Deformed sheets to be turned and played: `sheetbench view`, in a browser or in a window."""

@@ -15,6 +15,7 @@ from comparisons.cli.options import (
     Grid,
     Json,
     Large,
+    Law,
     Out,
     Overwrite,
     Scene,
@@ -45,6 +46,7 @@ def command(
     grading: Grading = None,
     calibration: Calibration = None,
     elements: Elements = str(ELEMENTS),
+    law: Law = None,
     offset: Annotated[
         float,
         typer.Option(
@@ -83,6 +85,7 @@ def command(
                 grading=grading,
                 calibration=calibration,
                 elements=parse_elements(elements),
+                law=law,
                 offset=offset,
                 large=large,
                 progress=end.progress,

@@ -41,7 +41,8 @@ def report(found: Crosscheck) -> Report:
             "scenes": [scene.name for scene in found.scenes],
             "judges": {judge.judge.name: judge.version for judge in found.judges},
         },
-        met=all(one.refused or one.uncertainty is not None for of in found.standings.values() for one in of),
+        met=not found.failures
+        and all(one.refused or one.uncertainty is not None for of in found.standings.values() for one in of),
     )
 
 

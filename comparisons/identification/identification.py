@@ -24,6 +24,7 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.identification import law as strain_law
 from comparisons.identification import surface
 from comparisons.identification.found import Found, Identification
 from comparisons.identification.measurements import Displacements, Measured, Surface, read
@@ -35,13 +36,14 @@ from comparisons.identification.prediction import (
     lattice,
     motion,
     reference,
+    set_in,
 )
 from comparisons.identification.search import search
 from comparisons.identification.unknowns import DAMPING, Unknown, unknown
 from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading, grading_of
 from comparisons.models.grids import Asked, Elements, scene_grid
-from comparisons.models.registry import check, check_reference
+from comparisons.models.registry import check, check_reference, solve_reference
 from comparisons.models.sizes import has_room
 from comparisons.models.springs import check_lattice
 from comparisons.report.table import quantity
@@ -66,6 +68,7 @@ def identify(
     calibration: str | None = None,
     grading: Grading = None,
     elements: Elements = ELEMENTS,
+    law: str | None = None,
     offset: float = 0.0,
     refine: bool = True,
     large: bool = False,
@@ -75,8 +78,9 @@ def identify(
 
     grid (as `comparisons.models.grids` reads it), calibration, grading (a number, or "auto" by the scene's
     own values, see `comparisons.models.grading`): of the lattice; elements: of a reference;
-    offset [m]: where a cloud was taken along the surface's normal, 0 on the mid-surface. refine: whether to
-    look at a finer lattice too (not for motions). large: even where a model takes more memory than there is.
+    law: its law of strain (`sheetbench.choices.STRAIN_LAWS`); offset [m]: where a cloud was taken along the
+    surface's normal, 0 on the mid-surface. refine: whether to look at a finer lattice too (not for motions).
+    large: even where a model takes more memory than there is.
     progress: told of every evaluation, and of a reference's solves.
 
     Raises BadInput for names, models and data that do not go together, and NotReached where the model has no
@@ -87,7 +91,7 @@ def identify(
     measured = read(Path(measured), scene) if isinstance(measured, str | Path) else measured
     names = [names] if isinstance(names, str) else names
     unknowns = tuple(unknown(scene, name) for name in names)
-    _check(measured, unknowns, model, calibration, grading, elements)
+    _check(measured, unknowns, model, calibration, grading, elements, law)
     size = {"grid": grid} if model == "lumped" else {"elements": elements}
     check(scene, Candidate(model, size), large)
     if offset and not isinstance(measured, Surface):
@@ -95,7 +99,7 @@ def identify(
             f"offset = {offset:g} m: of the points of a cloud from the mid-surface; displacements are its own"
         )
     predict, settings, axes = _predictor(
-        scene, measured, model, grid, calibration, grading, elements, progress
+        scene, measured, model, grid, calibration, grading, elements, law, progress
     )
     misfit = Misfit(measured, axes, offset)
 
@@ -158,6 +162,10 @@ def identify(
             f"{', '.join(names)} explains these data; look at frame, supports and model"
             + (turned and f": the measured {turned} point the other way than the model's")
         )
+    if model != "lumped":
+        last = set_in(scene, unknowns, best.x)
+        solved = solve_reference(last, model=model, elements=elements, large=True, **_of_law(law))
+        warnings += strain_law.said(last, law, solved.stretch)
     return Identification(
         scene=scene,
         measured=measured,
@@ -206,6 +214,7 @@ def _check(
     calibration: str | None,
     grading: Grading,
     elements: Elements,
+    law: str | None,
 ) -> None:
     names = [u.name for u in unknowns]
     repeated = {name for name in names if names.count(name) > 1}
@@ -215,10 +224,12 @@ def _check(
         raise BadInput(f"model = '{model}': unknown, choose one of {', '.join(MODELS)}")
     if model == "lumped":
         check_lattice(calibration, None, None, grading)
+        if law is not None:
+            raise BadInput(f"law = '{law}': of a shell or solid; the lattice's is that of its springs")
         if CALIBRATIONS[calibration or CALIBRATION].fitted:
             raise BadInput(f"calibration = '{calibration}': its springs do not follow from what is sought")
     else:
-        check_reference(model, elements)
+        check_reference(model, elements, _of_law(law))
     moving = _moving(measured)
     still = [name for name in names if name in DAMPING]
     if still and not moving:
@@ -238,6 +249,7 @@ def _predictor(
     calibration: str | None,
     grading: Grading,
     elements: Elements,
+    law: str | None = None,
     progress: Progress = silent,
 ) -> tuple[Predictor, dict[str, Any], tuple[np.ndarray, np.ndarray]]:
     """The predictor, its settings, and the plan grid on which it gives a whole surface."""
@@ -253,4 +265,9 @@ def _predictor(
         return lattice(scene, masses, calibration, graded), settings, axes
     along_x, along_y = near_square(scene.sheet, elements) if isinstance(elements, int) else elements
     axes = surface.plan_grid(scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
-    return reference(scene, model, elements, progress), {"elements": [along_x, along_y]}, axes
+    settings = {"elements": [along_x, along_y], **_of_law(law)}
+    return reference(scene, model, elements, progress, **_of_law(law)), settings, axes
+
+
+def _of_law(law: str | None) -> dict[str, Any]:
+    return {} if law is None else {"law": law}

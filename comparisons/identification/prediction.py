@@ -69,11 +69,15 @@ def lattice(scene: Scene, grid: Grid, calibration: str | None, grading: float = 
     return predict
 
 
-def reference(scene: Scene, model: str, elements: Elements, progress: Progress = silent) -> Predictor:
-    """Statics through a finite-element reference; progress: told of every solve."""
+def reference(
+    scene: Scene, model: str, elements: Elements, progress: Progress = silent, **options: Any
+) -> Predictor:
+    """Statics through a finite-element reference with its own options; progress: told of every solve."""
 
     def displacement(here: Scene, points: np.ndarray) -> np.ndarray:
-        solution = solve_reference(here, model=model, elements=elements, large=True, progress=progress)
+        solution = solve_reference(
+            here, model=model, elements=elements, large=True, progress=progress, **options
+        )
         if solution.status is not Status.CONVERGED:
             raise NotReached(f"{solution.label}: {solution.status}: {solution.status.advice}")
         return solution.displacement(points)

@@ -209,7 +209,7 @@ def _newton(
 def refusal(scene: Scene) -> str:
     """What it cannot take of a scene, in a sentence, if anything."""
     if any(isinstance(actuator, Chain) for actuator in scene.actuators):
-        return "FElupe is given no chains of rigid segments"
+        return "FElupe is given no chains: its points do not turn, so that no joint could want an angle"
     if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):
         return "loads on bricks do not follow the edge as a moment does"
     return ""

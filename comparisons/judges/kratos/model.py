@@ -116,7 +116,7 @@ def _solved(given: Mapping[str, Any], limit: float) -> dict[str, np.ndarray]:
 def refusal(scene: Scene) -> str:
     """What it cannot take of a scene, in a sentence, if anything."""
     if any(isinstance(actuator, Chain) for actuator in scene.actuators):
-        return "Kratos is given no chains of rigid segments"
+        return "Kratos is given no chains: its shell has no joint between rigid edges with an angle at rest"
     if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):
         return "moments on Kratos' nodes do not follow the edge"
     return ""

@@ -1,0 +1,29 @@
+"""What the law of strain has to do with values that were found with a shell or solid.
+
+Beyond a percent of stretch laws of strain carry different forces at the same E (docs/strain-laws.md): the E
+that explains a measurement is that of the law.
+"""
+
+from __future__ import annotations
+
+from fem_reference.verification.strain_laws import curving
+from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
+from sheetbench.scenes import Scene
+
+SAID = 0.01  # share of the force from which on it is said
+RUBBERS = "neo-hookean"
+
+
+def said(scene: Scene, law: str | None, stretch: float | None) -> list[str]:
+    """A sentence where laws of strain differ at the largest stretch of the sheet with the values found."""
+    own, poisson = law or STRAIN_LAW, scene.material.poisson
+    apart = {name: abs(curving(own, poisson) - curving(name, poisson)) for name in STRAIN_LAWS}
+    other = max(apart, key=lambda name: apart[name])
+    off = apart[other] * (stretch or 0.0)
+    if off <= SAID:
+        return []
+    remedy = "" if own == RUBBERS else f"; of soft silicones, which are rubbers, take --law {RUBBERS}"
+    return [
+        f"values are those of the law {own}: at {100.0 * (stretch or 0.0):.2g} % stretch, as here, the force "
+        f"of {other} is some {100.0 * off:.2g} % another{remedy}"
+    ]

@@ -6,7 +6,7 @@ that explains a measurement is that of the law.
 
 from __future__ import annotations
 
-from fem_reference.verification.strain_laws import curving
+from fem_reference.pulled_strip import curving
 from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
 from sheetbench.scenes import Scene
 

@@ -108,7 +108,7 @@ def _version(program: str | None) -> str | None:
 def refusal(scene: Scene) -> str:
     """What it cannot take of a scene, in a sentence, if anything."""
     if any(isinstance(actuator, Chain) for actuator in scene.actuators):
-        return "the deck has no chains: rigid bodies it could have, but no joint between them with an angle at rest"
+        return "the deck has no chains: it could have rigid bodies, but no joint between them with an angle"
     if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):
         return "loads on bricks do not follow the edge as a moment does"
     return ""

@@ -19,7 +19,7 @@ from comparisons.pages.page import page
 from comparisons.pages.studies import read
 from comparisons.pages.tables import tables
 from comparisons.report.report import Report
-from comparisons.report.table import Column, Table
+from comparisons.report.table import Column, Table, unit
 from comparisons.runs.folder import Folder
 from sheetbench.scenes import load
 
@@ -34,11 +34,11 @@ def studies(tmp_path_factory: pytest.TempPathFactory) -> Path:
     scene = load("two-edges-clamped").model_copy(update={"title": EVIL})
     found = compare(scene, grid=3, reference="plate", elements=2, uncertainty=False)
     about = {"scene": scene.document()}
-    Folder(folder, "compare", ["sheetbench", "compare"], about=about).report(
-        replace(found.report(), pictures=(), attachments=found.report().attachments)
-    )
-    columns = (Column("mode", form="d"), Column("lumped", "Hz", "Hz", 1.0, ".4g"), Column("remark"))
-    rows = tuple((n, float(f), f"=r{n}") for n, f in enumerate((9.5, 10.25, 100.0), start=1))
+    undrawn = replace(found.report(), pictures=())
+    Folder(folder, "compare", ["sheetbench", "compare"], about=about).report(undrawn)
+    words = (Column("remark"), Column("of"))
+    columns = (Column("mode", form="d"), Column("lumped", "Hz", "Hz", 1.0, ".4g"), *words)
+    rows = tuple((n, float(f), f"=r{n}", unit("Pa")) for n, f in enumerate((9.5, 10.25, 100.0), start=1))
     document = {
         "solutions": [{"model": "lumped", "label": "lumped 3", "frequencies_hz": [9.5, 10.25, 100.0]}]
     }
@@ -93,7 +93,7 @@ def test_tables_sort_by_click_and_by_key_numbers_by_value(shown: Any) -> None:
     heading.press("Enter")
     assert column.all_text_contents() == ["100", "10.25", "9.5"]
     assert table.locator("th").nth(1).get_attribute("aria-sort") == "descending"
-    assert table.locator("tbody tr").first.locator("td").last.text_content() == "=r3"
+    assert table.locator("tbody tr").first.locator("td").all_text_contents()[2:] == ["=r3", "MPa"]
 
 
 def test_a_plot_says_the_values_under_pointer_and_keys(shown: Any) -> None:

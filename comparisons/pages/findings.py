@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from comparisons.pages.asked import short
@@ -17,13 +17,24 @@ def findings(study: Study) -> list[str]:
     say = SAID.get(study.verb)
     own = study.attempt("document", lambda: say(study.document)) if say and study.document else None
     notes = study.words.get("notes") or study.document.get("notes") or ()
-    return [*(own or []), *(str(note) for note in notes if "\n" not in str(note))]
+    return [*(own or []), *_joined(map(str, notes))]
 
 
 def complaints(study: Study) -> list[str]:
     """What went wrong, and what is doubtful about the scene."""
     found = [*study.words.get("complaints", ()), *(study.document.get("warnings") or ())]
     return list(dict.fromkeys(map(str, found)))
+
+
+def _joined(notes: Iterable[str]) -> list[str]:
+    """The notes on one line each; one that ends in a colon with what follows it."""
+    found: list[str] = []
+    for note in (" ".join(note.split()) for note in notes):
+        if found and found[-1].endswith(":"):
+            found[-1] += f" {note}"
+        else:
+            found.append(note)
+    return found
 
 
 def _milliseconds(seconds: float) -> str:

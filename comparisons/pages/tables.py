@@ -18,6 +18,7 @@ from comparisons.pages.studies import Study
 from comparisons.report.table import Column, Table, Unit, number, unit
 
 MOST = 500  # rows of a table on a page
+WORD = 24  # letters; longer texts are broken over lines
 
 
 @dataclass(frozen=True)
@@ -29,13 +30,20 @@ class Cell:
 
 
 @dataclass(frozen=True)
+class Head:
+    """A column's name with its unit, and what it holds: "number", "prose" or "word"."""
+
+    name: str
+    kind: str
+
+
+@dataclass(frozen=True)
 class Sheet:
-    """A table for a page. heads: name and whether its column holds numbers; note: what is left out;
-    aside: shown when asked for only."""
+    """A table for a page. note: what is left out; aside: shown when asked for only."""
 
     caption: str
     text: str
-    heads: list[tuple[str, bool]]
+    heads: list[Head]
     rows: list[list[Cell]]
     note: str = ""
     aside: bool = False
@@ -92,7 +100,8 @@ def _told(words: Mapping[str, Any], rows: Sequence[Sequence[Any]]) -> Sheet:
         ]
         for texts, row in zip(shown, values, strict=True)
     ]
-    heads = [(column.header(shown=True), column.numeric) for column in columns]
+    kinds = ["number" if c.numeric else "prose" if c.prose else "word" for c in columns]
+    heads = [Head(c.header(shown=True), kind) for c, kind in zip(columns, kinds, strict=True)]
     return Sheet(words.get("caption", ""), words.get("text", ""), heads, cells, _left_out(rows))
 
 
@@ -123,7 +132,9 @@ def _loose(name: str, rows: list[list[str]], aside: bool) -> Sheet:
         ]
         for row in body
     ]
-    heads = [(text, numeric[i]) for i, (text, _) in enumerate(shown)]
+    long = [max((len(row[i]) for row in body), default=0) > WORD for i in range(width)]
+    kinds = ["number" if numeric[i] else "prose" if long[i] else "word" for i in range(width)]
+    heads = [Head(text, kind) for (text, _), kind in zip(shown, kinds, strict=True)]
     return Sheet(name, "", heads, cells, _left_out(rows[1:]), aside)
 
 

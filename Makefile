@@ -11,7 +11,8 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
             report.py measurements.py) tests/fuzz
 
 .PHONY: docs docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer tradeoff \
-        advisor-study reproduce crosscheck peers bench stability suite mutants viewer wheel-check lint clean
+        advisor-study reproduce crosscheck peers bench central simulators stability suite standing mutants viewer \
+        wheel-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
@@ -24,6 +25,7 @@ help:
 	@echo "make locking   the locking sweeps and their picture (files in $(OUT)/)"
 	@echo "make coverage  how often the references' error bars hold, on forty drawn scenes (20 minutes; files in $(OUT)/coverage/)"
 	@echo "make central   the table of the calibration central, trained anew (three minutes)"
+	@echo "make simulators  other simulators with what we export for them (two minutes; files in $(OUT)/simulators/)"
 	@echo "make transfer  every calibration on every scene of the transfer study (ten minutes; files in $(OUT)/transfer/)"
 	@echo "make tradeoff  error against time on the seed's test 1, with the picture (files in $(OUT)/)"
 	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/; up to half an hour)"
@@ -34,6 +36,7 @@ help:
 	@echo "make bench     settling beside SciPy's BDF, statics, explicit steps, start-up: time and what it goes to (files in $(OUT)/, history in benchmarks/history/)"
 	@echo "make suite     the reference set anew, comparisons/suite/data (ten minutes; a change of values is a new version)"
 	@echo "make viewer    the viewer of sheets in a browser, comparisons/browser/viewer.js, from its source (needs Node)"
+	@echo "make standing  where models, plug-ins and judges stand on that set (three minutes): docs/suite.md"
 	@echo "make docs-scene  the page of every key of a scene and its sketch, docs/scene.md, from the types"
 	@echo "make docs      the documentation as a site, docs/_build/html/index.html (three minutes; a warning is an error)"
 	@echo "make wheel-check  the wheel as its users get it: installed elsewhere, run there, uninstalled without a trace"
@@ -82,6 +85,9 @@ coverage: install
 central: install
 	@$(BIN)/python -m comparisons.cli.central_table
 
+simulators: install
+	@$(BIN)/python -m comparisons.cli.simulators_study --out $(OUT)/simulators
+
 transfer: install
 	@$(BIN)/sheetbench transfer --out $(OUT)/transfer
 	@$(BIN)/python -m pytest -m slow tests/test_transfer.py
@@ -124,6 +130,12 @@ stability: install
 
 suite: install
 	@$(BIN)/python -m comparisons.suite.regenerate
+	@$(BIN)/python -m comparisons.suite.standing
+	@$(BIN)/python -m sheetbench suite --out $(OUT)/suite --overwrite
+	@cp $(OUT)/suite/cases.md docs/suite.md
+
+standing: install
+	@$(BIN)/python -m comparisons.suite.standing
 	@$(BIN)/python -m sheetbench suite --out $(OUT)/suite --overwrite
 	@cp $(OUT)/suite/cases.md docs/suite.md
 

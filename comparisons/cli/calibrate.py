@@ -53,6 +53,16 @@ def command(
         bool, typer.Option("--toml", help="Print the \\[springs] table for a scene file.")
     ] = False,
     export: Export = None,
+    simulators: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--for",
+            metavar="NAME",
+            help="With --export, also a file for this simulator, of springs without cells (--method "
+            "central): mujoco (MJCF), sofa (a scene). May be repeated.",
+            show_default=False,
+        ),
+    ] = None,
     large: Large = False,
     json: Json = False,
     out: Out = None,
@@ -74,6 +84,8 @@ def command(
 
     if toml and json:
         raise BadInput("--toml and --json: choose one")
+    if simulators and export is None:
+        raise BadInput("--for: goes with --export DIR")
     sheet, material = asked.sheet_and_material(
         scene,
         {"thickness": thickness, **sides(side)},
@@ -102,5 +114,5 @@ def command(
         report = tables.report(found, sheet, material, asked.expected(scene, sheet, material, found))
         if export is not None:
             of = asked.exported(scene, sheet, material)
-            report = end.export(export, of, found, report, overwrite)
+            report = end.export(export, of, found, report, overwrite, simulators or ())
         end(report, instead=tables.to_toml(found.as_dict()) if toml else None)

@@ -5,7 +5,7 @@ This module alone knows of `--json`, `--out`, `--overwrite`, the manifest, warni
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -53,7 +53,13 @@ class End:
             self._folder.write(name, write)
 
     def export(
-        self, folder: str | None, scene: Scene, springs: Calibration, report: Report, overwrite: bool
+        self,
+        folder: str | None,
+        scene: Scene,
+        springs: Calibration,
+        report: Report,
+        overwrite: bool,
+        simulators: Sequence[str] = (),
     ) -> Report:
         """The report, with a note of what was written for other simulators, if there is a folder for them."""
         if folder is None:
@@ -61,7 +67,7 @@ class End:
         from comparisons.cli.options import command_line
         from comparisons.export.export import export
 
-        said = export(folder, scene, springs, command_line(), overwrite)
+        said = export(folder, scene, springs, command_line(), overwrite, simulators)
         return replace(report, notes=(*report.notes, said))
 
     def place(self, name: str) -> Path | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,17 +11,34 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.export.arrays import arrays
+from comparisons.export.mujoco import to_mjcf
 from comparisons.export.page import page
+from comparisons.export.sofa import to_sofa
 from comparisons.export.tables import tables
 from comparisons.report.files import write_text
 from comparisons.runs.folder import Folder
 from sheetbench.files import whole
 from sheetbench.scenes import Scene
+from sheetbench.scenes.errors import require_choice
 
 if TYPE_CHECKING:
-    from lumped import Calibration
+    from lumped import Calibration, Description
 
 Arrays = dict[str, np.ndarray]
+
+
+@dataclass(frozen=True)
+class Simulator:
+    """Another program: the file that it reads, and what writes that."""
+
+    file: str
+    write: Callable[[Description, Scene], str]
+
+
+SIMULATORS = {
+    "mujoco": Simulator("mujoco.xml", to_mjcf),
+    "sofa": Simulator("sofa.scn", to_sofa),
+}
 
 
 def export(
@@ -29,15 +47,20 @@ def export(
     calibration: Calibration,
     command: Sequence[str] = (),
     overwrite: bool = False,
+    simulators: Sequence[str] = (),
 ) -> str:
     """Write the lattice of a scene with these springs; a sentence that says where and what.
 
     command: for the manifest. Raises BadInput for a folder that cannot be had or holds another scene's files,
-    unless `overwrite`, and for lattices that files cannot say (`lumped.describe`).
+    unless `overwrite`, and for lattices that files cannot say (`lumped.describe`). simulators: of
+    `SIMULATORS`, each a file of its own beside them.
     """
     import lumped
 
+    for name in simulators:
+        require_choice("--for", name, SIMULATORS)
     lattice = lumped.describe(scene, calibration)
+    own = {SIMULATORS[name].file: SIMULATORS[name].write(lattice, scene) for name in simulators}
     target = Folder(
         folder,
         "export",
@@ -47,7 +70,7 @@ def export(
         overwrite=overwrite,
         option="--export",
     )
-    texts = {**tables(lattice), "README.md": page(lattice, scene, calibration)}
+    texts = {**tables(lattice), "README.md": page(lattice, scene, calibration), **own}
     for name, text in texts.items():
         target.write(name, partial(write_text, text=text))
     values = arrays(lattice)
@@ -55,7 +78,8 @@ def export(
     target.write("lattice.mat", lambda path: _written(path, _to_mat, values))
     target.finish(calibration.as_dict())
     missing = "".join(f"; {said}" for said in lattice.notes)
-    return f"Springs, masses, supports and loads in {target.path}: start at its README.md{missing}"
+    named = "".join(f", and {file} for {name}" for name, file in zip(simulators, own, strict=True))
+    return f"Springs, masses, supports and loads in {target.path}{named}: start at its README.md{missing}"
 
 
 def _written(path: Path, write: Callable[[Path, Arrays], None], values: Arrays) -> None:

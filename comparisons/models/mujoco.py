@@ -113,7 +113,7 @@ class _Grid:
             <flag contact="disable"/></option>
           <worldbody><flexcomp name="sheet" type="grid" dim="2" count="{count[0]} {count[1]} 1"
               spacing="{lx} {ly} {lx}" pos="{centre[0]} {centre[1]} 0" mass="1"
-              radius="{thickness / 2}">
+              radius="{min(thickness, *self.spacing.tolist()) / 4}">
             <elasticity young="{material.young}" poisson="{material.poisson}" thickness="{thickness}"
               elastic2d="{settings["elastic2d"]}"/>
             <contact selfcollide="none"/>

@@ -41,13 +41,14 @@ class Row:
 @dataclass(frozen=True)
 class Standing:
     """A model's score and the geometric mean of its times [s], None where they are not told; worst: its case
-    of the largest error, if there is one."""
+    of the largest error, if there is one; refused: cases that it has no answer to."""
 
     model: str
     score: float
     seconds: float | None
     worst: str = ""
     worst_error: float | None = None
+    refused: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,24 +155,25 @@ def _rows(answer: Answer) -> list[Row]:
 
 
 def own_models(cases: Sequence[Reference]) -> list[Standing]:
-    """Our own models on these cases, as they were measured when the set was made."""
+    """Our own models and other programs that have an answer to any of these cases, as they were measured."""
     rows: dict[str, dict[str, dict[str, Any]]] = {}
+    names = {case.name for case in cases}
     for row in document()["standing"]:
-        name = written(Candidate(row["model"], row["settings"]))
-        rows.setdefault(name, {})[row["case"]] = row
+        if row["case"] in names:
+            rows.setdefault(written(Candidate(row["model"], row["settings"])), {})[row["case"]] = row
     return [
         Standing(
             name,
             mean([found[case.name]["error"] for case in cases], cases),
-            _geometric([found[case.name]["seconds"] for case in cases]),
-            *_worst({case.name: found[case.name]["error"] for case in cases}),
+            _geometric([row["seconds"] for row in answered.values()]),
+            *_worst({case: row["error"] for case, row in answered.items()}),
+            refused=len(cases) - len(answered),
         )
         for name, found in rows.items()
-        if all(case.name in found for case in cases)
+        if (answered := {case: row for case, row in found.items() if row["error"] is not None})
     ]
 
 
-def _worst(errors: dict[str, float | None]) -> tuple[str, float | None]:
-    """The case without an answer, or of the largest error."""
-    name = max(errors, key=lambda name: np.inf if errors[name] is None else float(errors[name] or 0.0))
-    return name, errors[name]
+def _worst(errors: dict[str, float]) -> tuple[str, float]:
+    """The case of the largest error."""
+    return max(errors.items(), key=lambda one: one[1])

@@ -6,13 +6,13 @@ settling  the lattice on 17 and 9 masses a side: the finer answer; the bar is wh
           two integrators differ by on the coarser: no finite elements here move
 modes     the shell as in statics, and the solid
 
-Every lattice, plate and shell of `STANDING` is measured on the statics too, for a place beside them.
+Where models stand on it is measured apart (`comparisons.suite.standing`); those rows stay as they are.
 """
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -22,12 +22,10 @@ import numpy as np
 import fem_reference
 import lumped
 from comparisons.comparison.comparison import error
-from comparisons.models import registry
-from comparisons.models.candidate import Candidate
 from comparisons.report.files import plain, to_json, write_text
 from comparisons.runs.manifest import machine, version
 from comparisons.suite.cases import FREQUENCIES, Case, cases
-from comparisons.suite.reference import FILE, LICENCE, VERSION
+from comparisons.suite.reference import FILE, LICENCE, VERSION, document
 from fem_reference.uncertainty import coarser, estimate, mesh_size, solve_with_bar
 from sheetbench.scenes import Scene
 
@@ -35,20 +33,12 @@ ELEMENTS, ACROSS = 24, 8  # of the shell along the shorter side; of strips four 
 SOLID = 6  # elements
 SAMPLES = 60  # of a motion
 FINE, COARSE = 17, 9  # masses along the shorter side
-REPEATS = 3
-STANDING = (
-    *(Candidate("lumped", {"grid": n, "calibration": "consistent"}) for n in (5, 9, 17)),
-    Candidate("lumped", {"grid": 9, "calibration": "uniform"}),
-    Candidate("plate", {"elements": 16}),
-    Candidate("shell", {"elements": 4}),
-    Candidate("shell", {"elements": 8}),
-)
 
 
 def regenerate(say: Callable[[str], None] = print) -> dict[str, Any]:
     """The reference set as plain data."""
     makers = {"statics": statics, "settling": settling, "modes": modes}
-    found, standing = [], []
+    found = []
     for case in cases():
         began = perf_counter()
         found.append(
@@ -61,12 +51,10 @@ def regenerate(say: Callable[[str], None] = print) -> dict[str, Any]:
                 **makers[case.suite](case),
             }
         )
-        if case.suite == "statics":
-            standing += list(_standing(case, found[-1]))
         say(f"{case.name}: {perf_counter() - began:.1f} s")
     made = {"sheetbench": version(), "machine": machine()}
     head = {"version": VERSION, "licence": LICENCE, "made_with": made}
-    rounded: dict[str, Any] = plain({**head, "cases": found, "standing": standing})
+    rounded: dict[str, Any] = plain({**head, "cases": found, "standing": document()["standing"]})
     return rounded
 
 
@@ -134,23 +122,6 @@ def modes(case: Case) -> dict[str, Any]:
 
 def _frequencies(scene: Scene, model: str, elements: Any) -> np.ndarray:
     return fem_reference.modes(scene, model=model, elements=elements, count=FREQUENCIES).frequencies
-
-
-def _standing(case: Case, reference: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    """What our own models get wrong on a case, and their median time."""
-    truth = np.array([value["u"] for value in reference["probes"].values()])
-    for candidate in STANDING:
-        answers = [registry.solve(case.scene, candidate.model, **candidate.settings) for _ in range(REPEATS)]
-        found = answers[-1]
-        off = error(found.displacement(case.scene.probe_points()), truth) if found.comparable else None
-        yield {
-            "case": case.name,
-            "model": candidate.model,
-            "settings": candidate.settings,
-            "status": str(found.status),
-            "error": off,
-            "seconds": float(np.median([answer.solve_seconds for answer in answers])),
-        }
 
 
 def _elements(scene: Scene) -> int:

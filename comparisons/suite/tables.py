@@ -66,10 +66,10 @@ def cases(found: Sequence[Reference]) -> Table:
 
 
 def standing(found: Mapping[str, Reference]) -> Table:
-    """How our own models fare on the statics, the best first."""
+    """How our own models and other programs fare on the statics, the best first."""
     ours = own_models([case for case in found.values() if case.suite == "statics"])
     rows = tuple(
-        (one.model, one.score, one.worst_error, one.worst, one.seconds)
+        (one.model, one.score, one.worst_error, one.worst, one.refused, one.seconds)
         for one in sorted(ours, key=lambda one: one.score)
     )
     percent = ("", "%", 100.0, ".3g")
@@ -78,13 +78,15 @@ def standing(found: Mapping[str, Reference]) -> Table:
         Column("score", *percent),
         Column("worst", *percent),
         Column("where"),
+        Column("refused", form="d"),
         Column("time", "s", "ms", 1e3, ".3g"),
     )
     said = (
-        "score: geometric mean of the errors on the statics; time: of a solve, geometric mean, on "
+        "score: geometric mean of the errors on the statics, 100 % for a case that is refused; worst: of "
+        "those answered; time: of a solve, geometric mean, on "
         f"{document()['made_with']['machine'].get('processor', 'the machine that made the set')}"
     )
-    return Table("Our own models on the statics", columns, rows, "standing", text=said)
+    return Table("Our models and other programs on the statics", columns, rows, "standing", text=said)
 
 
 def _toml(case: Reference) -> str:

@@ -1,0 +1,1 @@
+"""How near other simulators come with what we export for them."""

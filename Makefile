@@ -10,7 +10,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
             shell_element.py shell_linear.py solid_element.py sections.py snaps.py campaign.py \
             report.py measurements.py) tests/fuzz
 
-.PHONY: docs docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer tradeoff \
+.PHONY: docs docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer coarse tradeoff \
         advisor-study reproduce crosscheck peers bench central simulators stability suite standing mutants viewer \
         wheel-check lint clean
 help:
@@ -27,6 +27,7 @@ help:
 	@echo "make central   the table of the calibration central, trained anew (three minutes)"
 	@echo "make simulators  other simulators with what we export for them (two minutes; files in $(OUT)/simulators/)"
 	@echo "make transfer  every calibration on every scene of the transfer study (ten minutes; files in $(OUT)/transfer/)"
+	@echo "make coarse    coarse grids, even and graded by the scene's layers, on the transfer study's scenes (files in $(OUT)/coarse*/)"
 	@echo "make tradeoff  error against time on the seed's test 1, with the picture (files in $(OUT)/)"
 	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/; up to half an hour)"
 	@echo "make reproduce the seed's study again: docs/reproduction.md and its pictures (a minute and a half)"
@@ -91,6 +92,12 @@ simulators: install
 transfer: install
 	@$(BIN)/sheetbench transfer --out $(OUT)/transfer
 	@$(BIN)/python -m pytest -m slow tests/test_transfer.py
+
+coarse: install
+	@$(BIN)/sheetbench transfer --methods consistent,consistent-membrane --part static --grids 9,17 --elements 16 \
+	  --out $(OUT)/coarse-even
+	@$(BIN)/sheetbench transfer --methods consistent,consistent-membrane --part static --grids 9,17 --elements 16 \
+	  --grading auto --out $(OUT)/coarse
 
 tradeoff: install
 	@$(BIN)/sheetbench tradeoff two-edges-clamped --lumped 3,5,7,9,17,33 --calibration consistent,consistent-interior,cauchy,uniform \

@@ -1,0 +1,78 @@
+"""What uses a lattice, on a graded grid of few masses: chains, files, frequencies, motion, fits."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+
+import lumped
+from comparisons.report.vtk import write_solution
+from lumped.fitting.targets import StaticTarget
+from lumped.grid_lines import grid_lines
+from sheetbench.scenes import History, Scene, Status, load
+
+GRADING = 0.6
+SCENE = load("two-edges-clamped")
+
+
+def springs_of(scene: Scene, grid: int = 5, grading: float = GRADING) -> lumped.Calibration:
+    return lumped.calibrate(scene.sheet, scene.material, grid, grading=grading)
+
+
+def test_a_chain_is_bound_where_the_lines_are() -> None:
+    """Four segments whose joints lie between the lines: forces balance, the clamp carries all."""
+    scene = load("actuated-edge")
+    chain = scene.actuators[0].model_copy(update={"segments": 4})
+    scene = scene.model_copy(update={"actuators": (chain,)})
+    found = lumped.solve(scene, springs_of(scene))
+    assert found.status is Status.CONVERGED and found.balance is not None and found.balance.holds
+    weight = 9.81 * (1678.0 * 0.188**2 * 0.003 + 0.05 * 0.188)
+    assert found.reactions["x0"][2] == pytest.approx(weight, rel=1e-6)
+
+
+def test_a_file_of_the_answer_has_the_lines_places(tmp_path: Path) -> None:
+    springs = springs_of(SCENE)
+    found = lumped.solve(SCENE, springs)
+    write_solution(tmp_path / "graded.vtu", found)
+    points = meshio.read(tmp_path / "graded.vtu").points
+    for axis, lines in enumerate(grid_lines(SCENE.sheet, springs.grid, GRADING)):
+        assert np.unique(points[:, axis].round(9)) == pytest.approx(lines.at, abs=1e-8)
+
+
+def test_frequencies() -> None:
+    """The first of the seed's sheet, 5.1650 Hz by the plate (`test_masses`), and three near the even ones."""
+    graded, even = (lumped.modes(SCENE, springs_of(SCENE, 5, g), 3).frequencies for g in (GRADING, 0.0))
+    assert graded[0] == pytest.approx(5.1650, rel=0.01)
+    assert graded == pytest.approx(even, rel=0.05)
+
+
+@cache
+def motion(integrator: str) -> History:
+    options = {"step": 1e-3} if integrator in ("midpoint", "projective") else {}
+    return lumped.simulate(SCENE, springs_of(SCENE, 4), 0.03, integrator=integrator, every=5e-3, **options)
+
+
+@pytest.mark.parametrize(
+    "integrator, held",
+    [("verlet-implicit-damping", 1e-3), ("generalised-alpha", 5e-3), ("esdirk", 1e-3), ("midpoint", 2e-2)],
+)
+def test_integrators_agree(integrator: str, held: float) -> None:
+    """With velocity Verlet's small steps, of the corner's path."""
+    fine, found = motion("verlet"), motion(integrator)
+    path, truth = (run.probes["P4"][:, 2] for run in (found, fine))
+    assert found.status is Status.CONVERGED
+    assert np.abs(path - truth).max() < held * np.abs(truth).max()
+
+
+def test_a_fit_finds_the_springs_it_was_shown() -> None:
+    """Displacements of a graded lattice are met by one of the same grading."""
+    points = SCENE.probe_points()
+    shown = springs_of(SCENE, 3)
+    target = StaticTarget(SCENE, points, lumped.solve(SCENE, shown).displacement(points))
+    found = lumped.calibrate(SCENE.sheet, SCENE.material, 3, "fit-static", targets=[target], grading=GRADING)
+    assert isinstance(found, lumped.FittedCalibration) and found.grading == GRADING
+    assert found.residual < 1e-4

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from dynamic_cases import ROD, run, scene, system
 
-from lumped.dynamics import INTEGRATORS
+from lumped.dynamics import INTEGRATORS, State
 from lumped.dynamics.compiled_newton import CompiledNewton
+from lumped.dynamics.sampling import Sampling
 from sheetbench import scenes
 
 HINGED = [{"edge": "x0", "kind": "hinged"}, {"edge": "x1", "kind": "held", "components": ["z"]}]
@@ -39,6 +40,23 @@ def test_the_compiled_iteration_takes_the_steps_of_the_general_one(asked, name):
     np.testing.assert_allclose(one.u, other.u, rtol=0.0, atol=1e-9 * size)
     np.testing.assert_allclose(lost, spent, rtol=1e-5, atol=1e-15)
     assert np.abs(one.u).max() > 1e-4 * size
+
+
+FOLLOWING = scene(
+    loads=[{"kind": "pressure", "value": 1.0}, {"kind": "edge", "edge": "x1", "moment_per_length": 0.01}]
+)
+
+
+@pytest.mark.parametrize("asked", [*CASES.values(), FOLLOWING], ids=[*CASES, "loads that follow"])
+def test_the_compiled_sample_is_the_general_one(asked):
+    equations, _ = system(asked, 4)
+    drawn = np.random.default_rng(0).standard_normal((3, *equations.lattice_mass.shape, 3))
+    state = State(0.3, *(np.array([1e-3, 0.1, 10.0])[:, None, None] * drawn))
+    sampling = Sampling(equations)
+    row = sampling.row(state, 0.1, 0.2)
+    assert sampling._observed is not None
+    sampling._observed = None
+    np.testing.assert_allclose(row, sampling.row(state, 0.1, 0.2), rtol=1e-11, atol=1e-13)
 
 
 @pytest.mark.parametrize(

@@ -126,6 +126,24 @@ def rates(
 
 
 @njit(cache=True)
+def extrapolated(
+    u: np.ndarray, v: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray
+) -> np.ndarray:
+    """Stresses that the linearisation at u predicts after a step v (n, 3) [m], (c,) [N/m]."""
+    change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
+    normal, work = np.empty(3), np.empty(3)
+    out = np.empty(len(nodes))
+    for c in range(len(nodes)):
+        strain, area, _ = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        diagonal_changes(v, nodes, c, change)
+        growth = 0.0
+        for q in range(3):
+            growth += gradient[0, q] * change[0, q] + gradient[1, q] * change[1, q]
+        out[c] = stiffness[c] * (strain + growth / area)
+    return out
+
+
+@njit(cache=True)
 def add_forces(
     u: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray, force: np.ndarray
 ) -> float:

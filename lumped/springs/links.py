@@ -65,6 +65,25 @@ def rates(
 
 
 @njit(cache=True)
+def extrapolated(
+    u: np.ndarray,
+    v: np.ndarray,
+    nodes: np.ndarray,
+    offset: np.ndarray,
+    rest_length: np.ndarray,
+    stiffness: np.ndarray,
+) -> np.ndarray:
+    """Tensions that the linearisation at u predicts after a step v (n, 3) [m], (m,) [N]."""
+    out = np.empty(len(nodes))
+    for m in range(len(nodes)):
+        a, b = nodes[m, 0], nodes[m, 1]
+        elongation, _, nx, ny, nz = stretch(u, nodes, offset, rest_length, m)
+        along = nx * (v[b, 0] - v[a, 0]) + ny * (v[b, 1] - v[a, 1]) + nz * (v[b, 2] - v[a, 2])
+        out[m] = stiffness[m] * (elongation + along)
+    return out
+
+
+@njit(cache=True)
 def add_forces(
     u: np.ndarray,
     nodes: np.ndarray,

@@ -147,13 +147,12 @@ def extrapolated(u: np.ndarray, step: np.ndarray, springs: Springs) -> Stresses:
     """Stresses that the linearisation at u predicts after `step`."""
     s, a, b = springs.links, springs.layers_area, springs.middle_area
     c, d = springs.layers_strain, springs.middle_strain
-    at = stresses(u, springs)
     return (
-        at[0] + links.rates(u, step, s.nodes, s.offset, s.rest_length, s.stiffness),
-        at[1] + areas.rates(u, step, a.nodes, a.diagonals, a.stiffness),
-        at[2] + areas.rates(u, step, b.nodes, b.diagonals, b.stiffness),
-        at[3] + strains.rates(u, step, c.nodes, c.diagonals, c.stiffness),
-        at[4] + strains.rates(u, step, d.nodes, d.diagonals, d.stiffness),
+        links.extrapolated(u, step, s.nodes, s.offset, s.rest_length, s.stiffness),
+        areas.extrapolated(u, step, a.nodes, a.diagonals, a.stiffness),
+        areas.extrapolated(u, step, b.nodes, b.diagonals, b.stiffness),
+        strains.extrapolated(u, step, c.nodes, c.diagonals, c.stiffness),
+        strains.extrapolated(u, step, d.nodes, d.diagonals, d.stiffness),
     )
 
 

@@ -204,7 +204,9 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
     return Outcome(status, state, tuple(snaps), (*notes, *judged))
 
 
-def equilibrium(scene: Scene, problem: Problem, springs: Calibration, near: np.ndarray | None) -> Outcome:
+def equilibrium(
+    scene: Scene, problem: Problem, springs: Calibration, near: np.ndarray | None = None
+) -> Outcome:
     """The equilibrium on the load path at full load, from one nearby or a smaller lattice's if that does."""
     found = None if near is None else _from_near(scene, problem, near)
     return found or _from_coarser(scene, problem, springs) or settle(scene, problem, "path")
@@ -217,7 +219,7 @@ def _from_coarser(scene: Scene, problem: Problem, calibration: Calibration) -> O
         return None
     smaller = pose(scene, springs, precision=problem.assembly.precision)
     smaller.progress = problem.progress
-    outcome = equilibrium(scene, smaller, springs, None)
+    outcome = equilibrium(scene, smaller, springs)
     problem.factorisations += smaller.factorisations
     problem.history.extend(smaller.history)
     if outcome.status is not Status.CONVERGED or outcome.snaps or outcome.notes:

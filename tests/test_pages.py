@@ -150,6 +150,11 @@ def test_damage_costs_a_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[s
     (tmp_path / "broken.json").write_text("{")
     (tmp_path / "broken.csv").write_bytes(b"\xff\xfe\x00")
     (tmp_path / "broken.png").write_bytes(b"no picture")
+    (tmp_path / "broken2.svg").write_text("<svg>")
+    (tmp_path / "good.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg"/>')
+    (tmp_path / "found.json").write_text(
+        '{"findings": [{"finding": "k <b>"}], "rows": [{"of": "a", "at": 7}]}'
+    )
     (tmp_path / "broken.pvd").write_text("<a><DataSet timestep='0' file='../x.vtu'/></a>")
     (tmp_path / "good.csv").write_text("x [m],what\n0.001,a\n")
     (tmp_path / "deep").mkdir()
@@ -160,12 +165,14 @@ def test_damage_costs_a_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[s
     assert run("report", str(tmp_path), "--json") == 0
     said = capsys.readouterr()
     troubles = json.loads(said.out)["troubles"]
-    for name in ("broken.vtu", "broken.json", "broken.csv", "broken.png", "broken.pvd", "deep/manifest.json"):
+    broken = ("vtu", "json", "csv", "png", "pvd")
+    for name in (*(f"broken.{kind}" for kind in broken), "broken2.svg", "deep/manifest.json"):
         assert any(one.startswith(name) for one in troubles), name
     assert any("lies outside" in one for one in troubles) and any("not there" in one for one in troubles)
     assert "Traceback" not in said.err
     text = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert re.search(r'data-value="0.001">1<', text) and "x [mm]" in text
+    assert "data:image/svg+xml;base64" in text and "k &lt;b&gt;" in text and ">7</td>" in text
 
 
 def test_a_folder_that_is_none_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

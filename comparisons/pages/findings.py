@@ -1,4 +1,5 @@
-"""What a study found, in sentences with units: a few of our own from its document, then its own remarks."""
+"""What a study found, in sentences with units: a few of our own from its document, then what it says
+itself."""
 
 from __future__ import annotations
 
@@ -17,7 +18,10 @@ def findings(study: Study) -> list[str]:
     say = SAID.get(study.verb)
     own = study.attempt("document", lambda: say(study.document)) if say and study.document else None
     notes = study.words.get("notes") or study.document.get("notes") or ()
-    return [*(own or []), *_joined(map(str, notes))]
+    told = study.document.get("findings")
+    rows = told if isinstance(told, list) else []
+    listed = [str(one["finding"]) for one in rows if isinstance(one, dict) and one.get("finding")]
+    return [*(own or []), *listed, *_joined(map(str, notes))]
 
 
 def complaints(study: Study) -> list[str]:

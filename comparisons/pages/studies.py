@@ -70,8 +70,10 @@ class Study:
     @property
     def title(self) -> str:
         """What the study is about."""
-        named = self.words.get("title") or (self.run.get("scene") or {}).get("name")
-        return str(named or self.place or self.folder.resolve().name)
+        asked = self.run.get("scene")
+        named = self.words.get("title") or (asked.get("name") if isinstance(asked, dict) else None)
+        alone = self.files[0] if not self.verb and len(self.files) == 1 else ""
+        return str(named or alone or self.place or self.folder.resolve().name)
 
     def path(self, name: str) -> Path | None:
         """A file of the study; None, with a sentence said, where it is missing, outside or too large."""
@@ -149,8 +151,11 @@ def read(root: Path) -> Found:
             studies.append(Study(folder, place, verb, names, run, record))
         loose = [path.name for path in sorted(folder.iterdir()) if _counts(path) and path.name not in claimed]
         if not record and any(name.endswith(SHOWN) for name in loose):
-            shown = tuple(name for name in loose if name.endswith(SHOWN))
-            studies.append(Study(folder, place, "", shown))
+            shown = [name for name in loose if name.endswith(SHOWN)]
+            documents = [name for name in shown if name.endswith(".json")]
+            rest = tuple(name for name in shown if name not in documents)
+            for names in filter(None, (rest, *((name,) for name in documents))):
+                studies.append(Study(folder, place, "", names))
             loose = [name for name in loose if name not in shown]
         others += [(f"{place}/{name}".lstrip("/"), (folder / name).stat().st_size) for name in loose]
     return Found(studies, others, troubles)

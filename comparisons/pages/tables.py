@@ -1,7 +1,8 @@
 """Tables of a study for a page: values with all their digits to sort by, shown as everywhere else.
 
 The manifest has the columns with their units and formats, the CSV file the values in SI units. A CSV file
-that no manifest tells of is shown as it is, its columns of numbers to five digits.
+that no manifest tells of is shown as it is, its columns of numbers to five digits; so are the records of a
+JSON document that came alone.
 """
 
 from __future__ import annotations
@@ -55,6 +56,8 @@ def tables(study: Study) -> list[Sheet]:
     for words in study.words.get("tables", ()):
         name = f"{words.get('name')}.csv"
         told.add(name)
+        if name == "findings.csv" and study.document.get("findings"):
+            continue  # they are said in sentences
         rows = words.get("rows")
         if rows is None:
             read = study.read(name, _rows) if name in study.files else None
@@ -65,6 +68,22 @@ def tables(study: Study) -> list[Sheet]:
     for name in study.ending(".csv"):
         if name not in told and (read := study.read(name, _rows)):
             found.append(_loose(name, read, aside=bool(told)))
+    if not study.words and not study.ending(".csv"):
+        found += study.attempt("document", lambda: _of_document(study.document)) or []
+    return found
+
+
+def _of_document(document: Mapping[str, Any]) -> list[Sheet]:
+    """The lists of records in a document that no tables came with: a column for every key of one value."""
+    found = []
+    for key, records in document.items():
+        records = records if isinstance(records, list) and key != "findings" else []
+        if not all(isinstance(record, dict) for record in records):
+            continue
+        names = dict.fromkeys(k for r in records for k, v in r.items() if isinstance(v, str | int | float))
+        if names:
+            texts = [["" if r.get(k) is None else str(r[k]) for k in names] for r in records]
+            found.append(_loose(key.replace("_", " "), [list(names), *texts], aside=False))
     return found
 
 

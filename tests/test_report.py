@@ -106,7 +106,7 @@ kind = "clamped"
 def test_a_hostile_scene_is_harmless_wherever_it_is_shown(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("comparisons.comparison.tables.draw", lambda comparison, paths: "not drawn here")
+    monkeypatch.setattr("comparisons.comparison.tables.draw", lambda *_: "not drawn here")
     assert run("compare", str(written(tmp_path, HOSTILE_SCENE)), "--out", str(tmp_path / "out")) == 0
     printed = capsys.readouterr()
     assert "\x1b" not in printed.out + printed.err and r"\x1b[2J" in printed.out

@@ -1,7 +1,7 @@
 """The sheet in motion, at true scale: frames with their time and a colour bar, as GIF or MP4.
 
-The size of an animation is that of a talk or a README: 640 pixels wide. MP4 is written by the system's
-ffmpeg, where there is one.
+An MP4 is of a talk's size, 640 pixels wide, and written by the system's ffmpeg, where there is one; a GIF is
+of a README's, 480 pixels wide and below a megabyte.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ from sheetbench.files import whole
 from sheetbench.scenes import Scene
 
 WIDTH, PER_INCH = 4.0, 160  # inches, pixels an inch
-COLOURS, PER_SECOND, MOST = 128, 12, 50  # of a GIF's palette; frames a second, and at most
+COLOURS, PIXELS = 64, 480  # of a GIF: its palette, its width
+PER_SECOND, MOST = 12, 50  # frames a second, and at most
 
 
 def animate(paths: Sequence[Path], scene: Scene, shown: list[tuple[float, Frame]]) -> None:
@@ -79,6 +80,8 @@ def _page(scene: Scene, pixels: np.ndarray, said: str, limits: tuple[float, floa
 
 
 def _write_gif(path: Path, images: list[Image.Image]) -> None:
+    size = (PIXELS, round(PIXELS * images[0].height / images[0].width))
+    images = [image.resize(size, Image.Resampling.LANCZOS) for image in images]
     # one palette for all and no dither: what stands still stays the same, and the file small
     some = images[::8]
     every = Image.new("RGB", (some[0].width, sum(image.height for image in some)))

@@ -1,4 +1,4 @@
-"""Text that is not ours made harmless where it is shown: on a terminal, in Markdown and HTML, CSV, LaTeX.
+"""Text that is not ours made harmless where it is shown: on a terminal, in Markdown and HTML, CSV.
 
 A scene's name, its title and its probes' names may hold anything: escape sequences for a terminal, markup for
 a browser, formulas for a spreadsheet. Every way to show text goes through one of these functions, once.
@@ -13,44 +13,6 @@ from typing import Any
 _CONTROL = ("Cc", "Cs", "Zl", "Zp")  # control characters, surrogates, separators of lines and paragraphs
 _TURNING = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"  # change the direction of writing
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
-_LATEX = {
-    "\\": r"\textbackslash{}",
-    "^": r"\textasciicircum{}",
-    "~": r"\textasciitilde{}",
-    **{character: f"\\{character}" for character in "&%$#_{}"},
-    "−": "$-$",
-    "–": "--",
-    "…": r"\dots{}",
-    **{
-        character: f"${command}$"
-        for character, command in {
-            "×": r"\times",
-            "·": r"\cdot",
-            "±": r"\pm",
-            "≥": r"\ge",
-            "≤": r"\le",
-            "→": r"\to",
-            "∞": r"\infty",
-            "√": r"\surd",
-            "°": r"^\circ",
-            "²": "^2",
-            "³": "^3",
-            "½": r"\frac12",
-            "¼": r"\frac14",
-            "¾": r"\frac34",
-            "µ": r"\mu",
-            "α": r"\alpha",
-            "γ": r"\gamma",
-            "ε": r"\varepsilon",
-            "ζ": r"\zeta",
-            "θ": r"\theta",
-            "κ": r"\kappa",
-            "ν": r"\nu",
-            "ρ": r"\rho",
-            "ω": r"\omega",
-        }.items()
-    },
-}
 
 
 def terminal(text: str, keep: str = "") -> str:
@@ -86,8 +48,3 @@ def cell(text: str) -> str:
 def csv_cell(value: Any) -> Any:
     """The value of a CSV cell: text that a spreadsheet would take for a formula starts with an apostrophe."""
     return f"'{value}" if isinstance(value, str) and value.startswith(_FORMULA) else value
-
-
-def latex(text: str) -> str:
-    """The text with what LaTeX reads as its own made plain, on one line."""
-    return "".join(_LATEX.get(character, character) for character in terminal(" ".join(text.split())))

@@ -12,7 +12,8 @@ import io
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from comparisons.report.escape import cell, csv_cell, html, latex, markdown, terminal
+from comparisons.report.escape import cell, csv_cell, html, markdown, terminal
+from comparisons.report.latex import latex
 from sheetbench.scenes.errors import BadInput
 
 if TYPE_CHECKING:

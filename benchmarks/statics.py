@@ -48,7 +48,7 @@ def lattice(masses: int) -> dict[str, Any]:
         call = min(timed(lambda: lumped.solve(SCENE, springs)) for _ in range(repeats + 1))
         setup = min(timed(lambda: lumped.pose(SCENE, springs)) for _ in range(repeats))
         problems = [lumped.pose(SCENE, springs) for _ in range(repeats)]
-        solve = min(timed(lambda p=problem: equilibrium(SCENE, p, springs)) for problem in problems)
+        solve = min(timed(lambda p=problem: equilibrium(SCENE, p, springs, None)) for problem in problems)
         problem = problems[-1]
         factor, flops = factorisation(problem, problem.tangent(np.zeros_like(problem.loads.dead), 0.0))
         once = min(timed(factor) for _ in range(max(1, repeats // 3)))

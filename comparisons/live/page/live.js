@@ -196,6 +196,7 @@
     const since = begun.get(message.number);
     for (const old of begun.keys()) if (old <= message.number) begun.delete(old);
     if (since === undefined) return;
+    message.since = since;
     requestAnimationFrame(() => {
       latencies.push(performance.now() - since);
       at("latency").textContent = `${figures(latencies.at(-1), 3)} ms`;
@@ -207,6 +208,8 @@
     draw("shell", message);
     if (fits(message.difference)) viewer.update("lattice", { values: { difference: message.difference } });
     tell("shell", message);
+    const { since } = shown.lattice.number === message.number ? shown.lattice : {};
+    if (since !== undefined) requestAnimationFrame(() => (message.after = performance.now() - since));
     const { error } = message;
     at("error").textContent = error === null ? "–" : `${figures(100 * error, error < 0.1 ? 2 : 3)} %`;
   }

@@ -1,0 +1,111 @@
+"""`sheetbench live` in Chromium: from moving a slider to the lattice drawn, and to the shell's answer.
+
+    python benchmarks/live.py [SCENE] [--grid N] [--elements N] [--drags N] [--json FILE] [--picture FILE]
+
+The slider of Young's modulus is dragged by the mouse, a step at a time, each after the lattice and the shell
+have answered the one before; then once in a sweep, without waiting. The page measures the first time itself,
+from the input event to the frame with the new lattice (`requestAnimationFrame`), and so does this for the
+shell. Milliseconds by the clock: on an idle machine. Needs Debian's `chromium`, which here draws in software;
+with a graphics card the drawing's share is less.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import shutil
+import signal
+import statistics
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from playwright.sync_api import Page, sync_playwright
+
+from comparisons.live.panel import ELEMENTS
+
+FLAGS = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+ANSWERED = (
+    "window.live !== undefined && live.shown.shell !== undefined && live.shown.shell.number === live.asked()"
+)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("scene", nargs="?", default="two-edges-clamped")
+    parser.add_argument("--grid", type=int, default=9)
+    parser.add_argument("--elements", type=int, default=ELEMENTS)
+    parser.add_argument("--drags", type=int, default=50)
+    parser.add_argument("--json", metavar="FILE")
+    parser.add_argument(
+        "--picture", metavar="FILE", help="keep a picture of the page, as docs/images/live.png"
+    )
+    asked = parser.parse_args()
+    sizes = ("--grid", str(asked.grid), "--elements", str(asked.elements))
+    with serving(asked.scene, *sizes) as address, sync_playwright() as playwright:
+        program = shutil.which("chromium") or shutil.which("google-chrome")
+        browser = playwright.chromium.launch(executable_path=program, args=list(FLAGS))
+        page = browser.new_page(viewport={"width": 1200, "height": 820})
+        page.goto(address)
+        until(page, ANSWERED)
+        drag(page, 5, waiting=True)  # the page's own code is compiled by then
+        if asked.picture:
+            page.screenshot(path=asked.picture)
+        found: dict[str, Any] = {"scene": asked.scene, "grid": asked.grid, "elements": asked.elements}
+        found["lattice_ms"], found["shell_ms"] = drag(page, asked.drags, waiting=True)
+        found["sweep_ms"], _ = drag(page, asked.drags, waiting=False)
+        found["solve_ms"] = 1e3 * page.evaluate("live.shown.lattice.seconds")
+        browser.close()
+    print(
+        f"{asked.scene}, lattice {asked.grid} × {asked.grid} × 2, shell of {asked.elements} elements a side"
+    )
+    for name, said in {
+        "lattice_ms": "drag to lattice drawn",
+        "shell_ms": "drag to shell drawn",
+        "sweep_ms": "to lattice drawn, without waiting",
+    }.items():
+        times = found[name]
+        print(f"{said}: median {statistics.median(times):.0f} ms, worst of {len(times)} {max(times):.0f} ms")
+    if asked.json:
+        with open(asked.json, "w", encoding="utf-8") as file:
+            json.dump(found, file)
+
+
+def drag(page: Page, steps: int, waiting: bool) -> tuple[list[float], list[float]]:
+    """Times [ms] to the lattice and to the shell of so many steps of the mouse, there and back."""
+    box = page.locator("#slider-young").bounding_box()
+    assert box is not None
+    y, middle = box["y"] + box["height"] / 2, box["x"] + box["width"] / 2
+    page.mouse.move(middle, y)
+    page.mouse.down()
+    before, shells = page.evaluate("live.latencies.length"), []
+    for step in range(1, steps + 1):
+        page.mouse.move(middle + 4 * (12 - abs(step % 24 - 12)), y)
+        if waiting:
+            until(page, ANSWERED)
+            shells.append(page.evaluate("live.shown.shell.after"))
+    page.mouse.up()
+    until(page, ANSWERED)
+    return page.evaluate("live.latencies")[before:], [ms for ms in shells if ms is not None]
+
+
+def until(page: Page, expression: str) -> None:
+    """Wait for an expression to hold; the page's policy lets nobody wait within it."""
+    while not page.evaluate(expression):
+        page.wait_for_timeout(5)
+
+
+@contextmanager
+def serving(*options: str) -> Iterator[str]:
+    """The address of the page, served by a process of its own as users start it."""
+    command = [sys.executable, "-m", "sheetbench", "live", *options, "--no-browser"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        yield process.stdout.readline().strip()
+        process.send_signal(signal.SIGINT)
+
+
+if __name__ == "__main__":
+    main()

@@ -8,8 +8,8 @@ published distance,
              within half of it from their bisector, on which the line has s cos(half) or more.
 
 No material, support or load enters, only that the sheet is whole. Of a clamped or bent edge the points beside
-the probes are known, those of the rod from its curvature and either sense. c is taken at the end of what the
-printed digits allow that makes each statement the weaker.
+the probes are known where it is in its place, those of the rod from its curvature and either sense. c is
+taken at the end of what the printed digits allow that makes each statement the weaker.
 """
 
 from __future__ import annotations

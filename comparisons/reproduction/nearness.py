@@ -34,7 +34,7 @@ def _nearest(found: Reproduction) -> Said:
     for kind, of in dict.fromkeys((fit.kind, fit.tests) for fit in found.fits):
         fits = [fit for fit in found.fits if (fit.kind, fit.tests) == (kind, of)]
         best = min((fit for fit in fits if fit.by == SQUARES), key=lambda fit: fit.rms)
-        none = "" if best.met.sum() == best.entries else f"No {KINDS[kind]} that was tried has all of the"
+        none = "" if best.met.sum() == best.entries else f"no {KINDS[kind]} that was tried has all of the"
         first = f"{none} published {best.source}'s entries. " if none else ""
         yield (
             "nearest",
@@ -89,8 +89,8 @@ def _ratios(found: Reproduction) -> Said:
         if never:
             yield (
                 "ratios",
-                f"Test {test}{ROD[sense]}: none of the {scanned(kind)} has {len(never)} of the {len(of)} "
-                f"published ratios: {'; '.join(never)}.",
+                f"Test {test}{ROD[sense]}: {len(never)} of {len(of)} published ratios are those of none of "
+                f"the {scanned(kind)}: {'; '.join(never)}.",
             )
 
 
@@ -99,11 +99,12 @@ def _stretch(found: Reproduction) -> Said:
     for test, source in dict.fromkeys((chord.test, chord.source) for chord in lines):
         worst = max((c for c in lines if (c.test, c.source) == (test, source)), key=lambda c: c.stretch)
         longest = max(0.0, *(-closer / worst.flat for closer in _nearer(found, worst)))
+        held = "" if worst.start in PROBES else ", where the edge is in its place,"
         yield (
             "stretch",
             f"Test {test}, published {source}: {worst.start} and {worst.end} are "
             f"{millimetres(worst.published)} apart, {millimetres(worst.flat)} on the flat sheet. Whatever "
-            "the sheet is made of, the line between them is stretched by "
+            f"the sheet is made of, the line between them is stretched by{held} "
             f"{percent(worst.stretch)} at least. In the nearest sheets and lattices the two are farther "
             f"apart by {percent(longest)} at most.",
         )
@@ -118,17 +119,20 @@ def _shortening(found: Reproduction) -> Said:
             f"Test {worst.test}, published {source}: {worst.start} and {worst.end} are "
             f"{millimetres(worst.flat - worst.published, '.1f')} nearer to each other than on the flat "
             "sheet. Unless it is compressed, the line between them has directions that span "
-            f"{degrees(worst.turning):.0f}° at least. In the nearest sheets and lattices it is "
+            f"{degrees(worst.turning):.0f}° at least. In the nearest sheets and lattices they are so by "
             f"{millimetres(max(0.0, *_nearer(found, worst)), '.1f')} at most.",
         )
 
 
 def _nearer(found: Reproduction, chord: Chord) -> list[float]:
-    """By how much [m] the chord's points are nearer to each other in each sheet of the least misfit."""
+    """By how much [m] the chord's points are nearer to each other in each sheet of the least misfit; of an
+    edge's points in those alone whose supports are not turned."""
     return [
         nearer(chord, _of_test(fit, chord.test))
         for fit in found.fits
-        if chord.test in fit.tests and fit.by == SQUARES
+        if chord.test in fit.tests
+        and fit.by == SQUARES
+        and (chord.start in PROBES or "tilt" not in fit.sought)
     ]
 
 

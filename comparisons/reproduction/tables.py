@@ -234,8 +234,8 @@ def nearest(found: Reproduction) -> Table:
         Column("tilt", "rad", "°", 180.0 / np.pi, ".2g"),
         Column("κ", "1/m", "1/m", 1.0, ".3g"),
         Column("by"),
-        Column("rms", *PERCENT, ".2g"),
-        Column("error", *PERCENT, ".2g"),
+        Column("rms", *PERCENT, ".3g"),
+        Column("error", *PERCENT, ".3g"),
         Column("met"),
     )
     text = (

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from commands import one_line, run
 
+from comparisons.pages.findings import SAID
 from comparisons.report.report import Report
 from comparisons.reproduction.answers import Answer, answer
 from comparisons.reproduction.chords import Chord, of_table
@@ -180,6 +181,9 @@ def test_the_document(errors: Reproduction) -> None:
     assert document["errors"]["means"]["quoted"] == 0.048
     assert document["errors"]["cells"][1]["changes"] is True
     assert len(document["findings"]) == 5
+    assert SAID["reproduce"](document)[1].startswith(
+        "Printed errors: The printed errors have a mean of 4.92 %"
+    )
 
 
 def test_the_verb_writes_a_page_and_says_what_it_found(

@@ -41,4 +41,6 @@ def command(
     parts = [name for name in PARTS if name in (part or PARTS)]
     with finish("reproduce", json, out, overwrite, apart={"--part": parts}, figure=figure) as end:
         found = reproduce(parts, elements=parse_elements(elements), progress=end.progress)
+        for name in found.folders:
+            end.place(name)
         end(found.report())

@@ -125,6 +125,10 @@ def _verify(document: Document) -> list[str]:
     return [f"{len(rows) - len(failed)} of {len(rows)} rows pass." + (f" Not: {names}." if failed else "")]
 
 
+def _reproduce(document: Document) -> list[str]:
+    return [f"{one['about'].capitalize()}: {one['finding']}" for one in document["findings"]]
+
+
 SAID: dict[str, Callable[[Document], list[str]]] = {
     "compare": _compare,
     "modes": _modes,
@@ -133,4 +137,5 @@ SAID: dict[str, Callable[[Document], list[str]]] = {
     "tradeoff": _tradeoff,
     "advise": _advise,
     "verify": _verify,
+    "reproduce": _reproduce,
 }

@@ -53,6 +53,11 @@ class Reproduction:
             run.status is Status.CONVERGED for run in runs
         )
 
+    @property
+    def folders(self) -> list[str]:
+        """Folders of files that are written beside the others: frames of the settling runs."""
+        return [f"settling-{model}/" for model in (self.settling.runs if self.settling is not None else ())]
+
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench reproduce`: SI units, errors as fractions."""
         document: dict[str, Any] = {

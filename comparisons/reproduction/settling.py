@@ -23,6 +23,7 @@ from sheetbench.scenes.seed import seed_inputs
 
 SCENE, PROBE = "two-edges-settling", "P4"
 DURATION = 2.0  # s
+FRAMES = 60  # whole displacements kept of a run, for a series of files
 SETTLED = 0.05  # of the static displacement
 
 
@@ -90,6 +91,6 @@ def settling(duration: float = DURATION, progress: Callable[[str], None] = lambd
     at = np.array([scene.probes[PROBE]])
     for name, (springs, weights) in lattices.items():
         progress(f"simulating the settling sheet: {name}")
-        runs[name] = lumped.simulate(scene, springs, duration, weights=weights)
+        runs[name] = lumped.simulate(scene, springs, duration, weights=weights, frames=FRAMES)
         rest[name] = lumped.solve(scene, springs, weights=weights).displacement(at)[0]
     return Settling(scene, runs, rest)

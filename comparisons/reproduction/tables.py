@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from comparisons.comparison.tables import sheet, write_plan
+from comparisons.motion.frames import frames, write_series
 from comparisons.motion.history import series
 from comparisons.report.files import write_text
 from comparisons.report.look import Look
@@ -339,6 +340,7 @@ def _attachments(found: Reproduction) -> dict[str, Write]:
     if found.settling is not None:
         for model, run in found.settling.runs.items():
             files[f"settling-{model}.csv"] = partial(write_text, text=series(run).to_csv())
+            files[f"settling-{model}.pvd"] = partial(write_series, shown=frames(run))
     return files
 
 

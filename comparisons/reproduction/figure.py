@@ -66,12 +66,9 @@ def test(one: Answer, look: Look) -> Figure:
         panel.set_xticks(range(len(PROBES)), PROBES)
         panel.set_ylabel(f"$u_{COMPONENTS[axis][1]}$ [mm]")
         panel.spines[["top", "right"]].set_visible(False)
-    far = [
-        f"{name} (up to {1e3 * np.nanmax(np.abs(moved[name])):.0f} mm)"
-        for name in sorted(moved.keys() - drawn)
-    ]
-    if far:
-        figure.supxlabel(f"not drawn: {', '.join(far)}", fontsize=6.5, color=GREY)
+    for name in sorted(moved.keys() - drawn):
+        most = 1e3 * np.nanmax(np.abs(moved[name]))
+        panels[-1].plot([], [], " ", label=f"not drawn: {name}, up to {most:.0f} mm")
     _legend(figure, panels[-1], 2 if look.narrow else 6)
     if look.titled:
         figure.suptitle(one.title, fontsize=8)
@@ -135,7 +132,7 @@ def misfit(found: Reproduction, look: Look) -> Figure:
         panels[kind].axvline(at, color=GREY, lw=0.7, ls="--")
         aside: dict[str, Any] = {"textcoords": "offset points", "va": "top", "fontsize": 6.5, "color": GREY}
         panels[kind].annotate(said, (at, 98.0), (3, 0), **aside)
-    panels["lattice"].legend(frameon=False, loc="lower left")
+    panels["lattice"].legend(frameon=False, loc="upper right")
     return figure
 
 

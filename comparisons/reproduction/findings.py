@@ -125,6 +125,10 @@ def _moved(one: Answer, model: str) -> np.ndarray:
     return np.array(list(one.comparison.probes(of_model(one, model)).values()))
 
 
+def _who(model: str) -> str:
+    return "Consistent springs" if model == "lumped" else f"The published k, {model}"
+
+
 def _settling(found: Reproduction) -> Said:
     if (settling := found.settling) is None:
         return
@@ -135,9 +139,8 @@ def _settling(found: Reproduction) -> Said:
             still = f"stays within {percent(SETTLED)} of it from {settled:.2f} s on"
         yield (
             "settling",
-            f"{model}: uz of {PROBE} swings to {settling.largest(model):.2f} times its static value and "
-            f"{still}. "
-            f"The {run.time[-1]:g} s took {settling.seconds(model):.1f} s here, set-up included; "
-            f"{seed_inputs()['run_time']:g} s are published as the average of one simulation, whose length "
-            "and machine are not named.",
+            f"{_who(model)}: uz of {PROBE} swings to {settling.largest(model):.2f} times its static value "
+            f"and {still}. The {run.time[-1]:g} s took {settling.seconds(model):.1f} s here, set-up "
+            f"included; {seed_inputs()['run_time']:g} s are published as the average of one simulation, "
+            "whose length and machine are not named.",
         )

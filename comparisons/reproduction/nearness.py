@@ -99,14 +99,14 @@ def _stretch(found: Reproduction) -> Said:
     for test, source in dict.fromkeys((chord.test, chord.source) for chord in lines):
         worst = max((c for c in lines if (c.test, c.source) == (test, source)), key=lambda c: c.stretch)
         longest = max(0.0, *(-closer / worst.flat for closer in _nearer(found, worst)))
-        held = "" if worst.start in PROBES else ", where the edge is in its place,"
+        held = "" if worst.start in PROBES else " where the edge is in its place"
         yield (
             "stretch",
             f"Test {test}, published {source}: {worst.start} and {worst.end} are "
             f"{millimetres(worst.published)} apart, {millimetres(worst.flat)} on the flat sheet. Whatever "
-            f"the sheet is made of, the line between them is stretched by{held} "
-            f"{percent(worst.stretch)} at least. In the nearest sheets and lattices the two are farther "
-            f"apart by {percent(longest)} at most.",
+            "the sheet is made of, the line between them is stretched by "
+            f"{percent(worst.stretch)} at least{held}. In the nearest sheets and lattices the two are "
+            f"farther apart by {percent(longest)} at most.",
         )
 
 

@@ -207,9 +207,9 @@ def runs(found: Reproduction) -> Table:
     )
     text = (
         f"Test 1 from rest, gravity on at t = 0, dampers of our scene {settling.scene.name} (none are "
-        f"published); uz of {PROBE}. time: a run, set-up included. swing: its largest value over its static "
-        f"one. settled: from when on it is within {percent(SETTLED)} of that. The published figure has no "
-        "numbers to compare with."
+        f"published); uz of {PROBE}. time: a run on warm code, set-up included. swing: its largest value "
+        f"over its static one. settled: from when on it is within {percent(SETTLED)} of that. The published "
+        "figure has no numbers to compare with."
     )
     return Table("The settling run", columns, tuple(rows), "settling", text=text)
 

@@ -102,6 +102,7 @@ def test_what_they_do_not_have_is_refused(tmp_path: Path, capsys: pytest.Capture
     assert "mujoco" in one_line(capsys)
     assert run(*asked, "--for", "mujoco", "--for", "sofa", "--export", str(tmp_path / "b")) == 0
     assert {"mujoco.xml", "sofa.scn", "links.csv"} <= {path.name for path in (tmp_path / "b").iterdir()}
+    assert "`sofa.scn`" in (tmp_path / "b" / "README.md").read_text(encoding="utf-8")
 
 
 def lattice_of(root: ElementTree.Element) -> dict[str, np.ndarray]:

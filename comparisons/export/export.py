@@ -70,7 +70,7 @@ def export(
         overwrite=overwrite,
         option="--export",
     )
-    texts = {**tables(lattice), "README.md": page(lattice, scene, calibration), **own}
+    texts = {**tables(lattice), "README.md": page(lattice, scene, calibration, own), **own}
     for name, text in texts.items():
         target.write(name, partial(write_text, text=text))
     values = arrays(lattice)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from comparisons.export.arrays import NAMES
@@ -64,8 +65,8 @@ Programs in NumPy, MATLAB and C++ that read this folder and solve it: `examples/
 """
 
 
-def page(lattice: Description, scene: Scene, calibration: Calibration) -> str:
-    """The README, in Markdown."""
+def page(lattice: Description, scene: Scene, calibration: Calibration, others: Iterable[str] = ()) -> str:
+    """The README, in Markdown; others: names of files of the same lattice for one simulator each."""
     nx, ny, layers = calibration.grid
     sheet, material = scene.sheet, scene.material
     about = (
@@ -81,6 +82,6 @@ def page(lattice: Description, scene: Scene, calibration: Calibration) -> str:
         states=" and ".join(f"`{state.name}` ({state.meaning})" for state in lattice.states),
         rate=lattice.damping_rate,
         layers=layers,
-        notes=notes,
+        notes=notes + "".join(f"\nThe same lattice for one simulator: `{name}`.\n" for name in others),
         arrays="\n".join(f"- `{name}` {markdown(said)}" for name, said in NAMES.items()),
     )

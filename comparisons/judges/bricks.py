@@ -19,7 +19,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from sheetbench.scenes import EDGES, EdgeLoad, PointLoad, Scene, Symmetric, held_axes, holds_director
+from comparisons.judges.point_loads import point_loads
+from sheetbench.scenes import EDGES, EdgeLoad, Scene, Symmetric, held_axes, holds_director
 from sheetbench.scenes.grid import near_square
 from sheetbench.scenes.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
 from sheetbench.scenes.sheet import Sheet
@@ -218,12 +219,9 @@ def held(scene: Scene, bricks: Bricks, linear: bool = False) -> Held:
 
 def forces(scene: Scene, bricks: Bricks) -> np.ndarray:
     """Point loads and edge forces on the nodes (n, 3) [N]; of weight and pressure nothing."""
-    out = np.zeros_like(bricks.positions)
+    out = point_loads(scene, bricks)
     for load in scene.loads:
-        if isinstance(load, PointLoad):
-            nodes, weights = bricks.weights(np.array([load.at]))
-            out[nodes[0]] += load.last_factor * np.outer(weights[0], load.force)
-        elif isinstance(load, EdgeLoad):
+        if isinstance(load, EdgeLoad):
             faces = bricks.faces(load.edge)
             span = np.ptp(bricks.positions[faces], axis=1)
             share = span[:, EDGES[load.edge].along_axis] * span[:, 2] / scene.sheet.thickness

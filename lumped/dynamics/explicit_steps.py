@@ -119,15 +119,9 @@ def march(
                 return False, n, taken, work
         if motion.working:
             work += work_of_loads(motion, room.load_before, load, room.moved)
-        for i in range(len(driven)):
-            exerted, r0, r1 = (
-                exerted_on(motion, driven[i], a, force, load),
-                place_rate[n, i],
-                place_rate[n + 1, i],
-            )
-            work += 0.5 * (room.exerted[i] + exerted) * (place[n + 1, i] - place[n, i])
-            work += 0.5 * motion.mass[driven[i]] * (r1 * r1 - r0 * r0)
-            room.exerted[i] = exerted
+        work += work_of_supports(
+            motion, room, driven, (a, force, load), place[n : n + 2], place_rate[n : n + 2]
+        )
     return True, steps, taken, work
 
 
@@ -214,6 +208,31 @@ def _correct(motion: Motion, w: np.ndarray, damping: np.ndarray, force: np.ndarr
 def exerted_on(motion: Motion, p: int, a: np.ndarray, force: np.ndarray, load: np.ndarray) -> float:
     """What holds a place [N]."""
     return motion.mass[p] * a[p] + force[p] - load[p]
+
+
+@njit(**OPTIONS)
+def work_of_supports(
+    motion: Motion,
+    room: Room,
+    driven: np.ndarray,
+    at: tuple[np.ndarray, np.ndarray, np.ndarray],
+    place: np.ndarray,
+    rate: np.ndarray,
+) -> float:
+    """Of supports in motion over a step [J]: of what they exert, by the trapezoidal rule, and what the masses
+    that they hold gain by their prescribed rates.
+
+    at: accelerations, forces and loads at the step's end; place, rate: of what is driven (2, k), at both
+    ends. What is exerted is kept in `room`.
+    """
+    a, force, load = at
+    work = 0.0
+    for i in range(len(driven)):
+        exerted = exerted_on(motion, driven[i], a, force, load)
+        work += 0.5 * (room.exerted[i] + exerted) * (place[1, i] - place[0, i])
+        work += 0.5 * motion.mass[driven[i]] * (rate[1, i] ** 2 - rate[0, i] ** 2)
+        room.exerted[i] = exerted
+    return work
 
 
 @njit(**OPTIONS)

@@ -12,7 +12,16 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.dynamics.explicit_steps import Motion, Room, exerted_on, external, resist, rounded, work_of_loads
+from lumped.dynamics.explicit_steps import (
+    Motion,
+    Room,
+    exerted_on,
+    external,
+    resist,
+    rounded,
+    work_of_loads,
+    work_of_supports,
+)
 from lumped.springs.all_forces import add_at_places
 from lumped.springs.tiles import OPTIONS
 
@@ -127,15 +136,9 @@ def march(
         if len(driven):
             for i in range(len(force)):
                 force[i] += damping[i]
-        for i in range(len(driven)):
-            exerted, r0, r1 = (
-                exerted_on(motion, driven[i], a, force, load),
-                place_rate[n, i],
-                place_rate[n + 1, i],
-            )
-            work += 0.5 * (room.exerted[i] + exerted) * (place[n + 1, i] - place[n, i])
-            work += 0.5 * motion.mass[driven[i]] * (r1 * r1 - r0 * r0)
-            room.exerted[i] = exerted
+        work += work_of_supports(
+            motion, room, driven, (a, force, load), place[n : n + 2], place_rate[n : n + 2]
+        )
         if aged:
             return True, n + 1, taken, work
     return True, steps, taken, work

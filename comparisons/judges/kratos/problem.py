@@ -13,10 +13,10 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from comparisons.judges.point_loads import point_loads
 from sheetbench.scenes import (
     EDGES,
     EdgeLoad,
-    PointLoad,
     Pressure,
     Scene,
     Symmetric,
@@ -130,12 +130,9 @@ def _held(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> tuple[np.n
 
 def _forces(scene: Scene, mesh: Triangles) -> np.ndarray:
     """Point loads and edge forces on the nodes (n, 3) [N]."""
-    out = np.zeros_like(mesh.positions)
+    out = point_loads(scene, mesh)
     for load in scene.loads:
-        if isinstance(load, PointLoad):
-            nodes, weights = mesh.weights(np.array([load.at]))
-            out[nodes[0]] += load.last_factor * np.outer(weights[0], load.force)
-        elif isinstance(load, EdgeLoad):
+        if isinstance(load, EdgeLoad):
             nodes = mesh.edge(load.edge)
             spans = np.linalg.norm(np.diff(mesh.positions[nodes], axis=0), axis=1)
             pull = load.last_factor * np.outer(spans, load.force_per_length)

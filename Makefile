@@ -11,7 +11,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
             report.py measurements.py) tests/fuzz
 
 .PHONY: docs docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer coarse tradeoff \
-        advisor-study reproduce crosscheck peers bench central simulators stability suite standing mutants viewer \
+        advisor-study animations notebooks reproduce crosscheck peers bench central simulators stability suite standing mutants viewer \
         wheel-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
@@ -39,6 +39,8 @@ help:
 	@echo "make viewer    the viewer of sheets in a browser, comparisons/browser/viewer.js, from its source (needs Node)"
 	@echo "make standing  where models, plug-ins and judges stand on that set (three minutes): docs/suite.md"
 	@echo "make docs-scene  the page of every key of a scene and its sketch, docs/scene.md, from the types"
+	@echo "make animations  the README's moving pictures, docs/images/settling.gif and actuated.gif (two minutes)"
+	@echo "make notebooks the notebooks of docs/notebooks anew, with what they print and draw"
 	@echo "make docs      the documentation as a site, docs/_build/html/index.html (three minutes; a warning is an error)"
 	@echo "make wheel-check  the wheel as its users get it: installed elsewhere, run there, uninstalled without a trace"
 	@echo "make install   set up only: $(BIN)/sheetbench"
@@ -157,6 +159,15 @@ bench: install
 	@$(BIN)/python benchmarks/statics.py --json $(OUT)/statics.json --keep
 	@OMP_NUM_THREADS=1 $(BIN)/python benchmarks/explicit_steps.py --keep
 	@$(BIN)/python benchmarks/startup.py --first --keep
+
+animations: install
+	@$(BIN)/sheetbench simulate two-edges-settling --duration 1 --animate --out $(OUT)/settling
+	@$(BIN)/sheetbench simulate actuated-edge --duration 1 --animate --out $(OUT)/actuated
+	@cp $(OUT)/settling/animation.gif docs/images/settling.gif
+	@cp $(OUT)/actuated/animation.gif docs/images/actuated.gif
+
+notebooks: install
+	@$(BIN)/python docs/run_notebooks.py
 
 docs-scene: install
 	@$(BIN)/python docs/scene_sketch.py

@@ -21,14 +21,15 @@ project = "sheetbench"
 version = release = version_of("sheetbench")
 copyright = "the sheetbench developers, MIT licence"
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.viewcode", "sphinx_gallery.gen_gallery"]
-source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
-exclude_patterns = ["_build"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.viewcode", "sphinx_gallery.gen_gallery"]
+source_suffix = {".md": "myst-nb", ".ipynb": "myst-nb", ".rst": "restructuredtext"}
+exclude_patterns = ["_build", "examples/*.ipynb"]  # of the gallery: downloads
 html_theme = "furo"
 html_title = "sheetbench"
 templates_path: list[str] = []
 
 myst_heading_anchors = 3
+nb_execution_mode = "off"  # notebooks bring what they print and draw: docs/run_notebooks.py
 myst_enable_extensions = ["dollarmath"]
 
 autodoc_typehints = "description"

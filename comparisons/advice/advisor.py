@@ -108,10 +108,10 @@ def advise(
     """The cheapest model predicted to meet `tolerance` (a fraction), or the most accurate in `budget` [s].
 
     With both, the cheapest that meets the tolerance; where that takes longer, the most accurate in time, and
-    `met` is false. grading: lattices so graded may be chosen too, a number or "auto" (`comparisons.models.
-    grading`). Models that take more memory than there is are left out unless `large`. progress: told of
-    every solve. Raises SceneError for a scene without a static answer, BadInput where not even the coarsest
-    judges fit.
+    `met` is false. grading: lattices so graded may be chosen too, a number or "auto"
+    (`comparisons.models.grading`). Models that take more memory than there is are left out unless `large`.
+    progress: told of every solve. Raises SceneError for a scene without a static answer, BadInput where not
+    even the coarsest judges fit.
     """
     scene = scene_of(scene)
     require_static(scene)

@@ -27,7 +27,7 @@ from sheetbench.scenes import Scene
 
 WIDTH, PER_INCH = 4.0, 160  # inches, pixels an inch
 COLOURS, PIXELS = 64, 480  # of a GIF: its palette, its width
-PER_SECOND, MOST = 12, 50  # frames a second, and at most
+PER_SECOND, MOST = 8, 34  # frames a second, and at most
 
 
 def animate(paths: Sequence[Path], scene: Scene, shown: list[tuple[float, Frame]]) -> None:

@@ -31,12 +31,12 @@ def serving(panel: Panel) -> Iterator[str]:
 
     thread = threading.Thread(target=lambda: asyncio.run(serve()))
     thread.start()
-    assert there.wait(20)
+    assert there.wait(600)
     try:
         yield told["address"]
     finally:
         told["loop"].call_soon_threadsafe(told["over"].set)
-        thread.join(20)
+        thread.join(600)
 
 
 @contextmanager
@@ -49,8 +49,8 @@ def talking(address: str, **options: Any) -> Iterator[ClientConnection]:
 
 
 def hear(socket: ClientConnection, until: Callable[[dict[str, Any]], bool]) -> list[dict[str, Any]]:
-    """The messages up to the one that is waited for."""
+    """The messages up to the one that is waited for. The limit only ends a test that hangs."""
     found = []
     while not found or not until(found[-1]):
-        found.append(json.loads(socket.recv(60)))
+        found.append(json.loads(socket.recv(600)))
     return found

@@ -18,7 +18,7 @@ PLACES = "Array.from(live.viewer.sheets.get('lattice').positions.array)"
 def until(page: Any, expression: str) -> None:
     """Wait for an expression to hold; the page's policy lets nobody wait within it. The limit only ends a
     test that hangs."""
-    for _ in range(4000):
+    for _ in range(20_000):
         if page.evaluate(f"window.live !== undefined && ({expression})"):
             return
         page.wait_for_timeout(30)

@@ -55,7 +55,8 @@ def test_pictures_exist_and_are_small() -> None:
     pictures = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", TEXT)
     assert pictures
     for picture in pictures:
-        assert (ROOT / picture).stat().st_size < 300_000
+        most = 1_000_000 if picture.endswith(".gif") else 300_000  # what moves is a few dozen pictures
+        assert (ROOT / picture).stat().st_size < most
 
 
 def test_displacements_in_the_table_are_those_that_compare_gives() -> None:

@@ -132,7 +132,7 @@ def misfit(found: Reproduction, look: Look) -> Figure:
         panels[kind].axvline(at, color=GREY, lw=0.7, ls="--")
         aside: dict[str, Any] = {"textcoords": "offset points", "va": "top", "fontsize": 6.5, "color": GREY}
         panels[kind].annotate(said, (at, 98.0), (3, 0), **aside)
-    panels["lattice"].legend(frameon=False, loc="upper right")
+    _legend(figure, panels["lattice"], 1 if look.narrow else 3)
     return figure
 
 

@@ -1,6 +1,6 @@
 // Deformed sheets in a browser, to be turned, coloured and played: `Sheets.createViewer(element, options)`.
 //
-// options: {sheets, views, outline, from, label, controls, exaggeration}
+// options: {sheets, views, outline, from, label, controls, exaggeration, quick}
 //   sheets: [{name, label, style: "surface" | "lattice", points, displacement, quads, triangles, lines, faint,
 //             strong, held: [{points, firm}], fields, frames: [{time, displacement}]}]
 //     points (3 n) at rest and displacement (3 n) in metres; the rest are numbers of points: four a quad, three
@@ -11,6 +11,7 @@
 //   views: [{name, label, sheets: [names], field}], what "Show" offers; one a sheet unless given.
 //   outline: (3 p) [m], the undeformed sheet's corners in turn. from: direction of the eye. label: what the
 //   view is called for those who do not see it. controls: false for a page with a toolbar of its own.
+//   quick: no smooth edges where the processor draws, for a page whose answers should be drawn soon.
 // Numbers are typed arrays, lists, or {float32: base64} and {uint32: base64}.
 //
 // viewer: setSheet(view), setField(name), update(sheet, {displacement, values: {field: numbers}}) as often as

@@ -181,7 +181,7 @@
         if (both) viewer.setSheet("both");
       } else {
         const { outline, from } = panel;
-        viewer = Sheets.createViewer(at("stage"), { sheets, views, outline, from, label: "Lattice and shell" });
+        viewer = Sheets.createViewer(at("stage"), { sheets, views, outline, from, label: "Lattice and shell", quick: true });
         window.live.viewer = viewer;
       }
       return;

@@ -71,7 +71,10 @@ def test_an_error_is_that_of_the_design(write: Write) -> None:
     assert not found.faults
     models = [one.model for one in found.standing]
     between = models.index("answers")
-    assert "calibration=consistent" in models[between - 1] and "uniform" in "".join(models[between:])
+    assert all(one.score <= 0.02 for one in found.standing[:between])
+    assert all(one.score >= 0.02 for one in found.standing[between + 1 :])
+    assert "lumped:grid=9,calibration=consistent" in models[:between]
+    assert "lumped:grid=9,calibration=uniform" in models[between:]
     assert found.standing[between].seconds is None and "answers" not in found.front
 
 

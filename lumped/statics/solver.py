@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache, partial
 from typing import Any, Literal
 
@@ -18,10 +18,9 @@ from lumped.lattice import Weights
 from lumped.linear.solver import SingularMatrixError
 from lumped.linear.threads import one_blas_thread
 from lumped.loads import Loads
-from lumped.mid_surface import MidSurface
 from lumped.springs.together import Stresses
 from lumped.statics import validity
-from lumped.statics.balance import balance
+from lumped.statics.answer import Outcome, solution
 from lumped.statics.coarse_start import FROM, halved, refined
 from lumped.statics.energy_descent import descend, disturbed
 from lumped.statics.equilibrium import (
@@ -34,7 +33,6 @@ from lumped.statics.equilibrium import (
     predictor,
 )
 from lumped.statics.faults import broken
-from lumped.statics.fields import LatticeMesh, field_mesh
 from lumped.statics.polygon import polygons
 from lumped.statics.problem import Problem
 from lumped.supports import constrain
@@ -59,16 +57,6 @@ SNAPS = 12  # of one load path
 SNAP_STEP = 0.02  # in load factor, past the point where the path ended
 
 Branch = Literal["path", "stable"]
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """How a solve ended: status, the last equilibrium, where it snapped, and what else there is to say."""
-
-    status: Status
-    state: State
-    snaps: tuple[float, ...] = ()
-    notes: tuple[str, ...] = ()
 
 
 def solve(
@@ -118,7 +106,7 @@ def solve(
     usual = {"branch": "path", "weights": "tributary", "precision": "double", "linear": False}
     options = {"branch": branch, "weights": weights, "precision": precision, "linear": linear}
     asked = {name: value for name, value in options.items() if value != usual[name]}
-    return _solution(scene, calibration, problem, outcome, (ready - began, done - ready), asked)
+    return solution(scene, calibration, problem, outcome, (ready - began, done - ready), asked)
 
 
 @cache
@@ -293,60 +281,3 @@ def link_stretch(assembly: Assembly, stresses: Stresses) -> float:
 def _nothing(problem: Problem) -> tuple[Any, ...]:
     blocks = np.zeros((problem.assembly.pattern.blocks, 3, 3))
     return problem.assembly.stresses(np.zeros_like(problem.loads.dead)), blocks, None, None
-
-
-def _solution(
-    scene: Scene,
-    calibration: Calibration,
-    problem: Problem,
-    outcome: Outcome,
-    seconds: tuple[float, float],
-    asked: dict[str, Any],
-) -> Solution:
-    """The answer of an outcome; asked: the options that are not their defaults."""
-    state, lattice = outcome.state, problem.assembly.lattice
-    assembly, u, stresses = problem.assembly, state.u, state.stresses  # they outlive the solve
-    linear = asked.get("linear", False)
-    exerted, energies = _of_small_displacements(problem, state) if linear else _at(problem, state)
-    reactions, on_masses = problem.constraints.reactions(exerted)
-    coupling = problem.assembly.coupling
-    wrenches = coupling.wrenches(state.u, exerted) if coupling is not None else {}
-    if coupling is not None:
-        reactions |= coupling.reactions(exerted)
-    nx, ny, layers = lattice.grid
-    settings: dict[str, Any] = {"grid": [nx, ny, layers], "calibration": calibration.method}
-    settings |= {"layer_distance": calibration.layer_distance, "grading": calibration.grading}
-    return Solution(
-        model="lumped",
-        label=f"lumped {calibration.title}" + (", linear" if linear else ""),
-        settings=settings | asked,
-        status=outcome.status,
-        unknowns=problem.system.unknowns,
-        iterations=problem.factorisations,
-        setup_seconds=seconds[0],
-        solve_seconds=seconds[1],
-        sample=lambda points: MidSurface(lattice, points).of(u),
-        reactions=reactions,
-        energies=energies,
-        mesh=LatticeMesh(lambda: field_mesh(assembly, u, on_masses, stresses)),
-        history=tuple(problem.history),
-        load_factor=state.load_factor,
-        actuators=wrenches,
-        balance=balance(scene, problem, state, reactions, exerted, linear),
-        snaps=outcome.snaps,
-        notes=outcome.notes,
-    )
-
-
-def _at(problem: Problem, state: State) -> tuple[np.ndarray, dict[str, float]]:
-    """What is exerted on masses and rows at an equilibrium, internal less external force (size, 3) [N], and
-    the energies [J]."""
-    unbalanced, _ = problem.residual(state.u, state.load_factor)
-    return -unbalanced, problem.assembly.energies(state.u)
-
-
-def _of_small_displacements(problem: Problem, state: State) -> tuple[np.ndarray, dict[str, float]]:
-    """The same of `flat_step`: K u − f and ½ u·K u."""
-    internal = problem.system.apply(state.blocks, state.u)
-    external = state.load_factor * problem.growing(np.zeros_like(state.u))
-    return internal - external, {"elastic": 0.5 * float(np.sum(internal * state.u))}

@@ -1,0 +1,83 @@
+"""What a static solve answers with: how it ended, and the `scenes.Solution` of that."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from lumped.calibration import Calibration
+from lumped.mid_surface import MidSurface
+from lumped.statics.balance import balance
+from lumped.statics.equilibrium import State
+from lumped.statics.fields import LatticeMesh, field_mesh
+from lumped.statics.problem import Problem
+from sheetbench.scenes import Scene, Solution, Status
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a solve ended: status, the last equilibrium, where it snapped, and what else there is to say."""
+
+    status: Status
+    state: State
+    snaps: tuple[float, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+def solution(
+    scene: Scene,
+    calibration: Calibration,
+    problem: Problem,
+    outcome: Outcome,
+    seconds: tuple[float, float],
+    asked: dict[str, Any],
+) -> Solution:
+    """The answer of an outcome; asked: the options that are not their defaults."""
+    state, lattice = outcome.state, problem.assembly.lattice
+    assembly, u, stresses = problem.assembly, state.u, state.stresses  # they outlive the solve
+    linear = asked.get("linear", False)
+    exerted, energies = _of_small_displacements(problem, state) if linear else _at(problem, state)
+    reactions, on_masses = problem.constraints.reactions(exerted)
+    coupling = problem.assembly.coupling
+    wrenches = coupling.wrenches(state.u, exerted) if coupling is not None else {}
+    if coupling is not None:
+        reactions |= coupling.reactions(exerted)
+    nx, ny, layers = lattice.grid
+    settings: dict[str, Any] = {"grid": [nx, ny, layers], "calibration": calibration.method}
+    settings |= {"layer_distance": calibration.layer_distance, "grading": calibration.grading}
+    return Solution(
+        model="lumped",
+        label=f"lumped {calibration.title}" + (", linear" if linear else ""),
+        settings=settings | asked,
+        status=outcome.status,
+        unknowns=problem.system.unknowns,
+        iterations=problem.factorisations,
+        setup_seconds=seconds[0],
+        solve_seconds=seconds[1],
+        sample=lambda points: MidSurface(lattice, points).of(u),
+        reactions=reactions,
+        energies=energies,
+        mesh=LatticeMesh(lambda: field_mesh(assembly, u, on_masses, stresses)),
+        history=tuple(problem.history),
+        load_factor=state.load_factor,
+        actuators=wrenches,
+        balance=balance(scene, problem, state, reactions, exerted, linear),
+        snaps=outcome.snaps,
+        notes=outcome.notes,
+    )
+
+
+def _at(problem: Problem, state: State) -> tuple[np.ndarray, dict[str, float]]:
+    """What is exerted on masses and rows at an equilibrium, internal less external force (size, 3) [N], and
+    the energies [J]."""
+    unbalanced, _ = problem.residual(state.u, state.load_factor)
+    return -unbalanced, problem.assembly.energies(state.u)
+
+
+def _of_small_displacements(problem: Problem, state: State) -> tuple[np.ndarray, dict[str, float]]:
+    """The same of `flat_step`: K u − f and ½ u·K u."""
+    internal = problem.system.apply(state.blocks, state.u)
+    external = state.load_factor * problem.growing(np.zeros_like(state.u))
+    return internal - external, {"elastic": 0.5 * float(np.sum(internal * state.u))}

@@ -46,6 +46,12 @@ def stresses(
 
 
 @njit(cache=True)
+def along(v: np.ndarray, a: int, b: int, nx: float, ny: float, nz: float) -> float:
+    """n·(v_b − v_a), how fast b leaves a along the unit vector n."""
+    return nx * (v[b, 0] - v[a, 0]) + ny * (v[b, 1] - v[a, 1]) + nz * (v[b, 2] - v[a, 2])
+
+
+@njit(cache=True)
 def rates(
     u: np.ndarray,
     v: np.ndarray,
@@ -59,8 +65,7 @@ def rates(
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
         _, _, nx, ny, nz = stretch(u, nodes, offset, rest_length, m)
-        along = nx * (v[b, 0] - v[a, 0]) + ny * (v[b, 1] - v[a, 1]) + nz * (v[b, 2] - v[a, 2])
-        out[m] = stiffness[m] * along
+        out[m] = stiffness[m] * along(v, a, b, nx, ny, nz)
     return out
 
 
@@ -78,8 +83,7 @@ def extrapolated(
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
         elongation, _, nx, ny, nz = stretch(u, nodes, offset, rest_length, m)
-        along = nx * (v[b, 0] - v[a, 0]) + ny * (v[b, 1] - v[a, 1]) + nz * (v[b, 2] - v[a, 2])
-        out[m] = stiffness[m] * (elongation + along)
+        out[m] = stiffness[m] * (elongation + along(v, a, b, nx, ny, nz))
     return out
 
 

@@ -11,7 +11,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
             report.py measurements.py) tests/fuzz
 
 .PHONY: docs docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer coarse tradeoff \
-        advisor-study animations notebooks reproduce crosscheck peers bench central simulators stability suite standing mutants viewer \
+        advisor-study animations notebooks reproduce crosscheck peers bench central simulators stability stability-full suite standing mutants viewer \
         wheel-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
@@ -26,7 +26,7 @@ help:
 	@echo "make coverage  how often the references' error bars hold, on forty drawn scenes (20 minutes; files in $(OUT)/coverage/)"
 	@echo "make central   the table of the calibration central, trained anew (three minutes)"
 	@echo "make simulators  other simulators with what we export for them (two minutes; files in $(OUT)/simulators/)"
-	@echo "make transfer  every calibration on every scene of the transfer study (ten minutes; files in $(OUT)/transfer/)"
+	@echo "make transfer  every calibration on every scene of the transfer study: docs/transfer.md (ten minutes)"
 	@echo "make coarse    coarse grids, even and graded by the scene's layers, on the transfer study's scenes (files in $(OUT)/coarse*/)"
 	@echo "make tradeoff  error against time on the seed's test 1, with the picture (files in $(OUT)/)"
 	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/; up to half an hour)"
@@ -34,6 +34,7 @@ help:
 	@echo "make crosscheck every model and other people's programs on eight scenes: docs/crosscheck.md (ten minutes)"
 	@echo "make peers     ours and other people's codes in one run: docs/peers.md and its picture (six minutes)"
 	@echo "make stability where each solver holds, degrades, refuses or breaks: eight maps (six minutes; files in $(OUT)/stability/)"
+	@echo "make stability-full  every cell of them, 257 x 257 masses among them: the maps of docs/stability.md (twenty minutes)"
 	@echo "make bench     settling beside SciPy's BDF, statics, explicit steps, start-up: time and what it goes to (files in $(OUT)/, history in benchmarks/history/)"
 	@echo "make suite     the reference set anew, comparisons/suite/data (ten minutes; a change of values is a new version)"
 	@echo "make viewer    the viewer of sheets in a browser, comparisons/browser/viewer.js, from its source (needs Node)"
@@ -93,6 +94,8 @@ simulators: install
 
 transfer: install
 	@$(BIN)/sheetbench transfer --out $(OUT)/transfer
+	@sed -e '1s/.*/# The transfer study, every table/' -e '3s/.*/Written by `make transfer`; read it with [calibration.md](calibration.md)./' \
+	  $(OUT)/transfer/transfer.md > docs/transfer.md
 	@$(BIN)/python -m pytest -m slow tests/test_transfer.py
 
 coarse: install
@@ -136,6 +139,10 @@ advisor-study: install
 stability: install
 	@$(BIN)/sheetbench stability --out $(OUT)/stability
 	@$(BIN)/python -m pytest -m slow tests/test_stability.py
+
+stability-full: install
+	@$(BIN)/sheetbench stability --full --out $(OUT)/stability-full
+	@cp $(OUT)/stability-full/*.csv $(OUT)/stability-full/*.png $(OUT)/stability-full/stability.md docs/stability/
 
 suite: install
 	@$(BIN)/python -m comparisons.suite.regenerate

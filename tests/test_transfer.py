@@ -97,9 +97,14 @@ def test_leave_one_out(study):
 
 def test_tables_have_a_column_per_method_and_a_row_per_scene(study):
     found = study(methods=["consistent", "uniform"], grids=[5, 9], scenes=SEED, parts=["static", "modal"])
-    made = tables(found)
+    over_all, *made = tables(found)
     assert [column.name for column in made[0].columns] == ["scene", "consistent", "uniform"]
     assert [row[0] for row in made[0].rows] == SEED
+    uniform = by_scene(found.static)[SEED[0], "uniform"], by_scene(found.static)[SEED[1], "uniform"]
+    coarse, fine = zip(*uniform, strict=True)
+    method, *cells, where = over_all.rows[1]
+    assert method == "uniform" and where == SEED[fine.index(max(fine))]
+    assert cells[:4] == pytest.approx([sum(coarse) / 2, max(coarse), sum(fine) / 2, max(fine)])
     assert len(made) == 5 and len(made[-1].rows) == 2 * 3 * 3
     assert found.static[0]["trained_on"] is False and "fit-static" in FITTED
 

@@ -33,6 +33,7 @@ def report(found: Transfer) -> Report:
 def tables(found: Transfer) -> list[Table]:
     """Every table of the study that has rows."""
     made = [
+        *([_methods(found)] if found.static else []),
         *(_static(found, i) for i in range(len(found.grids)) if found.static),
         *([_static(found, None)] if found.static and len(found.grids) > 1 else []),
         *([_gradings(found)] if any("gradings" in row for row in found.static) else []),
@@ -42,6 +43,27 @@ def tables(found: Transfer) -> list[Table]:
         *([_left_out(found)] if found.left_out else []),
     ]
     return made
+
+
+def _methods(found: Transfer) -> Table:
+    """A row per method: median and worst error over the scenes; where the finest grid errs most."""
+    rows = []
+    for method in found.methods:
+        mine = [row for row in found.static if row["method"] == method]
+        cells: list[Any] = []
+        for i in range(len(found.grids)):
+            errors = [row["errors"][i] for row in mine if row["errors"][i] is not None]
+            cells += [float(np.median(errors)), max(errors)] if errors else [None, None]
+        limits = [row["extrapolated"] for row in mine if row["extrapolated"] is not None]
+        answered = [row for row in mine if row["errors"][-1] is not None]
+        worst = max(answered, key=lambda row: row["errors"][-1], default={"scene": None})["scene"]
+        rows.append((method, *cells, max(limits, default=None), worst))
+    columns = [Column("method")]
+    for n in found.grids:
+        columns += [Column(f"median at {n}", *_PER_CENT), Column(f"worst at {n}", *_PER_CENT)]
+    columns += [Column("worst limit", *_PER_CENT), Column(f"worst at {found.grids[-1]} is")]
+    scenes = len({row["scene"] for row in found.static})
+    return Table(f"Errors over {scenes} scenes, by masses a side", tuple(columns), tuple(rows), "methods")
 
 
 def _static(found: Transfer, grid: int | None) -> Table:

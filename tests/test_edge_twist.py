@@ -53,6 +53,11 @@ def test_a_half_strip_up_to_its_plane_of_symmetry_has_the_whole_strips_factor() 
     assert half is not None and half == pytest.approx(whole, rel=1e-12)
 
 
+def test_a_strip_that_only_rounding_holds_has_no_factor() -> None:
+    """It ended in an error of the linear algebra: layers three metres apart shear without resistance."""
+    assert edge_factor(3, 0.01, 0.02, 1e-17, 0.3, 5e-3, both=True) is None
+
+
 def error(masses: int, linear: bool) -> float:
     """Worst of the probes' components, of the largest displacement there."""
     springs = lumped.calibrate(SEED.sheet, SEED.material, masses)

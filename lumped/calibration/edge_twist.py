@@ -29,7 +29,7 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from scipy.linalg import solveh_banded
+from scipy.linalg import LinAlgError, solveh_banded
 
 from lumped import moduli
 from lumped.calibration.calibration import either
@@ -142,7 +142,10 @@ def edge_factor(
     sheared_by = shear * width
     bands = _bands(rest * twisting / width, (1.0 - by_diagonals) * sheared_by, by_diagonals * sheared_by)
     bands = bands[:, free][-len(pulls[free]) :]  # a single unknown has no second band
-    sheared = solveh_banded(bands, pulls[free])
+    try:
+        sheared = solveh_banded(bands, pulls[free])
+    except LinAlgError:  # beside its twisting stiffness S is nothing: only rounding would hold the rows
+        return None
     alone = 0.5 * (rest @ (twisting * width) - pulls[free, 0] @ sheared[:, 0])  # the energy of the rest
     opening, yielding = pulls[free, 1] @ sheared  # ψ_1 − ψ_0 of the rest, and by a unit pull of the edges'
     number = 1 if cells == 1 else len(edges)

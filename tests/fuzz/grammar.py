@@ -248,7 +248,7 @@ def command_lines(draw: st.DrawFn) -> list[str]:
     for _ in range(draw(st.integers(0, 3)) if OPTIONS[verb] else 0):
         option = draw(st.sampled_from(OPTIONS[verb]))
         asked += [option, draw(st.one_of(st.sampled_from(WORDS), numbers(-10.0, 10.0).map(str)))]
-    return asked
+    return [*asked, *(["--json"] if draw(st.booleans()) else [])]
 
 
 ROW = ("0.188,0.188,-0.0004,-0.0004,-0.0135", "0.094,0.094,0,0,-0.00245", "0.1,0.15,,,-0.0075", "0.1,0.1,1,,")
@@ -290,3 +290,8 @@ def measured_files(draw: st.DrawFn) -> bytes:
         row = draw(st.sampled_from(cells))
         row[draw(st.integers(0, len(row) - 1))] = draw(st.sampled_from(CELLS))
     return _broken(draw, "\n".join(",".join(row) for row in cells).encode("utf-8"), CELLS)
+
+
+def measured() -> st.SearchStrategy[tuple[bytes, bool]]:
+    """A measured file, and whether it is called one of a motion."""
+    return st.tuples(measured_files(), st.booleans())

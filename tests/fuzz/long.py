@@ -1,0 +1,154 @@
+"""`make fuzz`: the whole run of what is thrown at the program, seeded, and resumed where it was interrupted.
+
+    python tests/fuzz/long.py FOLDER [--scenes 20000] [--solved 1000] [--commands 1000] [--measured 2000]
+
+Examples are drawn in batches, each from a seed of its own; a batch without a fault is a line of
+FOLDER/fuzz.jsonl and not drawn again. A fault does not end the run: the example and what was said of it stand
+in FOLDER/faults, the run ends with status 1, and the next draws its batch again, to see that it is mended.
+At the end a table of counts, FOLDER/fuzz.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import signal
+import sys
+import tempfile
+import time
+import traceback
+import zlib
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from hypothesis import HealthCheck, Phase, given, seed, settings
+from hypothesis import strategies as st
+
+from comparisons.runs.manifest import made_with
+from fuzz import trials
+from fuzz.grammar import command_lines, measured, sound, texts
+
+LONGEST = 300  # s that one example may take; the longest honest one takes a few
+FAULT = "fault"
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What is thrown, how it is judged, how many are asked for, in batches of what size, and which count."""
+
+    title: str
+    drawn: st.SearchStrategy[Any]
+    trial: trials.Trial
+    asked: int
+    batch: int
+    counts: tuple[str, ...] = ("done", "refused", "not converged", FAULT)
+
+
+KINDS = {
+    "scenes": Kind("scenes' files read", texts(), trials.reads, 20_000, 500),
+    "commands": Kind("command lines", command_lines(), trials.obeys, 1000, 50),
+    "measured": Kind("measured files", measured(), trials.measures, 2000, 100),
+    "solved": Kind("sound scenes solved", sound(), trials.solves, 1000, 50, ("done", "not converged", FAULT)),
+}
+
+
+class Hang(BaseException):
+    """An example took longer than any honest one; not an Exception, which the program might catch."""
+
+
+@contextmanager
+def in_time() -> Iterator[None]:
+    def ring(*_: object) -> None:
+        raise Hang(f"longer than {LONGEST} s")
+
+    before = signal.signal(signal.SIGALRM, ring)
+    signal.alarm(LONGEST)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def batch(name: str, number: int, base: int, faults: Path) -> dict[str, Any]:
+    """One batch: how many examples became what, and the processor's time."""
+    kind, words, clock = KINDS[name], Counter[str](), time.process_time()
+    with tempfile.TemporaryDirectory() as place:
+
+        @seed(zlib.crc32(f"{base} {name} {number}".encode()))
+        @settings(
+            max_examples=kind.batch,
+            phases=(Phase.generate,),
+            database=None,
+            deadline=None,
+            suppress_health_check=list(HealthCheck),
+        )
+        @given(kind.drawn)
+        def each(example: Any) -> None:
+            own = Path(place) / f"{words.total()}"
+            own.mkdir()
+            try:
+                with in_time():
+                    words[kind.trial(own, example)] += 1
+            except (Exception, Hang):
+                words[FAULT] += 1
+                faults.mkdir(exist_ok=True)
+                file = faults / f"{name}-{number}-{words.total()}.txt"
+                told = f"{example!r}\n\n{traceback.format_exc()}"
+                file.write_text(told, encoding="utf-8", errors="backslashreplace")
+
+        each()
+    return {"kind": name, "batch": number, "words": words, "seconds": time.process_time() - clock}
+
+
+def table(done: list[dict[str, Any]], base: int) -> str:
+    """Counts of every kind, in Markdown, with the machine and the date."""
+    lines = ["| thrown | asked | obeyed | refused | not converged | faults |", "|---|---|---|---|---|---|"]
+    for name, kind in KINDS.items():
+        words = sum((Counter(line["words"]) for line in done if line["kind"] == name), Counter[str]())
+        counts = (words.total(), *(words[word] for word in ("done", "refused", "not converged", FAULT)))
+        lines.append(f"| {kind.title} | " + " | ".join(str(count) for count in counts) + " |")
+    minutes = sum(line["seconds"] for line in done) / 60
+    return "\n".join([*lines, "", f"Seed {base}, {minutes:.0f} minutes of processor time. {made_with()}", ""])
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--seed", type=int, default=1)
+    for name, kind in KINDS.items():
+        parser.add_argument(f"--{name}", type=int, default=kind.asked, metavar="N")
+    asked = parser.parse_args()
+    asked.folder.mkdir(parents=True, exist_ok=True)
+    done: list[dict[str, Any]] = []
+    with (asked.folder / f"fuzz-{asked.seed}.jsonl").open("a+", encoding="utf-8") as file:
+        file.seek(0)
+        kept = {(line["kind"], line["batch"]): line for line in map(json.loads, file)}
+        for name, kind in KINDS.items():
+            counted, wanted = 0, getattr(asked, name)
+            for number in count():
+                if counted >= wanted:
+                    break
+                line = kept.get((name, number))
+                if line is None or FAULT in line["words"]:
+                    line = batch(name, number, asked.seed, asked.folder / "faults")
+                    file.write(json.dumps(line) + "\n")
+                    file.flush()
+                done.append(line)
+                counted += sum(line["words"].get(word, 0) for word in kind.counts)
+                print(f"{name}: {counted}/{wanted} {dict(line['words'])}", file=sys.stderr)
+    said = table(done, asked.seed)
+    (asked.folder / "fuzz.md").write_text(said, encoding="utf-8")
+    print(said)
+    return int(any(FAULT in line["words"] for line in done))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,86 @@
+"""One thing thrown at the program, judged: what became of it in a word, or an AssertionError.
+
+Each takes a folder of its own, in which it may write, and what its strategy of `fuzz.grammar` has drawn.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import tomlkit
+
+from fuzz.judge import BAD_INPUT, NOT_CONVERGED, document, files, held, in_balance, outcome
+from sheetbench import scenes
+
+WORDS = {0: "done", BAD_INPUT: "refused", NOT_CONVERGED: "not converged"}
+
+
+def reads(folder: Path, text: bytes) -> str:
+    """A scene's file is read, or refused in a line that names it."""
+    path = folder / "scene.toml"
+    path.write_bytes(text)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            scene = scenes.load(path)
+    except scenes.SceneError as refused:
+        said = str(refused)
+        assert said.startswith(str(path)) and "\n" not in said and len(said) < 3000
+        assert not any(c < " " or "\x7f" <= c < "\xa0" for c in said), repr(said)
+        return "refused"
+    assert scenes.Scene.model_validate(scene.document()) == scene
+    return "done"
+
+
+def checks(folder: Path, text: bytes) -> str:
+    """A scene is checked, and written nowhere but where asked."""
+    (folder / "scene.toml").write_bytes(text)
+    found = outcome(["check", "scene.toml", "--json", "--out", "out"], folder)
+    held(found, text)
+    if found.status != BAD_INPUT:
+        document(found)
+    assert all(name == "scene.toml" or name.startswith("out/") for name in files(folder))
+    return WORDS[found.status]
+
+
+def solves(folder: Path, data: dict[str, Any]) -> str:
+    """A sound scene is solved, and what converges is in balance."""
+    (folder / "sound.toml").write_text(tomlkit.dumps(data), encoding="utf-8")
+    small = ("--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
+    found = outcome(["compare", "sound.toml", *small], folder)
+    held(found, data)
+    if found.status != BAD_INPUT:
+        in_balance(document(found))
+    return WORDS[found.status]
+
+
+def obeys(folder: Path, asked: Sequence[str]) -> str:
+    """A command line is obeyed or refused, and leaves no file that was not asked for."""
+    found = outcome(asked, folder)
+    held(found, asked)
+    if "--json" in asked and found.status != BAD_INPUT and "--help" not in asked:
+        document(found)
+    assert not files(folder)
+    return WORDS[found.status]
+
+
+STATIC = ("identify", "two-edges-clamped", "--lumped", "2")
+MOVING = ("simulate", "two-edges-settling", "--lumped", "2", "--duration", "0.002", "--every", "0.001")
+
+
+def measures(folder: Path, asked: tuple[bytes, bool]) -> str:
+    """A measured file, of a rest or of a motion, is read or refused."""
+    text, moving = asked
+    (folder / "measured.csv").write_bytes(text)
+    command = MOVING if moving else STATIC
+    found = outcome([*command, "--measured", "measured.csv", "--json"], folder)
+    held(found, text)
+    if found.status != BAD_INPUT:
+        document(found)
+    return WORDS[found.status]
+
+
+Trial = Callable[[Path, Any], str]

@@ -4,13 +4,14 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 OUT    ?= demo
 FUZZ   ?=
+KILLS  ?=
 SAMPLE ?= 300
 CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogue.py cli.py compare.py \
             lattice.py lattice_mechanics.py lumped_statics.py calibration.py balance.py dynamics_forces.py \
             shell_element.py shell_linear.py solid_element.py sections.py snaps.py campaign.py \
             report.py measurements.py) tests/fuzz
 
-.PHONY: docs docs-scene help install demo test check slow fuzz catalogue verify locking coverage transfer coarse tradeoff \
+.PHONY: docs docs-scene help install demo test check slow fuzz kills catalogue verify locking coverage transfer coarse tradeoff \
         advisor-study animations notebooks reproduce crosscheck peers bench central simulators stability stability-full suite standing mutants viewer \
         wheel-check lint clean
 help:
@@ -20,6 +21,7 @@ help:
 	@echo "make slow      the tests that take minutes"
 	@echo "make fuzz      20 000 scenes, 1 000 of them solved, command lines and measured files that no one would write"
 	@echo "               (half an hour; goes on where it stopped; files in $(OUT)/fuzz/; others: FUZZ='--seed 2 --scenes 500')"
+	@echo "make kills     a hundred kills of campaigns, runs and trade-offs, and what stands there after (ten minutes; $(OUT)/kills/)"
 	@echo "make mutants   how many of 300 faults put into the solvers the tests notice: docs/quality.md (hours; goes on where it stopped)"
 	@echo "make catalogue the table of the catalogue's answers, tests/catalogue.json, for a change that is meant"
 	@echo "make verify    the references against published values, every row (about a minute)"
@@ -73,7 +75,10 @@ slow: install
 	@$(BIN)/python -m pytest --numprocesses auto -m slow
 
 fuzz: install
-	@$(BIN)/python tests/fuzz/long.py $(OUT)/fuzz $(FUZZ)
+	@PYTHONPATH=tests $(BIN)/python -m fuzz.long $(OUT)/fuzz $(FUZZ)
+
+kills: install
+	@PYTHONPATH=tests $(BIN)/python -m fuzz.kills $(OUT)/kills $(KILLS)
 
 catalogue: install
 	@$(BIN)/python tests/catalogue.py

@@ -1,6 +1,6 @@
 """`make fuzz`: the whole run of what is thrown at the program, seeded, and resumed where it was interrupted.
 
-    python tests/fuzz/long.py FOLDER [--scenes 20000] [--solved 1000] [--commands 1000] [--measured 2000]
+    python -m fuzz.long FOLDER [--scenes 20000] [--solved 1000] [--commands 1000] [--measured 2000]
 
 Examples are drawn in batches, each from a seed of its own; a batch without a fault is a line of
 FOLDER/fuzz.jsonl and not drawn again. A fault does not end the run: the example and what was said of it stand
@@ -25,8 +25,6 @@ from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 from typing import Any
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st

@@ -102,12 +102,12 @@ def test_a_standing_has_the_limit_and_a_bar_that_holds_it() -> None:
     assert one.uncertainty is not None and one.meshes == "4, 6, 8"
     np.testing.assert_allclose(one.uncertainty.extrapolated, -0.01, rtol=1e-9)
     np.testing.assert_allclose(one.uncertainty.order, 2.0, atol=1e-6)
-    np.testing.assert_allclose(one.uncertainty.bar, 1.25 * 0.002 / 64, rtol=1e-6)
+    np.testing.assert_allclose(one.uncertainty.bar, 1.35 * 0.002 / 64, rtol=1e-6)
 
 
 def test_models_are_told_apart_by_more_than_both_bars_alone() -> None:
     error = 0.002
-    bars = 2 * 1.25 * error / 64
+    bars = 2 * 1.35 * error / 64
     here = standing("here", -0.01, error)
     for share, apart in ((0.9, ()), (1.1, ("P1", "P2", "P3", "P4"))):
         there = pair(here, standing("there", -0.01 - share * bars, error), list(SEED.probes))
@@ -140,7 +140,7 @@ def test_judges_side_by_side(fakes: Any, capsys: pytest.CaptureFixture[str]) -> 
         exact["meshes"] == "4, 6, 8" and exact["version"] == "1.0" and exact["settings"]["elements"] == [8, 8]
     )
     assert exact["extrapolated"]["P4"][2] == pytest.approx(-0.01)
-    assert exact["uncertainty"]["P4"][2] == pytest.approx(1.25 * 0.001 / 64)
+    assert exact["uncertainty"]["P4"][2] == pytest.approx(1.35 * 0.001 / 64)
     apart = {(one["a"], one["b"]): one["apart"] for one in document["pairs"]}
     assert apart["exact", "same"] == [] and apart["exact", "other"] == ["P1", "P2", "P3", "P4"]
     assert [judge["status"] for judge in document["judges"]] == ["found"] * 3

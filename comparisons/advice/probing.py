@@ -139,8 +139,8 @@ class Probing:
         answers = [trial.solution.displacement(self.points) for trial in trials if trial.usable]
         if len(answers) < len(finest) or len(answers) < 2:
             return float("inf")
-        layer = missed_by(self.scene, trials[0].solution.settings)
-        return estimate(answers, [1.0 / cells for cells in finest], layer).error
+        layers = [missed_by(self.scene, trial.solution.settings) for trial in trials]
+        return estimate(answers, [1.0 / cells for cells in finest], layers).error
 
     def error(self, trial: Trial) -> float:
         """Error of a trial against the judge; infinite for an answer that is none."""

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from fem_reference.uncertainty import Uncertainty
 
 METHOD = (
-    "grid convergence index (Roache) of all pairs of meshes, factor 1.25, 2.5 where no order shows, 3 on two "
-    "meshes; and what the meshes miss of the layer along edges"
+    "grid convergence index (Roache) of all pairs of meshes at the field's order, and what they miss of the "
+    "layer along edges: 1.2 times that and 0.15 times the field's, 3 times on two meshes"
 )
 CHEAP = ("plate", "shell")  # references whose error bar is found unless told otherwise
 
@@ -57,7 +57,7 @@ class ErrorBar:
             why = "no change but rounding"
         else:
             swing = int(np.sum(~found.trusted))
-            why = f"{swing} of {found.trusted.size} components show no order: a factor of 2.5 for them"
+            why = f"{swing} of {found.trusted.size} components show no order of their own"
         return f"{model}: ± {100.0 * self.error:.2g} % by its mesh ({meshes} elements; {why})."
 
     def as_dict(self) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from fem_reference.edge_layer import NOTHING, missed_by
+from fem_reference.edge_layer import missed_by
 from fem_reference.uncertainty import ASSUMED_ORDER, OWN_ORDER, Uncertainty, estimate
 from sheetbench.scenes import Scene, Status, comparable
 
@@ -47,8 +47,8 @@ class Standing:
         if len(usable) >= 2:
             sizes = [float(row["size"]) for row in usable[:3]]
             found = [np.array(row["displacement"], dtype=float) for row in usable[:3]]
-            layer = missed_by(scene, usable[0]["settings"]) if layered else NOTHING
-            bar = estimate(found, sizes, layer, OWN_ORDER if layered else ASSUMED_ORDER)
+            layers = [missed_by(scene, row["settings"]) for row in usable[:3]] if layered else ()
+            bar = estimate(found, sizes, layers, OWN_ORDER if layered else ASSUMED_ORDER)
         return cls(scene.name, name, version, tuple(rows), bar)
 
     @property

@@ -165,9 +165,10 @@ def _bars(
     usable = [(o.row, size) for o, size in zip(judged, sizes, strict=True) if _comparable(o)]
     if len(usable) < 2 or not _comparable(judged[0]):
         return None, None
-    used, layer = [size for _, size in usable], missed_by(scene, usable[0][0]["settings"])
-    at_probes = estimate([np.array(list(row["probes"].values())) for row, _ in usable], used, layer)
-    field = estimate([np.array(row["field"]) for row, _ in usable], used, layer)
+    used = [size for _, size in usable]
+    layers = [missed_by(scene, row["settings"]) for row, _ in usable]
+    at_probes = estimate([np.array(list(row["probes"].values())) for row, _ in usable], used, layers)
+    field = estimate([np.array(row["field"]) for row, _ in usable], used, layers)
     bar, size = (float(weights @ np.sum(u**2, axis=1)) for u in (field.bar, field.answer))
     return at_probes.error, float(np.sqrt(bar / size)) if size > 0.0 else None
 

@@ -1,57 +1,86 @@
-"""The tests that may notice a mutant, until one fails: those that name its module, its folder, then others.
+"""Whether tests notice: run, the promising and quick ones first, until one fails or enough time is spent.
 
-A module with compiled functions is compiled anew into a cache that is thrown away: what other modules have
-compiled of it would hide the mutant, or outlive it.
-
-Usage, in a tree with one changed file: python tests/mutants/judge.py TEST_FILE...
+Usage, in the tree to be judged: python judge.py ASKED VERDICT
+ASKED, JSON: files of tests, the nearest first; words that promising tests use; seconds that may be spent, and
+what single tests are known to take. VERDICT, JSON: the test that failed or null, the seconds of processor
+time spent, and what each test took.
 """
 
 from __future__ import annotations
 
+import inspect
+import json
+import math
 import os
-import subprocess
+import resource
 import sys
-import tempfile
 from pathlib import Path
+from typing import Any
+
+import pytest
+from nearest import SPOKEN_OF, has
+
+HUNG = 4  # times the time that may be spent: no test takes as long
+UNKNOWN = 1.0  # second, of a test that was not run yet
 
 
-def changed() -> Path:
-    """The mutated file; fails unless it is just one."""
-    names = subprocess.run(
-        ["git", "diff", "--name-only"], check=True, capture_output=True, text=True
-    ).stdout.split()
-    (name,) = names
-    return Path(name)
+def spent() -> float:
+    """Seconds of processor time, of ended children too."""
+    times = os.times()
+    return times.user + times.system + times.children_user + times.children_system
 
 
-def tests_for(module: Path, usual: list[str]) -> list[str]:
-    """Files of tests, the nearest first, each once."""
-    dotted = ".".join(module.with_suffix("").parts)
-    package = ".".join(module.parent.parts)
-    files = sorted(path for path in Path("tests").glob("*.py") if path.stem.partition("_")[0] == "test")
-    texts = {str(path): path.read_text() for path in files}
-    direct = [name for name, text in texts.items() if dotted in text or names_it(text, package, module.stem)]
-    near = [name for name, text in texts.items() if package in text]
-    return list(dict.fromkeys([*direct, *near, *usual]))
+class Watch:
+    """Orders the tests, remembers what failed, ends the run when time is over."""
+
+    def __init__(self, asked: dict[str, Any]):
+        self.asked = asked
+        self.files = [name.partition("::")[0] for name in asked["files"]]
+        self.failed: str | None = None
+        self.took: dict[str, float] = {}
+        self._since = 0.0
+
+    def effort(self, item: pytest.Item) -> float:
+        """The logarithm of the time that a test takes by how likely it is to notice."""
+        place = self.files.index(item.nodeid.partition("::")[0])
+        text = item.nodeid + inspect.getsource(item.function)  # type: ignore[attr-defined]
+        spoken = sum(has(text, word) for word in self.asked["words"])
+        seconds = self.asked["took"].get(item.nodeid, UNKNOWN)
+        return math.log2(max(seconds, 0.1)) + math.log2(1 + place) - SPOKEN_OF * spoken
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
+        items.sort(key=self.effort)
+
+    def pytest_collectreport(self, report: pytest.CollectReport) -> None:
+        if report.failed:
+            self.failed = self.failed or report.nodeid
+
+    def pytest_runtest_logstart(self) -> None:
+        self._since = spent()
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        if report.failed:
+            self.failed = self.failed or report.nodeid
+
+    def pytest_runtest_logfinish(self, nodeid: str) -> None:
+        self.took[nodeid] = round(spent() - self._since, 2)
+
+    def pytest_runtest_teardown(self, item: pytest.Item) -> None:
+        if spent() > self.asked["seconds"]:
+            item.session.shouldstop = "enough"
 
 
-def names_it(text: str, package: str, stem: str) -> bool:
-    """Whether a test takes a module from its package by name."""
-    return any(
-        line.startswith(f"from {package} import") and stem in line.replace(",", " ").split()
-        for line in text.splitlines()
-    )
-
-
-def main() -> int:
-    module = changed()
-    with tempfile.TemporaryDirectory() as thrown_away:
-        environment = dict(os.environ)
-        if "njit" in module.read_text():
-            environment["NUMBA_CACHE_DIR"] = thrown_away
-        command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider"]
-        return subprocess.run([*command, *tests_for(module, sys.argv[1:])], env=environment).returncode
+def main() -> None:
+    asked, verdict = (Path(name) for name in sys.argv[1:])
+    watch = Watch(json.loads(asked.read_text()))
+    limit = math.ceil(HUNG * watch.asked["seconds"])
+    resource.setrlimit(resource.RLIMIT_CPU, (limit, limit))
+    options = ["-q", "-x", "-p", "no:cacheprovider", "--no-header", "--tb=line"]
+    pytest.main([*options, *watch.asked["files"]], plugins=[watch])
+    found = {"failed": watch.failed, "seconds": round(spent(), 1), "took": watch.took}
+    verdict.write_text(json.dumps(found))
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -1,0 +1,80 @@
+"""Which tests may notice a fault in a module, those likely to do so first.
+
+A test file is the nearer, the fewer imports lie between it and the module; one that speaks of the module,
+of its folder or of the faulty function is nearer than that.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+FOLDERS = ("lumped", "fem_reference", "comparisons", "sheetbench", "tests")
+SPOKEN_OF = 2.0  # imports that a mention is worth
+
+
+class Nearest:
+    """The imports of a tree, read once."""
+
+    def __init__(self, tree: Path):
+        files = {name: path for folder in FOLDERS for name, path in modules(tree, folder).items()}
+        self._files = {str(path.relative_to(tree)): name for name, path in files.items()}
+        self._imports = {name: imported(path, files) for name, path in files.items()}
+        tests = {name: path for name, path in files.items() if path.name.startswith("test_")}
+        self._tests = {name: str(path.relative_to(tree)) for name, path in tests.items()}
+        self._texts = {name: path.read_text() for name, path in tests.items()}
+
+    def tests(self, module: str, words: list[str], usual: list[str]) -> list[str]:
+        """All files of tests, the nearest first, with mentions of words; of those as near the ``usual``."""
+        distances = self._distances(self._files[module])
+        farthest = max(distances.values()) + 1  # what is imported by a text, or not at all
+
+        def nearness(test: str) -> tuple[float, bool, str]:
+            spoken = sum(has(self._texts[test], word) for word in words)
+            return distances.get(test, farthest) - SPOKEN_OF * spoken, self._tests[test] not in usual, test
+
+        return [self._tests[test] for test in sorted(self._tests, key=nearness)]
+
+    def _distances(self, module: str) -> dict[str, int]:
+        """How many imports lie between each file and a module."""
+        distances, ahead = {module: 0}, [module]
+        for name in ahead:
+            for other, names in self._imports.items():
+                if name in names and other not in distances:
+                    distances[other] = distances[name] + 1
+                    ahead.append(other)
+        return distances
+
+
+def words_of(module: str, function: str) -> list[str]:
+    """What a test may speak of that is about a function of a module: its own and its containers' names."""
+    parts = [Path(module).parent.name, Path(module).stem, *function.split(".")]
+    return [part for part in dict.fromkeys(parts) if part.strip("_")]
+
+
+def has(text: str, word: str) -> bool:
+    """Whether a text has a name, or its words one after the other."""
+    words = word.strip("_").replace("_", "[_ -]")
+    return re.search(rf"(?<![a-zA-Z]){words}", text, re.IGNORECASE) is not None
+
+
+def modules(tree: Path, folder: str) -> dict[str, Path]:
+    """Dotted names and files; tests import each other without their folder's name."""
+    found = {}
+    for path in sorted((tree / folder).rglob("*.py")):
+        parts = path.relative_to(tree).with_suffix("").parts
+        parts = parts[:-1] if parts[-1] == "__init__" else parts
+        found[".".join(parts).removeprefix("tests.")] = path
+    return found
+
+
+def imported(path: Path, files: dict[str, Path]) -> set[str]:
+    """Our modules that a file imports."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.ImportFrom):
+            found |= {node.module or "", *(f"{node.module}.{name.name}" for name in node.names)}
+        elif isinstance(node, ast.Import):
+            found |= {name.name for name in node.names}
+    return found & files.keys()

@@ -5,6 +5,8 @@ Of n lines on a side a, graded by γ from 0 (all cells alike) to 1 (Chebyshev's 
     x(t) = a [(1 − γ) t + ½ γ (1 − cos πt)],    t = i/(n − 1),
 
 so that of many the cells at both ends have 1 − γ of the mean width, and those in the middle 1 + (½ π − 1) γ.
+Graded towards one end only they are the lines of one half of a side twice as long: 1 − γ at that end,
+1 + (½ π − 1) γ at the other.
 """
 
 from __future__ import annotations
@@ -14,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sheetbench.scenes import Sheet
-from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grading import Graded, Grading, amount, towards
 from sheetbench.scenes.grid import Grid
 
 
@@ -61,26 +63,32 @@ class Lines:
 
 
 def grid_lines(
-    sheet: Sheet, grid: Grid, grading: float = 0.0, half: tuple[bool, bool] = (False, False)
+    sheet: Sheet, grid: Grid, grading: Graded = 0.0, half: tuple[bool, bool] = (False, False)
 ) -> tuple[Lines, Lines]:
     """The lines across x and across y. half: along which axes the sheet is the lower half of the one that was
     graded, up to a plane of symmetry.
 
     Raises BadInput for a grading outside 0 to 1.
     """
-    if not 0.0 <= grading <= 1.0:
-        raise BadInput(f"grading = {grading:g}: 0 (all cells alike) to 1 (finest at the edges)")
-    x, y = (_lines(sheet.lengths[axis], grid[axis], grading, half[axis]) for axis in (0, 1))
-    return x, y
+    by = amount(grading)
+    towards(by)
+    lines = []
+    for axis in (0, 1):
+        ends = grading.ends(axis) if isinstance(grading, Grading) else (True, True)
+        lines.append(_lines(sheet.lengths[axis], grid[axis], by if any(ends) else 0.0, ends, half[axis]))
+    return lines[0], lines[1]
 
 
-def _lines(length: float, count: int, grading: float, half: bool) -> Lines:
+def _lines(length: float, count: int, grading: float, ends: tuple[bool, bool], half: bool) -> Lines:
     mean = length / (count - 1)
     if not grading:
         return Lines(np.arange(count) * mean, np.full(count - 1, mean), mean, half)
-    if half:
-        whole = _lines(2.0 * length, 2 * count - 1, grading, False)
-        return Lines(whole.at[:count], whole.widths[: count - 1], mean, half)
+    if half or not all(ends):
+        whole = _lines(2.0 * length, 2 * count - 1, grading, (True, True), False)
+        at, widths = whole.at[:count], whole.widths[: count - 1]
+        if not ends[0]:
+            at, widths = at[-1] - at[::-1], widths[::-1]
+        return Lines(at, widths, mean, half)
     t = np.linspace(0.0, 1.0, count)
     at = length * ((1.0 - grading) * t + 0.5 * grading * (1.0 - np.cos(np.pi * t)))
     widths = np.diff(at)

@@ -28,6 +28,7 @@ from lumped.grid_lines import Lines, grid_lines
 from lumped.pattern import KEPT
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 
 Weights = Literal["tributary", "full"]
@@ -158,7 +159,7 @@ def build(
     layer_distance: float,
     weights: Weights = "tributary",
     twisting: frozenset[str] = frozenset(),
-    grading: float = 0.0,
+    grading: Graded = 0.0,
     half: tuple[bool, bool] = (False, False),
 ) -> Lattice:
     """The lattice of a sheet. `weights="full"` gives every link its family's full stiffness and every
@@ -177,7 +178,7 @@ def _build(
     layer_distance: float,
     weights: Weights,
     twisting: frozenset[str],
-    grading: float,
+    grading: Graded,
     half: tuple[bool, bool],
 ) -> Lattice:
     nx, ny, layers = grid

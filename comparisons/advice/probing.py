@@ -18,11 +18,12 @@ from threadpoolctl import threadpool_limits
 from comparisons.comparison.comparison import error
 from comparisons.models import registry as models
 from comparisons.models.candidate import Candidate, series
-from comparisons.models.grading import Grading, grading_of, read
+from comparisons.models.grading import Grading, grading_of, plain, read
 from comparisons.models.sizes import has_room, require_room
 from comparisons.models.symmetry import planes
 from comparisons.report.work import Progress, silent
 from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import near_square
 
 JUDGES = (4, 6, 8, 12, 16, 24, 32)  # elements along the shorter side
@@ -93,9 +94,9 @@ class Probing:
     def graded(self, lattices: list[Candidate]) -> list[Candidate]:
         """Those of these lattices that are to be graded too, as asked or by the scene's layers."""
         found = [(one, self.grading_of(one)[0]) for one in lattices]
-        return [one.but(grading=value) for one, value in found if value]
+        return [one.but(grading=plain(value)) for one, value in found if value]
 
-    def grading_of(self, lattice: Candidate) -> tuple[float | None, str]:
+    def grading_of(self, lattice: Candidate) -> tuple[Graded | None, str]:
         """The grading that a lattice may have, and why where that is chosen."""
         return grading_of(self.scene, lattice.settings["grid"], self.grading)
 

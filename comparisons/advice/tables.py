@@ -6,6 +6,7 @@ from shlex import join
 from typing import TYPE_CHECKING
 
 from comparisons.models.candidate import series, written
+from comparisons.models.grading import read
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table, number
 from sheetbench.choices import CALIBRATION
@@ -75,7 +76,7 @@ def command(advice: Advice, named: str = "") -> str | None:
     model, settings = advice.choice.model, dict(advice.choice.settings)
     mirrored = ["--symmetry"] if settings.pop("symmetry", False) else []
     graded = settings.pop("grading", 0.0) if model == "lumped" and "linear" not in settings else 0.0
-    mirrored += ["--grading", f"{graded:g}"] if graded else []
+    mirrored += ["--grading", f"{read(graded):g}"] if graded else []
     if (
         model == "lumped"
         and settings.keys() == {"grid", "calibration"}

@@ -9,11 +9,12 @@ from warnings import warn
 import lumped
 from comparisons.comparison.comparison import load_static
 from comparisons.models.expected_error import ExpectedError, expected_error
-from comparisons.models.grading import AUTO, grading_of, number
+from comparisons.models.grading import AUTO, fixed, grading_of
 from comparisons.models.quantities import checked
 from sheetbench import scenes
 from sheetbench.scenes import Material, Scene, Sheet
 from sheetbench.scenes.errors import BadInput, Implausible
+from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.plausibility import material_slips, sheet_slips
 
@@ -54,13 +55,13 @@ def grading(
     grid: Grid,
     asked: str | None,
     own: Mapping[str, Any],
-) -> tuple[float, str]:
+) -> tuple[Graded, str]:
     """The grading of a grid, and why where it is chosen by the layers of the named scene with this sheet and
     material; own: the lattice's other settings. Raises BadInput for "auto" without a scene."""
     if asked == AUTO and scene is None:
         raise BadInput("grading = auto: goes by the layers of a SCENE; name one, or give a number")
     if scene is None:
-        return number(asked) or 0.0, ""
+        return fixed(asked) or 0.0, ""
     changed = scenes.load(scene).model_copy(update={"sheet": sheet, "material": material})
     value, why = grading_of(changed, grid, asked, **own)
     return value or 0.0, why

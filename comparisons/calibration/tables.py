@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Any
@@ -12,6 +13,7 @@ from comparisons.comparison import tables as summary
 from comparisons.report.files import write_text
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
+from sheetbench.scenes.grading import of_settings
 
 if TYPE_CHECKING:
     from comparisons.models.expected_error import ExpectedError
@@ -32,6 +34,8 @@ _MEANINGS = {
     "mid_shear": "strain spring of a mid-surface cell, in-plane shear",
     "edge_shear": "added to the shear of a layer's cells along a free, hinged or held edge",
     "strip_shear": "the same where the opposite edge is free, hinged or held too",
+    "far_edge_shear": "edge_shear of the edges x1 and y1",
+    "far_strip_shear": "strip_shear of the edges x1 and y1",
     "mid_stretch": "strain spring of a mid-surface cell, stretching",
 }
 
@@ -42,7 +46,7 @@ def report(
     """What `sheetbench calibrate` shows of the springs for a sheet; expected: their error in a scene."""
     found = document(calibration) | ({"expected_error": expected.as_dict()} if expected else {})
     nx, ny, layers = found.get("grid", ("?", "?", "?"))
-    graded = f", grading {found['grading']:g}" if found.get("grading") else ""
+    graded = f", grading {of_settings(found):g}" if found.get("grading") else ""
     fitted = [f"the targets are met within {100 * found['fit']['residual']:.2g} %"] if "fit" in found else []
     return Report(
         name="calibration",
@@ -161,6 +165,8 @@ def to_toml(calibration: dict[str, Any]) -> str:
     lines = ["[springs]", f"grid = {list(calibration['grid'])}", f'masses = "{calibration["masses"]}"']
     if calibration.get("grading"):
         lines.append(f"grading = {_toml(calibration['grading'])}")
+    if edges := calibration.get("graded_edges"):
+        lines.append(f"graded_edges = {json.dumps(edges)}")
     for name, value in calibration["springs"].items():
         lines.append(f"{name} = {_toml(value)}")
     lines.append(f"layer_distance = {_toml(calibration['layer_distance'])}")

@@ -41,13 +41,16 @@ def command(
     from comparisons.comparison.comparison import load_static
     from comparisons.live import server
     from comparisons.live.panel import Panel
-    from comparisons.models.grading import number
+    from comparisons.models.grading import fixed
     from sheetbench.scenes.errors import BadInput
 
     if not 0 <= port <= 65535:
         raise BadInput(f"--port = {port}: from 0 to 65535")
     asked = load_static(scene)
-    panel = Panel(asked, elements, grid=lumped, grading=number(grading), calibration=calibration)
+    graded = fixed(grading)
+    if not isinstance(graded, float | None):
+        raise BadInput(f"grading = {graded}: this page grades towards all edges; give a number")
+    panel = Panel(asked, elements, grid=lumped, grading=graded, calibration=calibration)
 
     def opened(address: str) -> None:
         note(f"{address}\nCtrl-C ends it.")

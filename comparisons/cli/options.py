@@ -43,8 +43,8 @@ Grading = Annotated[
     typer.Option(
         "--grading",
         metavar="G",
-        help="How much finer the lattice is at its edges, 0 (cells of one size) to 1; auto: as the scene's "
-        "layers need. 0 unless given.",
+        help="How much finer the lattice is at its edges, 0 (cells of one size) to 1; 0.5:x0 or 0.5:x0,x1: "
+        "at these edges alone; auto: as the scene's layers need. 0 unless given.",
         show_default=False,
     ),
 ]

@@ -32,6 +32,7 @@ from comparisons.report.report import Report
 from comparisons.report.work import Progress, silent
 from sheetbench.choices import ELEMENTS, REFERENCE
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static, summary
+from sheetbench.scenes.grading import of_settings
 
 if TYPE_CHECKING:
     from comparisons.advice.advisor import Advice
@@ -157,7 +158,7 @@ class Comparison(summary.Summarised):
         if solution.model != "lumped" or "calibration" not in found:
             return None
         nx, ny, layers = found["grid"]
-        return expected_error(self.scene, found["calibration"], (nx, ny, layers), found.get("grading", 0.0))
+        return expected_error(self.scene, found["calibration"], (nx, ny, layers), of_settings(found))
 
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench compare`: metres, newtons, seconds."""

@@ -52,6 +52,7 @@ from lumped import CALIBRATIONS, Identifiability, identifiability
 from sheetbench.choices import CALIBRATION, ELEMENTS, REFERENCES
 from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grading import Graded, as_settings, of_settings
 from sheetbench.scenes.grid import Grid, near_square
 
 MODELS = ("lumped", *(name for name in REFERENCES if name != "plate"))  # whose large displacements hold
@@ -121,7 +122,7 @@ def identify(
         if large or has_room(scene, Candidate(model, {"grid": finer})):
             progress("looking at cells half as large")
             steps = _refinement(
-                scene, measured, unknowns, best.x, finer, calibration, settings["grading"], offset
+                scene, measured, unknowns, best.x, finer, calibration, of_settings(settings), offset
             )
         else:
             unseen = ["cells half as large take more memory than is free: the grid's error is not known"]
@@ -188,7 +189,7 @@ def _refinement(
     x: np.ndarray,
     finer: Grid,
     calibration: str | None,
-    grading: float,
+    grading: Graded,
     offset: float,
 ) -> list[float | None]:
     """The Gauss–Newton step of x on a finer lattice, of what the data see; None where that lattice has no
@@ -257,7 +258,7 @@ def _predictor(
         masses = scene_grid(scene, grid)
         number, why = grading_of(scene, masses, grading, calibration=calibration)
         graded = number or 0.0
-        settings = {"grid": list(masses), "calibration": calibration or CALIBRATION, "grading": graded}
+        settings = {"grid": list(masses), "calibration": calibration or CALIBRATION, **as_settings(graded)}
         settings |= {"grading_reason": why} if why else {}
         axes = surface.plan_grid(scene.sheet.lengths, masses[:2])
         if isinstance(measured, Displacements) and measured.time is not None:

@@ -24,6 +24,7 @@ from comparisons.models.registry import solve_reference
 from comparisons.models.springs import calibrate
 from comparisons.report.work import Progress, silent
 from sheetbench.scenes import BadInput, Scene, Status
+from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 
 STATIC_STEP = 1e-3  # in x, for differences of solutions that are accurate to about 1e-9
@@ -52,7 +53,7 @@ def set_in(scene: Scene, unknowns: Sequence[Unknown], x: np.ndarray) -> Scene:
     return scene
 
 
-def lattice(scene: Scene, grid: Grid, calibration: str | None, grading: float = 0.0) -> Predictor:
+def lattice(scene: Scene, grid: Grid, calibration: str | None, grading: Graded = 0.0) -> Predictor:
     """Statics through the lattice."""
     import lumped
 
@@ -86,7 +87,7 @@ def reference(
 
 
 def motion(
-    scene: Scene, grid: Grid, calibration: str | None, time: np.ndarray, grading: float = 0.0
+    scene: Scene, grid: Grid, calibration: str | None, time: np.ndarray, grading: Graded = 0.0
 ) -> Predictor:
     """Motion of the lattice from rest; row i of the points is asked at time[i] [s]."""
     from scipy.interpolate import CubicSpline

@@ -26,6 +26,7 @@ from comparisons.models.layers import layers
 from comparisons.models.scales import scales
 from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import EDGES, Clamped, Curved, Hinged, PointLoad, Scene
+from sheetbench.scenes.grading import Graded, amount
 from sheetbench.scenes.grid import LAYERS, Grid
 
 SMOOTH = 0.12  # A
@@ -54,7 +55,7 @@ class ExpectedError:
         return dict(vars(self))
 
 
-def expected_error(scene: Scene, method: str, grid: Grid, grading: float = 0.0) -> ExpectedError | None:
+def expected_error(scene: Scene, method: str, grid: Grid, grading: Graded = 0.0) -> ExpectedError | None:
     """The error to expect of a lattice with the springs of a method, None where nothing is known: of methods
     other than `consistent`, of more than two layers, with actuators, and where edges move, are held in part
     or cut the sheet."""
@@ -64,7 +65,8 @@ def expected_error(scene: Scene, method: str, grid: Grid, grading: float = 0.0) 
         return None
     side = min(scene.sheet.lengths)
     cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
-    inside, at_edges = (1.0 + (np.pi / 2.0 - 1.0) * grading) * cell, (1.0 - grading) * cell
+    by = amount(grading)
+    inside, at_edges = (1.0 + (np.pi / 2.0 - 1.0) * by) * cell, (1.0 - by) * cell
     across = f"cells of {1e3 * cell:.3g} mm"
     parts = [(SMOOTH * (inside / side) ** 2, f"{across} on a side of {1e3 * side:.3g} mm")]
     parts.append((POINT * _point_share(scene) * (inside / side) ** 2, f"a point load on {across}"))

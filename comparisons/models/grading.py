@@ -18,41 +18,52 @@ from comparisons.models.layers import layers
 from sheetbench.choices import CALIBRATIONS, method_of
 from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grading import Graded, of_settings, towards
+from sheetbench.scenes.grading import Grading as Some
 from sheetbench.scenes.grid import LAYERS
 
 AUTO = "auto"
-GRADED = 0.3  # what `auto` grades by
+GRADED = 0.3  # what `auto` grades by towards all edges
+ONE_SIDED = 0.5  # and towards the one that holds the sheet
 NARROW = 0.6
 RESOLVED = 24.0
-Grading = float | str | None
+Grading = Graded | str | None
 
 
-def read(asked: Grading) -> float | str | None:
-    """A number, or "auto", from what is asked, text too; None where nothing is. Raises BadInput."""
-    if asked is None or asked == AUTO:
+def read(asked: Grading) -> Graded | str | None:
+    """A number or a grading towards some edges, or "auto", from what is asked, text too (0.5, 0.5:x0,y0);
+    None where nothing is. Raises BadInput."""
+    if asked is None or asked == AUTO or isinstance(asked, Some):
         return asked
+    by, _, edges = str(asked).partition(":")
     try:
-        value = float(asked)
-    except (TypeError, ValueError):
+        value = float(by)
+    except ValueError:
         value = -1.0
     if not 0.0 <= value <= 1.0:
         raise BadInput(
-            f"grading = {asked}: a number from 0 (cells of one size) to 1 (finest at the edges), or auto"
+            f"grading = {asked}: a number from 0 (cells of one size) to 1 (finest at the edges), 0.5:x0 "
+            "(at that edge alone), or auto"
         )
-    return value
+    return towards(value, edges.split(",") if edges else None)
 
 
-def number(asked: Grading) -> float | None:
-    """The number that is asked for; None for "auto" too. Raises BadInput."""
+def fixed(asked: Grading) -> Graded | None:
+    """The grading that is asked for; None for "auto" too. Raises BadInput."""
     chosen = read(asked)
     return None if isinstance(chosen, str) else chosen
 
 
+def plain(grading: Graded) -> float | str:
+    """As settings that are kept have it: the number, or the text of a grading towards some edges."""
+    return str(grading) if isinstance(grading, Some) else grading
+
+
 def grading_of(
     scene: Scene, grid: Sequence[int], asked: Grading, **settings: Any
-) -> tuple[float | None, str]:
-    """The number, None where nothing is asked, and for "auto" the reason in a sentence. settings: calibration
-    and layer_distance of the lattice. Raises BadInput for what is neither."""
+) -> tuple[Graded | None, str]:
+    """The grading, None where nothing is asked, and for "auto" the reason in a sentence. settings: of the
+    lattice, calibration and layer_distance. Raises BadInput for what is neither."""
     chosen = read(asked)
     if not isinstance(chosen, str):
         return chosen, ""
@@ -75,9 +86,9 @@ def graded(
             value, why = grading_of(scene, settings["grid"], asked, calibration=settings["calibration"])
             masses = f"{settings['grid'][0]} × {settings['grid'][1]}"
             reasons += [f"{masses}, grading {value:g}: {why}"] if why else []
-            candidate = candidate.but(grading=value) if value else candidate
+            candidate = candidate.but(grading=plain(value)) if value else candidate
         found.append(candidate)
-    if number(asked) and not takers:
+    if fixed(asked) and not takers:
         raise BadInput(f"grading = {asked}: none of these calibrations is for cells that differ")
     return found, tuple(dict.fromkeys(reasons))
 
@@ -85,7 +96,7 @@ def graded(
 def told(settings: Mapping[str, Any]) -> tuple[str, ...]:
     """The sentence of the settings of an answer whose grading was chosen; none where it was asked for."""
     why = settings.get("grading_reason")
-    return (f"grading {settings['grading']:g}: {why}",) if why else ()
+    return (f"grading {of_settings(settings):g}: {why}",) if why else ()
 
 
 def _impossible(grid: Sequence[int], settings: Mapping[str, Any]) -> str:
@@ -98,7 +109,7 @@ def _impossible(grid: Sequence[int], settings: Mapping[str, Any]) -> str:
     return ""
 
 
-def _by_layers(scene: Scene, grid: Sequence[int]) -> tuple[float, str]:
+def _by_layers(scene: Scene, grid: Sequence[int]) -> tuple[Graded, str]:
     found = layers(scene)
     if not found:
         return 0.0, "nothing bends the sheet, so that it has no layers at its edges"
@@ -109,4 +120,10 @@ def _by_layers(scene: Scene, grid: Sequence[int]) -> tuple[float, str]:
     cells = f"{width / cell:.2g} cells of {1e3 * cell:.3g} mm where all are alike"
     if width >= NARROW * side:
         return 0.0, f"{layer}, no narrow layer on a side of {1e3 * side:.3g} mm"
-    return (0.0 if cell * RESOLVED < width else GRADED), f"{layer}, {cells}"
+    if cell * RESOLVED < width:
+        return 0.0, f"{layer}, {cells}"
+    held = {support.edge for support in scene.supports}
+    if layer.bent_edge or len(held) > 1 or scene.actuators:
+        return GRADED, f"{layer}, {cells}"
+    (edge,) = held
+    return towards(ONE_SIDED, held), f"{layer}, {cells}; {edge} alone holds the sheet"

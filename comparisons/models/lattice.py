@@ -8,12 +8,13 @@ from functools import partial
 from inspect import Parameter, signature
 from typing import Any
 
-from comparisons.models.grading import number
+from comparisons.models.grading import fixed
 from comparisons.models.grids import scene_grid
 from comparisons.models.springs import calibrate, check_lattice, has_own_springs, scene_springs
 from comparisons.models.symmetry import by_parts, cut_axes
 from sheetbench.scenes import Iteration, Scene, Solution
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grading import mirrored
 
 ASIDE = ("training", "large", "progress")  # of `calibrate`, but no settings
 
@@ -31,6 +32,7 @@ def lattice(scene: Scene, *, linear: bool = False, symmetry: bool = False, **set
 
     springs, because = scene_springs(scene, **settings)
     axes = cut_axes(scene, springs.grid, masses=True) if symmetry else []
+    axes = [axis for axis in axes if mirrored(springs.grading, axis)]
     for axis in axes:
         springs = springs.halved(axis)
 
@@ -49,7 +51,7 @@ def check_settings(scene: Scene, settings: Mapping[str, Any]) -> None:
     if has_own_springs(scene, **settings):
         import lumped
 
-        lumped.given(scene, grid, number(settings.get("grading")))
+        lumped.given(scene, grid, fixed(settings.get("grading")))
 
 
 def require_known(model: str, settings: Mapping[str, Any], *functions: Callable[..., Any]) -> None:

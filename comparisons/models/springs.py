@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 from warnings import warn
 
 from comparisons.models.candidate import Candidate
-from comparisons.models.grading import Grading, grading_of, number
+from comparisons.models.grading import Grading, fixed, grading_of
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.sizes import require_room
 from comparisons.report.work import Progress, silent
 from sheetbench.choices import CALIBRATION, CALIBRATIONS, method_of
 from sheetbench.scenes import Material, Scene, Sheet
 from sheetbench.scenes.errors import BadInput, Implausible, require_choice
+from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import MASSES, grid_of
 from sheetbench.scenes.plausibility import layer_slips
 from sheetbench.scenes.quantities import require_positive
@@ -30,7 +31,7 @@ def calibrate(
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,
-    grading: float = 0.0,
+    grading: Grading = None,
     training: Sequence[Scene] | None = None,
     large: bool = False,
     progress: Progress = silent,
@@ -40,10 +41,11 @@ def calibrate(
     grid: a number is along the shorter side, with near-square cells; or (nx, ny), (nx, ny, layers).
 
     k [N/m] and layer_distance [m] are the calibration's own options; grading: from 0, cells of one size,
-    to 1, cells finest at the edges (`lumped.grid_lines`); training: the scenes that a fitted one is fitted
-    to, see `comparisons.models.training`; progress: told what a fit is doing. Raises BadInput for a name that
-    is not a calibration or lengths that are not above zero, for options it does not take, and unless `large`
-    for a fit that takes more memory than there is; warns of a layer distance that is hardly meant.
+    to 1, cells finest at the edges, or 0.5:x0 at one (`lumped.grid_lines`); training: the scenes that a
+    fitted one is fitted to, see `comparisons.models.training`; progress: told what a fit is doing. Raises
+    BadInput for a name that is not a calibration or lengths that are not above zero, for options it does not
+    take, and unless `large` for a fit that takes more memory than there is; warns of a layer
+    distance that is hardly meant.
     """
     check_lattice(calibration, k, layer_distance, grading)
     if not large and k is None and is_fitted(calibration):
@@ -51,7 +53,9 @@ def calibrate(
 
         for scene in training_scenes(sheet, material) if training is None else training:
             require_room_to_fit(scene, grid)
-    return _calibrate(sheet, material, grid, calibration, k, layer_distance, grading, training, progress)
+    return _calibrate(
+        sheet, material, grid, calibration, k, layer_distance, fixed(grading) or 0.0, training, progress
+    )
 
 
 def _calibrate(
@@ -61,7 +65,7 @@ def _calibrate(
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,
-    grading: float = 0.0,
+    grading: Graded = 0.0,
     training: Sequence[Scene] | None = None,
     progress: Progress = silent,
 ) -> Calibration:
@@ -103,7 +107,7 @@ def check_lattice(
         require_choice("calibration", calibration, CALIBRATIONS)
     require_positive("k", k, "N/m")
     require_positive("layer-distance", layer_distance, "m")
-    if graded := number(grading):
+    if graded := fixed(grading):
         takers = [name for name, method in CALIBRATIONS.items() if "grading" in method.takes]
         method = method_of(calibration, k)
         if method not in takers:
@@ -132,7 +136,7 @@ def scene_springs(
 
     masses = scene_grid(scene, grid)
     if has_own_springs(scene, **settings):
-        return lumped.given(scene, masses, number(grading)), {}
+        return lumped.given(scene, masses, fixed(grading)), {}
     graded, why = grading_of(scene, masses, grading, **settings)
     found = _calibrate(scene.sheet, scene.material, masses, grading=graded or 0.0, **settings)
     return found, {"grading_reason": why} if why else {}

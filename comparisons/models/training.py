@@ -20,6 +20,7 @@ from comparisons.report.work import Progress, Work, silent
 from lumped import Calibration, ModalTarget, StaticTarget
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet, Status
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 
 POINTS = 8  # along each side
@@ -46,7 +47,7 @@ def fitted(
     grid: Grid,
     method: str,
     layer_distance: float | None = None,
-    grading: float = 0.0,
+    grading: Graded = 0.0,
     training: Sequence[Scene] | None = None,
     progress: Progress = silent,
 ) -> Calibration:
@@ -66,7 +67,7 @@ def fitted(
 
 @lru_cache(maxsize=64)
 def _fitted(
-    texts: tuple[str, ...], grid: Grid, method: str, layer_distance: float | None, grading: float
+    texts: tuple[str, ...], grid: Grid, method: str, layer_distance: float | None, grading: Graded
 ) -> Calibration:
     import lumped
 

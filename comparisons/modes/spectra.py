@@ -28,6 +28,7 @@ from comparisons.report.work import Progress, Work, silent
 from sheetbench.choices import ELEMENTS, MASSES, REFERENCE
 from sheetbench.scenes import About, Scene, free_rigid_motions, load, summary
 from sheetbench.scenes.errors import BadInput, require_choice
+from sheetbench.scenes.grading import as_settings
 
 if TYPE_CHECKING:
     from lumped import Calibration
@@ -182,7 +183,7 @@ def _lattice(
         settings={
             "grid": list(springs.grid),
             "calibration": springs.method,
-            "grading": springs.grading,
+            **as_settings(springs.grading),
             "masses": distribution,
             **because,
         },

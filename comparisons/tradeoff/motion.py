@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.models.candidate import Candidate
-from comparisons.models.grading import Grading, grading_of
+from comparisons.models.grading import Grading, grading_of, plain
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.registry import check, simulate
 from comparisons.report.report import Report
@@ -36,6 +36,7 @@ from comparisons.tradeoff.pareto import error_order, front, grouped
 from sheetbench.choices import INTEGRATORS
 from sheetbench.scenes import Scene, Status
 from sheetbench.scenes.errors import require_choice
+from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.quantities import require_positive
 
@@ -147,7 +148,7 @@ def measure(
     step: float,
     duration: float,
     every: float,
-    grading: float = 0.0,
+    grading: Grading = None,
 ) -> dict[str, Any]:
     """Task: one run and what it cost; the history of the probes included."""
     asked = Scene.model_validate(scene)
@@ -209,7 +210,7 @@ def dynamic_tradeoff(
             "step": step,
             "duration": duration,
             "every": every,
-            **({"grading": graded} if graded else {}),
+            **({"grading": plain(graded)} if graded else {}),
         }
         return Run("motion", arguments, f"{integrator} {step:.3g} s", timed)
 
@@ -232,7 +233,7 @@ def dynamic_tradeoff(
     return DynamicTradeoff(scene, duration, period, rows, judge, uncertainty, reasons)
 
 
-def explicit_limit(integrator: str, scene: Scene, grid: Grid, grading: float = 0.0) -> float:
+def explicit_limit(integrator: str, scene: Scene, grid: Grid, grading: Graded = 0.0) -> float:
     """Stability limit [s] of an explicit integrator about the flat sheet."""
     import lumped
 

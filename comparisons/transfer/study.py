@@ -154,7 +154,7 @@ class _Study:
                 )
         return rows
 
-    def gradings(self, name: str) -> tuple[dict[str, list[float]], tuple[str, ...]]:
+    def gradings(self, name: str) -> tuple[dict[str, list[float | str]], tuple[str, ...]]:
         """Of the scene's lattices by method, one a grid, and the reasons where they were chosen."""
         grids = [[n, n, 2] for n in self.grids]
         asked = [Candidate("lumped", {"grid": g, "calibration": m}) for m in self.methods for g in grids]
@@ -257,7 +257,7 @@ class _Study:
         method: str,
         grid: tuple[int, int],
         training: list[str] | None = None,
-        grading: float = 0.0,
+        grading: float | str = 0.0,
     ) -> np.ndarray | None:
         arguments: dict[str, Any] = {"scene": self.texts[name], "method": method, "grid": [*grid, 2]}
         arguments |= {"grading": grading} if grading else {}

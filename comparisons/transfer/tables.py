@@ -94,7 +94,7 @@ def _gradings(found: Transfer) -> Table:
         if any(row["gradings"]) or row["scene"] not in rows:
             rows[row["scene"]] = (
                 row["scene"],
-                ", ".join(f"{g:g}" for g in row["gradings"]),
+                ", ".join(f"{g:g}" if isinstance(g, float) else g for g in row["gradings"]),
                 "; ".join(row["reasons"]),
             )
     grids = ", ".join(str(n) for n in found.grids)

@@ -31,7 +31,7 @@ def lattice(
     method: str,
     grid: Sequence[int],
     training: Sequence[dict[str, Any]] | None = None,
-    grading: float = 0.0,
+    grading: float | str = 0.0,
 ) -> dict[str, Any]:
     """Displacement of a lattice at the points. training: scenes of a fitted method, its own unless given."""
     import lumped
@@ -90,7 +90,7 @@ def _springs(
     method: str,
     grid: Sequence[int],
     training: Sequence[dict[str, Any]] | None,
-    grading: float = 0.0,
+    grading: float | str = 0.0,
 ) -> Any:
     chosen = None if training is None else [Scene.model_validate(data) for data in training]
     sheet, material = scene.sheet, scene.material

@@ -9,6 +9,7 @@ import numpy as np
 
 from lumped.springs import by_cell, constants
 from sheetbench.scenes import PerDirection, Sheet, SpringSet, summary
+from sheetbench.scenes.grading import Graded, as_settings
 from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.springs import Distribution, Either
 
@@ -30,7 +31,7 @@ class Calibration(summary.Summarised):
     moduli: tuple[dict[str, Any], ...]
     notes: tuple[str, ...] = ()
     masses: Distribution = "tributary"
-    grading: float = 0.0
+    grading: Graded = 0.0
     half: tuple[bool, bool] = (False, False)
 
     @property
@@ -78,7 +79,7 @@ class Calibration(summary.Summarised):
             "layer_distance": distance,
             "moduli": [dict(row) for row in self.moduli],
             "masses": self.masses,
-            "grading": self.grading,
+            **as_settings(self.grading),
             "notes": list(self.notes),
         }
 

@@ -13,6 +13,7 @@ import numpy as np
 from lumped.grid_lines import grid_lines
 from lumped.springs.by_cell import gathered
 from sheetbench.scenes import Sheet, SpringSet
+from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 
 OfCell = Callable[[Sheet, float | None], SpringSet]  # a sheet of one cell, and its layer distance if given
@@ -20,7 +21,7 @@ DIGITS = 12  # to which cells of one size are told
 
 
 def cell_by_cell(
-    of_cell: OfCell, sheet: Sheet, grid: Grid, grading: float, layer_distance: float | None = None
+    of_cell: OfCell, sheet: Sheet, grid: Grid, grading: Graded, layer_distance: float | None = None
 ) -> SpringSet:
     """The springs of a lattice whose cells have those that `of_cell` finds for each.
 

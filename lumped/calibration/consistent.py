@@ -18,6 +18,7 @@ from lumped.calibration.report import report
 from lumped.lattice import Grid
 from sheetbench.scenes import Material, Sheet, SpringSet
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grading import Graded
 
 
 def consistent(
@@ -25,7 +26,7 @@ def consistent(
     material: Material,
     grid: Grid,
     layer_distance: float | None = None,
-    grading: float = 0.0,
+    grading: Graded = 0.0,
 ) -> Calibration:
     """The moduli of the sheet, and the twist of its edges: of second order in the size of the cells.
 
@@ -40,7 +41,7 @@ def consistent_membrane(
     material: Material,
     grid: Grid,
     layer_distance: float | None = None,
-    grading: float = 0.0,
+    grading: Graded = 0.0,
 ) -> Calibration:
     """As `consistent`, with layers so far apart that a cell bends in its own plane as the sheet does.
 
@@ -50,7 +51,7 @@ def consistent_membrane(
     return _with_twist("consistent-membrane", sheet, found, grading)
 
 
-def _with_twist(method: str, sheet: Sheet, found: Calibration, grading: float) -> Calibration:
+def _with_twist(method: str, sheet: Sheet, found: Calibration, grading: Graded) -> Calibration:
     springs, notes = with_edges(sheet, found.grid, found.springs, grading)
     return replace(found, method=method, springs=springs, notes=(*found.notes, *notes))
 
@@ -60,7 +61,7 @@ def consistent_interior(
     material: Material,
     grid: Grid,
     layer_distance: float | None = None,
-    grading: float = 0.0,
+    grading: Graded = 0.0,
     gradients: bool = False,
 ) -> Calibration:
     """The moduli alone, cells along edges like those inside: the closed form; with a given layer distance, or
@@ -88,7 +89,7 @@ def _graded(
     material: Material,
     grid: Grid,
     layer_distance: float | None,
-    grading: float,
+    grading: Graded,
     gradients: bool,
 ) -> SpringSet:
     def of_cell(cell: Sheet, distance: float | None) -> SpringSet:

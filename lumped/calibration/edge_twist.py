@@ -36,6 +36,7 @@ from lumped.calibration.calibration import either
 from lumped.grid_lines import Lines, grid_lines
 from lumped.springs import by_cell, constants
 from sheetbench.scenes import Sheet, SpringSet
+from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 
 Each = float | np.ndarray
@@ -49,45 +50,70 @@ def layer_width(thickness: float) -> float:
 
 
 def with_edges(
-    sheet: Sheet, grid: Grid, springs: SpringSet, grading: float = 0.0
+    sheet: Sheet, grid: Grid, springs: SpringSet, grading: Graded = 0.0
 ) -> tuple[SpringSet, list[str]]:
     """The springs with `edge_shear` and `strip_shear`, and a note for edges where no factor will do.
 
     A layer's cell takes −(1 − f) D66/Σ z_k², z_k [m] the heights of the layers. On a graded grid every cell
-    along an edge has the f of the strip of cells that begins with it, or the largest there is.
+    along an edge has the f of the strip of cells that begins with it, or the largest there is. Where cells
+    are finer towards one of two opposite edges each has its own, `far_edge_shear` and `far_strip_shear` at
+    the far one; of a strip whose edges are both free, that of the strip and its mirror image together.
     """
     lines = grid_lines(sheet, grid, grading)
-    distance, layers = springs.layer_distance, grid[2]
-    square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * distance**2
-    unequal = by_cell.varies(springs)
-    found: dict[bool, list[Any]] = {False: [], True: []}
-    notes = []
-    for axis in range(2):
-        across, along = lines[axis], lines[1 - axis]
-        name = "xy"[axis]
-        places = range(len(along.widths)) if unequal else range(1)
-        cells = [_strip(springs, lines, axis, place, layers) for place in places]
-        for both, values in found.items():
-            taken = []
-            for place, (twisting, shear, shares) in zip(places, cells, strict=True):
-                lost = layer_width(sheet.thickness)
-                factor = edge_factor(len(across.widths), across.widths, twisting, shear, shares, lost, both)
-                if factor is None:
-                    notes.append(f"no twisting stiffness of the cells along {name}0 makes their edge right")
-                    factor = MOST if unequal else 1.0
-                if place in (0, len(along.widths) - 1) or not unequal:
-                    factor = max(factor, AT_CORNERS)
-                taken.append((factor - 1.0) * float(twisting[0]) / square)
-            values.append(tuple(taken) if unequal else taken[0])
-    edges = {"edge_shear": either(*found[False]), "strip_shear": either(*found[True])}
+    notes: list[str] = []
+    edges = _of_edges(sheet, lines, springs, grid[2], False, notes)
+    if not all(_alike(side) for side in lines):
+        far = _of_edges(sheet, lines, springs, grid[2], True, notes)
+        edges |= {f"far_{name}": value for name, value in far.items()}
     return springs.model_copy(update=edges), list(dict.fromkeys(notes))
 
 
+def _alike(lines: Lines) -> bool:
+    """Whether a side's cells are the same from either end."""
+    return np.allclose(lines.widths, lines.widths[::-1], rtol=1e-9)
+
+
+def _of_edges(
+    sheet: Sheet, lines: tuple[Lines, Lines], springs: SpringSet, layers: int, far: bool, notes: list[str]
+) -> dict[str, Any]:
+    """edge_shear and strip_shear of x0 and y0, or of x1 and y1 (`far`); adds to the notes."""
+    square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * springs.layer_distance**2
+    lost = layer_width(sheet.thickness)
+    unequal = by_cell.varies(springs)
+    found: dict[bool, list[Any]] = {False: [], True: []}
+    for axis in range(2):
+        across, along = lines[axis], lines[1 - axis]
+        edge = f"{'xy'[axis]}{int(far)}"
+        places = range(len(along.widths)) if unequal else range(1)
+        strips = [_strip(springs, lines, axis, place, layers, far) for place in places]
+        widths = across.widths[::-1] if far else across.widths
+        for both, values in found.items():
+            taken = []
+            mirrored = both and not _alike(across)
+            for place, strip in zip(places, strips, strict=True):
+                width, twisting, shear, shares = (_with_image(row, mirrored) for row in (widths, *strip))
+                factor = edge_factor(len(width), width, twisting, shear, shares, lost, both)
+                if factor is None:
+                    notes.append(f"no twisting stiffness of the cells along {edge} makes their edge right")
+                    factor = MOST if unequal else 1.0
+                if place in (0, len(along.widths) - 1) or not unequal:
+                    factor = max(factor, AT_CORNERS)
+                taken.append((factor - 1.0) * float(strip[0][0]) / square)
+            values.append(tuple(taken) if unequal else taken[0])
+    return {"edge_shear": either(*found[False]), "strip_shear": either(*found[True])}
+
+
+def _with_image(row: np.ndarray, mirrored: bool) -> np.ndarray:
+    """Values of a row of cells, (n,), those of its mirror image behind them if `mirrored`, (2 n,)."""
+    return np.concatenate([row, row[::-1]]) if mirrored else row
+
+
 def _strip(
-    springs: SpringSet, lines: tuple[Lines, Lines], axis: int, place: int, layers: int
+    springs: SpringSet, lines: tuple[Lines, Lines], axis: int, place: int, layers: int, far: bool
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Of the cells across the sheet along `axis`, at a place along its edge: D66 [N·m], S along the edge
-    [N/m] and the share of it in the furthest diagonals, (n,) each; (1,) where all cells are alike."""
+    [N/m] and the share of it in the furthest diagonals, (n,) each, from its far end on if `far`; (1,) where
+    all cells are alike."""
     rows = []
     unequal = by_cell.varies(springs)
     for cell in range(len(lines[axis].widths)) if unequal else range(1):
@@ -96,7 +122,7 @@ def _strip(
         sides = (float(lines[0].widths[column]), float(lines[1].widths[row]), springs.layer_distance)
         twisting, shear, shares = _of_cell(own, sides, layers)
         rows.append((twisting, shear[1 - axis], shares[1 - axis]))
-    of_strip = np.array(rows).T
+    of_strip = np.array(rows[::-1] if far else rows).T
     return of_strip[0], of_strip[1], of_strip[2]
 
 

@@ -16,6 +16,7 @@ from lumped.springs import by_cell
 from sheetbench import choices
 from sheetbench.scenes import Scene, SpringTable
 from sheetbench.scenes.errors import Impossible
+from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import MASSES, grid_of
 
 
@@ -51,7 +52,9 @@ MAKERS: dict[str, Callable[..., Calibration]] = {
 CLOSED = described(MAKERS)
 
 
-def given(scene: Scene, grid: int | Sequence[int] | None = None, grading: float | None = None) -> Calibration:
+def given(
+    scene: Scene, grid: int | Sequence[int] | None = None, grading: Graded | None = None
+) -> Calibration:
     """The springs of the scene's own [springs] table, with their moduli report.
 
     grid: as `sheetbench.scenes.grid` reads it; by default the table's own, or nine masses along the shorter
@@ -68,20 +71,20 @@ def given(scene: Scene, grid: int | Sequence[int] | None = None, grading: float 
             f"scene '{scene.name}': springs.grid = {own}: these springs are not those of {other} masses; "
             f"solve on {own}, or find others: sheetbench calibrate --grid {other} --toml"
         )
-    if grading not in (None, table.grading):
+    if grading not in (None, table.graded):
         raise Impossible(
-            f"scene '{scene.name}': springs.grading = {table.grading:g}: these springs are not those of "
+            f"scene '{scene.name}': springs.grading = {table.graded:g}: these springs are not those of "
             f"grading {grading:g}; leave --grading out, or find others: "
             f"sheetbench calibrate --grading {grading:g} --toml"
         )
     springs = table.constants
     if table.grading and not by_cell.varies(springs):
         raise Impossible(
-            f"scene '{scene.name}': springs.grading = {table.grading:g}: unequal cells have springs of their "
-            f"own, and these are the same for all: sheetbench calibrate --grading {table.grading:g} --toml"
+            f"scene '{scene.name}': springs.grading = {table.graded:g}: unequal cells have springs of their "
+            f"own, and these are the same for all: sheetbench calibrate --grading {table.graded:g} --toml"
         )
     by_cell.require_cells(springs, asked, f"scene '{scene.name}': ")
-    found = report("scene", scene.sheet, scene.material, asked, springs, table.grading)
+    found = report("scene", scene.sheet, scene.material, asked, springs, table.graded)
     return replace(found, masses=table.masses)
 
 

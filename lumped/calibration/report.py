@@ -12,13 +12,14 @@ from lumped.grid_lines import grid_lines
 from lumped.springs import by_cell, constants
 from sheetbench.scenes import Material, Sheet, SpringSet
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 
 Cell = tuple[tuple[float, float], SpringSet]  # sides along x and y [m], springs
 
 
 def report(
-    method: str, sheet: Sheet, material: Material, grid: Grid, springs: SpringSet, grading: float = 0.0
+    method: str, sheet: Sheet, material: Material, grid: Grid, springs: SpringSet, grading: Graded = 0.0
 ) -> Calibration:
     """The calibration with its moduli report, and notes on what it misses and why. Of unequal cells each
     modulus is reported of the cell that misses it most.
@@ -55,7 +56,7 @@ def homogenised(sheet: Sheet, grid: Grid, springs: SpringSet) -> moduli.Moduli:
     return moduli.of_springs(springs, (x.mean, y.mean, springs.layer_distance), grid[2])
 
 
-def _cells(sheet: Sheet, grid: Grid, springs: SpringSet, grading: float) -> list[Cell]:
+def _cells(sheet: Sheet, grid: Grid, springs: SpringSet, grading: Graded) -> list[Cell]:
     """The kinds of cells: one where all are alike, else each that differs from the others."""
     x, y = grid_lines(sheet, grid, grading)
     if not grading and not by_cell.varies(springs):

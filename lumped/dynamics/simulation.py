@@ -33,6 +33,7 @@ from lumped.statics.solver import pose
 from sheetbench.choices import INTEGRATOR
 from sheetbench.scenes import AnyScene, History, scene_of
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grading import as_settings
 from sheetbench.scenes.quantities import require_positive
 
 
@@ -82,7 +83,7 @@ def simulate(
         "grid": [nx, ny, layers],
         "calibration": calibration.method,
         "layer_distance": calibration.layer_distance,
-        "grading": calibration.grading,
+        **as_settings(calibration.grading),
         **options,
     }
     if precision != "double":

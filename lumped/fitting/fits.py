@@ -29,12 +29,14 @@ from lumped.fitting.targets import ModalTarget, StaticTarget, Target
 from lumped.lattice import Grid
 from lumped.sensitivity import sensitivity
 from lumped.springs import constants
+from lumped.springs.by_cell import EDGES_OWN
 from lumped.vibration import frequency_slopes
 from sheetbench.scenes import Material, Sheet
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grading import Graded
 
 PRIOR = {"fit-static": 1e-3, "fit-modal": 1e-1}
-KEPT = ("vertical", "layer_distance", "stretch", "edge_shear", "strip_shear")
+KEPT = ("vertical", "layer_distance", "stretch", *EDGES_OWN)
 
 
 @dataclass(frozen=True)
@@ -52,7 +54,7 @@ def fit_static(
     grid: Grid,
     layer_distance: float | None = None,
     targets: Sequence[Target] = (),
-    grading: float = 0.0,
+    grading: Graded = 0.0,
 ) -> FittedCalibration:
     """Springs whose displacements come nearest to those of the targets (StaticTarget).
 

@@ -12,6 +12,7 @@ from lumped.fitting.targets import Target
 from sheetbench import choices
 from sheetbench.scenes import Material, Sheet
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import MASSES, grid_of
 from sheetbench.scenes.quantities import require_positive
 
@@ -27,7 +28,7 @@ def calibrate(
     k: float | None = None,
     layer_distance: float | None = None,
     targets: Sequence[Target] = (),
-    grading: float = 0.0,
+    grading: Graded = 0.0,
 ) -> Calibration:
     """Springs of a grid for a sheet of this material, by a named method.
 

@@ -1,7 +1,7 @@
 """Constants that every plan cell has its own of: tables of a spring set (`sheetbench.scenes.springs`).
 
-A table is rows of cells from y0 to y1, each from x0 to x1; edge_shear and strip_shear have lists along the
-edges. One number is every cell's.
+A table is rows of cells from y0 to y1, each from x0 to x1; edge_shear, strip_shear and those of the far edges
+have lists along the edges. One number is every cell's.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.springs import Either
 
-EDGES_OWN = ("edge_shear", "strip_shear")
+EDGES_OWN = ("edge_shear", "strip_shear", "far_edge_shear", "far_strip_shear")
 
 
 def varies(springs: SpringSet) -> bool:

@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from lumped.springs.by_cell import of_cells
+from lumped.springs.by_cell import EDGES_OWN, of_cells
 from sheetbench.scenes import EDGES, PerDirection, SpringSet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.springs import DamperSet, Either
 
-SIGNED = ("area", "mid_area", "mid_shear", "edge_shear", "strip_shear")
+SIGNED = ("area", "mid_area", "mid_shear", *EDGES_OWN)
 
 
 def along(table: SpringSet | DamperSet, family: str, direction: str) -> np.ndarray:
@@ -55,6 +55,9 @@ def of_edge_cells(springs: SpringSet, grid: tuple[int, int, int], twisting: froz
         axis = EDGES[edge].normal_axis
         opposite = next(e for e in EDGES if e != edge and EDGES[e].normal_axis == axis)
         value: Any = springs.strip_shear if opposite in twisting else springs.edge_shear
+        far = springs.far_strip_shear if opposite in twisting else springs.far_edge_shear
+        if EDGES[edge].far_end and far is not None:
+            value = far
         if isinstance(value, Either):
             value = (value.x, value.y)[axis]
         row = -1 if EDGES[edge].far_end else 0

@@ -14,6 +14,7 @@ from lumped.statics.equilibrium import State
 from lumped.statics.fields import LatticeMesh, field_mesh
 from lumped.statics.problem import Problem
 from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes.grading import as_settings
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,7 @@ def solution(
         reactions |= coupling.reactions(exerted)
     nx, ny, layers = lattice.grid
     settings: dict[str, Any] = {"grid": [nx, ny, layers], "calibration": calibration.method}
-    settings |= {"layer_distance": calibration.layer_distance, "grading": calibration.grading}
+    settings |= {"layer_distance": calibration.layer_distance, **as_settings(calibration.grading)}
     return Solution(
         model="lumped",
         label=f"lumped {calibration.title}" + (", linear" if linear else ""),

@@ -11,7 +11,8 @@ for all layers together on the mid-surface's.
 
 On a graded grid every cell has springs of its own: a constant is then a table of cells, a list of rows from
 y0 to y1, each from x0 to x1. A link takes half the value of each cell beside it, a vertical one a quarter of
-each around it. edge_shear and strip_shear are a list along the edges.
+each around it. edge_shear and strip_shear are a list along the edges; where cells are finer towards one of
+two opposite edges they are x0's and y0's, and far_edge_shear and far_strip_shear x1's and y1's.
 """
 
 from __future__ import annotations
@@ -20,7 +21,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Strict, Tag, model_validator
 
+from sheetbench.scenes.grading import Graded, towards
 from sheetbench.scenes.quantities import Finite, Frozen, NonNegative, Number, Positive, Unit
+from sheetbench.scenes.sheet import EdgeName
 
 
 def _form(value: Any) -> str:
@@ -108,6 +111,10 @@ class SpringSet(Frozen):
     """Strain springs against the twist of cells along a free, hinged or held edge, its opposite not so."""
     strip_shear: EdgeStiffness = 0.0
     """The same where the opposite edge is free, hinged or held too."""
+    far_edge_shear: EdgeStiffness | None = None
+    """edge_shear of the edges x1 and y1, where it is not that of x0 and y0."""
+    far_strip_shear: EdgeStiffness | None = None
+    """strip_shear of the edges x1 and y1, where it is not that of x0 and y0."""
     layer_distance: Annotated[Positive, Unit("m")]
     """Distance of neighbouring layers; of two layers, about the sheet's thickness."""
 
@@ -120,6 +127,8 @@ class SpringTable(SpringSet):
     grid is asked for; another grid is refused."""
     grading: Annotated[Finite, Field(ge=0, le=1)] = 0.0
     """How much smaller that lattice's cells are at the edges: 0, all alike, to 1; another one is refused."""
+    graded_edges: tuple[EdgeName, ...] | None = None
+    """The edges towards which they are smaller, where that is not all four."""
     masses: Distribution = "tributary"
     """How its mass is shared out: tributary, or as the fit to frequencies found it best (gregory)."""
 
@@ -127,6 +136,16 @@ class SpringTable(SpringSet):
     @classmethod
     def _of_springs_alone(cls, data: Any) -> Any:
         return data.model_dump() if type(data) is SpringSet else data
+
+    @model_validator(mode="after")
+    def _graded_somewhere(self) -> SpringTable:
+        towards(self.grading, self.graded_edges)  # raises for what is no grading
+        return self
+
+    @property
+    def graded(self) -> Graded:
+        """The grading of that lattice's lines."""
+        return towards(self.grading, self.graded_edges)
 
     @property
     def constants(self) -> SpringSet:

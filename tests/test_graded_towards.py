@@ -1,0 +1,138 @@
+"""Grids graded towards some edges only: lines, springs of either end, files, symmetry, what auto takes."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from cases import OBLONG, RUBBER, SHEET, SILICONE, relative
+from commands import one_line, run
+
+import fem_reference
+import lumped
+from comparisons.comparison.comparison import error
+from comparisons.models.grading import ONE_SIDED, grading_of, read
+from comparisons.models.registry import solve
+from comparisons.transfer.scenes import transfer_scenes
+from comparisons.transfer.tasks import points
+from lumped.grid_lines import grid_lines
+from lumped.springs.constants import of_edge_cells
+from sheetbench.scenes import BadInput, load
+from sheetbench.scenes.grading import Grading, as_settings, of_settings, towards
+
+LEFT = Grading(0.6, ("x0",))
+TURNED = {"x0": "x1", "x1": "x0"}
+
+
+def test_lines_towards_one_edge_are_half_of_a_side_twice_as_long() -> None:
+    doubled = OBLONG.replace(length_x=0.4)
+    twice, _ = grid_lines(doubled, (11, 5, 2), 0.6)
+    x, y = grid_lines(OBLONG, (6, 5, 2), LEFT)
+    assert x.at == pytest.approx(twice.at[:6]) and np.ptp(y.widths) == 0.0
+    assert x.tributary.sum() == pytest.approx(0.2)
+    right, _ = grid_lines(OBLONG, (6, 5, 2), Grading(0.6, ("x1",)))
+    assert right.widths == pytest.approx(x.widths[::-1]) and right.at[0] == 0.0
+    both, other = grid_lines(OBLONG, (6, 5, 2), Grading(0.6, ("x0", "x1")))
+    whole = grid_lines(OBLONG, (6, 5, 2), 0.6)
+    assert np.array_equal(both.at, whole[0].at) and np.ptp(other.widths) == 0.0
+
+
+def test_what_is_asked_is_read_as_people_write_it() -> None:
+    assert read("0.6:x0") == LEFT and str(LEFT) == "0.6:x0" and read(LEFT) is LEFT
+    assert read("0.5:x1,x0") == Grading(0.5, ("x0", "x1"))
+    assert read("0.5:y1,y0,x0,x1") == 0.5 and read("0:x0") == 0.0
+    assert of_settings(as_settings(LEFT)) == LEFT and as_settings(0.5) == {"grading": 0.5}
+    for wrong in ("0.5:z0", "0.5:x0;y0", "2:x0", "auto:x0"):
+        with pytest.raises(BadInput, match="grading = "):
+            read(wrong)
+    with pytest.raises(BadInput, match="towards no edge"):
+        towards(0.5, ())
+
+
+@pytest.mark.parametrize("method", ["consistent", "consistent-membrane"])
+def test_every_cell_meets_every_modulus(method: str) -> None:
+    springs = lumped.calibrate(SHEET, RUBBER, (7, 6), method, grading=LEFT)
+    assert all(abs(row["miss"]) < 1e-9 for row in springs.moduli)
+    assert springs.title.endswith("grading 0.6:x0")
+
+
+def test_a_sheet_and_its_mirror_image_have_mirrored_answers() -> None:
+    """Clamped at x0 and graded there, or both at x1: springs of either end know their own edge."""
+    left = load("one-edge-clamped")
+    right = left.replace(supports=[{"edge": "x1", "kind": "clamped"}])
+    at = points(left.sheet)
+    turned = np.column_stack([left.sheet.length_x - at[:, 0], at[:, 1]])
+    found = []
+    for scene, edge, where in ((left, "x0", at), (right, "x1", turned)):
+        answer = solve(scene, "lumped", grid=5, calibration="consistent", grading=f"0.6:{edge}")
+        found.append(answer.displacement(where))
+    assert relative(found[1] * [-1.0, 1.0, 1.0], found[0]) < 1e-9
+
+
+def test_the_twist_of_either_edge_is_that_of_the_strip_that_begins_with_it() -> None:
+    """Graded at x0 with only x1 free its cells are the long ones; with both free each end has its own."""
+    springs = lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=LEFT).springs
+    turned = lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=Grading(0.6, ("x1",))).springs
+    grid = (6, 5, 2)
+    for edges in ({"x1"}, {"x0", "x1"}, {"x0", "y0"}):
+        mirrored = frozenset(TURNED.get(edge, edge) for edge in edges)
+        one = of_edge_cells(springs, grid, frozenset(edges)).reshape(4, 5)
+        other = of_edge_cells(turned, grid, mirrored).reshape(4, 5)
+        assert other[:, ::-1] == pytest.approx(one, rel=1e-9)
+    alone = of_edge_cells(springs, grid, frozenset({"x1"})).reshape(4, 5)
+    assert np.any(alone[:, -1]) and not np.any(alone[:, :-1])
+
+
+def test_a_scene_file_keeps_it(tmp_path, capsys) -> None:
+    path = tmp_path / "own.toml"
+    load("one-edge-clamped").save(path)
+    assert run("calibrate", str(path), "--grid", "4", "--grading", "0.6:x0", "--toml") == 0
+    with path.open("a") as file:
+        file.write(capsys.readouterr().out)
+    scene = load(path)
+    assert scene.springs.graded == LEFT
+    own = lumped.calibrate(scene.sheet, scene.material, 4, grading=LEFT)
+    found = solve(scene, "lumped")
+    assert found.settings["grading"] == 0.6 and found.settings["graded_edges"] == ["x0"]
+    at = scene.probe_points()
+    assert np.array_equal(found.displacement(at), lumped.solve(scene, own).displacement(at))
+    assert run("compare", str(path), "--grading", "0.6") == 2
+    assert "springs.grading = 0.6:x0" in one_line(capsys)
+
+
+def test_a_half_is_cut_only_where_its_image_is_the_other() -> None:
+    scene = transfer_scenes()["opposite-edges-hinged"]
+    asked = {"grid": 5, "calibration": "consistent", "symmetry": True}
+    assert solve(scene, "lumped", grading=0.5, **asked).settings["symmetry"] == ["x", "y"]
+    assert solve(scene, "lumped", grading="0.5:x0", **asked).settings["symmetry"] == ["y"]
+
+
+def test_settings_say_which_edges(capsys) -> None:
+    shown = ("one-edge-clamped", "--grid", "3", "--grading", "0.6:x0", "--json")
+    assert run("modes", *shown, "--elements", "2", "--count", "2") == 0
+    settings = json.loads(capsys.readouterr().out)["solutions"][0]["settings"]
+    assert (settings["grading"], settings["graded_edges"]) == (0.6, ["x0"])
+    assert run("simulate", *shown, "--duration", "0.01") == 0
+    assert json.loads(capsys.readouterr().out)["settings"]["graded_edges"] == ["x0"]
+
+
+def test_auto_grades_towards_the_one_edge_that_holds_the_sheet() -> None:
+    """Where that edge is clamped and the load bends the sheet beside it; not where the edge itself is bent,
+    which lets the sheet stretch at its other edges too."""
+    scenes = transfer_scenes()
+    value, why = grading_of(scenes["tenth-of-young-one-edge"], (9, 9, 2), "auto")
+    assert value == Grading(ONE_SIDED, ("x0",)) and why.endswith("x0 alone holds the sheet")
+    assert isinstance(grading_of(scenes["curved-edge"], (9, 9, 2), "auto")[0], float)
+    assert isinstance(grading_of(scenes["tenth-of-young"], (9, 9, 2), "auto")[0], float)
+
+
+def test_towards_the_clamp_a_soft_sheet_is_nearer() -> None:
+    """Over 5 × 5 points of soft-one-edge, 9 masses, `consistent-membrane`: 1.93 % of the largest displacement
+    with cells of one size, 1.49 graded towards all edges by 0.3, 0.99 as auto has it."""
+    scene = transfer_scenes()["tenth-of-young-one-edge"]
+    at = points(scene.sheet)
+    truth = fem_reference.solve(scene, model="shell", elements=8).displacement(at)  # within 0.1 % of 16
+    springs = {"calibration": "consistent-membrane"}
+    off = [error(solve(scene, "lumped", grading=g, **springs).displacement(at), truth) for g in (0.3, "auto")]
+    assert off[0] == pytest.approx(0.0149, abs=1e-3) and off[1] == pytest.approx(0.0099, abs=1e-3)

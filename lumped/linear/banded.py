@@ -17,6 +17,7 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 PANEL = 6  # the unknowns of a column of masses in two layers
 TRY_OTHER_ORDER = 20_000  # unknowns up to which a second order is looked at: beyond, bands do not pay
+BACKWARD_ERROR = 1e-10  # ‖A x − b‖ relative to ‖A‖‖x‖ + ‖b‖ beyond which the matrix counts as singular
 REORDERED = {"reassoc", "contract", "nsz"}  # sums in any order, for vector instructions; infinities count
 
 
@@ -92,11 +93,24 @@ def rows(n: int) -> int:
 @njit(cache=True, nogil=True)
 def stored(blocks: np.ndarray, band: Band) -> np.ndarray:
     """The matrix of blocks (b, 3, 3) in band storage: whole panels, and zeros where the loops run over."""
-    out = np.zeros((rows(len(band.order)), band.width + 1 + PANEL))
+    out = room(band)
+    store(blocks, band, out)
+    return out
+
+
+@njit(cache=True, nogil=True)
+def room(band: Band) -> np.ndarray:
+    """Band storage, empty."""
+    return np.zeros((rows(len(band.order)), band.width + 1 + PANEL))
+
+
+@njit(cache=True, nogil=True)
+def store(blocks: np.ndarray, band: Band, out: np.ndarray) -> None:
+    """The same into storage that there is, whatever it held."""
+    out[:] = 0.0
     entries = blocks.ravel()
     for e in range(len(band.source)):
         out[band.column[e], band.below[e]] += band.weight[e] * entries[band.source[e]]
-    return out
 
 
 @njit(cache=True, nogil=True, fastmath=REORDERED)

@@ -19,6 +19,7 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, eigs, onenormest, splu
 
 from lumped.linear import banded
+from lumped.linear.banded import BACKWARD_ERROR
 from lumped.linear.reduction import Reduction, reduction
 from lumped.linear.saddle_point import Saddle
 from lumped.pattern import KEPT, Pattern
@@ -30,7 +31,6 @@ except ImportError:  # SciPy always works
     rslab = None
 
 BANDED_LIMIT = 2.0e7  # n × bandwidth² below which the banded Cholesky is quicker than the sparse one
-BACKWARD_ERROR = 1e-10  # ‖A x − b‖ relative to ‖A‖‖x‖ + ‖b‖ beyond which the matrix counts as singular
 NEAREST = 12  # eigenvalues sought when the tangent is unsymmetric
 
 REFINEMENTS, SADDLE_REFINEMENTS = 1, 4

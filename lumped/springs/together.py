@@ -160,6 +160,13 @@ def extrapolated(u: np.ndarray, step: np.ndarray, springs: Springs) -> Stresses:
 def tangent(u: np.ndarray, springs: Springs, stress: Stresses, count: int) -> np.ndarray:
     """Blocks (count, 3, 3) [N/m] of the tangent with these stresses."""
     blocks = np.zeros((count, 3, 3))
+    add_tangent(u, springs, stress, blocks)
+    return blocks
+
+
+@njit(cache=True, nogil=True)
+def add_tangent(u: np.ndarray, springs: Springs, stress: Stresses, blocks: np.ndarray) -> None:
+    """Add the tangent with these stresses to blocks (count, 3, 3) [N/m]."""
     s = springs.links
     links.add_tangent(u, s.nodes, s.offset, s.rest_length, s.stiffness, stress[0], s.slots, blocks)
     c = springs.layers_area
@@ -170,4 +177,3 @@ def tangent(u: np.ndarray, springs: Springs, stress: Stresses, count: int) -> np
     strains.add_tangent(u, c.nodes, c.diagonals, c.stiffness, stress[3], c.slots, blocks)
     c = springs.middle_strain
     strains.add_tangent(u, c.nodes, c.diagonals, c.stiffness, stress[4], c.slots, blocks)
-    return blocks

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from lumped.statics.equilibrium import FINE, State, rounding
+from lumped.statics.equilibrium import State, rounding
+from lumped.statics.limits import FINE
 from lumped.statics.problem import Problem
 from sheetbench.scenes import Balance, Scene, dead_force
 

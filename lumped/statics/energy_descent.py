@@ -13,7 +13,8 @@ import numpy as np
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
 from lumped.linear.solver import Factor, SingularMatrixError
-from lumped.statics.equilibrium import COARSE, State, StepFailed, polish
+from lumped.statics.equilibrium import State, StepFailed, polish
+from lumped.statics.limits import COARSE
 from lumped.statics.problem import Problem
 
 STEPS = 300

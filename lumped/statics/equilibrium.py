@@ -25,15 +25,22 @@ import numpy as np
 from lumped.linear.solver import Factor, SingularMatrixError
 from lumped.springs.together import Stresses
 from lumped.statics.faults import broken
-from lumped.statics.problem import Problem
-
-COARSE = 1e-5  # residual, relative to the forces, at which corrections turn to the true tangent
-SETTLED = 1e-9  # of the sheet's longer side: what an idle correction may move
-FINE = 1e-11  # residual, relative to the forces, that counts as equilibrium
-FIRST_REACH = 1.3  # farthest predicted displacement of a first step, in sides of the sheet
-SHORTEST_STEP = 2.0**-12
-FACTORISATIONS = 2000  # of one path
-CORRECTIONS = 14  # of one load step
+from lumped.statics.limits import (
+    CLOSE,
+    COARSE,
+    CORRECTIONS,
+    EASY,
+    FACTORISATIONS,
+    FARTHEST,
+    FINE,
+    FIRST_REACH,
+    POLISHED,
+    POLISHINGS,
+    QUICK,
+    SETTLED,
+    SHORTEST_STEP,
+)
+from lumped.statics.problem import Problem, Tangent
 
 
 @dataclass
@@ -63,10 +70,34 @@ def at_rest(problem: Problem) -> State:
     return State(u, 0.0, problem.assembly.stresses(u), blocks, factor, problem.negative(factor))
 
 
-def follow(problem: Problem, start: State, target: float = 1.0) -> tuple[State, str]:
+def from_flat(problem: Problem) -> tuple[State, str]:
+    """The equilibrium at full load along the path from the flat sheet, or the last one before it, with the
+    reason why the path ended ("" when it did not). Small lattices go as far as they can in one compiled call.
+
+    Raises SingularMatrixError when the flat sheet's tangent has no factors.
+    """
+    together, begun = problem.assembly.together, problem.followed()
+    if together is None or begun is None:
+        return follow(problem, at_rest(problem))
+    done, tangent = begun
+    stresses = together.of_families(done.stresses)
+    state = State(done.u, done.load_factor, stresses, *tangent, tangent.factor.negative)
+    return follow(problem, state, reach=done.reach, step=done.step)
+
+
+def follow(
+    problem: Problem,
+    start: State,
+    target: float = 1.0,
+    *,
+    reach: float | None = None,
+    step: float | None = None,
+) -> tuple[State, str]:
     """The equilibrium at load factor `target` along the path from `start`, or the last one before it, with
-    the reason why the path ended ("" when it did not)."""
-    state, reach, step = start, FIRST_REACH * problem.size, target - start.load_factor
+    the reason why the path ended ("" when it did not). reach: how far [m] the first load step may go, and by
+    what load, unless it starts anew."""
+    state, reach = start, reach or FIRST_REACH * problem.size
+    step = step or target - start.load_factor
     shortest = abs(step) * SHORTEST_STEP
     while abs(target - state.load_factor) > 1e-12:
         step = np.sign(target - state.load_factor) * min(abs(step), abs(target - state.load_factor))
@@ -91,7 +122,7 @@ def follow(problem: Problem, start: State, target: float = 1.0) -> tuple[State, 
             return state, problem.fault.message
         if problem.factorisations > FACTORISATIONS:
             return state, f"{FACTORISATIONS} factorisations were not enough"
-        if problem.factorisations - before <= 7:
+        if problem.factorisations - before <= EASY:
             reach *= 1.5
         step *= 4.0
     return state, ""
@@ -128,40 +159,62 @@ def corrected(
     lengths = [float(np.abs(step).max())]
     unbalanced, residual = problem.residual(u, load_factor)
     near: Factor | None = None
+    made: Tangent | None = None
     for _ in range(CORRECTIONS):
         problem.note(load_factor, residual, lengths[-1])
         if not np.isfinite(residual):
             raise StepFailed("a number overflowed")
         if residual < COARSE or all_rounding(problem, u, load_factor, residual, lengths[-1]):
             near = None  # its memory is needed
-            return polish(problem, u, load_factor, tolerance)
+            return polish(
+                problem, u, load_factor, tolerance, made if lengths[-1] <= CLOSE * problem.size else None
+            )
         done = problem.correction(u, load_factor, unbalanced, stresses, near)
         u, unbalanced, residual, stresses = done.u, done.unbalanced, done.residual, done.stresses
         lengths.append(done.length)
-        near = done.factor if problem.iterates else None
+        if problem.iterates:
+            near = done.factor
+        else:
+            made = Tangent(done.blocks, done.factor)
         del done
-        if lengths[-1] > 4.0 * problem.size or (len(lengths) > 4 and lengths[-1] > lengths[-2] > lengths[-3]):
+        if lengths[-1] > FARTHEST * problem.size or (
+            len(lengths) > 4 and lengths[-1] > lengths[-2] > lengths[-3]
+        ):
             raise StepFailed("the corrections grow")
     raise StepFailed(f"no equilibrium in {CORRECTIONS} corrections")
 
 
-def polish(problem: Problem, u: np.ndarray, load_factor: float, tolerance: float = FINE) -> State:
-    """Newton with the true tangent from close by, to rounding; the last factors tell stability.
+def polish(
+    problem: Problem, u: np.ndarray, load_factor: float, tolerance: float = FINE, near: Tangent | None = None
+) -> State:
+    """Newton with the true tangent from close by, to rounding; the last factors tell stability, and serve as
+    long as they bring the residual down quickly. near: the tangent of u, or one so close that it tells the
+    same.
 
     Raises StepFailed when it does not converge there.
     """
-    floor = rounding_floor(problem, u, load_factor)
+    aim = max(tolerance, rounding_floor(problem, u, load_factor))
     unbalanced, before = problem.residual(u, load_factor)
-    for _ in range(6):
-        done = problem.correction(u, load_factor, unbalanced)
-        if not np.isfinite(done.residual) or done.length > 0.1 * problem.size:
-            raise StepFailed("the polishing step is not small")
-        if done.residual < before:
-            u, unbalanced, before = done.u, done.unbalanced, done.residual
-        problem.note(load_factor, before, done.length)
-        if before < max(tolerance, floor):
-            negative = problem.negative(done.factor)
-            return State(u, load_factor, problem.assembly.stresses(u), done.blocks, done.factor, negative)
+    for fresh in range(POLISHINGS + 1):
+        if fresh:
+            done = problem.correction(u, load_factor, unbalanced)
+            if not np.isfinite(done.residual) or done.length > POLISHED * problem.size:
+                raise StepFailed("the polishing step is not small")
+            if done.residual < before:
+                u, unbalanced, before = done.u, done.unbalanced, done.residual
+            problem.note(load_factor, before, done.length)
+            near = Tangent(done.blocks, done.factor)
+        if near is None:
+            continue
+        while not before < aim:
+            step, left, residual = problem.resolved(near.factor, u, load_factor, unbalanced)
+            if not residual < QUICK * before:
+                break
+            u, unbalanced, before = u + step, left, residual
+            problem.note(load_factor, before, float(np.abs(step).max()))
+        if before < aim:
+            negative = problem.negative(near.factor)
+            return State(u, load_factor, problem.assembly.stresses(u), near.blocks, near.factor, negative)
     raise StepFailed("the residual stagnates")
 
 

@@ -13,10 +13,9 @@ import numpy as np
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
 from lumped.springs.families import Links
+from lumped.statics.limits import COLLAPSED
 from lumped.statics.soundness import long_enough, upright
 from sheetbench.scenes import Status
-
-COLLAPSED = 1e-6  # of a link's rest length
 
 
 class Fault(NamedTuple):

@@ -2,7 +2,8 @@
 
 Tangent, band, Cholesky factors, solution, new residual and, where asked for, the stresses that the
 linearisation predicts: what `lumped.statics.problem` does call by call, for dead loads on central springs in
-double precision. On small lattices the calls' own time is most of a solve's.
+double precision. On small lattices the calls' own time is most of a solve's. Cholesky's solutions are not
+refined: their backward error is of the order of rounding, and it is looked at.
 """
 
 from __future__ import annotations
@@ -13,20 +14,52 @@ import numpy as np
 from numba import njit
 
 from lumped.linear import banded
+from lumped.linear.banded import Band
 from lumped.linear.maps import Rows, product, transposed_product
 from lumped.springs import together
 from lumped.springs.together import Springs, Stresses
 
 
-class Corrected(NamedTuple):
-    """Whether the tangent is positive definite, and if so: its blocks, band and factors; the correction
-    (n, 3) [m] and its backward error; unbalanced force (n, 3) [N] behind it and its size relative to the
-    forces; stresses that were predicted there."""
+class Posed(NamedTuple):
+    """A lattice of n masses under supports and dead loads as arrays.
 
-    definite: bool
+    springs, and how many blocks their tangent has, each of which masses (rows, indices); band and free:
+    where the blocks go, and u = T q; held: (n, 3) bool, what supports act on; dead: (n, 3) [N]; placed:
+    (n, 3) [m] that supports move masses by at full load, moves: whether they do; link_stiffness: (n,) [N/m],
+    links' at each mass; columns, positions, areas: `Assembly.plan`; size: the sheet's longer side [m].
+    """
+
+    springs: Springs
+    blocks: int
+    rows: np.ndarray
+    indices: np.ndarray
+    band: Band
+    free: Rows
+    held: np.ndarray
+    dead: np.ndarray
+    placed: np.ndarray
+    moves: bool
+    link_stiffness: np.ndarray
+    columns: np.ndarray
+    positions: np.ndarray
+    areas: np.ndarray
+    size: float
+
+
+class Work(NamedTuple):
+    """The tangent last factored: its blocks, its band and the factors."""
+
     blocks: np.ndarray
     matrix: np.ndarray
     factors: np.ndarray
+
+
+class Corrected(NamedTuple):
+    """Whether the tangent is positive definite, and if so: the correction (n, 3) [m] and its backward error;
+    unbalanced force (n, 3) [N] behind it and its size relative to the forces; stresses that were predicted
+    there."""
+
+    definite: bool
     step: np.ndarray
     miss: float
     unbalanced: np.ndarray
@@ -35,33 +68,54 @@ class Corrected(NamedTuple):
 
 
 @njit(cache=True, nogil=True)
+def room(count: int, band: Band) -> Work:
+    """Room for tangents of `count` blocks."""
+    return Work(np.empty((count, 3, 3)), banded.room(band), banded.room(band))
+
+
+@njit(cache=True, nogil=True)
+def factored(u: np.ndarray, stress: Stresses, posed: Posed, work: Work) -> bool:
+    """Whether the tangent at u (n, 3) [m] with these stresses is positive definite; its factors to `work`."""
+    work.blocks[:] = 0.0
+    together.add_tangent(u, posed.springs, stress, work.blocks)
+    banded.store(work.blocks, posed.band, work.matrix)
+    work.factors[:] = work.matrix
+    return banded.factor(work.factors, len(posed.band.order), posed.band.width)
+
+
+@njit(cache=True, nogil=True)
+def solved(force: np.ndarray, posed: Posed, work: Work) -> tuple[np.ndarray, float]:
+    """The displacement (n, 3) [m] by a force (n, 3) [N] with the factors at hand, and its backward error."""
+    band = posed.band
+    right = transposed_product(posed.free, force.ravel(), len(band.order))
+    x, miss = banded.solve(work.matrix, work.factors, band.width, band.order, right, 0)
+    return product(posed.free, x).reshape(force.shape), miss
+
+
+@njit(cache=True, nogil=True)
 def corrected(
     u: np.ndarray,
     unbalanced: np.ndarray,
-    external: np.ndarray,
-    held: np.ndarray,
+    load_factor: float,
     stress: Stresses,
     predict: bool,
-    springs: Springs,
-    count: int,
-    band: banded.Band,
-    free: Rows,
-    refinements: int,
+    posed: Posed,
+    work: Work,
 ) -> Corrected:
-    """The correction at u (n, 3) [m] with these stresses in the tangent's `count` blocks."""
-    n = len(band.order)
-    blocks = together.tangent(u, springs, stress, count)
-    matrix = banded.stored(blocks, band)
-    factors = matrix.copy()
-    if not banded.factor(factors, n, band.width):
-        return Corrected(False, blocks, matrix, factors, unbalanced, np.inf, unbalanced, np.inf, stress)
-    right = transposed_product(free, unbalanced.ravel(), n)
-    x, miss = banded.solve(matrix, factors, band.width, band.order, right, refinements)
-    step = product(free, x).reshape(u.shape)
-    _, internal = together.force(u + step, springs)
-    left, residual = unbalanced_force(internal, external, held, free, n)
-    following = together.extrapolated(u, step, springs) if predict else stress
-    return Corrected(True, blocks, matrix, factors, step, miss, left, residual, following)
+    """The correction at u (n, 3) [m] with these stresses in the tangent."""
+    if not factored(u, stress, posed, work):
+        return Corrected(False, unbalanced, np.inf, unbalanced, np.inf, stress)
+    step, miss = solved(unbalanced, posed, work)
+    left, residual = residual_at(u + step, load_factor, posed)
+    following = together.extrapolated(u, step, posed.springs) if predict else stress
+    return Corrected(True, step, miss, left, residual, following)
+
+
+@njit(cache=True, nogil=True)
+def residual_at(u: np.ndarray, load_factor: float, posed: Posed) -> tuple[np.ndarray, float]:
+    """Unbalanced force (n, 3) [N] at u, and its norm on the free unknowns relative to the forces."""
+    _, internal = together.force(u, posed.springs)
+    return unbalanced_force(internal, load_factor * posed.dead, posed.held, posed.free, len(posed.band.order))
 
 
 @njit(cache=True, nogil=True)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -15,11 +16,13 @@ from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
 from lumped.linear.iterated import iterated
 from lumped.linear.maps import product, rows, transposed_product
-from lumped.linear.solver import REFINEMENTS, BandedFactor, Factor, ReducedSystem, checked, reduced
+from lumped.linear.solver import BandedFactor, Factor, ReducedSystem, checked, reduced
 from lumped.loads import Loads
 from lumped.springs.together import Stresses
 from lumped.statics import fused
 from lumped.statics.faults import Fault
+from lumped.statics.fused import Posed
+from lumped.statics.fused_path import Followed, followed
 from lumped.supports import Constraints
 from sheetbench.scenes import Iteration
 
@@ -27,6 +30,13 @@ Progress = Callable[[Iteration], None]
 
 
 ITERATED = 5000  # unknowns from which a factorisation costs as much as ten solutions
+
+
+class Tangent(NamedTuple):
+    """A tangent's blocks (b, 3, 3) [N/m] and the factors of it reduced."""
+
+    blocks: np.ndarray
+    factor: Factor
 
 
 class Correction(NamedTuple):
@@ -215,25 +225,56 @@ class Problem:
     ) -> Correction | None:
         """The correction in one compiled call; None where that does not apply, and for tangents that are not
         positive definite."""
-        springs, band, held = self.assembly.together, self.system.band, self.constraints.held
-        if springs is None or band is None or not self._plain:
+        springs, posed = self.assembly.together, self.posed
+        if springs is None or posed is None:
             return None
         given = springs.every(stresses or self.assembly.stresses(u))
-        external, count = self.external(u, load_factor), self.assembly.pattern.blocks
-        done = fused.corrected(
-            u, unbalanced, external, held, given, stresses is not None, springs.springs, count, band,
-            self._free, REFINEMENTS,
-        )  # fmt: skip
+        work = fused.room(posed.blocks, posed.band)
+        done = fused.corrected(u, unbalanced, load_factor, given, stresses is not None, posed, work)
         if not done.definite:
             return None
         self.factorisations += 1
         checked(done.step, done.miss)
-        factor = BandedFactor(band, done.matrix, done.factors)
+        factor = BandedFactor(posed.band, work.matrix, work.factors)
         following = springs.of_families(done.stresses) if stresses is not None else None
         length = float(np.abs(done.step).max())
         return Correction(
-            u + done.step, length, done.blocks, factor, done.unbalanced, done.residual, following
+            u + done.step, length, work.blocks, factor, done.unbalanced, done.residual, following
         )
+
+    @cached_property
+    def posed(self) -> Posed | None:
+        """The lattice as arrays for the compiled corrections; None where those do not apply: where loads
+        follow the sheet or vary, with actuators, in single precision, on large grids."""
+        assembly, band, constraints = self.assembly, self.system.band, self.constraints
+        if assembly.together is None or band is None or not self._plain:
+            return None
+        pattern, placed = assembly.pattern, constraints.prescribed(1.0)
+        return Posed(
+            assembly.together.springs, pattern.blocks, pattern.rows, pattern.indices, band, self._free,
+            constraints.held, self.loads.dead, placed, bool(placed.any()), assembly.link_stiffness,
+            *assembly.plan, self.size,
+        )  # fmt: skip
+
+    def followed(self) -> tuple[Followed, Tangent] | None:
+        """The path from the flat sheet as far as compiled loops go, and the tangent factored at its end; None
+        where they do not apply, or where the flat sheet's tangent is not positive definite."""
+        if self.posed is None:
+            return None
+        work = fused.room(self.posed.blocks, self.posed.band)
+        done = followed(self.posed, work)
+        self.factorisations += done.factorisations
+        for line in done.history.tolist():
+            self.note(*line)
+        factor = BandedFactor(self.posed.band, work.matrix, work.factors)
+        return (done, Tangent(work.blocks, factor)) if done.definite else None
+
+    def resolved(
+        self, factor: Factor, u: np.ndarray, load_factor: float, unbalanced: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, float]:
+        """A correction (n, 3) [m] with factors at hand, the unbalanced force behind it, and its residual."""
+        step = self.expand(factor.solve(self.reduce(unbalanced)))
+        return step, *self.residual(u + step, load_factor)
 
     def note(self, load_factor: float, residual: float, step: float) -> None:
         """Keep one line of history and tell whoever watches."""

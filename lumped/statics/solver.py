@@ -24,15 +24,16 @@ from lumped.statics.answer import Outcome, solution
 from lumped.statics.coarse_start import FROM, halved, refined
 from lumped.statics.energy_descent import descend, disturbed
 from lumped.statics.equilibrium import (
-    FACTORISATIONS,
     State,
     StepFailed,
     at_rest,
     corrected,
     follow,
+    from_flat,
     predictor,
 )
 from lumped.statics.faults import broken
+from lumped.statics.limits import FACTORISATIONS
 from lumped.statics.polygon import polygons
 from lumped.statics.problem import Problem
 from lumped.supports import constrain
@@ -159,10 +160,9 @@ def _singular(problem: Problem, error: SingularMatrixError) -> Outcome:
 def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
     """The equilibrium at full load, or how far the load path went and why."""
     try:
-        start = at_rest(problem)
+        state, why = from_flat(problem)
     except SingularMatrixError as error:
         return _singular(problem, error)
-    state, why = follow(problem, start)
     snaps: list[float] = []
     notes: list[str] = []
     while why and problem.fault is None and problem.descends and len(snaps) < SNAPS:

@@ -1,0 +1,18 @@
+"""The numbers that the search for an equilibrium goes by, in Python and in what njit compiles.
+
+(By that word `sheetbench.kernels` knows that kernels are made of this file too.)
+"""
+
+COARSE = 1e-5  # residual, relative to the forces, at which corrections turn to the true tangent
+FINE = 1e-11  # residual, relative to the forces, that counts as equilibrium
+SETTLED = 1e-9  # of the sheet's longer side: what an idle correction may move
+CLOSE = 1e-6  # of the sheet's longer side: how far from where they were made factors are still the tangent's
+QUICK = 0.1  # of the residual: what a correction with factors at hand must get below, or they are too old
+FIRST_REACH = 1.3  # farthest predicted displacement of a first step, in sides of the sheet
+SHORTEST_STEP = 2.0**-12
+FACTORISATIONS = 2000  # of one path
+EASY = 7  # factorisations of a load step after which the next one may reach farther
+CORRECTIONS = 14  # of one load step
+POLISHINGS = 6  # factorisations with the true tangent
+FARTHEST, POLISHED = 4.0, 0.1  # of the sheet's longer side: what one correction may move, and a polishing one
+COLLAPSED = 1e-6  # of a link's rest length

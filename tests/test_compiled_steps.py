@@ -7,6 +7,7 @@ from dynamic_cases import ROD, run, scene, system
 from lumped.dynamics import INTEGRATORS, State
 from lumped.dynamics.compiled_newton import CompiledNewton
 from lumped.dynamics.sampling import Sampling
+from lumped.linear import banded
 from sheetbench import scenes
 
 HINGED = [{"edge": "x0", "kind": "hinged"}, {"edge": "x1", "kind": "held", "components": ["z"]}]
@@ -40,6 +41,20 @@ def test_the_compiled_iteration_takes_the_steps_of_the_general_one(asked, name):
     np.testing.assert_allclose(one.u, other.u, rtol=0.0, atol=1e-9 * size)
     np.testing.assert_allclose(lost, spent, rtol=1e-5, atol=1e-15)
     assert np.abs(one.u).max() > 1e-4 * size
+
+
+@pytest.mark.parametrize("asked", CASES.values(), ids=CASES)
+def test_the_compiled_tangent_is_the_general_one(asked):
+    equations, _ = system(asked, 4)
+    drawn = np.random.default_rng(0).standard_normal((2, *equations.lattice_mass.shape, 3))
+    state = 1e-4 * drawn[0], 0.1 * drawn[1], 0.0
+    compiled, by = CompiledNewton(equations), (1e6, 1e3)
+    assert compiled.factorise(*state, *by)
+    band = equations.problem.system.band
+    factors = banded.stored(equations.matrix(*state, *by, 1.0), band)
+    assert banded.factor(factors, len(band.order), band.width)
+    # rounding of the entries, by the condition of the diagonal blocks
+    np.testing.assert_allclose(compiled.factors, factors, rtol=0.0, atol=1e-12 * np.abs(factors).max())
 
 
 FOLLOWING = scene(

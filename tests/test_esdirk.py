@@ -82,6 +82,19 @@ def test_samples_do_not_change_the_steps_and_lie_on_one_curve():
     assert np.abs(fine.balance - fine.balance[0]).max() < 2e-3 * went_round
 
 
+def test_a_start_from_rest_takes_steps_that_its_motion_deserves():
+    """Not ones that resolve the first micrometres: the error counts beside where the weight leads."""
+    equations, rest = system(scene("two-edges-settling"), 4)
+    method, state, taken = Esdirk(equations, 1.0, fixed=False), rest, 0
+    while state.time < 0.02:
+        state, taken = method.advance(state, 1.0 - state.time).state, taken + 1
+    assert taken <= 6
+    step = state.time / 20
+    tight, _ = run(Esdirk(equations, step), rest, step, 20)
+    settled = 0.02  # m, where the weight leads
+    assert np.abs(tight[-1].u - state.u).max() < 1e-4 * settled  # some steps of 3e-5
+
+
 def test_steps_end_where_a_load_changes_its_course():
     pulse = {"time": [0.1, 0.101, 0.102], "factor": [0.0, 1.0, 0.0]}
     load = {"kind": "point", "at": [0.188, 0.188], "force": [0.0, 0.0, 5.0], "history": pulse}

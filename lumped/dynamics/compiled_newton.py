@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from lumped.dynamics.compiled_tangent import factorised, tangent_of
 from lumped.dynamics.system import System
 from lumped.linear import banded
 from lumped.linear.maps import Rows, rows
@@ -66,6 +67,7 @@ class CompiledNewton:
         right = np.zeros(banded.rows(len(band.order)) + band.width)
         self.room = Room(force, velocity, base_u, base_v, right)
         self.factors = np.empty((0, 0))
+        self._tangent = tangent_of(system)
 
     @staticmethod
     def serves(system: System) -> bool:
@@ -73,14 +75,17 @@ class CompiledNewton:
         plain = system.coupling is None and system.assembly.precision == "double"
         return plain and system.problem.conservative and system.problem.system.band is not None
 
-    def factorise(self, blocks: np.ndarray) -> bool:
-        """Keep the factors of a tangent; False where it is not positive definite."""
-        factors = banded.stored(blocks, self._band)
+    def factorise(self, u: np.ndarray, v: np.ndarray, time: float, by_u: float, by_v: float) -> bool:
+        """Keep the factors of K + c₁ C + c₂ M at a state; False where it is not positive definite."""
         self._system.problem.factorisations += 1
-        if not banded.factor(factors, len(self._band.order), self._band.width):
-            return False
-        self.factors = factors
-        return True
+        if self._tangent is not None:
+            definite, factors = factorised(np.ascontiguousarray(u), by_u, by_v, self._tangent)
+        else:
+            factors = banded.stored(self._system.matrix(u, v, time, by_u, by_v, 1.0), self._band)
+            definite = banded.factor(factors, len(self._band.order), self._band.width)
+        if definite:
+            self.factors = factors
+        return bool(definite)
 
     def iterate(
         self,

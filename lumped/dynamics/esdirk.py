@@ -5,12 +5,12 @@
 
 with the coefficients of `lumped.dynamics.tableau`. Every stage is one equation for uᵢ with the same factors,
 as aᵢᵢ = γ; the first is the last one's of the step before. The error of a step, h Σ (bᵢ − b̂ᵢ) vᵢ, is held
-relative to the largest displacement so far. Energies taken by dampers and put in by loads and supports are
-h Σ bᵢ Pᵢ. Between the ends of a step the motion is the polynomial of fifth degree with their displacements,
-velocities and accelerations, and the energies that of the stages' powers (`tableau.CUMULATIVE`): steps may be
-longer than the distance of samples; reactions, which stiff springs magnify, are then good to some percent.
-They end where something changes its course: a load's history, a
-support's motion. No chains: their constraints would lower the order.
+relative to the largest displacement so far, or to a tenth of where the forces at the start lead. Energies
+taken by dampers and put in by loads and supports are h Σ bᵢ Pᵢ. Between the ends of a step the motion is the
+polynomial of fifth degree with their displacements, velocities and accelerations, and the energies that of
+the stages' powers (`tableau.CUMULATIVE`): steps may be longer than the distance of samples; reactions, which
+stiff springs magnify, are then good to some percent. They end where something changes its course: a load's
+history, a support's motion. No chains: their constraints would lower the order.
 """
 
 from __future__ import annotations
@@ -28,7 +28,10 @@ from lumped.dynamics.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSE
 from lumped.linear.solver import SingularMatrixError
 from sheetbench.scenes.errors import BadInput
 
-ERROR = 3e-5  # of a step, relative to the largest displacement so far
+ERROR = 3e-5  # of a step, relative to the largest displacement
+FORETOLD = 0.1  # share of the displacement at rest, linear, that counts as reached at the start
+LEAST = 1e-6  # of the sheet's side: no error is asked to be smaller beside it
+FIRST = 0.05  # first step over the time in which the first acceleration goes as far
 CLOSE = 1e-11  # last correction of a fixed step relative to the sheet's side
 SHARE = 0.3  # last correction of an adaptive step relative to the error it may have
 STALE = (
@@ -52,9 +55,9 @@ class Esdirk(DenseIntegrator):
         self._curve: np.ndarray | None = None  # of the last step, once it is asked for
 
     @classmethod
-    def default_step(cls, period: float, limit: object) -> float:
-        """An adaptive run's first step [s]."""
-        return 1e-3 * period
+    def default_step(cls, period: object, limit: object) -> float:
+        """Infinite: an adaptive run finds its first step where it begins."""
+        return np.inf
 
     def forget(self) -> None:
         """Drop the factors."""
@@ -62,21 +65,22 @@ class Esdirk(DenseIntegrator):
 
     def memory(self) -> dict[str, Any]:
         """The step's control."""
-        return {"step": self.step, "largest": self._largest}
+        return {"step": self.step, "first": self._first, "largest": self._largest}
 
     def recall(self, memory: dict[str, Any]) -> None:
         """Take up what `memory` gave."""
-        self.step, self._largest = float(memory["step"]), float(memory["largest"])
+        self.step, self._first, self._largest = (float(memory[k]) for k in ("step", "first", "largest"))
 
     def advance(self, state: State, at_most: float) -> Advance:
         """One step; an adaptive one divides `at_most` evenly and is repeated until its error is small."""
         if not self._fixed:
+            if self._largest == 0.0:
+                self._begin(state)
             state, at_most = self._from_kink(state, at_most)
         shortest = 1e-6 * min(self.step, at_most)
-        size = self.system.problem.size
         while True:
             h = at_most if self._fixed else at_most / np.ceil(at_most / self.step - 1e-9)
-            allowed = ERROR * max(self._largest, 1e-6 * size)
+            allowed = ERROR * self._largest
             try:
                 stages = self._stages(state, h, None if self._fixed else SHARE * allowed)
             except (StepFailed, SingularMatrixError) as failure:
@@ -88,7 +92,7 @@ class Esdirk(DenseIntegrator):
                 break
             error = h * float(np.abs(np.tensordot(ERRORS, stages.v, 1)).max())
             largest = max(self._largest, float(np.abs(stages.u[-1]).max()))
-            ratio = 0.9 * (ERROR * max(largest, 1e-6 * size) / max(error, 1e-30)) ** (1.0 / 5.0)
+            ratio = 0.9 * (ERROR * largest / max(error, 1e-30)) ** (1.0 / 5.0)
             if ratio < 0.9 and h > shortest:
                 self.step = h * max(ratio, 0.2)
                 continue
@@ -97,6 +101,22 @@ class Esdirk(DenseIntegrator):
             self._largest = largest
             break
         return self._advance(state, stages, h)
+
+    def _begin(self, state: State) -> None:
+        """What the error is relative to before anything has moved, and the first step [s]: parts of how far
+        the forces lead until all rests, were it linear, and of the time in which they get there."""
+        system, problem, still = self.system, self.system.problem, np.zeros_like(state.u)
+        force = system.unbalanced(state.u, still, state.time)
+        try:
+            factor = problem.factor(system.matrix(state.u, still, state.time, 0.0, 0.0, 1.0))
+            goal = float(np.abs(problem.expand(factor.solve(problem.reduce(force)))).max())
+        except SingularMatrixError:  # rigid motions are free
+            goal = 0.0
+        goal = min(goal, problem.size)
+        fastest = float(np.abs(system.accelerate(force)).max())
+        if goal > 0.0:
+            self.step = self._first = min(self.step, FIRST * np.sqrt(goal / fastest))
+        self._largest = max(FORETOLD * goal, LEAST * problem.size, float(np.abs(state.u).max()))
 
     def _from_kink(self, state: State, at_most: float) -> tuple[State, float]:
         """The state with its acceleration from now on, and how long nothing changes its course at most."""

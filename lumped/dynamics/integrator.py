@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -55,10 +56,10 @@ class Integrator(ABC):
         self.system, self.step = system, step
 
     @classmethod
-    def default_step(cls, period: float, limit: StepLimit | None) -> float:
+    def default_step(cls, period: Callable[[], float], limit: StepLimit | None) -> float:
         """The step [s] where none is asked for, an adaptive one's first: from the limit of stability where
-        there is one, else from the lowest period [s]."""
-        return limit.advised if limit is not None else period / STEPS_PER_PERIOD
+        there is one, else from the lowest period [s]; infinite where it finds its first step itself."""
+        return limit.advised if limit is not None else period() / STEPS_PER_PERIOD
 
     @classmethod
     def limit(cls, system: System, u: np.ndarray) -> StepLimit | None:

@@ -136,9 +136,8 @@ class Newton:
                 raise StepFailed(UNSOLVED)
             base = compiled.room.base_u, compiled.room.base_v
             motion = Motion(float(stages.time[first]), *base, step.by_u, step.by_v)
-            if not compiled.factorise(self._blocks(motion, stages.u[first])):
+            if not self._factorise(compiled, motion, stages.u[first]):
                 return False
-            self._factored = step.by_u
 
     def _near(self, by_u: float) -> bool:
         """Whether the compiled iteration's factors serve an equation with this c₂."""
@@ -146,11 +145,18 @@ class Newton:
 
     def renew(self, motion: Motion, u: np.ndarray) -> None:
         """Make the factors for an equation and those like it anew, at u. Raises SingularMatrixError."""
-        blocks = self._blocks(motion, u)
-        if self._compiled is not None and self._compiled.factorise(blocks):
-            self._factored = motion.by_u
+        if self._compiled is not None and self._factorise(self._compiled, motion, u):
             return
-        self._factor, self._key = self._system.problem.factor(blocks), (motion.by_u, motion.by_v)
+        self._factor = self._system.problem.factor(self._blocks(motion, u))
+        self._key = (motion.by_u, motion.by_v)
+
+    def _factorise(self, compiled: CompiledNewton, motion: Motion, u: np.ndarray) -> bool:
+        """Make the compiled iteration's factors at u; False where the tangent is not positive definite."""
+        self._factored = None
+        v, _ = self.state(motion, u)
+        if compiled.factorise(u, v, motion.time, motion.by_u, motion.by_v):
+            self._factored = motion.by_u
+        return self._factored is not None
 
     def _blocks(self, motion: Motion, u: np.ndarray) -> np.ndarray:
         v, _ = self.state(motion, u)
@@ -168,10 +174,8 @@ class Newton:
             status, done = compiled.iterate(u, base, by, external, small, self._stale, left)
             left -= done
         while status == compiled_newton.STALE and left > 0:
-            self._factored = None
-            if not compiled.factorise(self._blocks(motion, u)):
+            if not self._factorise(compiled, motion, u):
                 return None
-            self._factored = motion.by_u
             status, done = compiled.iterate(u, base, by, external, small, self._stale, left)
             left -= done
         if status != compiled_newton.CONVERGED:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 
@@ -62,8 +63,12 @@ def plan_run(
     Raises BadInput for a step above the limit of an explicit one, too many of them, or too many samples.
     """
     kind = INTEGRATORS[integrator]
-    period = 1.0 / float(modes(system.scene, calibration, 1, calibration.masses).frequencies[0])
-    spacing = every if every is not None else period / SAMPLES_PER_PERIOD
+
+    @cache
+    def period() -> float:
+        return 1.0 / float(modes(system.scene, calibration, 1, calibration.masses).frequencies[0])
+
+    spacing = every if every is not None else period() / SAMPLES_PER_PERIOD
     if step is not None and every is None:
         spacing = max(spacing, step)
     if duration / spacing > MOST_SAMPLES:

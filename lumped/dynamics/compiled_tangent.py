@@ -1,0 +1,60 @@
+"""The tangent of an implicit step's equation and its Cholesky factors, in one compiled call.
+
+    K(u) + c₁ C(u) + c₂ M = s (K̃ + (c₁ R + c₂ M)/s),   s = 1 + c₁ t
+
+for dampers in proportion t to the springs, R of the masses' own damping: K̃ is the springs' tangent with their
+stresses over s. For small lattices of central springs under loads that do not follow the sheet; there the
+calls, one for each part, take longer than their work (`lumped.dynamics.system` has the others).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from lumped.dynamics.system import System
+from lumped.linear import banded
+from lumped.springs import together
+from lumped.springs.together import Springs
+
+
+class Tangent(NamedTuple):
+    """Springs; number of blocks of their tangent, and which are each mass's own, (n,); masses (n,) [kg] and
+    their damping [kg/s]; the dampers' time t [s]; where the entries go."""
+
+    springs: Springs
+    blocks: int
+    own: np.ndarray
+    mass: np.ndarray
+    rate: np.ndarray
+    time: float
+    band: banded.Band
+
+
+def tangent_of(system: System) -> Tangent | None:
+    """What `factorised` takes; None where dampers are not in proportion, or springs not all central."""
+    springs, band, damping = system.assembly.together, system.problem.system.band, system.damping
+    if springs is None or band is None or (damping.dampers and not damping.time):
+        return None
+    own = np.arange(len(system.lattice_mass))
+    pattern = system.assembly.pattern
+    mass, rate = np.ascontiguousarray(system.lattice_mass), np.ascontiguousarray(damping.rate)
+    return Tangent(springs.springs, pattern.blocks, pattern.slots(own, own), mass, rate, damping.time, band)
+
+
+@njit(cache=True, nogil=True)
+def factorised(u: np.ndarray, by_u: float, by_v: float, tangent: Tangent) -> tuple[bool, np.ndarray]:
+    """Whether the tangent at u (n, 3) [m] with c₂ [1/s²] and c₁ [1/s] is positive definite; its factors."""
+    both = 1.0 + by_v * tangent.time
+    link, area, middle_area, strain, middle_strain = together.stresses(u, tangent.springs)
+    stress = (link / both, area / both, middle_area / both, strain / both, middle_strain / both)
+    blocks = together.tangent(u, tangent.springs, stress, tangent.blocks)
+    for i in range(len(tangent.own)):
+        inert = (by_u * tangent.mass[i] + by_v * tangent.rate[i]) / both
+        for q in range(3):
+            blocks[tangent.own[i], q, q] += inert
+    factors = banded.stored(blocks, tangent.band)
+    factors *= both
+    return banded.factor(factors, len(tangent.band.order), tangent.band.width), factors

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -38,17 +39,19 @@ def test_scenes_are_drawn_the_same_and_have_every_support_and_load() -> None:
 def test_a_component_is_inside_where_its_error_is_below_its_bar() -> None:
     scene = scenes.load("two-edges-clamped")
 
-    def row(miss: float) -> dict[str, object]:
-        """A field that is off by a share at P4, in uz, and by nothing elsewhere."""
-        u = np.full((len(scene.probes), 3), 1e-3)
+    def row(miss: float) -> dict[str, Any]:
+        """A field that is off by a share at P4, in uz, and by a hundredth of that elsewhere."""
+        u = np.full((len(scene.probes), 3), 1e-3) * (1.0 + 0.01 * miss)
         u[:, 0] = 1e-12  # below rounding
+        u[0, 1] = 1e-3  # prescribed: the same on every mesh
         u[-1, 2] *= 1.0 + miss
         return {"displacement": u, "settings": {"elements": [8, 8], "graded": True}}
 
     def found(truth: float) -> list[bool]:
-        rows = {n: row(0.01 * (8 / n) ** 2) for n in (8, 6, 4)} | {48: row(truth)}
+        rows = {n: row(0.01 * (8 / n) ** 2) for n in (8, 6, 4)} | {48: row(0.0)}
+        rows[48]["displacement"][-1, 2] *= 1.0 + truth
         components = list(measured(scene, "plate", 8, rows))
-        assert len(components) == 2 * len(scene.probes)
+        assert len(components) == 2 * len(scene.probes) - 1
         assert {c.component for c in components} == {"uy", "uz"}
         return [c.inside for c in components]
 

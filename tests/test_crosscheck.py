@@ -11,6 +11,7 @@ import pytest
 from commands import one_line, run
 
 from comparisons.crosscheck.standing import Standing, pair
+from comparisons.crosscheck.study import Crosscheck
 from sheetbench.scenes import load
 
 SEED = load("two-edges-clamped")
@@ -144,6 +145,12 @@ def test_judges_side_by_side(fakes: Any, capsys: pytest.CaptureFixture[str]) -> 
     apart = {(one["a"], one["b"]): one["apart"] for one in document["pairs"]}
     assert apart["exact", "same"] == [] and apart["exact", "other"] == ["P1", "P2", "P3", "P4"]
     assert [judge["status"] for judge in document["judges"]] == ["found"] * 3
+
+
+def test_without_judges_there_is_no_table_of_them() -> None:
+    """It had a heading and no row."""
+    found = Crosscheck((SEED,), {SEED.name: ()}, ())
+    assert "judges" not in [table.name for table in found.report().tables]
 
 
 def test_what_a_judge_refuses_or_fails_at_is_a_row_of_its_own(

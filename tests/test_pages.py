@@ -15,8 +15,10 @@ from browser import browser, colours, opened, pixels  # noqa: F401
 from commands import run
 
 from comparisons.comparison.comparison import compare
+from comparisons.pages.asked import asked
+from comparisons.pages.findings import findings
 from comparisons.pages.page import page
-from comparisons.pages.studies import read
+from comparisons.pages.studies import Study, read
 from comparisons.pages.tables import tables
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table, unit
@@ -143,6 +145,57 @@ def test_tables_are_shown_as_the_run_showed_them(studies: Path) -> None:
         for row in table.rows:
             assert f"| {' | '.join(cell.text for cell in row)} |" in text
     assert not comparison.troubles
+
+
+FOUND = {
+    "score": (
+        {
+            "score": 0.02,
+            "cases": [{"case": "thick", "error": 0.01}, {"case": "soft", "error": 0.04}],
+            "standing": [{"model": "shell:elements=8"}, {"model": "answers"}],
+        },
+        ["A score of 2 %; the worst case is soft, 4 % off.", "Of 2 models on these cases it is number 2."],
+    ),
+    "transfer": (
+        {
+            "methods": ["consistent", "uniform"],
+            "grids": [5, 9],
+            "static": [
+                {"scene": "flat", "method": "consistent", "errors": [0.02, 0.01]},
+                {"scene": "bent", "method": "consistent", "errors": [0.06, 0.03]},
+                {"scene": "bent", "method": "uniform", "errors": [0.06, None]},
+            ],
+        },
+        ["consistent, 9 masses a side: 2 % off in the median of 2 scenes, 3 % in the worst, bent."],
+    ),
+    "crosscheck": (
+        {
+            "pairs": [
+                {"scene": "flat", "a": "lumped", "b": "shell", "difference": 0.01, "apart": []},
+                {"scene": "flat", "a": "plate", "b": "shell", "difference": 0.3, "apart": ["P1"]},
+            ]
+        },
+        [
+            "1 of 2 pairs of models agree within their error bars.",
+            "Farthest apart are plate and shell on flat, by 30 %.",
+        ],
+    ),
+}
+
+
+@pytest.mark.parametrize("verb", FOUND)
+def test_a_study_begins_with_what_it_found(tmp_path: Path, verb: str) -> None:
+    """Those of these verbs began with what their columns mean."""
+    document, said = FOUND[verb]
+    (tmp_path / "found.json").write_text(json.dumps(document))
+    study = Study(tmp_path, "", verb, ("found.json",), {"words": {"notes": ["what columns mean"]}})
+    assert findings(study) == [*said, "what columns mean"] and not study.troubles
+
+
+def test_several_grids_are_not_the_sides_of_one(tmp_path: Path) -> None:
+    settings = {"grids": [5, 9], "grid": [5, 9]}
+    study = Study(tmp_path, "", "transfer", (), {"settings": settings})
+    assert asked(study) == [("settings", "grids 5, 9, grid 5 × 9")]
 
 
 def test_damage_costs_a_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

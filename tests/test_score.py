@@ -1,4 +1,4 @@
-"""Answers in: scores, the place beside our own models, and every fault named in a line."""
+"""Answers in: scores, the place beside other models, and every fault named in a line."""
 
 from __future__ import annotations
 
@@ -75,6 +75,10 @@ def test_an_error_is_that_of_the_design(write: Write) -> None:
     assert all(one.score >= 0.02 for one in found.standing[between + 1 :])
     assert "lumped:grid=9,calibration=consistent" in models[:between]
     assert "lumped:grid=9,calibration=uniform" in models[between:]
+    whose = {one.model.partition(":")[0]: one.whose for one in found.standing}
+    ours = {"lumped": "ours", "plate": "ours", "shell": "ours"}
+    others = dict.fromkeys(["mujoco", "kratos", "calculix"], "other program")
+    assert whose == {"answers": "yours", **ours, **others}
     assert found.standing[between].seconds is None and "answers" not in found.front
 
 
@@ -166,4 +170,4 @@ def test_the_sheet_and_the_picture(write: Write, tmp_path: Path) -> None:
     out = tmp_path / "out"
     assert run("score", str(write(seconds=0.02)), "--out", str(out)) == 0
     assert (out / "score.png").stat().st_size > 10_000
-    assert "Beside our own models" in (out / "score.md").read_text()
+    assert "Beside our own models and other programs" in (out / "score.md").read_text()

@@ -28,7 +28,7 @@ def command(
     figure: Figure = None,
     overwrite: Overwrite = False,
 ) -> None:
-    """Score answers to the reference set: errors, what is wrong with them, the place beside our own models.
+    """Score answers to the reference set: errors, what is wrong with them, the place beside other models.
 
     `sheetbench suite --out DIR` writes the scenes and a form to fill in. Exit status 3 where units, signs or
     probes are mistaken.

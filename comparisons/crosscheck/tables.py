@@ -26,14 +26,15 @@ EXPLANATION = (
 def report(found: Crosscheck) -> Report:
     """What `sheetbench crosscheck` shows."""
     single = found.scenes[0] if len(found.scenes) == 1 else None
-    standings, moved, who = answers(found), displacements(found), judges(found)
+    standings, moved = answers(found), displacements(found)
+    who = (judges(found),) if found.judges else ()
     return Report(
         name="crosscheck",
         title=single.name if single else "crosscheck",
         subtitle=single.title if single else f"{len(found.scenes)} scenes, every model on meshes of its own",
         document=found.as_dict(),
-        tables=(standings, moved, pairs(found), who),
-        printed=(standings, moved, who) if single else (standings, who),
+        tables=(standings, moved, pairs(found), *who),
+        printed=(standings, moved, *who) if single else (standings, *who),
         notes=(*refusals(found), EXPLANATION),
         complaints=tuple(found.failures),
         scene=single,

@@ -59,8 +59,14 @@ def _settings(settings: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 
 def _line(values: Mapping[str, Any]) -> str:
-    shown = ((key.replace("_", " "), short(value)) for key, value in values.items())
+    shown = ((key.replace("_", " "), short(value)) for key, value in _several(values).items())
     return ", ".join(f"{key} {value}" for key, value in shown if value)
+
+
+def _several(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Grids that are several, and not the sides of one, as a text."""
+    grids = values.get("grids")
+    return {**values, **({"grids": ", ".join(map(str, grids))} if isinstance(grids, list) else {})}
 
 
 def short(value: Any) -> str:

@@ -4,6 +4,7 @@ itself."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from statistics import median
 from typing import Any
 
 from comparisons.pages.asked import short
@@ -129,6 +130,45 @@ def _reproduce(document: Document) -> list[str]:
     return [f"{one['about'].capitalize()}: {one['finding']}" for one in document["findings"]]
 
 
+def _score(document: Document) -> list[str]:
+    worst = max(document["cases"], key=lambda case: case["error"])
+    said = [
+        f"A score of {_percent(document['score'])}; the worst case is {worst['case']}, "
+        f"{_percent(worst['error'])} off."
+    ]
+    models = [one["model"] for one in document["standing"]]
+    if len(models) > 1:
+        said.append(f"Of {len(models)} models on these cases it is number {models.index('answers') + 1}.")
+    return said
+
+
+def _transfer(document: Document) -> list[str]:
+    said = []
+    for method in document["methods"]:
+        rows = [row for row in document["static"] if row["method"] == method]
+        errors = [(row["errors"][-1], row["scene"]) for row in rows if row["errors"][-1] is not None]
+        if errors:
+            (worst, scene), middle = max(errors), median(error for error, _ in errors)
+            said.append(
+                f"{method}, {document['grids'][-1]} masses a side: {_percent(middle)} off "
+                f"in the median of {len(errors)} scenes, {_percent(worst)} in the worst, {scene}."
+            )
+    return said
+
+
+def _crosscheck(document: Document) -> list[str]:
+    pairs = document["pairs"]
+    apart = [pair for pair in pairs if pair["apart"]]
+    said = [f"{len(pairs) - len(apart)} of {len(pairs)} pairs of models agree within their error bars."]
+    if apart:
+        worst = max(apart, key=lambda pair: pair["difference"])
+        said.append(
+            f"Farthest apart are {worst['a']} and {worst['b']} on {worst['scene']}, by "
+            f"{_percent(worst['difference'])}."
+        )
+    return said if pairs else []
+
+
 SAID: dict[str, Callable[[Document], list[str]]] = {
     "compare": _compare,
     "modes": _modes,
@@ -138,4 +178,7 @@ SAID: dict[str, Callable[[Document], list[str]]] = {
     "advise": _advise,
     "verify": _verify,
     "reproduce": _reproduce,
+    "score": _score,
+    "transfer": _transfer,
+    "crosscheck": _crosscheck,
 }

@@ -22,26 +22,36 @@ PLACES = (
 )
 
 
+Box = tuple[float, float, float, float]  # left, bottom, right, top, in points
+Place = tuple[tuple[float, float], str]
+
+
 def place_labels(axis: Axes, pixels: np.ndarray, names: list[str]) -> None:
     """Mark the pixels (n, 2) of an image and name the first of them, at most MOST."""
     per_point = abs(np.diff(axis.get_xlim())[0]) / (72.0 * axis.get_position().width * _width(axis))
-    taken = [(x - 2 * per_point, y - 2 * per_point, x + 2 * per_point, y + 2 * per_point) for x, y in pixels]
-    for number, ((x, y), name) in enumerate(zip(pixels, names, strict=True)):
+    shown = [plain(name, longest=LONGEST) for name in names[:MOST]]
+    flipped = np.array([1.0, -1.0]) / per_point  # y runs down in an image
+    (left, right), (bottom, top) = axis.get_xlim(), sorted(axis.get_ylim())
+    frame = (left / per_point, -top / per_point, right / per_point, -bottom / per_point)
+    chosen = spread(pixels * flipped, shown, frame)
+    for x, y in pixels:
         axis.plot(x, y, "o", markersize=3, markerfacecolor="white", markeredgecolor=DARK, markeredgewidth=0.7)
-        if number >= MOST:
-            continue
-        shown = plain(name, longest=LONGEST)
-        boxes = [_box(x, y, offset, side, len(shown), per_point) for offset, side in PLACES]
-        others = [box for i, box in enumerate(taken) if i != number]
-        worst = [_cost(box, others, axis) for box in boxes]
-        best = int(np.argmin(worst))
-        taken.append(boxes[best])
-        offset, side = PLACES[best]
-        label = axis.annotate(shown, (x, y), offset, textcoords="offset points", ha=side, fontsize=SIZE)
+    for point, name, (offset, side) in zip(pixels, shown, chosen, strict=False):
+        label = axis.annotate(name, point, offset, textcoords="offset points", ha=side, fontsize=SIZE)
         label.set_path_effects([withStroke(linewidth=1.8, foreground="white")])
 
 
-Box = tuple[float, float, float, float]
+def spread(points: np.ndarray, names: list[str], frame: Box, size: float = SIZE) -> list[Place]:
+    """Where the names of the first of the points (n, 2) stand, all in points, y upwards, within a frame."""
+    taken = [(x - 2, y - 2, x + 2, y + 2) for x, y in points]
+    chosen = []
+    for number, ((x, y), name) in enumerate(zip(points, names, strict=False)):
+        boxes = [_box(x, y, place, len(name), size) for place in PLACES]
+        others = [box for i, box in enumerate(taken) if i != number]
+        best = int(np.argmin([_cost(box, others, frame) for box in boxes]))
+        taken.append(boxes[best])
+        chosen.append(PLACES[best])
+    return chosen
 
 
 def _width(axis: Axes) -> float:
@@ -50,23 +60,17 @@ def _width(axis: Axes) -> float:
     return float(figure.get_figwidth())  # type: ignore[union-attr]
 
 
-def _box(x: float, y: float, offset: tuple[float, float], side: str, letters: int, per_point: float) -> Box:
-    """The pixels that a name covers: left, top, right, bottom (y runs down)."""
-    width, height = 0.62 * SIZE * letters, SIZE
-    left = offset[0] - {"left": 0.0, "right": width, "center": 0.5 * width}[side]
-    corners = (left, -offset[1] - height, left + width, -offset[1])
-    return (
-        x + corners[0] * per_point,
-        y + corners[1] * per_point,
-        x + corners[2] * per_point,
-        y + corners[3] * per_point,
-    )
+def _box(x: float, y: float, place: Place, letters: int, size: float) -> Box:
+    """What a name covers."""
+    (right, up), side = place
+    width = 0.62 * size * letters
+    left = x + right - {"left": 0.0, "right": width, "center": 0.5 * width}[side]
+    return (left, y + up, left + width, y + up + size)
 
 
-def _cost(box: Box, others: list[Box], axis: Axes) -> float:
-    """The area that a name would share with others or have outside the panel, [pixels²]."""
-    (left, right), (bottom, top) = axis.get_xlim(), sorted(axis.get_ylim())
-    inside = _common(box, (left, bottom, right, top))
+def _cost(box: Box, others: list[Box], frame: Box) -> float:
+    """The area that a name would share with others or have outside the frame."""
+    inside = _common(box, frame)
     return (box[2] - box[0]) * (box[3] - box[1]) - inside + sum(_common(box, other) for other in others)
 
 

@@ -1,1 +1,1 @@
-"""Answers in: somebody's values for the reference set, scored, their faults named, beside our own models."""
+"""Answers in: somebody's values for the reference set, scored beside other models, their faults named."""

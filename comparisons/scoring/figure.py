@@ -1,4 +1,4 @@
-"""The picture of a score: errors by case above the reference's bars, and the place beside our own models."""
+"""The picture of a score: errors by case above the reference's bars, and the place beside other models."""
 
 from __future__ import annotations
 
@@ -12,13 +12,15 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from comparisons.report.labels import spread
 from comparisons.report.look import PLAIN, Look
 from comparisons.report.style import DARK, GREY, STYLE, plain, save
 
 if TYPE_CHECKING:
-    from comparisons.scoring.score import Score
+    from comparisons.scoring.score import Score, Standing
 
 OWN = "#c1272d"
+NAME = 5.5  # points, of a model's name
 LEAST = 1e-3  # percent, where an error of nothing is drawn
 
 
@@ -29,7 +31,7 @@ def picture(paths: Sequence[Path], found: Score, look: Look = PLAIN) -> None:
 
 
 def compose(found: Score, look: Look = PLAIN) -> Figure:
-    """The figure: cases on the left; on the right time and score, where our own models were measured."""
+    """The figure: cases on the left; on the right time and score, where other models were measured."""
     beside = len(found.standing) > 1
     cases = 1.2 + 0.17 * max(8, len(found.answers))
     below = 2.8 if beside and look.narrow else 0.0
@@ -47,38 +49,50 @@ def _cases(axis: Axes, found: Score) -> None:
     at = np.arange(len(names))[::-1]
     errors = [max(LEAST, 100.0 * found.error(answer)) for answer in found.answers]
     bars = [max(LEAST, 100.0 * answer.reference.bar) for answer in found.answers]
-    axis.barh(at, bars, height=0.7, color="#e4e4e4", label="reference's own bar")
-    axis.plot(errors, at, "o", ms=4, color=OWN, label="answers")
+    axis.barh(at, bars, height=0.7, color="#e4e4e4")
+    axis.plot(errors, at, "o", ms=4, color=OWN)
     axis.set_yticks(at, names)
     axis.set_xscale("log")
-    axis.set_xlabel("error [%]")
+    axis.set_xlabel("error [%]; grey: the reference's own")
     axis.margins(y=0.02)
-    axis.legend(frameon=False, fontsize=6.5, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
     axis.set_title("Errors by case", fontsize=8, fontweight="bold", loc="left")
 
 
 def _place(axis: Axes, found: Score) -> None:
+    timed = [one for one in found.standing if one.seconds is not None]
+    for one in timed:
+        colour = OWN if one.model == "answers" else DARK
+        kept = colour if one.model in found.front else "white"
+        marker = "s" if one.foreign else "o"
+        axis.plot(1e3 * (one.seconds or 0.0), 100.0 * one.score, marker, ms=5, color=colour, mfc=kept)
     for one in found.standing:
-        own = one.model == "answers"
-        colour = OWN if own else DARK
         if one.seconds is None:
-            axis.axhline(100.0 * one.score, color=colour, lw=1.0, ls="--")
+            axis.axhline(100.0 * one.score, color=OWN, lw=1.0, ls="--")
             axis.annotate(
                 "answers (no times)", (0.02, 100.0 * one.score), xycoords=("axes fraction", "data"),
-                xytext=(0, 2), textcoords="offset points", fontsize=6.5, color=colour,
+                xytext=(0, 2), textcoords="offset points", fontsize=6.5, color=OWN,
             )  # fmt: skip
-            continue
-        kept = one.model in found.front
-        place = (1e3 * one.seconds, 100.0 * one.score)
-        axis.plot(*place, "o", ms=5, color=colour, markerfacecolor=colour if kept else "white")
-        axis.annotate(
-            re.sub(r"[:,]\w+=", " ", one.model), place, xytext=(0, 5), textcoords="offset points",
-            fontsize=5.5, color=colour, ha="center",
-        )  # fmt: skip
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.margins(x=0.2, y=0.1)
     axis.grid(color=GREY, lw=0.3, alpha=0.4)
-    axis.set_xlabel("time of a case [ms], geometric mean")
+    axis.set_xlabel("time of a case [ms]; squares: other programs")
     axis.set_ylabel("score [%]")
-    axis.set_title("Beside our own models", fontsize=8, fontweight="bold", loc="left")
+    axis.set_title("Beside other models", fontsize=8, fontweight="bold", loc="left")
+    _name(axis, timed)
+
+
+def _name(axis: Axes, timed: Sequence[Standing]) -> None:
+    """The models' names where they hide neither each other nor a point."""
+    figure = axis.figure
+    figure.draw_without_rendering()  # type: ignore[union-attr]
+    points = np.array([(1e3 * (one.seconds or 0.0), 100.0 * one.score) for one in timed]).reshape(-1, 2)
+    names = [re.sub(r"[:,]\w+=", " ", one.model) for one in timed]
+    per_point = figure.dpi / 72.0
+    extent = axis.get_window_extent()
+    left, bottom, right, top = (side / per_point for side in (extent.x0, extent.y0, extent.x1, extent.y1))
+    at = axis.transData.transform(points) / per_point
+    chosen = spread(at, names, (left, bottom, right, top), NAME)
+    for one, (x, y), name, (offset, side) in zip(timed, points.tolist(), names, chosen, strict=True):
+        colour = OWN if one.model == "answers" else DARK
+        axis.annotate(name, (x, y), offset, textcoords="offset points", ha=side, fontsize=NAME, color=colour)

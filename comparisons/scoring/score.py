@@ -1,4 +1,4 @@
-"""Answers to a suite beside its reference, and beside our own models.
+"""Answers to a suite beside its reference, our own models and other people's programs.
 
     error   of a case, as everywhere: largest |component of u − u_ref| over the probes (and times) / largest
             |component of u_ref|; of frequencies the largest |f/f_ref − 1|
@@ -24,8 +24,11 @@ from comparisons.scoring import tables
 from comparisons.scoring.answers import Answer, read_answers
 from comparisons.scoring.faults import faults
 from comparisons.suite.reference import Reference, document, reference, references
+from sheetbench.choices import REFERENCES
 
 OWN = "answers"
+OWN_MODELS = ("lumped", "lumped-pair", *REFERENCES)
+WHOSE = YOURS, OURS, OTHERS = "yours", "ours", "other program"
 
 
 @dataclass(frozen=True)
@@ -40,15 +43,22 @@ class Row:
 
 @dataclass(frozen=True)
 class Standing:
-    """A model's score and the geometric mean of its times [s], None where they are not told; worst: its case
-    of the largest error, if there is one; refused: cases that it has no answer to."""
+    """A model's score and the geometric mean of its times [s], None where they are not told; whose: one of
+    `WHOSE`; worst: its case of the largest error, if there is one; refused: cases that it has no answer to.
+    """
 
     model: str
     score: float
     seconds: float | None
+    whose: str
     worst: str = ""
     worst_error: float | None = None
     refused: int = 0
+
+    @property
+    def foreign(self) -> bool:
+        """Whether it is neither the answers' nor ours."""
+        return self.whose == OTHERS
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,10 +89,10 @@ class Score:
 
     @property
     def standing(self) -> list[Standing]:
-        """These answers and our own models on the same cases, the best first; ours on statics only."""
+        """These answers and other models on the same cases, the best first; the others on statics only."""
         times = [answer.seconds for answer in self.answers]
         known = [time for time in times if time]
-        own = Standing(OWN, self.score, _geometric(known) if len(known) == len(times) else None)
+        own = Standing(OWN, self.score, _geometric(known) if len(known) == len(times) else None, YOURS)
         ours = own_models([answer.reference for answer in self.answers])
         return sorted([own, *ours], key=lambda one: one.score)
 
@@ -166,6 +176,7 @@ def own_models(cases: Sequence[Reference]) -> list[Standing]:
             name,
             mean([found[case.name]["error"] for case in cases], cases),
             _geometric([row["seconds"] for row in answered.values()]),
+            OURS if next(iter(found.values()))["model"] in OWN_MODELS else OTHERS,
             *_worst({case: row["error"] for case, row in answered.items()}),
             refused=len(cases) - len(answered),
         )

@@ -1,4 +1,4 @@
-"""What a score shows: a row a case, the place beside our own models, faults in sentences."""
+"""What a score shows: a row a case, the place beside other models, faults in sentences."""
 
 from __future__ import annotations
 
@@ -78,28 +78,31 @@ def rows(found: Score) -> Table:
 
 
 def place(found: Score) -> Table:
-    """Where the answers stand among our own models, the best first."""
+    """Where the answers stand among our own models and other programs, the best first."""
     front = found.front
     lines = tuple(
-        (one.model, one.score, one.seconds, "yes" if one.model in front else "no") for one in found.standing
+        (one.model, one.whose, one.score, one.seconds, "yes" if one.model in front else "no")
+        for one in found.standing
     )
     columns = (
         Column("model"),
+        Column("whose"),
         Column("score", *PERCENT),
         Column("time", "s", "ms", 1e3, ".3g"),
         Column("on the front"),
     )
-    return Table("Beside our own models on the same cases", columns, lines, "place")
+    return Table("Beside our own models and other programs on the same cases", columns, lines, "place")
 
 
 def _where(found: Score) -> list[str]:
-    """The place in a sentence, and whose times these are."""
+    """The place in a sentence, and where the times were measured."""
     if len(found.standing) < 2:
         return []
     at = [one.model for one in found.standing].index("answers")
     made = document()["made_with"]["machine"].get("processor", "another machine")
     said = (
-        f"place {at + 1} of {len(found.standing)} by score; our times are geometric means, measured on {made}"
+        f"place {at + 1} of {len(found.standing)} by score; times of the others are geometric means, "
+        f"measured on {made}"
     )
     return [said]
 

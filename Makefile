@@ -105,9 +105,9 @@ transfer: install
 	@$(BIN)/python -m pytest -m slow tests/test_transfer.py
 
 coarse: install
-	@$(BIN)/sheetbench transfer --methods consistent,consistent-membrane --part static --grids 9,17 --elements 16 \
+	@$(BIN)/sheetbench transfer --methods auto,consistent,consistent-membrane --part static --grids 9,17 --elements 16 \
 	  --out $(OUT)/coarse-even
-	@$(BIN)/sheetbench transfer --methods consistent,consistent-membrane --part static --grids 9,17 --elements 16 \
+	@$(BIN)/sheetbench transfer --methods auto,consistent,consistent-membrane --part static --grids 9,17 --elements 16 \
 	  --grading auto --out $(OUT)/coarse
 
 tradeoff: install

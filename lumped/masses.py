@@ -14,6 +14,12 @@ higher-order  that error gone whatever f and g are, for which neighbours along a
               but the ends, c = ± l²/12; nor is it where the director is held and f g has no slope. In the
               interior no correction is wanted: with S* (`lumped.moduli`) tributary masses carry a bending
               wave of wave number q across the cells with ω² = D q⁴/ρh (1 − (q l)⁴/720 + …).
+              Across the thickness L layers at the heights z_k share theirs so that a director that turns has
+              the sheet's rotary inertia ρ h³/12, not ρ h Σ z_k²/L:
+
+                  M_z = 1/L − (1/L − h²/(12 Σ z_k²)) z zᵀ/Σ z_k²,
+
+              of two layers ½ (1 ± h²/(3 lz²))/2 on and beside the diagonal.
 
 Loads stay tributary: static deflections were calibrated with them. With other masses weight and inertia would
 be shared out differently, and a sheet that falls freely would bend a little: what moves in time therefore has
@@ -68,9 +74,18 @@ def mass_matrix(scene: Scene, lattice: Lattice, distribution: Inertia) -> sp.coo
         _corrected(lines, axis, lattice.twisting) for axis, lines in zip("xy", lattice.lines, strict=True)
     )
     x, y = along
+    per_area = scene.material.density * scene.sheet.thickness
+    return sp.coo_array(per_area * sp.kron(sp.kron(y, x), _across(scene.sheet.thickness, lattice)))
+
+
+def _across(thickness: float, lattice: Lattice) -> np.ndarray:
+    """What the layers share of a column's mass, (layers, layers)."""
     layers = lattice.grid[2]
-    per_area = scene.material.density * scene.sheet.thickness / layers
-    return sp.coo_array(per_area * sp.kron(sp.kron(y, x), sp.eye_array(layers)))
+    heights = (np.arange(layers) - (layers - 1) / 2) * lattice.layer_distance
+    square = float(heights @ heights)
+    rotary = 1.0 / layers - thickness**2 / (12.0 * square)
+    shares: np.ndarray = np.eye(layers) / layers - rotary * np.outer(heights, heights) / square
+    return shares
 
 
 def _corrected(lines: Lines, axis: str, twisting: frozenset[str]) -> sp.csr_array:

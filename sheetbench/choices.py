@@ -27,6 +27,7 @@ class Method:
 
 
 CALIBRATION = "consistent"  # unless asked for another
+AUTO = "auto"  # a calibration or a grading by what the scene is
 GRADED: tuple[Option, ...] = ("layer_distance", "grading")
 CALIBRATIONS: dict[str, Method] = {
     "consistent": Method("every modulus met, and the twist that free edges let go", GRADED),
@@ -78,8 +79,10 @@ ELEMENTS = 16  # along the shorter side
 
 
 def method_of(calibration: str | None, k: float | None) -> str:
-    """The calibration meant: the one named, else `uniform` where k is given, else the usual one."""
-    return calibration or ("uniform" if k is not None else CALIBRATION)
+    """The calibration meant: the one named, else `uniform` where k is given, else the usual one, whose
+    options those of `auto` are."""
+    named = CALIBRATION if calibration == AUTO else calibration
+    return named or ("uniform" if k is not None else CALIBRATION)
 
 
 def listed(names: Iterable[str]) -> str:

@@ -15,6 +15,7 @@ from comparisons.models import registry, springs
 from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading, grading_of
 from comparisons.models.grids import Asked, scene_grid
+from comparisons.models.method import chosen
 from sheetbench.choices import CALIBRATION, REFERENCES
 from sheetbench.scenes import AnyScene, History, Solution, scene_of
 
@@ -28,7 +29,7 @@ def calibrate(
     scene: AnyScene,
     *,
     grid: Asked = None,
-    method: str = CALIBRATION,
+    method: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,
     grading: Grading = None,
@@ -37,13 +38,16 @@ def calibrate(
     """Spring constants of a lattice for the scene's sheet and material, with the moduli that they meet.
 
     grid: 9 along the shorter side with near-square cells unless given; (nx, ny), (nx, ny, layers). method: a
-    name of `lumped.CALIBRATIONS`; the fitted ones train on the scene. k [N/m] and layer_distance [m] are for
-    the methods that take them. grading: 0, cells of one size, to 1, finest at the edges, or "auto", as the
-    scene's layers need. Raises BadInput for what does not exist or go together, and unless `large` for a fit
-    that takes more memory than there is.
+    name of `lumped.CALIBRATIONS`, consistent unless given, or "auto", as the scene's edges and load have it
+    and as goes with the grading "auto"; the fitted ones train on the scene. k [N/m] and layer_distance [m]
+    are for the methods that take them. grading: 0, cells of one size, to 1, finest at the edges, or "auto",
+    as the scene's layers need. Raises BadInput for what does not exist or go together, and unless `large` for
+    a fit that takes more memory than there is.
     """
     asked = scene_of(scene)
     masses = scene_grid(asked, grid)
+    method, _ = chosen(asked, masses, method, grading, k=k, layer_distance=layer_distance)
+    method = method or CALIBRATION
     graded, _ = grading_of(asked, masses, grading, calibration=method, k=k, layer_distance=layer_distance)
     return springs.calibrate(
         asked.sheet,

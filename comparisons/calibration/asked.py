@@ -9,9 +9,11 @@ from warnings import warn
 import lumped
 from comparisons.comparison.comparison import load_static
 from comparisons.models.expected_error import ExpectedError, expected_error
-from comparisons.models.grading import AUTO, fixed, grading_of
+from comparisons.models.grading import fixed, grading_of
+from comparisons.models.method import chosen
 from comparisons.models.quantities import checked
 from sheetbench import scenes
+from sheetbench.choices import AUTO
 from sheetbench.scenes import Material, Scene, Sheet
 from sheetbench.scenes.errors import BadInput, Implausible
 from sheetbench.scenes.grading import Graded
@@ -46,6 +48,25 @@ def sheet_and_material(
         if said not in known:
             warn(Implausible(said), stacklevel=2)
     return changed
+
+
+def method(
+    scene: str | None,
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    asked: str | None,
+    grading: str | None,
+    own: Mapping[str, Any],
+) -> tuple[str | None, str]:
+    """The calibration of a grid, and why where it is chosen by the named scene with this sheet and material;
+    own: the lattice's other settings. Raises BadInput for "auto" without a scene."""
+    if asked == AUTO and scene is None:
+        raise BadInput("method = auto: goes by a SCENE's edges and load; name one, or a calibration")
+    if scene is None:
+        return asked, ""
+    changed = scenes.load(scene).model_copy(update={"sheet": sheet, "material": material})
+    return chosen(changed, grid, asked, grading, **own)
 
 
 def grading(

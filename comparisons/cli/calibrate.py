@@ -40,11 +40,14 @@ def command(
     grid: Grid = None,
     grading: Grading = None,
     method: Annotated[
-        str,
+        str | None,
         typer.Option(
-            metavar="NAME", help="; ".join(f"{n}: {m.summary}" for n, m in CALIBRATIONS.items()) + "."
+            metavar="NAME",
+            help="; ".join(f"{n}: {m.summary}" for n, m in CALIBRATIONS.items())
+            + f"; auto: by the SCENE, as with --grading auto. {CALIBRATION} unless given.",
+            show_default=False,
         ),
-    ] = CALIBRATION,
+    ] = None,
     k: Annotated[
         float | None, typer.Option(metavar="N/M", help="Stiffness of every spring (uniform only).")
     ] = None,
@@ -94,8 +97,10 @@ def command(
     about = {"sheet": sheet.model_dump(mode="json"), "material": material.model_dump(mode="json")}
     with finish("calibrate", json, out, overwrite, about=about) as end:
         masses = parse_grid(sheet, grid) if grid is not None else grid_of(sheet, MASSES)
-        own = {"calibration": method, "k": k, "layer_distance": layer_distance}
-        graded, why = asked.grading(scene, sheet, material, masses, grading, own)
+        own = {"k": k, "layer_distance": layer_distance}
+        method, because = asked.method(scene, sheet, material, masses, method, grading, own)
+        method = method or CALIBRATION
+        graded, why = asked.grading(scene, sheet, material, masses, grading, {"calibration": method, **own})
         found = calibrate(
             sheet,
             material,
@@ -109,6 +114,7 @@ def command(
             progress=end.progress,
         )
         notes = [f"grading {graded:g}: {why}"] if why else []
+        notes += [f"{method}: {because}"] if because else []
         notes += asked.foretold(scene, sheet, material, masses)
         found = replace(found, notes=(*notes, *found.notes))
         report = tables.report(found, sheet, material, asked.expected(scene, sheet, material, found))

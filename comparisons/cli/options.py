@@ -102,7 +102,8 @@ Calibration = Annotated[
     typer.Option(
         "--calibration",
         metavar="NAME",
-        help=f"How k is found from E, ν and h: {listed(CALIBRATIONS)}. {CALIBRATION} unless given.",
+        help=f"How k is found from E, ν and h: {listed(CALIBRATIONS)}; auto: consistent ones by the scene. "
+        f"{CALIBRATION} unless given, with --grading auto as auto has it.",
     ),
 ]
 K = Annotated[

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.options import Calibration, Elements, Grading, Grid, Json
-from sheetbench.choices import CALIBRATION, ELEMENTS, REFERENCE, REFERENCES, listed
+from sheetbench.choices import AUTO, CALIBRATION, ELEMENTS, REFERENCE, REFERENCES, listed
 
 
 def command(
@@ -67,7 +67,7 @@ def command(
                 asked,
                 grid=lumped,
                 grading=grading,
-                calibration=calibration or CALIBRATION,
+                calibration=calibration or (AUTO if grading == AUTO else CALIBRATION),
                 reference=reference,
                 elements=size,
                 uncertainty=False,

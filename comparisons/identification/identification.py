@@ -43,13 +43,14 @@ from comparisons.identification.unknowns import DAMPING, Unknown, unknown
 from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading, grading_of
 from comparisons.models.grids import Asked, Elements, scene_grid
+from comparisons.models.method import chosen
 from comparisons.models.registry import check, check_reference, solve_reference
 from comparisons.models.sizes import has_room
 from comparisons.models.springs import check_lattice
 from comparisons.report.table import quantity
 from comparisons.report.work import Progress, Work, silent
 from lumped import CALIBRATIONS, Identifiability, identifiability
-from sheetbench.choices import CALIBRATION, ELEMENTS, REFERENCES
+from sheetbench.choices import CALIBRATION, ELEMENTS, REFERENCES, method_of
 from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grading import Graded, as_settings, of_settings
@@ -121,9 +122,8 @@ def identify(
         finer = (2 * nx - 1, 2 * ny - 1, layers)
         if large or has_room(scene, Candidate(model, {"grid": finer})):
             progress("looking at cells half as large")
-            steps = _refinement(
-                scene, measured, unknowns, best.x, finer, calibration, of_settings(settings), offset
-            )
+            own = settings["calibration"], of_settings(settings)
+            steps = _refinement(scene, measured, unknowns, best.x, finer, *own, offset)
         else:
             unseen = ["cells half as large take more memory than is free: the grid's error is not known"]
     found = {
@@ -227,7 +227,7 @@ def _check(
         check_lattice(calibration, None, None, grading)
         if law is not None:
             raise BadInput(f"law = '{law}': of a shell or solid; the lattice's is that of its springs")
-        if CALIBRATIONS[calibration or CALIBRATION].fitted:
+        if CALIBRATIONS[method_of(calibration, None)].fitted:
             raise BadInput(f"calibration = '{calibration}': its springs do not follow from what is sought")
     else:
         check_reference(model, elements, _of_law(law))
@@ -256,10 +256,12 @@ def _predictor(
     """The predictor, its settings, and the plan grid on which it gives a whole surface."""
     if model == "lumped":
         masses = scene_grid(scene, grid)
+        calibration, because = chosen(scene, masses, calibration, grading)
         number, why = grading_of(scene, masses, grading, calibration=calibration)
         graded = number or 0.0
         settings = {"grid": list(masses), "calibration": calibration or CALIBRATION, **as_settings(graded)}
         settings |= {"grading_reason": why} if why else {}
+        settings |= {"calibration_reason": because} if because else {}
         axes = surface.plan_grid(scene.sheet.lengths, masses[:2])
         if isinstance(measured, Displacements) and measured.time is not None:
             return motion(scene, masses, calibration, measured.time, graded), settings, axes

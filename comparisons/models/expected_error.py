@@ -9,7 +9,8 @@ of point loads in the load, γ the grading. That the error goes with l² is the 
 energy (docs/theory.md, sections 3 and 4: what is left are chords for arcs, oblique waves, the load lumped at
 masses); the factors were set on scenes: the seventeen of the transfer study at 9 and 17 masses a
 side and 44 drawn as the advisor's are (`--seed` 5 and 11 of `comparisons.advice.validation`), at 9. B depends
-on what holds the sheet: it is large where edges hold a deflection in, so that a bent sheet stretches. On
+on what holds the sheet: it is large where edges hold a deflection in, so that a bent sheet stretches. Of
+`consistent-membrane`, where `comparisons.models.method` takes it, only B of two adjacent edges is another. On
 scenes that they were not set on `tests/test_expected_error.py` says how good it is: an order of magnitude to
 choose a grid by, no error bar.
 """
@@ -23,6 +24,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.models.layers import layers
+from comparisons.models.method import MEMBRANE
 from comparisons.models.scales import scales
 from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import EDGES, Clamped, Curved, Hinged, PointLoad, Scene
@@ -38,6 +40,8 @@ ONE_EDGE, ADJACENT, OPPOSITE, HINGES = (
 )  # B of one edge, two, opposite ones, hinges alone
 BENT = 0.006  # C
 POINT = 0.27  # P
+KNOWN = (CALIBRATION, MEMBRANE)
+ADJACENT_MEMBRANE = 0.06  # B of two adjacent edges, `consistent-membrane`
 
 
 @dataclass(frozen=True)
@@ -57,11 +61,11 @@ class ExpectedError:
 
 def expected_error(scene: Scene, method: str, grid: Grid, grading: Graded = 0.0) -> ExpectedError | None:
     """The error to expect of a lattice with the springs of a method, None where nothing is known: of methods
-    other than `consistent`, of more than two layers, with actuators, and where edges move, are held in part
-    or cut the sheet."""
+    other than KNOWN, of more than two layers, with actuators, and where edges move, are held in part or cut
+    the sheet."""
     edges: set[str] = {s.edge for s in scene.supports}
     known = all(isinstance(s, Clamped | Hinged | Curved) and s.motion is None for s in scene.supports)
-    if method != CALIBRATION or grid[2] != LAYERS or scene.actuators or not edges or not known:
+    if method not in KNOWN or grid[2] != LAYERS or scene.actuators or not edges or not known:
         return None
     side = min(scene.sheet.lengths)
     cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
@@ -71,19 +75,21 @@ def expected_error(scene: Scene, method: str, grid: Grid, grading: Graded = 0.0)
     parts = [(SMOOTH * (inside / side) ** 2, f"{across} on a side of {1e3 * side:.3g} mm")]
     parts.append((POINT * _point_share(scene) * (inside / side) ** 2, f"a point load on {across}"))
     for layer in layers(scene):
-        factor = BENT if layer.bent_edge else _of_load(scene, edges)
+        factor = BENT if layer.bent_edge else _of_load(scene, edges, method)
         parts.append((factor * (at_edges / layer.width) ** 2, f"{layer}, on {across}"))
     return ExpectedError(float(sum(value for value, _ in parts)), max(parts)[1])
 
 
-def _of_load(scene: Scene, edges: set[str]) -> float:
+def _of_load(scene: Scene, edges: set[str], method: str) -> float:
     """B of what holds the sheet."""
     if len(edges) == 1:
         return ONE_EDGE
     if not any(isinstance(s, Clamped | Curved) for s in scene.supports):
         return HINGES
     adjacent = len(edges) == 2 and len({EDGES[edge].normal_axis for edge in edges}) == 2
-    return ADJACENT if adjacent else OPPOSITE
+    if not adjacent:
+        return OPPOSITE
+    return ADJACENT if method == CALIBRATION else ADJACENT_MEMBRANE
 
 
 def _point_share(scene: Scene) -> float:

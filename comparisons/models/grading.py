@@ -15,14 +15,13 @@ from typing import Any
 
 from comparisons.models.candidate import Candidate
 from comparisons.models.layers import layers
-from sheetbench.choices import CALIBRATIONS, method_of
+from sheetbench.choices import AUTO, CALIBRATIONS, method_of
 from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grading import Graded, of_settings, towards
 from sheetbench.scenes.grading import Grading as Some
 from sheetbench.scenes.grid import LAYERS
 
-AUTO = "auto"
 GRADED = 0.3  # what `auto` grades by towards all edges
 ONE_SIDED = 0.5  # and towards the one that holds the sheet
 NARROW = 0.6
@@ -94,9 +93,11 @@ def graded(
 
 
 def told(settings: Mapping[str, Any]) -> tuple[str, ...]:
-    """The sentence of the settings of an answer whose grading was chosen; none where it was asked for."""
-    why = settings.get("grading_reason")
-    return (f"grading {of_settings(settings):g}: {why}",) if why else ()
+    """The sentences of the settings of an answer whose grading or calibration was chosen, none where both
+    were asked for."""
+    chosen = {"grading": f"grading {of_settings(settings):g}", "calibration": settings.get("calibration")}
+    reasons = {name: settings.get(f"{name}_reason") for name in chosen}
+    return tuple(f"{chosen[name]}: {why}" for name, why in reasons.items() if why)
 
 
 def _impossible(grid: Sequence[int], settings: Mapping[str, Any]) -> str:

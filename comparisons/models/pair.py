@@ -25,8 +25,9 @@ import numpy as np
 from comparisons.models.grading import Grading, grading_of
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.lattice import Solve, Watch, lattice, require_known
+from comparisons.models.method import chosen
 from comparisons.models.springs import check_lattice, has_own_springs
-from sheetbench.choices import CALIBRATION, EXTRAPOLATED, listed
+from sheetbench.choices import AUTO, CALIBRATION, EXTRAPOLATED, listed
 from sheetbench.scenes import FieldMesh, Scene, Solution
 from sheetbench.scenes.balance import Balance
 from sheetbench.scenes.errors import BadInput
@@ -51,15 +52,17 @@ def lattice_pair(
 
     coarser: the other grid, of half as many cells unless given. grading: of both; "auto" looks at the finer.
     """
-    method = calibration or CALIBRATION
     fine, coarse = grids(scene, grid, coarser)
+    method, because = chosen(scene, fine, calibration, grading, layer_distance=layer_distance)
+    method = method or CALIBRATION
     own = {"calibration": method, "layer_distance": layer_distance}
     graded, why = grading_of(scene, fine, grading, **own)
     ready = [
         lattice(scene, grid=shape, grading=graded, linear=linear, symmetry=symmetry, **own)
         for shape in (coarse, fine)
     ]
-    said = {"grading_reason": why} if why else {}
+    reasons = {"grading_reason": why, "calibration_reason": because}
+    said = {name: text for name, text in reasons.items() if text}
 
     def solve(watch: Watch | None) -> Solution:
         rough, near = (answer(watch) for answer in ready)
@@ -91,7 +94,7 @@ def check_pair(scene: Scene, settings: Mapping[str, Any]) -> None:
     require_known("lumped-pair", settings, lattice_pair)
     method = settings.get("calibration")
     check_lattice(method, None, settings.get("layer_distance"), settings.get("grading"))
-    if method not in (None, *EXTRAPOLATED):
+    if method not in (None, AUTO, *EXTRAPOLATED):
         raise BadInput(
             f"lumped-pair: with the calibration {method} answers need not tend to the sheet's as cells "
             f"shrink; choose {listed(EXTRAPOLATED)}"

@@ -9,9 +9,10 @@ from warnings import warn
 from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading, fixed, grading_of
 from comparisons.models.grids import Asked, scene_grid
+from comparisons.models.method import chosen
 from comparisons.models.sizes import require_room
 from comparisons.report.work import Progress, silent
-from sheetbench.choices import CALIBRATION, CALIBRATIONS, method_of
+from sheetbench.choices import AUTO, CALIBRATION, CALIBRATIONS, method_of
 from sheetbench.scenes import Material, Scene, Sheet
 from sheetbench.scenes.errors import BadInput, Implausible, require_choice
 from sheetbench.scenes.grading import Graded
@@ -86,7 +87,7 @@ def _calibrate(
 
 def is_fitted(calibration: str | None) -> bool:
     """Whether a calibration, the usual one for None, is fitted to targets."""
-    return CALIBRATIONS[calibration or CALIBRATION].fitted
+    return CALIBRATIONS[method_of(calibration, None)].fitted
 
 
 def require_room_to_fit(scene: Scene, grid: int | Sequence[int]) -> None:
@@ -104,7 +105,7 @@ def check_lattice(
     """Raise BadInput for a calibration that does not exist, k or layer_distance not above zero, a grading
     that is not one or that the calibration does not take."""
     if calibration is not None:
-        require_choice("calibration", calibration, CALIBRATIONS)
+        require_choice("calibration", calibration, (*CALIBRATIONS, AUTO))
     require_positive("k", k, "N/m")
     require_positive("layer-distance", layer_distance, "m")
     if graded := fixed(grading):
@@ -129,14 +130,18 @@ def scene_springs(
     """Springs of a lattice for a scene, with settings of `calibrate` that `check` has seen: its own [springs]
     if it has them and no calibration, k or layer distance is given, on their own grid and grading.
 
-    grid: as `comparisons.models.grids` reads it; grading: 0 unless given, or "auto"; the reason for what that
-    has chosen comes with the springs, as a setting (`comparisons.models.grading`).
+    grid: as `comparisons.models.grids` reads it; grading: 0 unless given, or "auto", which chooses
+    the calibration too where none is given, as the calibration "auto" does; the reasons for what is chosen
+    come with the springs, as settings (`comparisons.models.grading`, `comparisons.models.method`).
     """
     import lumped
 
     masses = scene_grid(scene, grid)
     if has_own_springs(scene, **settings):
         return lumped.given(scene, masses, fixed(grading)), {}
+    method, because = chosen(scene, masses, grading=grading, **{"calibration": None, **settings})
+    settings["calibration"] = method
     graded, why = grading_of(scene, masses, grading, **settings)
     found = _calibrate(scene.sheet, scene.material, masses, grading=graded or 0.0, **settings)
-    return found, {"grading_reason": why} if why else {}
+    reasons = {"grading_reason": why, "calibration_reason": because}
+    return found, {name: said for name, said in reasons.items() if said}

@@ -7,13 +7,13 @@ from collections.abc import Collection, Sequence
 from comparisons.models.candidate import items
 from comparisons.transfer.scenes import transfer_scenes
 from comparisons.transfer.study import METHODS, PARTS
-from sheetbench.choices import CALIBRATIONS
+from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.scenes.errors import BadInput, require_choice
 
 
 def methods(text: str | None) -> list[str]:
-    """Calibrations, all of the study's unless given. Raises BadInput for another."""
-    return _chosen("--methods", METHODS if text is None else items(text), CALIBRATIONS)
+    """Calibrations, "auto" too, all of the study's unless given. Raises BadInput for another."""
+    return _chosen("--methods", METHODS if text is None else items(text), (*CALIBRATIONS, AUTO))
 
 
 def scenes(text: str | None) -> list[str]:

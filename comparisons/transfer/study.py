@@ -24,6 +24,7 @@ import numpy as np
 from comparisons.comparison.comparison import error
 from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading, graded
+from comparisons.models.method import method_for
 from comparisons.models.sizes import require_room
 from comparisons.report.report import Report
 from comparisons.runs.campaign import Progress, Run, carry_out
@@ -32,7 +33,7 @@ from comparisons.runs.store import Finished, Store
 from comparisons.transfer import tables
 from comparisons.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_scenes
 from comparisons.transfer.tasks import FINE
-from sheetbench.choices import CALIBRATIONS
+from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.scenes import Scene, comparable
 
 OTHERS = ("consistent-interior", "consistent-membrane")  # `consistent` has their moduli
@@ -142,11 +143,13 @@ class _Study:
                 grids = list(zip(self.grids, gradings[method], strict=True))
                 fields = [self._lattice(name, method, (n, n), grading=g) for n, g in grids]
                 chosen = {"gradings": gradings[method], "reasons": list(reasons)}
+                taken = {"calibration": self._method(name, method)} if method == AUTO else {}
                 rows.append(
                     {
                         "scene": name,
                         "method": method,
                         **({} if self.grading is None else chosen),
+                        **taken,
                         "trained_on": method in FITTED and name in TRAINING,
                         "errors": [_error(u, truth) for u in fields],
                         "extrapolated": _error(_richardson(fields), truth),
@@ -157,7 +160,8 @@ class _Study:
     def gradings(self, name: str) -> tuple[dict[str, list[float | str]], tuple[str, ...]]:
         """Of the scene's lattices by method, one a grid, and the reasons where they were chosen."""
         grids = [[n, n, 2] for n in self.grids]
-        asked = [Candidate("lumped", {"grid": g, "calibration": m}) for m in self.methods for g in grids]
+        taken = [self._method(name, method) for method in self.methods]
+        asked = [Candidate("lumped", {"grid": g, "calibration": m}) for m in taken for g in grids]
         chosen, reasons = graded(self.scenes[name], asked, self.grading)
         values = [candidate.settings.get("grading", 0.0) for candidate in chosen]
         count = len(grids)
@@ -251,6 +255,10 @@ class _Study:
             if not _answered(done := self.outcomes[run.key])
         ]
 
+    def _method(self, name: str, method: str) -> str:
+        """The calibration of a scene's lattices, "auto" as `comparisons.models.method` has it."""
+        return method_for(self.scenes[name])[0] if method == AUTO else method
+
     def _lattice(
         self,
         name: str,
@@ -259,6 +267,7 @@ class _Study:
         training: list[str] | None = None,
         grading: float | str = 0.0,
     ) -> np.ndarray | None:
+        method = self._method(name, method)
         arguments: dict[str, Any] = {"scene": self.texts[name], "method": method, "grid": [*grid, 2]}
         arguments |= {"grading": grading} if grading else {}
         if training is not None:
@@ -274,7 +283,7 @@ class _Study:
             "scene": self.texts[name],
             "model": "shell",
             "elements": self.elements,
-            "method": method,
+            "method": self._method(name, method),
             "grid": [n, n, 2],
         }
         return self._ask("homogenised", arguments, f"{name} {method} homogenised {n}", "displacement")
@@ -284,7 +293,7 @@ class _Study:
     ) -> np.ndarray | None:
         arguments: dict[str, Any] = {
             "scene": self.texts[name],
-            "method": method,
+            "method": self._method(name, method),
             "grid": [*grid, 2],
             "masses": masses,
         }

@@ -1,0 +1,63 @@
+"""Which springs a scene gets where the choice is left to it: `consistent` or `consistent-membrane`.
+
+Their linear bending is the same to the last digit. Where a sheet bends far, cells that are too stiff in their
+own plane make `consistent` err, stiff; where edges hold a sheet whose deflection is a few thicknesses that
+hides chords taken for arcs, which err the other way and are all that `consistent-membrane` has left. Before
+anything is solved the second is chosen
+
+- where one edge alone holds the sheet: nothing makes it stretch as a whole;
+- of two adjacent edges where the load is large for the thickness, (q a³/D)(a/h) above FAR, q a⁴/D h being
+  the deflection in thicknesses but for a factor;
+- for ν above INCOMPRESSIBLE, whatever holds the sheet: there the links on a cell's sides are least too stiff,
+  and what else errs, stiff, is more than chords for arcs;
+
+and `consistent` elsewhere. FAR and INCOMPRESSIBLE were set on scenes, the transfer study's and 97 drawn as
+the advisor's are (docs/theory.md, section 3, with what they do on others).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from comparisons.models.scales import scales
+from sheetbench.choices import AUTO, CALIBRATION
+from sheetbench.scenes import EDGES, Clamped, Curved, Hinged, Scene
+from sheetbench.scenes.grid import LAYERS
+
+MEMBRANE = "consistent-membrane"
+INCOMPRESSIBLE = 0.4
+FAR = 600.0
+
+
+def chosen(
+    scene: Scene, grid: Sequence[int], calibration: str | None, grading: Any = None, **others: Any
+) -> tuple[str | None, str]:
+    """The calibration asked for, None where nothing is; and where it is "auto", or nothing but the grading
+    "auto" is asked, the one for this scene, and why. others: k and layer_distance of the lattice."""
+    open_ = calibration is None and grading == AUTO and all(value is None for value in others.values())
+    if calibration != AUTO and not open_:
+        return calibration, ""
+    if grid[2] != LAYERS:
+        return CALIBRATION, f"the usual one, of {grid[2]} layers"
+    return method_for(scene)
+
+
+def method_for(scene: Scene) -> tuple[str, str]:
+    """The name of a calibration, and why in a sentence."""
+    held = {support.edge for support in scene.supports}
+    known = all(isinstance(s, Clamped | Hinged | Curved) and s.motion is None for s in scene.supports)
+    if scene.actuators or not held or not known:
+        return CALIBRATION, "the usual one, for edges that are not simply clamped, hinged or bent"
+    if scene.material.poisson > INCOMPRESSIBLE:
+        return MEMBRANE, f"ν = {scene.material.poisson:g} is above {INCOMPRESSIBLE:g}"
+    if len(held) == 1:
+        return MEMBRANE, f"{next(iter(held))} alone holds the sheet"
+    if len(held) == 2 and len({EDGES[edge].normal_axis for edge in held}) == 2:
+        numbers = scales(scene)
+        far = numbers.load_number / numbers.slenderness
+        one, other = sorted(held)
+        beside = f"{'above' if far > FAR else 'not above'} {FAR:g}"
+        said = f"{one} and {other} hold the sheet, (q a³/D)(a/h) = {far:.3g} is {beside}"
+        return MEMBRANE if far > FAR else CALIBRATION, said
+    return CALIBRATION, "edges hold the sheet on several sides, so that it stretches as it bends"

@@ -170,6 +170,7 @@ bench: install
 	@mkdir -p $(OUT)
 	@$(BIN)/python benchmarks/settling.py --json $(OUT)/settling.json --keep
 	@$(BIN)/python benchmarks/statics.py --json $(OUT)/statics.json --keep
+	@$(BIN)/python benchmarks/shell.py --keep
 	@OMP_NUM_THREADS=1 $(BIN)/python benchmarks/explicit_steps.py --keep
 	@$(BIN)/python benchmarks/startup.py --first --keep
 

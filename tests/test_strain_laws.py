@@ -74,10 +74,10 @@ def test_elements_through_the_thickness_are_energies_with_their_tangents(
     strain = 0.05 * rng.normal(size=(1, 54))
     energy = lambda e: np.array([sum(element.energies(e).values())])  # noqa: E731
     assert element.stress(strain) == pytest.approx(slopes(energy, strain), rel=1e-6, abs=1e-9)
-    assert element.tangent(strain) == pytest.approx(slopes(element.stress, strain), rel=1e-6, abs=1e-8)
+    assert element.moduli(strain) == pytest.approx(slopes(element.stress, strain), rel=1e-6, abs=1e-8)
     slow = element.dragged(strain, 3.0)
     assert slow.stress(strain) == pytest.approx(element.stress(strain))
-    assert slow.tangent(strain) == pytest.approx(slopes(slow.stress, strain), rel=1e-6, abs=1e-8)
+    assert slow.moduli(strain) == pytest.approx(slopes(slow.stress, strain), rel=1e-6, abs=1e-8)
 
 
 def test_the_same_integrals_with_st_venants_law_are_the_linear_element(rng: np.random.Generator) -> None:
@@ -85,7 +85,7 @@ def test_the_same_integrals_with_st_venants_law_are_the_linear_element(rng: np.r
     through = HyperelasticElement.of(NODES, material(), 0.2, LAWS[STRAIN_LAW])
     strain = rng.normal(size=(1, 54))
     assert through.stress(strain) == pytest.approx(linear.stress(strain), rel=1e-11)
-    assert through.tangent(strain) == pytest.approx(linear.stiffness, rel=1e-11, abs=1e-13)
+    assert through.moduli(strain) == pytest.approx(linear.stiffness, rel=1e-11, abs=1e-13)
     assert through.energies(strain) == pytest.approx(linear.energies(strain), rel=1e-11)
 
 

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from fem_reference.shell.element import magnitudes
 from fem_reference.shell.structure import Forces, ShellStructure, State
 from fem_reference.solving.equilibrium import TOLERANCE, Path
 from fem_reference.surface.actuator_forces import OnEdge
@@ -47,7 +48,7 @@ def balance(
 
 def _held(structure: ShellStructure, state: State, forces: Forces) -> tuple[np.ndarray, np.ndarray]:
     """What holds the nodes (n, 3) [N], and the directors (n + q, 3) [N·m], across themselves."""
-    frames = structure.frames(state)
+    frames = forces.frames
     couple = np.einsum("nc,nck->nk", np.concatenate([forces.residual[1], forces.aside]), frames)
     on_directors = np.einsum("nck,nk->nc", frames, np.where(structure.turns < 0, couple, 0.0))
     return np.where(structure.supports.position, forces.residual[0], 0.0), on_directors
@@ -55,7 +56,7 @@ def _held(structure: ShellStructure, state: State, forces: Forces) -> tuple[np.n
 
 def _summed(structure: ShellStructure, forces: Forces) -> float:
     """Σ |B| |s| [N], what forces are sums of, those on directors over the sheet's size."""
-    of_sheet = np.einsum("ekic,ek->i", np.abs(forces.gradient), np.abs(forces.stress))
+    of_sheet = magnitudes(forces.vectors, forces.stress)
     of_rods = np.einsum("ekic,ek->i", np.abs(forces.rods.gradient), np.abs(forces.rods.stress))
     on_nodes, on_directors = of_sheet[:9].sum() + of_rods[:3].sum(), of_sheet[9:].sum() + of_rods[3:].sum()
     return float(on_nodes + on_directors / structure.lever)

@@ -3,16 +3,33 @@
 from __future__ import annotations
 
 import numpy as np
+from numba import njit
 
 
+@njit(cache=True)
 def tangent_frames(directors: np.ndarray, nodes: np.ndarray, axes: np.ndarray) -> np.ndarray:
     """Orthonormal T (n, 3, 2) with T ⊥ d, whose first tangent is the given axis at the given nodes (k,)."""
-    unit = directors / np.linalg.norm(directors, axis=1, keepdims=True)
-    axis = np.eye(3)[np.argmin(np.abs(unit), axis=1)]
-    first = np.cross(axis, unit)
-    first /= np.linalg.norm(first, axis=1, keepdims=True)
-    first[nodes] = np.eye(3)[axes]
-    return np.stack([first, np.cross(unit, first)], axis=-1)
+    out = np.zeros((len(directors), 3, 2))
+    chosen = np.full(len(directors), -1)
+    for i in range(len(nodes)):
+        chosen[nodes[i]] = axes[i]
+    for n in range(len(directors)):
+        x, y, z = directors[n] / np.sqrt(np.sum(directors[n] ** 2))
+        first, second = out[n, :, 0], out[n, :, 1]
+        if chosen[n] >= 0:
+            first[chosen[n]] = 1.0
+        else:  # the axis farthest from d, times d
+            if abs(x) <= abs(y) and abs(x) <= abs(z):
+                first[1], first[2] = -z, y
+            elif abs(y) <= abs(z):
+                first[0], first[2] = z, -x
+            else:
+                first[0], first[1] = -y, x
+            first /= np.sqrt(np.sum(first**2))
+        second[0] = y * first[2] - z * first[1]
+        second[1] = z * first[0] - x * first[2]
+        second[2] = x * first[1] - y * first[0]
+    return out
 
 
 def to_unit(directors: np.ndarray) -> np.ndarray:

@@ -30,7 +30,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fem_reference.shell import sampling
+from fem_reference.shell import sampling, tangent
 from fem_reference.surface.biquadratic import (
     GAUSS,
     GAUSS_WEIGHTS,
@@ -84,6 +84,7 @@ def _strain_forms() -> np.ndarray:
 
 
 FORMS = _strain_forms()
+_OF_POSITIONS = FORMS[:, :9].reshape(STRAINS, -1)  # rows of directors are theirs turned over
 
 
 @dataclass(frozen=True)
@@ -117,25 +118,23 @@ class Element:
         reference[:, 9:, 2] = 1.0
         return cls(reference, stiffness, areas)
 
-    def gradient(self, change: np.ndarray) -> np.ndarray:
-        """B = H Q (m, 54, 18, 3): the strains' derivatives at Q₀ + change; change q: (m, 18, 3)."""
-        vectors = self.reference + change
-        found: np.ndarray = sampling.gradient(vectors, *TABLES)
-        return found
-
     def strain(self, change: np.ndarray) -> np.ndarray:
-        """Sampled strains e (m, 54) of the change q (m, 18, 3) of positions and directors."""
-        found: np.ndarray = sampling.strain(np.ascontiguousarray(change), self.reference, *TABLES)
-        return found
+        """Sampled strains e (m, 54) of the change q (m, 18, 3) of positions and directors: its product with
+        their derivatives half way, which keeps the digits of a small one."""
+        return strain_of(self.reference + 0.5 * change, change)
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """s = D e (m, 54), conjugate to the sampled strains."""
-        return self.weighed(strain, strain[:, :, None])[:, :, 0]
+        return weighed(self.stiffness, strain)
 
-    def weighed(self, strain: np.ndarray, columns: np.ndarray) -> np.ndarray:
-        """D, ∂s/∂e at strains (m, 54), times columns (m, 54, k): its three parts do not mix."""
-        parts = (MEMBRANE, BENDING, SHEAR)
-        return np.concatenate([self.stiffness[:, part, part] @ columns[:, part] for part in parts], axis=1)
+    def moduli(self, strain: np.ndarray) -> np.ndarray:
+        """D, ∂s/∂e (m, 54, 54) at strains (m, 54)."""
+        return self.stiffness
+
+    @property
+    def coupled(self) -> bool:
+        """Whether D mixes membrane and bending; shear it mixes with neither."""
+        return False
 
     @property
     def stands_any_strain(self) -> bool:
@@ -166,21 +165,42 @@ class DraggedElement(Element):
         return super().strain(change) - self.past
 
 
-def forces_of(gradient: np.ndarray, stress: np.ndarray) -> np.ndarray:
-    """Bᵀ s: (m, 18, 3)."""
-    m = len(stress)
-    return (stress[:, None, :] @ gradient.reshape(m, STRAINS, 54)).reshape(m, 18, 3)
+def weighed(moduli: np.ndarray, strain: np.ndarray) -> np.ndarray:
+    """D e (m, 54) of moduli (m, 54, 54) and strains (m, 54)."""
+    return (moduli @ strain[:, :, None])[:, :, 0]
 
 
-def strain_of(gradient: np.ndarray, step: np.ndarray) -> np.ndarray:
-    """B δq: (m, 54)."""
-    m = len(step)
-    return (gradient.reshape(m, STRAINS, 54) @ step.reshape(m, 54, 1))[:, :, 0]
+def strain_of(vectors: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """B δQ (m, 54) of a step from nodal vectors Q, both (m, 18, 3)."""
+    found: np.ndarray = sampling.strain_of(vectors, np.ascontiguousarray(step), *TABLES)
+    return found
 
 
-def geometric(stress: np.ndarray) -> np.ndarray:
-    """Σ s_k H_k (m, 18, 18), the same for each of the three components."""
-    return (stress @ FORMS.reshape(STRAINS, -1)).reshape(-1, 18, 18)
+def forces_of(vectors: np.ndarray, stress: np.ndarray) -> np.ndarray:
+    """Bᵀ s (m, 18, 3) at nodal vectors (m, 18, 3); of a step in their place, Σ s_k H_k times it."""
+    found: np.ndarray = sampling.forces_of(np.ascontiguousarray(vectors), stress, *TABLES)
+    return found
+
+
+def magnitudes(vectors: np.ndarray, stress: np.ndarray) -> np.ndarray:
+    """Σ |B| |s| (18,) by nodal vector, of vectors (m, 18, 3) and stresses (m, 54)."""
+    found: np.ndarray = sampling.magnitudes(vectors, stress, *TABLES)
+    return found
+
+
+def tangents(
+    element: Element,
+    vectors: np.ndarray,
+    moduli: np.ndarray,
+    stress: np.ndarray,
+    on: np.ndarray,
+    frames: np.ndarray,
+) -> np.ndarray:
+    """Bᵀ D B + Σ s_k H_k on the elements' unknowns (m, 45, 45); on: their nodes (m, 9), whose frames are
+    (n, 3, 2)."""
+    forms = (stress @ _OF_POSITIONS).reshape(-1, 9, 18)
+    found: np.ndarray = tangent.tangents(vectors, moduli, element.coupled, forms, frames, on, TABLES)
+    return found
 
 
 def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

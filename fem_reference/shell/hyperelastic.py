@@ -70,7 +70,12 @@ class HyperelasticElement(Element):
         """Whether the law is meant for large strains."""
         return self.law is neo_hookean
 
-    def tangent(self, strain: np.ndarray) -> np.ndarray:
+    @property
+    def coupled(self) -> bool:
+        """Whether D mixes membrane and bending."""
+        return True
+
+    def moduli(self, strain: np.ndarray) -> np.ndarray:
         """D (m, 54, 54)."""
         found = self._response(strain).tangent * self._volumes[..., None, None]
         stretch, mixed, turn = (np.einsum("egzab,z->egab", found, self.heights**n) for n in range(3))
@@ -82,10 +87,6 @@ class HyperelasticElement(Element):
         out[:, BENDING, BENDING] += _sandwich(self.bending, turn, self.bending)
         out[:, SHEAR, SHEAR] += self.stiffness[:, SHEAR, SHEAR]
         return out
-
-    def weighed(self, strain: np.ndarray, columns: np.ndarray) -> np.ndarray:
-        """D at strains (m, 54) times columns (m, 54, k)."""
-        return np.asarray(self.tangent(strain) @ columns)
 
     def energies(self, strain: np.ndarray) -> dict[str, float]:
         """Energy [J] of strains e (m, 54): that of the mid-surface's stretch, what bending adds, of shear."""

@@ -6,7 +6,8 @@ d the nine directors of an element,
     membrane  ½ (aᵀφ · bᵀφ − aᵀX · bᵀX),     bending   ½ (aᵀφ · bᵀd + bᵀφ · aᵀd),
 
 and at the first points, where a is b, also shear aᵀφ · vᵀd with v the shape functions' values (12, 9).
-Strains are numbered membrane, bending, shear; vectors are (m, 18, 3), positions first.
+Strains are numbered membrane, bending, shear; vectors Q are (m, 18, 3), positions first, and the strains'
+derivatives B = H Q (54, 18, 3) linear in them.
 """
 
 from __future__ import annotations
@@ -14,60 +15,104 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+REORDERED = {"reassoc", "contract", "nsz"}  # sums in any order, for vector instructions; infinities count
+
 
 @njit(cache=True)
-def gradient(vectors: np.ndarray, a: np.ndarray, b: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """The strains' derivatives (m, 54, 18, 3) at the vectors."""
-    plane, sheared = len(a), len(v)
-    out = np.empty((len(vectors), 2 * plane + sheared, 18, 3))
-    out[:, :plane, 9:] = 0.0
-    at, slant = np.empty((4, 3)), np.empty(3)
+def magnitudes(
+    vectors: np.ndarray, stress: np.ndarray, a: np.ndarray, b: np.ndarray, v: np.ndarray
+) -> np.ndarray:
+    """Σ |B| |s| over elements, strains and components (18,)."""
+    out, gradient = np.zeros(18), np.zeros((stress.shape[1], 18, 3))
     for e in range(len(vectors)):
-        for k in range(plane):
-            _slopes(vectors[e], a[k], b[k], k < sheared, at)
-            membrane, bending = out[e, k], out[e, plane + k]
-            for i in range(9):
-                half_a, half_b = 0.5 * a[k, i], 0.5 * b[k, i]
-                for c in range(3):
-                    stretched = half_a * at[1, c] + half_b * at[0, c]
-                    membrane[i, c] = stretched
-                    bending[i, c] = half_a * at[3, c] + half_b * at[2, c]
-                    bending[i + 9, c] = stretched
-        for k in range(sheared):
-            _slopes(vectors[e], a[k], b[k], True, at)
-            _weighed(vectors[e, 9:], v[k], slant)
-            shear = out[e, 2 * plane + k]
+        sampled(vectors[e], a, b, v, gradient)
+        for k in range(len(gradient)):
+            for i in range(18):
+                size = abs(gradient[k, i, 0]) + abs(gradient[k, i, 1]) + abs(gradient[k, i, 2])
+                out[i] += size * abs(stress[e, k])
+    return out
+
+
+@njit(cache=True, inline="always")
+def sampled(vectors: np.ndarray, a: np.ndarray, b: np.ndarray, v: np.ndarray, out: np.ndarray) -> None:
+    """B (54, 18, 3) of one element into zeros, whose membrane strains leave the directors' part alone."""
+    plane, sheared = len(a), len(v)
+    at, slant = np.empty((4, 3)), np.empty(3)
+    for k in range(plane):
+        _slopes(vectors, a[k], b[k], k < sheared, at)
+        membrane, bending = out[k], out[plane + k]
+        for i in range(9):
+            half_a, half_b = 0.5 * a[k, i], 0.5 * b[k, i]
+            for c in range(3):
+                stretched = half_a * at[1, c] + half_b * at[0, c]
+                membrane[i, c] = stretched
+                bending[i, c] = half_a * at[3, c] + half_b * at[2, c]
+                bending[i + 9, c] = stretched
+        if k < sheared:
+            _weighed(vectors[9:], v[k], slant)
+            shear = out[2 * plane + k]
             for i in range(9):
                 for c in range(3):
                     shear[i, c] = a[k, i] * slant[c]
                     shear[i + 9, c] = v[k, i] * at[0, c]
+
+
+@njit(cache=True, fastmath=REORDERED)
+def strain_of(
+    vectors: np.ndarray, step: np.ndarray, a: np.ndarray, b: np.ndarray, v: np.ndarray
+) -> np.ndarray:
+    """B δQ (m, 54) of a step (m, 18, 3) from the vectors."""
+    plane, sheared = len(a), len(v)
+    out = np.empty((len(step), 2 * plane + sheared))
+    at, by = np.empty((4, 3)), np.empty((4, 3))
+    slant, slanting = np.empty(3), np.empty(3)
+    for e in range(len(step)):
+        for k in range(plane):
+            _slopes(vectors[e], a[k], b[k], k < sheared, at)
+            _slopes(step[e], a[k], b[k], k < sheared, by)
+            stretched = bent = 0.0
+            for c in range(3):
+                stretched += at[0, c] * by[1, c] + at[1, c] * by[0, c]
+                bent += at[0, c] * by[3, c] + at[1, c] * by[2, c] + at[2, c] * by[1, c] + at[3, c] * by[0, c]
+            out[e, k], out[e, plane + k] = 0.5 * stretched, 0.5 * bent
+            if k < sheared:
+                _weighed(vectors[e, 9:], v[k], slant)
+                _weighed(step[e, 9:], v[k], slanting)
+                sheared_by = 0.0
+                for c in range(3):
+                    sheared_by += at[0, c] * slanting[c] + slant[c] * by[0, c]
+                out[e, 2 * plane + k] = sheared_by
     return out
 
 
-@njit(cache=True)
-def strain(
-    change: np.ndarray, reference: np.ndarray, a: np.ndarray, b: np.ndarray, v: np.ndarray
+@njit(cache=True, fastmath=REORDERED)
+def forces_of(
+    vectors: np.ndarray, stress: np.ndarray, a: np.ndarray, b: np.ndarray, v: np.ndarray
 ) -> np.ndarray:
-    """The strains (m, 54) of a change of the reference vectors: its product with the derivatives half way,
-    which keeps the digits of a small one."""
+    """Bᵀ s (m, 18, 3) of stresses (m, 54); of a step in place of the vectors, what it adds to Bᵀ s."""
     plane, sheared = len(a), len(v)
-    out = np.zeros((len(change), 2 * plane + sheared))
-    half, at, by = np.empty((18, 3)), np.empty((4, 3)), np.empty((4, 3))
-    slant, slanting = np.empty(3), np.empty(3)
-    for e in range(len(change)):
-        half[:] = reference[e] + 0.5 * change[e]
+    out = np.zeros((len(vectors), 18, 3))
+    at, slant = np.empty((4, 3)), np.empty(3)
+    by_a, by_b = np.empty((2, 3)), np.empty((2, 3))  # what slopes a and b are multiplied by, of φ and of d
+    for e in range(len(vectors)):
         for k in range(plane):
-            _slopes(half, a[k], b[k], k < sheared, at)
-            _slopes(change[e], a[k], b[k], k < sheared, by)
+            _slopes(vectors[e], a[k], b[k], k < sheared, at)
+            pull, turn = 0.5 * stress[e, k], 0.5 * stress[e, plane + k]
             for c in range(3):
-                out[e, k] += 0.5 * (at[0, c] * by[1, c] + at[1, c] * by[0, c])
-                bent = at[0, c] * by[3, c] + at[1, c] * by[2, c] + at[2, c] * by[1, c] + at[3, c] * by[0, c]
-                out[e, plane + k] += 0.5 * bent
+                by_a[0, c], by_a[1, c] = pull * at[1, c] + turn * at[3, c], turn * at[1, c]
+                by_b[0, c], by_b[1, c] = pull * at[0, c] + turn * at[2, c], turn * at[0, c]
+            by_value = 0.0
             if k < sheared:
-                _weighed(half[9:], v[k], slant)
-                _weighed(change[e, 9:], v[k], slanting)
+                by_value = stress[e, 2 * plane + k]
+                _weighed(vectors[e, 9:], v[k], slant)
                 for c in range(3):
-                    out[e, 2 * plane + k] += at[0, c] * slanting[c] + slant[c] * by[0, c]
+                    by_a[0, c] += by_value * slant[c]
+            for i in range(9):
+                for c in range(3):
+                    out[e, i, c] += a[k, i] * by_a[0, c] + b[k, i] * by_b[0, c]
+                    out[e, i + 9, c] += a[k, i] * by_a[1, c] + b[k, i] * by_b[1, c]
+                    if k < sheared:
+                        out[e, i + 9, c] += v[k, i] * by_value * at[0, c]
     return out
 
 

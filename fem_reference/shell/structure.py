@@ -24,13 +24,8 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
-from fem_reference.shell.element import (
-    Element,
-    forces_of,
-    geometric,
-    strain_of,
-)
-from fem_reference.shell.reduction import add_geometric, projected, reduced
+from fem_reference.shell.element import Element, forces_of, strain_of, tangents, weighed
+from fem_reference.shell.reduction import projected
 from fem_reference.solving.sparsity import Pattern
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surface
 from fem_reference.surface.loads import Follower
@@ -53,12 +48,14 @@ class State:
 
 @dataclass(frozen=True)
 class Forces:
-    """At a state: B (m, 54, 18, 3), e and s (m, 54), the same of the rods, residuals R (2, n, 3) on the sheet
-    and aside (q, 3) on the rods' m, size of the forces that balance [N]."""
+    """At a state: of the elements Q (m, 18, 3), s (m, 54), D (m, 54, 54); T (n + q, 3, 2) of the directors; B
+    and s of the rods; residuals R (2, n, 3) on the sheet and aside (q, 3) on the rods' m; size of the forces
+    that balance [N]."""
 
-    gradient: np.ndarray
-    strain: np.ndarray
+    vectors: np.ndarray
     stress: np.ndarray
+    moduli: np.ndarray
+    frames: np.ndarray
     rods: Strained
     residual: np.ndarray
     aside: np.ndarray
@@ -173,9 +170,9 @@ class ShellStructure:
     def forces(self, state: State, load_factor: float) -> Forces:
         """Internal less external forces, and what they are measured against."""
         change = self.gather(state.change)
-        gradient, strain = self.element.gradient(change), self.element.strain(change)
+        vectors, strain = self.element.reference + change, self.element.strain(change)
         stress = self.element.stress(strain)
-        internal = self._scatter(forces_of(gradient, stress))
+        internal = self._scatter(forces_of(vectors, stress))
         external = load_factor * self._external(change)
         size = np.abs(external[0]).sum() + np.abs(internal[0][self.supports.position]).sum()
         size += np.abs(external[1]).sum() / self.lever
@@ -186,12 +183,14 @@ class ShellStructure:
         size += load_factor * np.abs(elements.weight[:, :3]).sum()
         size += np.abs(driving[:, :3]).sum() + np.abs(driving[:, 3:]).sum() / self.lever
         pull, aside = self._split(self.rods.scatter(rods.pull, self._vectors))
-        return Forces(gradient, strain, stress, rods, internal - external + pull, aside, float(size))
+        residual = internal - external + pull
+        moduli, frames = self.element.moduli(strain), self.frames(state)
+        return Forces(vectors, stress, moduli, frames, rods, residual, aside, float(size))
 
     def imbalance(self, state: State, forces: Forces) -> float:
         """Sum of the free unknowns' residuals [N], directors' moments over the sheet's size."""
         couple = np.concatenate([forces.residual[1], forces.aside])
-        moment = np.einsum("nc,nck->nk", couple, self.frames(state)) / self.lever
+        moment = np.einsum("nc,nck->nk", couple, forces.frames) / self.lever
         on_nodes = np.abs(forces.residual[0][self.number[:, :3] >= 0]).sum()
         return float(on_nodes + np.abs(moment[self.turns >= 0]).sum())
 
@@ -204,7 +203,7 @@ class ShellStructure:
         self, state: State, forces: Forces, load_factor: float, mixed: bool = True
     ) -> tuple[csr_matrix, np.ndarray]:
         """Tangent (unknowns, unknowns) and right-hand side of the step to equilibrium and constraints."""
-        frames = self.frames(state)
+        frames, vectors, moduli = forces.frames, forces.vectors, forces.moduli
         step = self._to_constraints(state, load_factor)
         pressing = np.concatenate([*forces.residual, forces.aside])
         stress, rod_stress = forces.stress, forces.rods.stress
@@ -212,19 +211,13 @@ class ShellStructure:
             stress, rod_stress = state.stress, state.rod_stress
             pressing = pressing + self._pull(forces, stress - forces.stress, rod_stress - forces.rods.stress)
 
-        of_nodes = frames[self.element_nodes]
-        gradient, form = reduced(forces.gradient, of_nodes), geometric(stress)
-        stiffness = gradient.swapaxes(1, 2) @ self.element.weighed(forces.strain, gradient)
-        add_geometric(stiffness, form, of_nodes)
+        stiffness = tangents(self.element, vectors, moduli, stress, self.element_nodes, frames)
         of_step = self.gather(self._split(step)[0])
-        strain = strain_of(forces.gradient, of_step)
-        pulled = self.element.weighed(forces.strain, strain[:, :, None])[:, :, 0]
-        pull = forces_of(forces.gradient, pulled) + form @ of_step
-        vectors = self.element.reference + self.gather(state.change)
+        pull = forces_of(vectors, weighed(moduli, strain_of(vectors, of_step))) + forces_of(of_step, stress)
         for load in self.followers:
             tangent = -load_factor * load.tangent(vectors[load.elements])
             pull[load.elements] += np.einsum("eicjd,ejd->eic", tangent, of_step[load.elements])
-            stiffness[load.elements] += projected(tangent, of_nodes[load.elements])
+            stiffness[load.elements] += projected(tangent, frames[self.element_nodes[load.elements]])
 
         full = self.rods.elements.tangent(forces.rods.gradient, rod_stress)
         onto = self._onto_rods(frames)
@@ -243,10 +236,9 @@ class ShellStructure:
         vectors = self._to_constraints(state, load_factor)
         vectors[: self.count] += np.where(self.number >= 0, step[self.number], 0.0)[:, :3]
         turn = np.where(self.turns >= 0, step[self.turns], 0.0)
-        vectors[self.count :] += np.einsum("nck,nk->nc", self.frames(state), turn)
+        vectors[self.count :] += np.einsum("nck,nk->nc", forces.frames, turn)
         change, aside = self._split(vectors)
-        strain = strain_of(forces.gradient, self.gather(change))
-        of_step = self.element.weighed(forces.strain, strain[:, :, None])[:, :, 0]
+        of_step = weighed(forces.moduli, strain_of(forces.vectors, self.gather(change)))
         return State(
             state.change + change,
             state.aside + aside,
@@ -297,7 +289,7 @@ class ShellStructure:
     def _pull(self, forces: Forces, stress: np.ndarray, rod_stress: np.ndarray) -> np.ndarray:
         """Bᵀ s of stresses of elements and rods, (2n + q, 3)."""
         out = self.rods.scatter(self.rods.elements.force(forces.rods.gradient, rod_stress), self._vectors)
-        self._split(out)[0][:] += self._scatter(forces_of(forces.gradient, stress))
+        self._split(out)[0][:] += self._scatter(forces_of(forces.vectors, stress))
         return out
 
     def _external(self, change: np.ndarray) -> np.ndarray:

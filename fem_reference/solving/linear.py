@@ -49,12 +49,13 @@ class Factor:
         self.matrix = matrix
         self.inertia = inertia
         self._factors = factors
+        self._largest = np.abs(matrix.data).max(initial=0.0)
 
     def solve(self, b: np.ndarray) -> np.ndarray:
         """x (n,) with A x = b, refined once. Raises SingularMatrix if the residual stays large."""
         x = self._factors.solve(b)
         x = x + self._factors.solve(b - self.matrix @ x)
-        size = abs(self.matrix).max() * np.abs(x).max(initial=0.0) + np.abs(b).max(initial=0.0)
+        size = self._largest * np.abs(x).max(initial=0.0) + np.abs(b).max(initial=0.0)
         gap = np.abs(self.matrix @ x - b).max(initial=0.0)
         if not gap <= BACKWARD_ERROR * size:  # also catches nan
             raise SingularMatrix(f"residual {gap:.1e} after refinement: singular to working precision")

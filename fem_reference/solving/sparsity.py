@@ -1,12 +1,15 @@
 """Element matrices into a compressed sparse matrix whose pattern is found once.
 
-Every entry of every element matrix has a slot in the matrix's data; assembling is one product with a matrix
-of ones. Held unknowns carry the number −1 and are left out.
+Every entry of every element matrix has a slot in the matrix's data. Held unknowns carry the number −1 and
+are left out.
 """
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
+from numba import njit
 from scipy.sparse import csr_matrix
 
 
@@ -18,28 +21,27 @@ class Pattern:
 
     def __init__(self, *unknowns: np.ndarray, size: int):
         self.size = size
-        keys, kept = [], []
-        for number in unknowns:
-            k = number.shape[1]
-            rows = np.repeat(number, k, axis=1).ravel().astype(np.int64)
-            columns = np.tile(number, (1, k)).ravel().astype(np.int64)
-            kept.append(np.nonzero((rows >= 0) & (columns >= 0))[0])
-            keys.append(rows[kept[-1]] * size + columns[kept[-1]])
-        key, slots = np.unique(np.concatenate(keys), return_inverse=True)
-        apart = np.split(slots, np.cumsum([len(one) for one in keys])[:-1])
-        self._sums = [
-            _sum_of(where, which, (len(key), number.size * number.shape[1]))
-            for where, which, number in zip(apart, kept, unknowns, strict=True)
-        ]
-        self._columns = (key % size).astype(np.int32)
-        self._starts = np.searchsorted(key, np.arange(size + 1, dtype=np.int64) * size).astype(np.int32)
-        self._diagonal = np.searchsorted(key, np.arange(size, dtype=np.int64) * (size + 1))
+        widths = np.concatenate([np.full(len(number), number.shape[1]) for number in unknowns])
+        starts = np.concatenate([[0], np.cumsum(widths)])
+        entries = np.concatenate([number.ravel() for number in unknowns]).astype(np.int64)
+        touching = np.argsort(entries, kind="stable")[np.count_nonzero(entries < 0) :]
+        element = np.repeat(np.arange(len(widths)), widths)[touching]
+        ends = np.searchsorted(entries[touching], np.arange(size + 1))
+        having = csr_matrix((np.ones(len(element), bool), element, ends), shape=(size, len(widths)))
+        matrix = having @ having.T
+        matrix.sort_indices()
+        self._columns, self._starts = matrix.indices.astype(np.int32), matrix.indptr.astype(np.int32)
+        blocks = np.concatenate([[0], np.cumsum(widths**2)])
+        slots = _slots(self._columns, self._starts, entries, starts, touching, element, ends, blocks)
+        kinds = pairwise(np.cumsum([0, *(number.size * number.shape[1] for number in unknowns)]))
+        self._slots = [slots[first:last] for first, last in kinds]
+        self._diagonal = np.flatnonzero(self._columns == np.repeat(np.arange(size), np.diff(self._starts)))
 
     def matrix(self, *blocks: np.ndarray, diagonal: np.ndarray | None = None) -> csr_matrix:
         """Sum of element matrices (m, k, k) by kind, kinds left out being zero, and of a diagonal (size,)."""
         data = np.zeros(len(self._columns))
-        for sums, block in zip(self._sums, blocks, strict=False):
-            data += sums @ block.ravel()
+        for slots, block in zip(self._slots, blocks, strict=False):
+            _add(data, slots, block.ravel())
         if diagonal is not None:
             data[self._diagonal] += diagonal
         assembled = csr_matrix((data, self._columns, self._starts), shape=(self.size, self.size))
@@ -47,6 +49,41 @@ class Pattern:
         return assembled
 
 
-def _sum_of(slots: np.ndarray, entries: np.ndarray, shape: tuple[int, int]) -> csr_matrix:
-    """The map from the element matrices' entries to their sums by slot."""
-    return csr_matrix((np.ones(len(slots)), (slots, entries)), shape=shape)
+@njit(cache=True)
+def _slots(
+    columns: np.ndarray,
+    rows: np.ndarray,
+    entries: np.ndarray,
+    starts: np.ndarray,
+    touching: np.ndarray,
+    element: np.ndarray,
+    ends: np.ndarray,
+    blocks: np.ndarray,
+) -> np.ndarray:
+    """Place in the data of every entry of all element matrices, −1 where it is left out.
+
+    columns, rows: of the matrix; entries: of all elements one after the other, from starts (M + 1,) on;
+    touching: places in `entries` of the unknowns in order, in element, from ends (size + 1,) on; blocks: the
+    starts of the elements' matrices (M + 1,).
+    """
+    out = np.full(blocks[-1], -1, np.int32)
+    place = np.empty(len(rows), np.int32)
+    for row in range(len(rows) - 1):
+        for at in range(rows[row], rows[row + 1]):
+            place[columns[at]] = at
+        for t in range(ends[row], ends[row + 1]):
+            e = element[t]
+            begin, width = starts[e], starts[e + 1] - starts[e]
+            first = blocks[e] + (touching[t] - begin) * width
+            for j in range(width):
+                if entries[begin + j] >= 0:
+                    out[first + j] = place[entries[begin + j]]
+    return out
+
+
+@njit(cache=True)
+def _add(data: np.ndarray, slots: np.ndarray, values: np.ndarray) -> None:
+    """Add values to the data at their slots."""
+    for i in range(len(slots)):
+        if slots[i] >= 0:
+            data[slots[i]] += values[i]

@@ -18,6 +18,7 @@ from lumped.linear import banded
 from lumped.linear.maps import Rows, rows
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import Packing, Scratch
+from lumped.springs.tiles import YES
 
 CONVERGED, STALE, LOST = range(3)
 
@@ -137,7 +138,7 @@ def iterate(
         for i in range(len(arrays.rate)):
             for q in range(3):
                 force[i, q] += arrays.rate[i] * velocity[i, q]
-        add_forces(u, velocity, True, arrays.packing.damped, arrays.packing, arrays.scratch, force)
+        add_forces(u, velocity, YES, arrays.packing.damped, arrays.packing, arrays.scratch, force)
         right[:] = 0.0
         for row in range(len(moved)):
             for e in range(free.pointers[row], free.pointers[row + 1]):

@@ -14,6 +14,7 @@ from numba import njit
 
 from lumped.dynamics.compiled_newton import CONVERGED, Arrays, Room, iterate
 from lumped.springs.all_forces import add_forces
+from lumped.springs.tiles import NO, YES
 
 
 class Stages(NamedTuple):
@@ -120,7 +121,7 @@ def power_taken(u: np.ndarray, v: np.ndarray, arrays: Arrays, room: Room) -> flo
     """Power [W] of the lattice's dampers and of the masses' own damping."""
     power = 0.0
     if arrays.packing.damped:
-        _, power = add_forces(u, v, False, True, arrays.packing, arrays.scratch, room.force)
+        _, power = add_forces(u, v, NO, YES, arrays.packing, arrays.scratch, room.force)
     for i in range(len(arrays.rate)):
         for q in range(3):
             power += arrays.rate[i] * v[i, q] * v[i, q]

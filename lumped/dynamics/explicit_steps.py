@@ -19,7 +19,7 @@ from numba import njit
 from lumped.dynamics.follower_loads import Followers, add_followers
 from lumped.springs.all_forces import add_at_places
 from lumped.springs.packing import Packing
-from lumped.springs.tiles import OPTIONS
+from lumped.springs.tiles import NO, OPTIONS, YES
 
 
 class Motion(NamedTuple):
@@ -86,7 +86,7 @@ def march(
         rounded(motion, u, x)
         w[:] = v
         force[:] = 0.0
-        _, power = add_at_places(x, w, True, packing.damped, packing, force, room.tile)
+        _, power = add_at_places(x, w, YES, packing.damped, packing, force, room.tile)
         power += resist(rate, w, force)
         for i in range(len(driven)):
             room.exerted[i] = exerted_on(motion, driven[i], a, force, load)
@@ -102,7 +102,7 @@ def march(
             external(motion, factors[n + 1], u, load)
         rounded(motion, u, x)
         force[:] = 0.0
-        _, now = add_at_places(x, w, True, packing.damped, packing, force, room.tile)
+        _, now = add_at_places(x, w, YES, packing.damped, packing, force, room.tile)
         now += resist(rate, w, force)
         if not _accelerate(0.5 * h, motion, load, force, a, v):
             return False, n, taken, work
@@ -110,7 +110,7 @@ def march(
             for i in range(len(d)):
                 d[i] = v[i] - w[i]
             damping[:] = 0.0
-            _, beyond = add_at_places(x, d, False, packing.damped, packing, damping, room.tile)
+            _, beyond = add_at_places(x, d, NO, packing.damped, packing, damping, room.tile)
             beyond += resist(rate, d, damping)
             now += 2.0 * _correct(motion, w, damping, force) + beyond
             taken += 0.5 * h * (power + now)

@@ -23,7 +23,7 @@ from lumped.dynamics.explicit_steps import (
     work_of_supports,
 )
 from lumped.springs.all_forces import add_at_places
-from lumped.springs.tiles import OPTIONS
+from lumped.springs.tiles import NO, OPTIONS, YES
 
 CLOSE = 1e-8  # what corrections leave of the velocity, relative to the largest
 STALE = 0.1  # ratio of successive corrections above which the factors are made anew
@@ -70,10 +70,10 @@ def march(
     w[:] = v
     last[:] = v
     force[:] = 0.0
-    _, power = add_at_places(x, w, False, True, packing, force, room.tile)
+    _, power = add_at_places(x, w, NO, YES, packing, force, room.tile)
     power += resist(rate, w, force)
     if len(driven):
-        add_at_places(x, w, True, False, packing, force, room.tile)
+        add_at_places(x, w, YES, NO, packing, force, room.tile)
     for i in range(len(driven)):
         room.exerted[i] = exerted_on(motion, driven[i], a, force, load)
     ratio, measured = 1.0, 0
@@ -99,12 +99,12 @@ def march(
             external(motion, factors[n + 1], u, load)
         rounded(motion, u, x)
         force[:] = 0.0
-        add_at_places(x, w, True, False, packing, force, room.tile)
+        add_at_places(x, w, YES, NO, packing, force, room.tile)
         size, aged = np.inf, False
         for k in range(CORRECTIONS):
             w[:] = guess
             damping[:] = 0.0
-            add_at_places(x, w, False, True, packing, damping, room.tile)
+            add_at_places(x, w, NO, YES, packing, damping, room.tile)
             resist(rate, w, damping)
             before = size
             size, largest = _correct(0.5 * h, motion, band, v, load, force, damping, guess, solved)

@@ -19,6 +19,7 @@ import numpy as np
 from numba import njit
 
 WIDTH = 128
+YES, NO = np.True_, np.False_  # for Python's own numba compiles a kernel once for each
 ROWS = tuple(np.uint64(row * WIDTH) for row in range(24))
 OPTIONS: dict[str, Any] = {
     "cache": True,

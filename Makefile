@@ -11,7 +11,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
             shell_element.py shell_linear.py solid_element.py sections.py snaps.py campaign.py \
             report.py measurements.py) tests/fuzz
 
-.PHONY: docs docs-scene help install demo test check slow fuzz kills catalogue verify locking coverage transfer coarse tradeoff \
+.PHONY: docs docs-scene help install demo test check kernels slow fuzz kills catalogue verify locking coverage transfer coarse tradeoff \
         advisor-study animations notebooks reproduce crosscheck peers bench central simulators stability stability-full suite standing mutants viewer \
         wheel-check lint clean
 help:
@@ -65,11 +65,15 @@ $(VENV)/installed: pyproject.toml constraints.txt
 demo: install
 	@$(BIN)/sheetbench compare two-edges-clamped --lumped 9 --reference shell --out $(OUT)
 
-test: install lint
+test: install lint kernels
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile
 
-check: install lint
+check: install lint kernels
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile $(CHECK)
+
+# once, and not by each of the tests' processes
+kernels: install
+	@$(BIN)/python tests/kernels.py
 
 slow: install
 	@$(BIN)/python -m pytest --numprocesses auto -m slow

@@ -17,6 +17,7 @@ from dynamic_cases import scene, springs
 from limits import at_most
 
 import lumped
+from lumped.dynamics.store import FolderStore
 from sheetbench.files import only_writer
 from sheetbench.scenes import BadInput
 
@@ -172,6 +173,24 @@ def test_damaged_files_are_refused_in_a_line_with_the_remedy(kept, name, content
         again()
     shutil.rmtree(folder)
     assert np.array_equal(again().probes["P4"], history.probes["P4"])
+
+
+def test_a_checkpoint_is_on_the_disk_after_what_it_counts_and_before_it_has_its_name(tmp_path, monkeypatch):
+    """Whole, each of them: a machine that stops at any moment leaves nothing counted that is not there."""
+    synced = []
+
+    def fsync(file):
+        about = os.fstat(file)
+        synced.append((about.st_ino, about.st_size, (tmp_path / "checkpoint.npz").exists()))
+
+    monkeypatch.setattr(os, "fsync", fsync)
+    with FolderStore(tmp_path, 2, 3, {}) as store:
+        store.resume()
+        store.sample(np.ones(2))
+        store.frame(np.ones((3, 3)))
+        store.checkpoint({"step": np.array(1)})
+    files = [(tmp_path / name).stat() for name in ("samples.bin", "frames.bin", "checkpoint.npz")]
+    assert synced == [(about.st_ino, about.st_size, False) for about in files]
 
 
 def test_a_run_has_one_writer(kept):

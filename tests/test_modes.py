@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fem_reference.vibration import modes
+from fem_reference.vibration import REST_STATES, modes
 from sheetbench import scenes
 from sheetbench.scenes import Material, Scene, Sheet
 
@@ -120,6 +120,17 @@ def test_rigid_motions_left_out(supports, expected, model):
     got = modes(scene, model, 4, count=4)
     assert got.rigid_modes == expected
     assert got.frequencies[0] * factor(scene) > 1.0
+
+
+@pytest.mark.parametrize("model", REST_STATES)
+def test_rigid_motions_have_the_mass_and_the_moments_of_inertia_of_the_sheet(model):
+    """About its middle, through the thickness too; quadrature is exact for products of linear motions."""
+    sheet = Sheet(length_x=0.3, length_y=0.2, thickness=0.05)
+    rest = REST_STATES[model](clamped(sheet), (3, 2))
+    a, b, h = 0.3, 0.2, 0.05
+    squares = [1.0, 1.0, 1.0, (b**2 + h**2) / 12, (a**2 + h**2) / 12, (a**2 + b**2) / 12]
+    inertia = rest.rigid.T @ rest.mass @ rest.rigid
+    np.testing.assert_allclose(inertia, STEEL.density * a * b * h * np.diag(squares), atol=1e-10)
 
 
 def test_hinged_plate():

@@ -27,7 +27,7 @@ from nearest import Nearest, words_of
 
 JUDGE = Path(__file__).with_name("judge.py").resolve()
 PACKAGES = ("lumped", "fem_reference")
-ENOUGH = 90.0  # seconds of processor time after which a fault has survived
+ENOUGH = 60.0  # seconds of processor time after which a fault has survived
 HUNG = 1800  # seconds on the clock
 NO_END = "no end, or a crash"
 FIRST, ALL = 6, 30  # files of tests that are read first, and at most

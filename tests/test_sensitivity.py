@@ -69,6 +69,16 @@ def test_material(name):
     assert_close(found.derivatives[name], by_differences(scene, springs, change, value, 1e-4 * value))
 
 
+def test_at_a_bound_the_difference_is_one_sided():
+    """At the largest ν the slope is that close below, to the distance times the curvature."""
+    slopes = []
+    for poisson in (0.4999, 0.4999 - 1e-3):
+        scene = with_material(scene_of("one-edge-clamped"), poisson=poisson)
+        found = lumped.sensitivity(scene, springs_of(scene, (3, 3)), ["poisson"])
+        slopes.append(found.derivatives["poisson"])
+    assert_close(*slopes, within=1e-2)
+
+
 def test_thickness():
     scene = scene_of("one-edge-clamped")
 

@@ -8,7 +8,8 @@
     statement    left out, where nothing is named by it
 
 Left alone is what no run can tell from the original or nobody would test: docstrings, annotations,
-decorators, imports, texts with their formats, what an error says, arguments that guard or speed up alone.
+decorators, imports, texts with their formats, what an error says, arguments that guard or speed up alone,
+numbers so small that they are tolerances.
 """
 
 from __future__ import annotations
@@ -45,6 +46,7 @@ ARITHMETIC: dict[type[ast.operator], type[ast.operator]] = {
 UNTOUCHED = (ast.JoinedStr, ast.Raise, ast.Import, ast.ImportFrom)
 NOT_RUN = ("annotation", "returns", "decorator_list", "type_params")
 GUARDS = ("strict", "optimize")
+TOLERANCES = 1e-5
 NO_NAME_HANGS_ON_IT = (ast.AugAssign, ast.Raise, ast.Break, ast.Continue)
 
 
@@ -131,7 +133,7 @@ def expressions(node: ast.AST) -> Iterator[ast.AST]:
             yield ast.Constant(not value)
         case ast.Constant(value=int(value)):
             yield ast.Constant(value + 1)
-        case ast.Constant(value=float(value)):
+        case ast.Constant(value=float(value)) if not 0.0 < value < TOLERANCES:
             yield ast.Constant(2.0 * value or 1.0)
 
 

@@ -112,10 +112,11 @@ class Assembly:
             family.add_average_force(start, end, force)
         return force
 
-    def energies(self, u: np.ndarray) -> dict[str, float]:
-        """Elastic energy [J] of the springs under each name in the spring set."""
+    def energies(self, u: np.ndarray, stresses: Stresses | None = None) -> dict[str, float]:
+        """Elastic energy [J] of the springs under each name in the spring set. stresses: those at u, where
+        they are known."""
         found: dict[str, float] = {}
-        for family, stress in zip(self.springs, self.stresses(u), strict=True):
+        for family, stress in zip(self.springs, stresses or self.stresses(u), strict=True):
             for name, energy in family.by_name(family.energies(stress)).items():
                 found[name] = found.get(name, 0.0) + energy
         return found

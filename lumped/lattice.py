@@ -119,6 +119,17 @@ class Lattice:
         x, y = self.lines
         return np.outer(y.widths, x.widths)
 
+    @cached_property
+    def diagonals(self) -> dict[str, np.ndarray]:
+        """Rest diagonals (c, 2, 3) [m] of the cells of each family, between the means of their corners."""
+        found = {}
+        for family in self.cells:
+            corners = self.positions[family.nodes].mean(axis=2)
+            found[family.name] = np.stack(
+                [corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]], axis=1
+            )
+        return found
+
     def number(self, i: np.ndarray, j: np.ndarray, k: np.ndarray) -> np.ndarray:
         """Mass numbers of grid indices (broadcast)."""
         nx, _, layers = self.grid

@@ -27,8 +27,24 @@ def same(many, single):
 
 def test_one_scene_with_many_springs():
     several = [SPRINGS.with_constant("diagonal", k) for k in np.linspace(2000.0, 9000.0, 12)]
-    for answer, springs in zip(lumped.solve_many(SCENE, several, workers=3), several, strict=True):
+    answers = lumped.solve_many(SCENE, several, workers=3)
+    for answer, springs in zip(answers, several, strict=True):
         same(answer, lumped.solve(SCENE, springs))
+    assert answers.alone == ()
+
+
+def test_scenes_of_every_kind_side_by_side():
+    """Grids, supports at rest and moving, full weights; what no batch takes is solved alone, and counted."""
+    names = ["two-edges-clamped", "curved-edge", "curved-edge", "one-edge-clamped", "two-edges-clamped"]
+    scenes = [load(name) for name in names]
+    scenes.append(replace_gravity(load("curved-edge"), 20.0))  # moving supports in more than one load step
+    grids = [(3, 3), (5, 5), (5, 5), (4, 3), (3, 3), (3, 3)]
+    springs = [lumped.calibrate(s.sheet, s.material, grid=g) for s, g in zip(scenes, grids, strict=True)]
+    answers = lumped.solve_many(scenes, springs, weights="full", workers=1)
+    for answer, scene, own in zip(answers, scenes, springs, strict=True):
+        same(answer, lumped.solve(scene, own, weights="full"))
+        assert answer.settings["weights"] == "full"
+    assert answers.alone == (5,)
 
 
 def test_many_scenes_with_springs_of_their_own_or_one_for_all():
@@ -45,8 +61,13 @@ def test_many_scenes_with_springs_of_their_own_or_one_for_all():
 def test_a_case_that_fails_costs_no_other():
     """Weight enough to tear any sheet apart, between two that stand."""
     gravity = replace_gravity(SCENE, 1e9)
-    statuses = [answer.status for answer in lumped.solve_many([SCENE, gravity, SCENE], SPRINGS)]
-    assert statuses[0] == statuses[2] == Status.CONVERGED and statuses[1] != Status.CONVERGED
+    answers = lumped.solve_many([SCENE, gravity, SCENE], SPRINGS, workers=1)
+    statuses = [answer.status for answer in answers]
+    assert (
+        answers.alone == (1,)
+        and statuses[0] == statuses[2] == Status.CONVERGED
+        and statuses[1] != Status.CONVERGED
+    )
 
 
 def replace_gravity(scene: Scene, times: float) -> Scene:

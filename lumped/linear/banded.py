@@ -99,9 +99,15 @@ def stored(blocks: np.ndarray, band: Band) -> np.ndarray:
 
 
 @njit(cache=True, nogil=True)
+def shape(band: Band) -> tuple[int, int]:
+    """Rows and columns of the storage."""
+    return rows(len(band.order)), band.width + 1 + PANEL
+
+
+@njit(cache=True, nogil=True)
 def room(band: Band) -> np.ndarray:
     """Band storage, empty."""
-    return np.zeros((rows(len(band.order)), band.width + 1 + PANEL))
+    return np.zeros(shape(band))
 
 
 @njit(cache=True, nogil=True)

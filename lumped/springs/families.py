@@ -178,7 +178,8 @@ def area_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iter
         if stiffness.any():
             nodes, every = cells.nodes, np.full(len(cells.nodes), True)
             stiffness = np.tile(stiffness, len(nodes) // count)
-            yield AreaSprings(nodes, stiffness, *_on_cells(lattice, pattern, nodes), cells.name, every)
+            slots = pattern.among(nodes.reshape(len(nodes), -1))
+            yield AreaSprings(nodes, stiffness, slots, lattice.diagonals[cells.name], cells.name, every)
 
 
 def strain_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[StrainSprings]:
@@ -194,15 +195,9 @@ def strain_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> It
             stiffness[:, 2] -= layers * twist
         stiff = np.any(stiffness != 0.0, axis=1)  # edges stiffen the cells along them alone
         if stiff.any():
-            chosen = cells.nodes[stiff]
-            yield StrainSprings(chosen, stiffness[stiff], *_on_cells(lattice, pattern, chosen), name, stiff)
-
-
-def _on_cells(lattice: Lattice, pattern: Pattern, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Slots and rest diagonals of cells with these nodes (c, 4, p)."""
-    corners = lattice.positions[nodes].mean(axis=2)
-    diagonals = np.stack([corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]], axis=1)
-    return pattern.among(nodes.reshape(len(nodes), -1)), diagonals
+            nodes, diagonals = cells.nodes[stiff], lattice.diagonals[cells.name][stiff]
+            slots = pattern.among(nodes.reshape(len(nodes), -1))
+            yield StrainSprings(nodes, stiffness[stiff], slots, diagonals, name, stiff)
 
 
 FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] = (

@@ -74,7 +74,7 @@ def _at(problem: Problem, state: State) -> tuple[np.ndarray, dict[str, float]]:
     """What is exerted on masses and rows at an equilibrium, internal less external force (size, 3) [N], and
     the energies [J]."""
     unbalanced, _ = problem.residual(state.u, state.load_factor)
-    return -unbalanced, problem.assembly.energies(state.u)
+    return -unbalanced, problem.assembly.energies(state.u, state.stresses)
 
 
 def _of_small_displacements(problem: Problem, state: State) -> tuple[np.ndarray, dict[str, float]]:

@@ -37,7 +37,7 @@ def balance(
     if coupling is not None:
         moment += coupling.held_moment(at, exerted, problem.commands(share))
         moment += coupling.moment(at, external)
-    size = problem.force_scale(at, share)
+    size = problem.force_scale(at, share) if linear else problem.scale_of(exerted + external, external)
     # a sum of n numbers is at most √n times their norm, in which residuals are measured
     allowed = np.sqrt(len(at)) * max(FINE * size, rounding(problem, state.u))
     arm = float(np.linalg.norm(places, axis=1).max())

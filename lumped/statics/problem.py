@@ -182,7 +182,11 @@ class Problem:
     def force_scale(self, u: np.ndarray, load_factor: float) -> float:
         """Norm of the external forces plus that of the supports' [N]: what residuals are relative to."""
         _, internal = self.internal(u, load_factor)
-        size: float = fused.scale(internal, self.external(u, load_factor), self.constraints.held)
+        return self.scale_of(internal, self.external(u, load_factor))
+
+    def scale_of(self, internal: np.ndarray, external: np.ndarray) -> float:
+        """The same of these internal and external forces (n, 3) [N]."""
+        size: float = fused.scale(internal, external, self.constraints.held)
         return size
 
     def residual(self, u: np.ndarray, load_factor: float) -> tuple[np.ndarray, float]:

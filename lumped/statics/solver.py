@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cache, partial
 from typing import Any, Literal
@@ -128,15 +128,21 @@ def pose(
     calibration: Calibration,
     weights: Weights = "tributary",
     precision: Precision = "double",
+    same: Problem | None = None,
 ) -> Problem:
-    """The lattice of a scene under its supports and loads. Raises BadInput if no mass is left to move."""
+    """The lattice of a scene under its supports and loads. same: of this scene with other springs, whose
+    supports and loads serve again where they are on the same lattice. Raises BadInput if no mass is left to
+    move."""
     couple = partial(Coupling, scene) if scene.actuators else None
     assembly = Assembly(scene.sheet, calibration, weights, couple, precision, scene.twisting_edges())
+    size = max(scene.sheet.lengths)
+    if same is not None and same.assembly.lattice is assembly.lattice and couple is None:
+        return Problem(assembly, same.constraints, same.loads, size)
     constraints = constrain(scene, assembly.lattice, assembly.coupling)
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)
         raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
-    return Problem(assembly, constraints, Loads(scene, assembly), max(scene.sheet.lengths))
+    return Problem(assembly, constraints, Loads(scene, assembly), size)
 
 
 def flat_step(scene: Scene, problem: Problem) -> Outcome:
@@ -188,8 +194,7 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
             status = problem.fault.status
         notes = [f"load factor {state.load_factor:.4g} of 1 reached: {why}"]
         return Outcome(status, state, tuple(snaps), tuple(notes))
-    status, judged = _judge(scene, problem, state)
-    return Outcome(status, state, tuple(snaps), (*notes, *judged))
+    return judged(scene, problem, state, snaps, notes)
 
 
 def equilibrium(
@@ -230,13 +235,15 @@ def _from_near(scene: Scene, problem: Problem, u: np.ndarray) -> Outcome | None:
         return None
     if state.negative != 0 or broken(problem.assembly, state.u) is not None:
         return None
-    status, notes = _judge(scene, problem, state)
-    return Outcome(status, state, (), tuple(notes))
+    return judged(scene, problem, state)
 
 
-def _judge(scene: Scene, problem: Problem, state: State) -> tuple[Status, list[str]]:
-    """Whether the springs mean anything at this strain, and whether the equilibrium is stable."""
-    notes: list[str] = []
+def judged(
+    scene: Scene, problem: Problem, state: State, snaps: Sequence[float] = (), known: Sequence[str] = ()
+) -> Outcome:
+    """The outcome of an equilibrium at full load: whether the springs mean anything at this strain, and
+    whether it is stable. snaps, known: on the way there, and what there was to say."""
+    notes = list(known)
     status = Status.CONVERGED
     if outside := outside_model(scene, link_stretch(problem.assembly, state.stresses), STRETCH):
         status = Status.STRAIN_OUTSIDE_MODEL
@@ -244,7 +251,7 @@ def _judge(scene: Scene, problem: Problem, state: State) -> tuple[Status, list[s
     elif state.negative:
         status = Status.UNSTABLE
         notes.append(f"{state.negative} directions of negative curvature")
-    doubts = validity.layers(scene, problem.assembly, state.u)
+    doubts = validity.layers(scene, problem.assembly, state.u, state.stresses)
     rounded = validity.digits(problem, state)
     if rounded is not None and status is Status.CONVERGED:
         status = rounded.status
@@ -265,7 +272,7 @@ def _judge(scene: Scene, problem: Problem, state: State) -> tuple[Status, list[s
         )
     elif not problem.conservative:
         notes.append("follower loads: solved with an unsymmetric tangent")
-    return status, notes
+    return Outcome(status, state, tuple(snaps), tuple(notes))
 
 
 def link_stretch(assembly: Assembly, stresses: Stresses) -> float:

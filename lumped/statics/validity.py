@@ -20,10 +20,13 @@ Each is said with the place on the sheet where it is worst and what to change.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
+from lumped.springs.together import Stresses
 from lumped.statics.equilibrium import State
 from lumped.statics.faults import Fault, cell_corners, place, surface
 from lumped.statics.problem import Problem
@@ -46,8 +49,10 @@ def digits(problem: Problem, state: State) -> Fault | None:
     pull = links.stiffness * np.sqrt(((state.u[b] - state.u[a]) ** 2).sum(axis=1))
     size = len(state.u)
     carried = (np.bincount(a, pull, size) + np.bincount(b, pull, size))[:, None]
-    noise = np.random.default_rng(0).standard_normal((SAMPLES, *state.u.shape))
-    moved = [problem.expand(state.factor.once(problem.reduce(carried * sample))) for sample in noise]
+    moved = [
+        problem.expand(state.factor.once(problem.reduce(carried * sample)))
+        for sample in _noise(state.u.shape)
+    ]
     share = problem.assembly.rounding * float(np.abs(moved).max()) / largest
     if not share > DOUBTFUL:
         return None
@@ -60,10 +65,16 @@ def digits(problem: Problem, state: State) -> Fault | None:
     )
 
 
-def layers(scene: Scene, assembly: Assembly, u: np.ndarray) -> str:
+@lru_cache(maxsize=4)
+def _noise(shape: tuple[int, ...]) -> np.ndarray:
+    """The random forces: the same for all lattices of a size."""
+    return np.random.default_rng(0).standard_normal((SAMPLES, *shape))
+
+
+def layers(scene: Scene, assembly: Assembly, u: np.ndarray, stresses: Stresses) -> str:
     """A sentence where the sheet's stretching lies in layers thinner than the grid's cells, else nothing."""
     lattice = assembly.lattice
-    stretched = _stretch_share(assembly, u)
+    stretched = _stretch_share(assembly, stresses)
     if stretched < FREE_OF_STRETCH:
         return ""
     kappa = _double_curvature(lattice, u[: lattice.mass_count])
@@ -99,18 +110,15 @@ def _double_curvature(lattice: Lattice, u: np.ndarray) -> np.ndarray:
     return gauss
 
 
-def _stretch_share(assembly: Assembly, u: np.ndarray) -> float:
+def _stretch_share(assembly: Assembly, stresses: Stresses) -> float:
     """Energy of the layers' mean stretch, as the in-plane links have it, over the elastic energy."""
-    links, lattice = assembly.links, assembly.lattice
-    total, _ = assembly.force(u)
+    links, layers_ = assembly.links, assembly.lattice.grid[2]
+    families = zip(assembly.springs, stresses, strict=True)
+    total = sum(float(family.energies(stress).sum()) for family, stress in families)
     in_plane = np.flatnonzero(links.offset[:, 2] == 0.0)
     if total <= 0.0 or len(in_plane) == 0:
         return 0.0
-    layers_ = lattice.grid[2]
-    elongation = links.stresses(u)[in_plane] / links.stiffness[in_plane]
-    column = links.nodes[in_plane] // layers_
-    _, member = np.unique(column[:, 0] * lattice.mass_count + column[:, 1], return_inverse=True)
-    count = np.bincount(member)
-    mean = np.bincount(member, elongation) / count
-    stiffness = np.bincount(member, links.stiffness[in_plane])
-    return float(0.5 * np.sum(stiffness * mean**2) / total)
+    # links between the same columns follow each other, layer by layer, and are as stiff as each other
+    stiffness = links.stiffness[in_plane].reshape(-1, layers_)
+    mean = (stresses[0][in_plane].reshape(-1, layers_) / stiffness).mean(axis=1)
+    return float(0.5 * np.sum(stiffness.sum(axis=1) * mean**2) / total)

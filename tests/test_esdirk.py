@@ -95,6 +95,20 @@ def test_a_start_from_rest_takes_steps_that_its_motion_deserves():
     assert np.abs(tight[-1].u - state.u).max() < 1e-4 * settled  # some steps of 3e-5
 
 
+def test_steps_follow_the_error_asked_for():
+    asked, steps, misses = scene("two-edges-settling"), [], []
+    kept = springs(asked, 4)
+    truth = lumped.simulate(asked, kept, 0.1, integrator="esdirk", step=1e-3, every=0.01).probes["P4"]
+    for error in (3e-4, 3e-6):
+        found = lumped.simulate(asked, kept, 0.1, integrator="esdirk", every=0.01, error=error)
+        steps.append(found.steps)
+        misses.append(np.abs(found.probes["P4"] - truth).max() / np.abs(truth).max())
+        assert misses[-1] < 10 * error  # of some ten steps, as they follow each other
+    assert steps[0] < steps[1] and misses[1] < misses[0]
+    with pytest.raises(BadInput, match="lies between 0 and 1"):
+        lumped.simulate(asked, kept, 0.1, integrator="esdirk", every=0.01, error=0.0)
+
+
 def test_steps_end_where_a_load_changes_its_course():
     pulse = {"time": [0.1, 0.101, 0.102], "factor": [0.0, 1.0, 0.0]}
     load = {"kind": "point", "at": [0.188, 0.188], "force": [0.0, 0.0, 5.0], "history": pulse}

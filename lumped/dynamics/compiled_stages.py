@@ -56,9 +56,10 @@ def solve_stages(
     arrays: Arrays,
     factors: np.ndarray,
     room: Room,
-) -> tuple[int, int, int]:
+) -> tuple[int, int, int, int]:
     """Solve the stages from the `first` on; that one is begun if it has corrections `left`. How that ended,
-    the stage where it did, and what corrections that one has left."""
+    the stage where it did, what corrections that one has left, and how many were made in all."""
+    made = 0
     for i in range(first, len(stages.u)):
         u, v, a = stages.u[i].reshape(-1), stages.v[i].reshape(-1), stages.a[i].reshape(-1)
         base_u, base_v = room.base_u.reshape(-1), room.base_v.reshape(-1)
@@ -72,14 +73,15 @@ def solve_stages(
             left, arrays, factors, room,
         )  # fmt: skip
         left -= done
+        made += done
         if status != CONVERGED:
-            return status, i, left
+            return status, i, left, made
         for row in range(len(u)):
             change = u[row] - base_u[row]
             v[row] = base_v[row] + step.by_v * change
             a[row] = step.by_u * change
         stages.power[i, 0] = power_taken(stages.u[i], stages.v[i], arrays, room)
-    return CONVERGED, len(stages.u), 0
+    return CONVERGED, len(stages.u), 0, made
 
 
 @njit(cache=True)

@@ -48,9 +48,7 @@ def tangent_of(system: System) -> Tangent | None:
 def factorised(u: np.ndarray, by_u: float, by_v: float, tangent: Tangent) -> tuple[bool, np.ndarray]:
     """Whether the tangent at u (n, 3) [m] with c₂ [1/s²] and c₁ [1/s] is positive definite; its factors."""
     both = 1.0 + by_v * tangent.time
-    link, area, middle_area, strain, middle_strain = together.stresses(u, tangent.springs)
-    stress = (link / both, area / both, middle_area / both, strain / both, middle_strain / both)
-    blocks = together.tangent(u, tangent.springs, stress, tangent.blocks)
+    blocks = together.own_tangent(u, tangent.springs, 1.0 / both, tangent.blocks)
     for i in range(len(tangent.own)):
         inert = (by_u * tangent.mass[i] + by_v * tangent.rate[i]) / both
         for q in range(3):

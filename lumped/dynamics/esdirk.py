@@ -28,7 +28,7 @@ from lumped.dynamics.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSE
 from lumped.linear.solver import SingularMatrixError
 from sheetbench.scenes.errors import BadInput
 
-ERROR = 3e-5  # of a step, relative to the largest displacement
+ERROR = 3e-5  # of a step
 FORETOLD = 0.1  # share of the displacement at rest, linear, that counts as reached at the start
 LEAST = 1e-6  # of the sheet's side: no error is asked to be smaller beside it
 FIRST = 0.05  # first step over the time in which the first acceleration goes as far
@@ -37,18 +37,24 @@ SHARE = 0.3  # last correction of an adaptive step relative to the error it may 
 STALE = (
     1.5  # ratio of successive corrections above which a step, which begins with its own, makes factors anew
 )
+EASY = 12  # corrections of a step's stages up to which the next one keeps the factors: two each
 
 
 class Esdirk(DenseIntegrator):
-    """ESDIRK5(4)7L[2]SA2; adaptive unless the step is `fixed`."""
+    """ESDIRK5(4)7L[2]SA2; adaptive unless the step is `fixed`. error: of a step, relative to the largest
+    displacement."""
 
-    name, order, adaptive = "esdirk", 5, True
+    name, order, adaptive, options = "esdirk", 5, True, ("error",)
 
-    def __init__(self, system: System, step: float, fixed: bool = True):
+    def __init__(self, system: System, step: float, error: float = ERROR, fixed: bool = True):
         if system.coupling is not None:
             raise BadInput("integrator = 'esdirk': does not take chains; choose another integrator")
+        if not 0.0 < error < 1.0:
+            raise BadInput(
+                f"error = {error:g}: of a step, relative to the displacement, lies between 0 and 1"
+            )
         super().__init__(system, step)
-        self._fixed, self._first = fixed, step
+        self._fixed, self._first, self._error = fixed, step, error
         self._newton = Newton(system, CLOSE, STALE)
         self._largest = 0.0
         self._end: tuple[State | None, np.ndarray] = None, np.zeros(2)  # the last state, and its power
@@ -80,7 +86,7 @@ class Esdirk(DenseIntegrator):
         shortest = 1e-6 * min(self.step, at_most)
         while True:
             h = at_most if self._fixed else at_most / np.ceil(at_most / self.step - 1e-9)
-            allowed = ERROR * self._largest
+            allowed = self._error * self._largest
             try:
                 stages = self._stages(state, h, None if self._fixed else SHARE * allowed)
             except (StepFailed, SingularMatrixError) as failure:
@@ -92,7 +98,7 @@ class Esdirk(DenseIntegrator):
                 break
             error = h * float(np.abs(np.tensordot(ERRORS, stages.v, 1)).max())
             largest = max(self._largest, float(np.abs(stages.u[-1]).max()))
-            ratio = 0.9 * (ERROR * largest / max(error, 1e-30)) ** (1.0 / 5.0)
+            ratio = 0.9 * (self._error * largest / max(error, 1e-30)) ** (1.0 / 5.0)
             if ratio < 0.9 and h > shortest:
                 self.step = h * max(ratio, 0.2)
                 continue
@@ -136,8 +142,9 @@ class Esdirk(DenseIntegrator):
         u, v, a = np.empty((3, len(times), *state.u.shape))
         u[0], v[0], a[0] = state.u, state.v, state.a
         stages = Stages(times, u, v, a, np.zeros((len(times), 2)))
-        middle = state.u + 0.5 * h * state.v
-        self._newton.renew(Motion(state.time + 0.5 * h, middle, state.v, by * by, by), middle)
+        if not (self._newton.near(by * by) and 0 < self._newton.made <= EASY):
+            middle = state.u + 0.5 * h * state.v
+            self._newton.renew(Motion(state.time + 0.5 * h, middle, state.v, by * by, by), middle)
         step = Step(h, STAGES, GUESSES, by, by * by, self._shifts(times), self._loads(times))
         if not self._newton.solve_stages(step, stages, tolerance):
             self._solve_one_by_one(step, stages, tolerance)

@@ -52,6 +52,7 @@ class Newton:
         self._placed = ~np.broadcast_to(multipliers, size)  # multipliers carry the rounding of inertia forces
         self._compiled = CompiledNewton(system) if CompiledNewton.serves(system) else None
         self._factored: float | None = None  # c₂ of the compiled iteration's factors
+        self.made = 0  # corrections of the last step's stages
 
     def forget(self) -> None:
         """Drop the factors."""
@@ -122,13 +123,15 @@ class Newton:
         StepFailed."""
         compiled, first, left = self._compiled, 1, 0
         small = self.tolerance if tolerance is None else tolerance
-        if compiled is None or not self._near(step.by_u):
+        self.made = 0
+        if compiled is None or not self.near(step.by_u):
             return False
         while True:
-            status, first, left = solve_stages(
+            status, first, left, made = solve_stages(
                 first, left, step, stages, small, self._system.problem.size, self._stale, CORRECTIONS,
                 compiled.arrays, compiled.factors, compiled.room,
             )  # fmt: skip
+            self.made += made
             if status == CONVERGED:
                 return True
             self._factored = None
@@ -139,7 +142,7 @@ class Newton:
             if not self._factorise(compiled, motion, stages.u[first]):
                 return False
 
-    def _near(self, by_u: float) -> bool:
+    def near(self, by_u: float) -> bool:
         """Whether the compiled iteration's factors serve an equation with this c₂."""
         return self._factored is not None and abs(by_u / self._factored - 1.0) < NEAR
 
@@ -170,7 +173,7 @@ class Newton:
         external = self._system.external(u, motion.time)
         base, by = (motion.base_u, motion.base_v), (motion.by_u, motion.by_v)
         left, status = CORRECTIONS, compiled_newton.STALE
-        if self._near(motion.by_u):
+        if self.near(motion.by_u):
             status, done = compiled.iterate(u, base, by, external, small, self._stale, left)
             left -= done
         while status == compiled_newton.STALE and left > 0:

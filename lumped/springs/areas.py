@@ -230,37 +230,77 @@ def add_tangent(
     change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     normal, work = np.empty(3), np.empty(3)
     hessian = np.empty((4, 9))  # of (d1, d1), (d1, d2), (d2, d1), (d2, d2)
-    flat = blocks.reshape(-1, 9)
-    p = nodes.shape[2]
     for c in range(len(nodes)):
         _, area, size = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
-        share = 1.0 / (p * p)
-        material, turning = share * stiffness[c] / area, share * 0.5 * stress[c] / size
-        outer = material - 4.0 * turning
-        g11, g12, g22 = _products(current)
-        for q in range(3):
-            for r in range(3):
-                at, d1, d2 = 3 * q + r, current[0, q], current[1, q]
-                g1, g2 = outer * gradient[0, q], outer * gradient[1, q]
-                hessian[0, at] = g1 * gradient[0, r] - turning * d2 * current[1, r]
-                hessian[1, at] = g1 * gradient[1, r] + turning * d1 * current[1, r]
-                hessian[3, at] = g2 * gradient[1, r] - turning * d1 * current[0, r]
-        for q in range(3):
-            hessian[0, 4 * q] += turning * g22
-            hessian[1, 4 * q] -= turning * g12
-            hessian[3, 4 * q] += turning * g11
-            ahead, behind, along = (q + 1) % 3, (q + 2) % 3, turning * size * normal[q]
-            hessian[1, 3 * ahead + behind] += along
-            hessian[1, 3 * behind + ahead] -= along
-        for q in range(3):
-            for r in range(3):
-                hessian[2, 3 * r + q] = hessian[1, 3 * q + r]
-        for corner in range(4):
-            for other in range(4):
-                part = hessian[2 * (corner % 2) + other % 2]
-                sign = 1.0 if (corner < 2) == (other < 2) else -1.0
-                for s in range(p):
-                    for t in range(p):
-                        block = flat[slots[c, corner * p + s, other * p + t]]
-                        for e in range(9):
-                            block[e] += sign * part[e]
+        _of_diagonals(stiffness[c] / area, stress[c] / size, size, current, normal, gradient, hessian)
+        add_blocks(hessian, nodes.shape[2], slots[c], blocks)
+
+
+@njit(cache=True)
+def add_own_tangent(
+    u: np.ndarray,
+    nodes: np.ndarray,
+    diagonals: np.ndarray,
+    stiffness: np.ndarray,
+    share: float,
+    slots: np.ndarray,
+    blocks: np.ndarray,
+) -> None:
+    """The same with this share of the stresses at u."""
+    change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
+    normal, work = np.empty(3), np.empty(3)
+    hessian = np.empty((4, 9))
+    for c in range(len(nodes)):
+        strain, area, size = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        turning = share * stiffness[c] * strain / size
+        _of_diagonals(stiffness[c] / area, turning, size, current, normal, gradient, hessian)
+        add_blocks(hessian, nodes.shape[2], slots[c], blocks)
+
+
+@njit(cache=True)
+def _of_diagonals(
+    material: float,
+    turning: float,
+    size: float,
+    current: np.ndarray,
+    normal: np.ndarray,
+    gradient: np.ndarray,
+    hessian: np.ndarray,
+) -> None:
+    """The tangent in the diagonals, from k/a0 and τ/|c|."""
+    turning *= 0.5
+    outer = material - 4.0 * turning
+    g11, g12, g22 = _products(current)
+    for q in range(3):
+        for r in range(3):
+            at, d1, d2 = 3 * q + r, current[0, q], current[1, q]
+            g1, g2 = outer * gradient[0, q], outer * gradient[1, q]
+            hessian[0, at] = g1 * gradient[0, r] - turning * d2 * current[1, r]
+            hessian[1, at] = g1 * gradient[1, r] + turning * d1 * current[1, r]
+            hessian[3, at] = g2 * gradient[1, r] - turning * d1 * current[0, r]
+    for q in range(3):
+        hessian[0, 4 * q] += turning * g22
+        hessian[1, 4 * q] -= turning * g12
+        hessian[3, 4 * q] += turning * g11
+        ahead, behind, along = (q + 1) % 3, (q + 2) % 3, turning * size * normal[q]
+        hessian[1, 3 * ahead + behind] += along
+        hessian[1, 3 * behind + ahead] -= along
+    for q in range(3):
+        for r in range(3):
+            hessian[2, 3 * r + q] = hessian[1, 3 * q + r]
+
+
+@njit(cache=True)
+def add_blocks(hessian: np.ndarray, p: int, slots: np.ndarray, blocks: np.ndarray) -> None:
+    """Add a tangent in a cell's diagonals, (4, 9) of (d1, d1), (d1, d2), (d2, d1), (d2, d2), to the blocks of
+    its corners, each the mean of p masses."""
+    flat, share = blocks.reshape(-1, 9), 1.0 / (p * p)
+    for corner in range(4):
+        for other in range(4):
+            part = hessian[2 * (corner % 2) + other % 2]
+            sign = share if (corner < 2) == (other < 2) else -share
+            for s in range(p):
+                for t in range(p):
+                    block = flat[np.uint64(slots[corner * p + s, other * p + t])]
+                    for e in range(9):
+                        block[e] += sign * part[e]

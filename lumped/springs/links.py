@@ -153,28 +153,44 @@ def add_tangent(
     flat = blocks.reshape(-1, 9)
     for m in range(len(nodes)):
         _, length, x, y, z = stretch(u, nodes, offset, rest_length, m)
-        across = tension[m] / length
-        along = stiffness[m] - across
-        xx, xy, xz = along * x * x + across, along * x * y, along * x * z
-        yy, yz, zz = along * y * y + across, along * y * z, along * z * z + across
-        for e in range(2):
-            block = flat[slots[m, 3 * e]]
-            block[0] += xx
-            block[1] += xy
-            block[2] += xz
-            block[3] += xy
-            block[4] += yy
-            block[5] += yz
-            block[6] += xz
-            block[7] += yz
-            block[8] += zz
-            block = flat[slots[m, 1 + e]]
-            block[0] -= xx
-            block[1] -= xy
-            block[2] -= xz
-            block[3] -= xy
-            block[4] -= yy
-            block[5] -= yz
-            block[6] -= xz
-            block[7] -= yz
-            block[8] -= zz
+        _add_blocks(flat, slots, m, stiffness[m], tension[m] / length, x, y, z)
+
+
+@njit(cache=True)
+def add_own_tangent(
+    u: np.ndarray,
+    nodes: np.ndarray,
+    offset: np.ndarray,
+    rest_length: np.ndarray,
+    stiffness: np.ndarray,
+    share: float,
+    slots: np.ndarray,
+    blocks: np.ndarray,
+) -> None:
+    """The same with this share of the tensions at u."""
+    flat = blocks.reshape(-1, 9)
+    for m in range(len(nodes)):
+        elongation, length, x, y, z = stretch(u, nodes, offset, rest_length, m)
+        _add_blocks(flat, slots, m, stiffness[m], share * stiffness[m] * elongation / length, x, y, z)
+
+
+@njit(cache=True)
+def _add_blocks(
+    flat: np.ndarray, slots: np.ndarray, m: int, stiffness: float, across: float, x: float, y: float, z: float
+) -> None:
+    """Add the blocks of link m, of unit vector (x, y, z) and N/r across it."""
+    along = stiffness - across
+    xx, xy, xz = along * x * x + across, along * x * y, along * x * z
+    yy, yz, zz = along * y * y + across, along * y * z, along * z * z + across
+    for e in range(4):
+        block = flat[np.uint64(slots[m, e])]
+        sign = 1.0 if e == 0 or e == 3 else -1.0
+        block[0] += sign * xx
+        block[1] += sign * xy
+        block[2] += sign * xz
+        block[3] += sign * xy
+        block[4] += sign * yy
+        block[5] += sign * yz
+        block[6] += sign * xz
+        block[7] += sign * yz
+        block[8] += sign * zz

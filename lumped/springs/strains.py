@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from lumped.springs.areas import diagonal_changes
+from lumped.springs.areas import add_blocks, diagonal_changes
 
 A_SIGNS = np.array([-0.5, 0.5, 0.5, -0.5])  # a = Σ A_SIGNS[corner] x[corner]
 B_SIGNS = np.array([-0.5, -0.5, 0.5, 0.5])
@@ -187,37 +187,60 @@ def add_tangent(
     blocks: np.ndarray,
 ) -> None:
     """Add Σ k g gᵀ and the stresses' geometric part of every cell to the 3×3 blocks."""
-    change, sides = np.empty((2, 3)), np.empty((2, 3))
-    gradient, hessian = np.empty((3, 4, 3)), np.empty(9)  # of each strain at each corner; of two corners
-    flat = blocks.reshape(-1, 9)
-    p = nodes.shape[2]
+    change, sides, hessian = np.empty((2, 3)), np.empty((2, 3)), np.empty((4, 9))
     for c in range(len(nodes)):
         _, _, _, a0, b0 = measure(u, nodes, diagonals, c, change, sides)
-        area = np.sqrt(a0 * b0)
-        share = area / (p * p)
-        for corner in range(4):
-            for q in range(3):
-                gradient[0, corner, q] = A_SIGNS[corner] * sides[0, q] / a0
-                gradient[1, corner, q] = B_SIGNS[corner] * sides[1, q] / b0
-                gradient[2, corner, q] = (
-                    A_SIGNS[corner] * sides[1, q] + B_SIGNS[corner] * sides[0, q]
-                ) / area
-        for m in range(4):
-            for n in range(4):
-                for q in range(3):
-                    g1, g2 = stiffness[c, 0] * gradient[0, m, q], stiffness[c, 1] * gradient[1, m, q]
-                    g3 = stiffness[c, 2] * gradient[2, m, q]
-                    for r in range(3):
-                        value = g1 * gradient[0, n, r] + g2 * gradient[1, n, r] + g3 * gradient[2, n, r]
-                        hessian[3 * q + r] = share * value
-                across = (
-                    stress[c, 0] * A_SIGNS[m] * A_SIGNS[n] / a0 + stress[c, 1] * B_SIGNS[m] * B_SIGNS[n] / b0
-                )
-                across += stress[c, 2] * (A_SIGNS[m] * B_SIGNS[n] + B_SIGNS[m] * A_SIGNS[n]) / area
-                for q in range(3):
-                    hessian[4 * q] += share * across
-                for s in range(p):
-                    for t in range(p):
-                        block = flat[slots[c, m * p + s, n * p + t]]
-                        for e in range(9):
-                            block[e] += hessian[e]
+        _of_diagonals(stiffness[c], stress[c, 0], stress[c, 1], stress[c, 2], sides, a0, b0, hessian)
+        add_blocks(hessian, nodes.shape[2], slots[c], blocks)
+
+
+@njit(cache=True)
+def add_own_tangent(
+    u: np.ndarray,
+    nodes: np.ndarray,
+    diagonals: np.ndarray,
+    stiffness: np.ndarray,
+    share: float,
+    slots: np.ndarray,
+    blocks: np.ndarray,
+) -> None:
+    """The same with this share of the stresses at u."""
+    change, sides, hessian = np.empty((2, 3)), np.empty((2, 3)), np.empty((4, 9))
+    for c in range(len(nodes)):
+        e1, e2, e3, a0, b0 = measure(u, nodes, diagonals, c, change, sides)
+        k = stiffness[c]
+        _of_diagonals(k, share * k[0] * e1, share * k[1] * e2, share * k[2] * e3, sides, a0, b0, hessian)
+        add_blocks(hessian, nodes.shape[2], slots[c], blocks)
+
+
+@njit(cache=True)
+def _of_diagonals(
+    stiffness: np.ndarray,
+    t1: float,
+    t2: float,
+    t3: float,
+    sides: np.ndarray,
+    a0: float,
+    b0: float,
+    hessian: np.ndarray,
+) -> None:
+    """The tangent of a cell in its diagonals, (4, 9) of (d1, d1), (d1, d2), (d2, d1), (d2, d2), under the
+    stresses t: that in a and b, with a = (d1 − d2)/2 and b = (d1 + d2)/2."""
+    area = np.sqrt(a0 * b0)
+    share = 0.25 * area
+    k1, k2 = share * stiffness[0] / (a0 * a0), share * stiffness[1] / (b0 * b0)
+    k3 = share * stiffness[2] / (a0 * b0)
+    across_a, across_b, across = share * t1 / a0, share * t2 / b0, share * t3 / area
+    for q in range(3):
+        a, b = sides[0, q], sides[1, q]
+        for r in range(3):
+            aa = k1 * a * sides[0, r] + k3 * b * sides[1, r]
+            bb = k2 * b * sides[1, r] + k3 * a * sides[0, r]
+            ab, ba = k3 * b * sides[0, r], k3 * a * sides[1, r]
+            if q == r:
+                aa, bb, ab, ba = aa + across_a, bb + across_b, ab + across, ba + across
+            at = 3 * q + r
+            hessian[0, at] = bb + aa + (ab + ba)
+            hessian[1, at] = bb - aa + (ab - ba)
+            hessian[2, at] = bb - aa - (ab - ba)
+            hessian[3, at] = bb + aa - (ab + ba)

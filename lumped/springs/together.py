@@ -177,3 +177,16 @@ def add_tangent(u: np.ndarray, springs: Springs, stress: Stresses, blocks: np.nd
     strains.add_tangent(u, c.nodes, c.diagonals, c.stiffness, stress[3], c.slots, blocks)
     c = springs.middle_strain
     strains.add_tangent(u, c.nodes, c.diagonals, c.stiffness, stress[4], c.slots, blocks)
+
+
+@njit(cache=True, nogil=True)
+def own_tangent(u: np.ndarray, springs: Springs, share: float, count: int) -> np.ndarray:
+    """Blocks (count, 3, 3) [N/m] of the tangent with this share of the stresses at u."""
+    blocks = np.zeros((count, 3, 3))
+    s = springs.links
+    links.add_own_tangent(u, s.nodes, s.offset, s.rest_length, s.stiffness, share, s.slots, blocks)
+    for c in (springs.layers_area, springs.middle_area):
+        areas.add_own_tangent(u, c.nodes, c.diagonals, c.stiffness, share, c.slots, blocks)
+    for c in (springs.layers_strain, springs.middle_strain):
+        strains.add_own_tangent(u, c.nodes, c.diagonals, c.stiffness, share, c.slots, blocks)
+    return blocks

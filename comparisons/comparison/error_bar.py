@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 METHOD = (
     "grid convergence index (Roache) of all pairs of meshes at the field's order, and what they miss of the "
-    "layer along edges: 1.2 times that and 0.15 times the field's, 3 times on two meshes"
+    "layer along edges: that and 0.35 of the field's, 3 times that on two meshes"
 )
 CHEAP = ("plate", "shell")  # references whose error bar is found unless told otherwise
 

@@ -124,6 +124,8 @@ def test_auto_grades_towards_the_one_edge_that_holds_the_sheet() -> None:
     value, why = grading_of(scenes["tenth-of-young-one-edge"], (9, 9, 2), "auto")
     assert value == Grading(ONE_SIDED, ("x0",)) and why.endswith("x0 alone holds the sheet")
     assert isinstance(grading_of(scenes["curved-edge"], (9, 9, 2), "auto")[0], float)
+    nothing_held = scenes["tenth-of-young-one-edge"].replace(supports=())
+    assert isinstance(grading_of(nothing_held, (9, 9, 2), "auto")[0], float)
     assert isinstance(grading_of(scenes["tenth-of-young"], (9, 9, 2), "auto")[0], float)
 
 

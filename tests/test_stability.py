@@ -28,7 +28,7 @@ from comparisons.stability import (
     time_step,
 )
 from comparisons.stability.equilibria import compare, mechanism, sheet, shell
-from sheetbench.scenes import EdgeLoad, Status
+from sheetbench.scenes import BadInput, EdgeLoad, Status
 
 NAMES = ["time-step", "stiffness", "slenderness", "grid", "load", "damping", "mass", "curved-edge"]
 FEW = {1: 17, 2: 17}  # masses a side
@@ -63,6 +63,28 @@ def test_every_cell_is_a_row_with_a_status_whatever_happens(tmp_path):
     assert [row["status"] for row in bad] == ["refused", "failed", "lost"]
     assert all(row["message"] for row in bad)
     assert all({"error", "iterations", "seconds"} <= row.keys() for row in good + bad)
+
+
+def test_a_grading_is_of_the_studies_whose_cells_take_one(tmp_path):
+    """Cells without one stay as they are, so that what was measured is not measured again."""
+    taking = replace(fake([{"x": 2.0}], "campaign_tasks:graded"), graded=True)
+    with campaign(tmp_path) as store:
+        (graded,) = survey([taking], store, grading="0.5:x0")
+        (even, other) = survey([taking, fake([{"x": 3.0}])], store)
+        with pytest.raises(BadInput, match="none of these studies"):
+            survey([fake([{"x": 3.0}])], store, grading=0.5)
+    assert graded["cell"] == {"x": 2.0, "grading": "0.5:x0"} and graded["grading"] == "0.5:x0"
+    assert even["cell"] == {"x": 2.0} and other["cell"] == {"x": 3.0}
+    assert [name for name, study in STUDIES.items() if study.graded] == ["slenderness", "load", "curved-edge"]
+
+
+def test_a_cell_on_a_graded_grid(monkeypatch):
+    """A rod bent to a tenth of a circle, 5 × 5 masses: nearer with cells finer at the edges."""
+    monkeypatch.setattr(curved_edge, "GRID", (5, 5))
+    monkeypatch.setattr(curved_edge, "ELEMENTS", 6)
+    even, graded = (curved_edge.measure(0.02, 1.0, grading=g) for g in (None, 0.5))
+    assert even["status"] == graded["status"] == "converged"
+    assert 0.0 < graded["error"] != even["error"]
 
 
 def test_texts_list_what_is_off_with_its_mechanism_and_what_did_not_converge():

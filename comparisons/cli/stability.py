@@ -6,7 +6,18 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Figure, Json, Large, Out, Overwrite, Retry, Scheduler, Wait, Workers
+from comparisons.cli.options import (
+    Figure,
+    Grading,
+    Json,
+    Large,
+    Out,
+    Overwrite,
+    Retry,
+    Scheduler,
+    Wait,
+    Workers,
+)
 
 
 def command(
@@ -21,6 +32,7 @@ def command(
         ),
     ] = None,
     full: Annotated[bool, typer.Option("--full", help="Every cell: finer maps, grids to 257 × 257.")] = False,
+    grading: Grading = None,
     workers: Workers = None,
     scheduler: Scheduler = None,
     wait: Wait = False,
@@ -33,7 +45,8 @@ def command(
 ) -> None:
     """Measure the cells of every study, in the order of docs/stability.md; an interrupted run can be resumed.
 
-    Every cell ends in a status. With --out the maps, tables and texts are written there.
+    Every cell ends in a status. With --out the maps, tables and texts are written there. --grading is of the
+    studies curved-edge, load and slenderness; the others have cells of one size.
     """
     import os
 
@@ -55,6 +68,7 @@ def command(
                 chosen,
                 store,
                 full=full,
+                grading=grading,
                 workers=workers or os.cpu_count() or 1,
                 pool=pool,
                 retry=retry,

@@ -5,7 +5,8 @@ is solved, and grades the grid where the narrowest is less than NARROW of the sh
 RESOLVED cells wide. On the transfer study's scenes that tells those that grading mends (curved edges, soft
 and thin sheets, pressure) from those whose smooth interior it would make coarser; on scenes that were drawn
 after the rule was made, of eight that it grades by GRADED seven are nearer and one is not, by ½ two are much
-farther off (docs/theory.md).
+farther off (docs/theory.md). Where one clamped edge is all that holds the sheet it grades towards that edge
+alone, by ONE_SIDED.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from typing import Any
 from comparisons.models.candidate import Candidate
 from comparisons.models.layers import layers
 from sheetbench.choices import AUTO, CALIBRATIONS, method_of
-from sheetbench.scenes import Scene
+from sheetbench.scenes import Clamped, Scene
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grading import Graded, of_settings, towards
 from sheetbench.scenes.grading import Grading as Some
@@ -123,8 +124,8 @@ def _by_layers(scene: Scene, grid: Sequence[int]) -> tuple[Graded, str]:
         return 0.0, f"{layer}, no narrow layer on a side of {1e3 * side:.3g} mm"
     if cell * RESOLVED < width:
         return 0.0, f"{layer}, {cells}"
-    held = {support.edge for support in scene.supports}
-    if layer.bent_edge or len(held) > 1 or scene.actuators:
+    held = scene.supports
+    if layer.bent_edge or scene.actuators or len(held) != 1 or not isinstance(held[0], Clamped):
         return GRADED, f"{layer}, {cells}"
-    (edge,) = held
-    return towards(ONE_SIDED, held), f"{layer}, {cells}; {edge} alone holds the sheet"
+    edge = held[0].edge
+    return towards(ONE_SIDED, [edge]), f"{layer}, {cells}; {edge} alone holds the sheet"

@@ -35,8 +35,8 @@ def chosen(
 ) -> tuple[str | None, str]:
     """The calibration asked for, None where nothing is; and where it is "auto", or nothing but the grading
     "auto" is asked, the one for this scene, and why. others: k and layer_distance of the lattice."""
-    open_ = calibration is None and grading == AUTO and all(value is None for value in others.values())
-    if calibration != AUTO and not open_:
+    left_open = calibration is None and grading == AUTO and all(value is None for value in others.values())
+    if calibration != AUTO and not left_open:
         return calibration, ""
     if grid[2] != LAYERS:
         return CALIBRATION, f"the usual one, of {grid[2]} layers"

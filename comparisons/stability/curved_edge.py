@@ -16,6 +16,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from comparisons.models.grading import Grading
 from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import SIDE, compare, sheet
@@ -33,11 +34,13 @@ def cells(full: bool) -> list[Cell]:
     return [{"turn": turn + 0.0, "load_number": L} for turn in both for L in loads if turn or L]
 
 
-def measure(turn: float, load_number: float) -> Row:
+def measure(turn: float, load_number: float, grading: Grading = None) -> Row:
     """The row of a cell: a rod bent to `turn` of a full circle."""
     curvature = 2.0 * np.pi * turn / SIDE
     supports = (Curved(edge="x0", curvature=float(curvature)),)
-    return compare(sheet(SLENDERNESS, load_number, supports=supports), GRID, elements=ELEMENTS)
+    return compare(
+        sheet(SLENDERNESS, load_number, supports=supports), GRID, elements=ELEMENTS, grading=grading
+    )
 
 
 def _along(row: Row) -> float:
@@ -102,4 +105,5 @@ STUDY = Study(
     columns=(Column("turn", form="g"), Column("load number", form="g")),
     draw=draw,
     size=(7.2, 3.6),
+    graded=True,
 )

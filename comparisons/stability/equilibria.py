@@ -18,7 +18,10 @@ from typing import Any
 import numpy as np
 
 from comparisons.comparison.comparison import error as probe_error
+from comparisons.models.grading import Grading
+from comparisons.models.springs import scene_springs
 from comparisons.stability.study import LARGE, Row, percent
+from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import Clamped, Gravity, Load, Material, Scene, Sheet, Solution, Status
 from sheetbench.scenes.sheet import EdgeName
 
@@ -50,13 +53,16 @@ def sheet(
     )
 
 
-def lattice(scene: Scene, grid: tuple[int, int], method: str = "consistent", **options: Any) -> Solution:
-    """The lattice's answer; springs: instead of calibrated ones."""
+def lattice(scene: Scene, grid: tuple[int, int], **options: Any) -> Solution:
+    """The lattice's answer; springs: instead of consistent ones; grading: of these."""
     import lumped
 
-    springs = options.pop("springs", None)
-    calibrated = springs or lumped.calibrate(scene.sheet, scene.material, grid=grid, method=method)
-    return lumped.solve(scene, calibrated, **options)
+    springs, grading = options.pop("springs", None), options.pop("grading", None)
+    return lumped.solve(scene, springs or _consistent(scene, grid, grading), **options)
+
+
+def _consistent(scene: Scene, grid: tuple[int, int], grading: Grading) -> Any:
+    return scene_springs(scene, grid=grid, calibration=CALIBRATION, grading=grading)[0]
 
 
 def shell(scene: Scene, elements: int = ELEMENTS) -> Solution:
@@ -72,19 +78,21 @@ def compare(
     *,
     elements: int = ELEMENTS,
     springs: Any = None,
+    grading: Grading = None,
     single: bool = False,
     explain: bool = True,
 ) -> Row:
-    """The row of a lattice against the shell; springs: instead of consistent ones; single: the lattice in
-    single precision too, how it ended and its distance from double."""
-    ours, truth = lattice(scene, grid, springs=springs), shell(scene, elements)
+    """The row of a lattice against the shell; springs: instead of consistent ones; grading: of these; single:
+    the lattice in single precision too, how it ended and its distance from double."""
+    own = {"springs": springs, "grading": grading}
+    ours, truth = lattice(scene, grid, **own), shell(scene, elements)
     row = {**outcome(ours), "error": distance(scene, ours, truth), "reference": outcome(truth)}
     if single:
-        rounded = lattice(scene, grid, springs=springs, precision="single")
+        rounded = lattice(scene, grid, **own, precision="single")
         row["single_error"] = distance(scene, rounded, ours)
         row["single_status"], row["single_message"] = str(rounded.status), rounded.message
     if explain and ours.status is Status.CONVERGED and (row["error"] or 0.0) > LARGE:
-        row |= mechanism(scene, grid, elements, ours, truth, springs)
+        row |= mechanism(scene, grid, elements, ours, truth, springs, grading)
     return row
 
 
@@ -116,11 +124,12 @@ def mechanism(
     ours: Solution,
     truth: Solution,
     springs: Any = None,
+    grading: Grading = None,
 ) -> Row:
     """What makes a converged lattice differ, by the tests that the module names, and what they gave."""
     off = distance(scene, ours, truth) or 0.0
     fine = (min(2 * grid[0] - 1, FINEST), min(2 * grid[1] - 1, FINEST))
-    finer = lattice(scene, fine, springs=_refined(springs, fine))
+    finer = lattice(scene, fine, springs=_refined(springs, fine), grading=grading)
     left = distance(scene, finer, truth)
     if finer.status is ours.status and left is not None and left < FALLEN * off:
         said = f"{fine[0]}×{fine[1]} masses leave {percent(left)} %"
@@ -132,7 +141,7 @@ def mechanism(
             "mechanism": "resolution",
             "evidence": f"of the reference: {2 * elements} elements a side leave {percent(left)} %",
         }
-    moved = _there_and_back(scene, grid, springs, ours)
+    moved = _there_and_back(scene, springs or _consistent(scene, grid, grading), ours)
     if moved is not None and moved > LARGE:
         said = f"back from {BACK_FROM:g} times the load it stands {percent(moved)} % away"
         return {"mechanism": "branch", "evidence": said}
@@ -155,12 +164,12 @@ def _refined(springs: Any, grid: tuple[int, int]) -> Any:
     return None if springs is None else replace(springs, grid=(*grid, springs.grid[2]))
 
 
-def _there_and_back(scene: Scene, grid: tuple[int, int], springs: Any, ours: Solution) -> float | None:
+def _there_and_back(scene: Scene, springs: Any, ours: Solution) -> float | None:
     """How far from `ours`, in its largest probe displacement, the lattice ends after a larger load."""
     import lumped
     from lumped import at_rest, follow
 
-    problem = lumped.pose(scene, springs or lumped.calibrate(scene.sheet, scene.material, grid=grid))
+    problem = lumped.pose(scene, springs)
     beyond, why = follow(problem, at_rest(problem), BACK_FROM)
     if why:
         return None

@@ -15,10 +15,13 @@ tip          the middle of the free edge pulled by a point force, in units of E 
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from comparisons.models.grading import Grading
 from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import SIDE, compare, lattice, loaded, outcome, sheet
@@ -43,17 +46,18 @@ def cells(full: bool) -> list[Cell]:
     return found
 
 
-def measure(kind: str, size: float) -> Row:
+def measure(kind: str, size: float, grading: Grading = None) -> Row:
     """The row of a cell."""
+    on: dict[str, Any] = {"grid": GRID, "grading": grading}
     if kind == "weight":
-        return compare(sheet(SLENDERNESS, ONE_G * size), GRID)
+        return compare(sheet(SLENDERNESS, ONE_G * size), **on)
     if kind == "reversed":
-        return _mirrored(size)
+        return _mirrored(size, on)
     scene = sheet(SLENDERNESS, IMPERFECTION)
     young, h, a = scene.material.young, scene.sheet.thickness, scene.sheet.length_x
     if kind == "tip":
         return compare(
-            loaded(scene, PointLoad(at=(a, a / 2.0), force=(0.1 * size * young * h * a, 0.0, 0.0))), GRID
+            loaded(scene, PointLoad(at=(a, a / 2.0), force=(0.1 * size * young * h * a, 0.0, 0.0))), **on
         )
     if kind == "pull":
         force = size * young * h
@@ -61,18 +65,18 @@ def measure(kind: str, size: float) -> Row:
         force = -size * np.pi**2 * young * h**3 / 12.0 / (4.0 * a**2)
     scene = loaded(scene, EdgeLoad(edge="x1", force_per_length=(float(force), 0.0, 0.0)))
     if kind == "buckled":
-        stable = lattice(scene, GRID, branch="stable")
+        stable = lattice(scene, **on, branch="stable")
         return {
             **outcome(stable),
             "moved": float(np.abs(stable.displacement(scene.probe_points())).max() / SIDE),
         }
-    return compare(scene, GRID)
+    return compare(scene, **on)
 
 
-def _mirrored(size: float) -> Row:
+def _mirrored(size: float, on: dict[str, Any]) -> Row:
     """Weight up against weight down: the lattice's two answers as mirror images."""
     up, down = sheet(SLENDERNESS, -ONE_G * size), sheet(SLENDERNESS, ONE_G * size)
-    above, below = lattice(up, GRID), lattice(down, GRID)
+    above, below = lattice(up, **on), lattice(down, **on)
     points = down.probe_points()
     image = above.displacement(points) * np.array([1.0, 1.0, -1.0])
     there = below.displacement(points)
@@ -137,4 +141,5 @@ STUDY = Study(
     columns=(Column("kind"), Column("size", form="g"), Column("moved", "side", "%", 100.0, ".3g")),
     draw=draw,
     size=(7.2, 5.6),
+    graded=True,
 )

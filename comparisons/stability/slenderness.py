@@ -15,6 +15,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from comparisons.models.grading import Grading
 from comparisons.report.table import Column
 from comparisons.stability import figure as maps
 from comparisons.stability.equilibria import compare, sheet
@@ -45,13 +46,15 @@ def cells(full: bool) -> list[Cell]:
     return found
 
 
-def measure(clamped: int, slenderness: float, load_number: float, poisson: float = 0.48) -> Row:
+def measure(
+    clamped: int, slenderness: float, load_number: float, poisson: float = 0.48, grading: Grading = None
+) -> Row:
     """The row of a cell; the springs' area stiffness with it, in units of the axial one."""
     import lumped
 
     scene = sheet(slenderness, load_number, EDGES[clamped], poisson=poisson)
     n = MASSES[clamped] if slenderness != SEED else 17
-    row = compare(scene, (n, n), single=load_number == 1.0)
+    row = compare(scene, (n, n), grading=grading, single=load_number == 1.0)
     springs: Any = lumped.calibrate(scene.sheet, scene.material, grid=(n, n)).springs
     axial = springs.axial
     area = springs.area / (axial if isinstance(axial, float) else axial.x)
@@ -131,4 +134,5 @@ STUDY = Study(
     ),
     draw=draw,
     size=(7.2, 6.2),
+    graded=True,
 )

@@ -19,7 +19,8 @@ LARGE = 0.05  # an error that has to be explained
 class Study:
     """cells: of the default map, or of the full one; measure: a task (see `comparisons.runs.tasks`), called
     with a cell as keyword arguments and answering with its row; columns: for the table, named like keys of
-    the cell or of the row; draw: the map onto an empty figure; says: what is varied, what the boundary is.
+    the cell or of the row; draw: the map onto an empty figure; says: what is varied, what the boundary is;
+    graded: whether its cells take a grading of the lattice.
 
     A row has a status and, where there is a reference, the error against it as a fraction.
     """
@@ -32,6 +33,7 @@ class Study:
     columns: tuple[Column, ...]
     draw: Callable[[Figure, list[Row]], None]
     size: tuple[float, float] = (7.2, 3.4)
+    graded: bool = False
 
 
 def doubtful(row: Row) -> bool:

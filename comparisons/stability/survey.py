@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 
 from comparisons.models.candidate import Candidate
+from comparisons.models.grading import Grading, plain, read
 from comparisons.models.sizes import require_room
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
 from comparisons.stability.study import Row, Study
 from sheetbench.scenes import load
+from sheetbench.scenes.errors import BadInput
 
 
 def survey(
@@ -18,6 +20,7 @@ def survey(
     store: Store,
     *,
     full: bool = False,
+    grading: Grading = None,
     workers: int = 1,
     pool: Pool = processes,
     retry: bool = False,
@@ -26,11 +29,17 @@ def survey(
 ) -> list[Row]:
     """A row per cell of every study, in order; cells that the store has are not measured again.
 
-    full: every cell, the long ones too. retry: what failed or was lost before is measured again. A cell that
-    raises is a row with its status (`refused`, `failed` or, where it took its process down, `lost`). Raises
-    BadInput, before the first is measured, unless `large` for cells that take more memory than there is.
+    full: every cell, the long ones too. grading: of the lattices of the studies whose cells take one. retry:
+    what failed or was lost before is measured again. A cell that raises is a row with its status (`refused`,
+    `failed` or, where it took its process down, `lost`). Raises BadInput, before the first is measured, for a
+    grading that is none or that no study takes, and unless `large` for cells that take more memory than there
+    is.
     """
-    asked = [(study, cell) for study in studies for cell in study.cells(full)]
+    graded = read(grading)
+    own = {} if graded is None else {"grading": graded if isinstance(graded, str) else plain(graded)}
+    asked = [(s, cell | own if s.graded else cell) for s in studies for cell in s.cells(full)]
+    if own and not any("grading" in cell for _, cell in asked):
+        raise BadInput(f"grading = {grading}: none of these studies has lattices to grade")
     if not large:
         _require_room([cell["masses"] for _, cell in asked if "masses" in cell])
     runs = [Run(study.measure, cell, f"{study.name} {_short(cell)}") for study, cell in asked]

@@ -1,19 +1,26 @@
 """Equilibria of lattices and shells: time, what it goes to, and the rate of the factorisations, in one run.
 
-    python benchmarks/statics.py [--large] [--batch N] [--json FILE] [--keep]
+    python benchmarks/statics.py [--large] [--batch N] [--against FOLDER] [--json FILE] [--keep]
 
 Of every lattice the best of its solves, the call with its set-up over the solve, factorisations, their share
 of the solve and the rate that they reach; then a batch, by the clock, and the shell with the share of its
 factorisations. Warm code, one BLAS thread; CPU seconds, which other programs on the machine lengthen less
 than the clock's. --large: 129×129×2 and 257×257×2 too, with the peak of the memory (minutes, 3 GB).
+
+--against FOLDER: the lattices beside those of another state of the code in the same run, each in a process of
+its own, by turns (`git worktree add ../before 123119f`, then --against ../before).
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import os
 import platform
+import subprocess
+import sys
 from collections.abc import Callable
+from pathlib import Path
 from resource import RUSAGE_SELF, getrusage
 from time import perf_counter, process_time
 from typing import Any
@@ -31,6 +38,51 @@ from sheetbench.scenes import load
 
 SCENE = load("two-edges-clamped")
 LATTICES, LARGE, SHELLS, BATCH = (3, 5, 9, 17, 33, 65), (129, 257), (4, 8, 16, 32), 1000
+
+HERE = Path(__file__).resolve().parent.parent
+TURNS = 3  # of a small lattice here and there; large ones have one each
+ALONE = """
+import json, resource, sys, time
+import lumped
+try:
+    from scenes import load  # as it once was
+except ImportError:
+    from sheetbench.scenes import load
+scene, masses = load("two-edges-clamped"), int(sys.argv[1])
+springs = lumped.calibrate(scene.sheet, scene.material, grid=(masses, masses))
+lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid=(5, 5)))  # warm
+best = float("inf")
+for _ in range(20 if masses < 20 else 1):
+    began = time.process_time()
+    found = lumped.solve(scene, springs)
+    best = min(best, time.process_time() - began)
+peak = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+moved = abs(found.displacement(scene.probe_points())).max()
+print(json.dumps([best, found.iterations, peak, moved]))
+"""
+
+
+def against(masses: int, other: Path) -> dict[str, Any]:
+    """A lattice here and in another state of the code: CPU seconds of the call, factorisations, peak of the
+    memory, and by how much the largest displacement of the probes differs."""
+    best: dict[Path, list[float]] = {}
+    for _ in range(TURNS if masses < 100 else 1):
+        for root in (other, HERE):
+            environment = os.environ | {"PYTHONPATH": str(root), "OPENBLAS_NUM_THREADS": "1"}
+            asked = [sys.executable, "-c", ALONE, str(masses)]
+            said = subprocess.run(
+                asked, env=environment, cwd=root, check=True, stdout=subprocess.PIPE, text=True
+            )
+            found = json.loads(said.stdout.splitlines()[-1])
+            best[root] = min(best.get(root, found), found)
+    before, now = best[other], best[HERE]
+    return {
+        "against": f"{masses}×{masses}×2",
+        "call_seconds": [before[0], now[0]],
+        "factorisations": [before[1], now[1]],
+        "peak_bytes": [before[2], now[2]],
+        "apart": abs(now[3] / before[3] - 1.0),
+    }
 
 
 def timed(call: Callable[[], Any], clock: Callable[[], float] = process_time) -> float:
@@ -82,14 +134,23 @@ def factorisation(problem: Any, blocks: np.ndarray) -> tuple[Callable[[], Any], 
 
 
 def batch(count: int) -> dict[str, Any]:
-    """Many lattices of 9×9×2 whose springs differ, at once and one by one; seconds a case."""
+    """Many lattices of 9×9×2 whose springs differ, at once and one by one; seconds a case, of the CPU too."""
     springs = lumped.calibrate(SCENE.sheet, SCENE.material, grid=(9, 9))
     stiffness = lumped.calibrate(SCENE.sheet, SCENE.material, grid=(9, 9)).springs.diagonal
     several = [springs.with_constant("diagonal", k) for k in np.linspace(0.5, 1.5, count) * stiffness]
     some = several[: max(1, count // 20)]
     one_by_one = timed(lambda: [lumped.solve(SCENE, each) for each in some], perf_counter) / len(some)
-    at_once = timed(lambda: lumped.solve_many(SCENE, several), perf_counter) / count
-    return {"batch": count, "seconds_each": at_once, "one_by_one_seconds_each": one_by_one}
+    lumped.solve_many(SCENE, some)
+    worked, began = process_time(), perf_counter()
+    alone = len(lumped.solve_many(SCENE, several).alone)
+    at_once, worked = (perf_counter() - began) / count, (process_time() - worked) / count
+    return {
+        "batch": count,
+        "seconds_each": at_once,
+        "cpu_seconds_each": worked,
+        "one_by_one_seconds_each": one_by_one,
+        "solved_alone": alone,
+    }
 
 
 def shell(elements: int) -> dict[str, Any]:
@@ -126,6 +187,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--large", action="store_true", help="129×129×2 and 257×257×2 too (minutes, 3 GB)")
     parser.add_argument("--batch", type=int, default=BATCH, help="lattices in the batch")
+    parser.add_argument("--against", type=Path, metavar="FOLDER", help="another state of the code, beside it")
     parser.add_argument("--json", metavar="FILE", help="where to keep the numbers")
     parser.add_argument("--keep", action="store_true", help="keep the rows in benchmarks/history")
     asked = parser.parse_args()
@@ -140,9 +202,24 @@ def main() -> None:
             f"({share:.0%})  {row['gflops']:.1f} Gflop/s  {row['peak_bytes'] / 1e9:.1f} GB",
             flush=True,
         )
+    if asked.against is not None:
+        for masses in LATTICES + (LARGE if asked.large else ()):
+            rows.append(against(masses, asked.against.resolve()))
+            (was, now), (more, memory) = rows[-1]["call_seconds"], rows[-1]["peak_bytes"]
+            print(
+                f"call    {rows[-1]['against']:>10}  {1e3 * now:9.2f} ms beside {1e3 * was:9.2f}, "
+                f"{now / was:.2f} of it; {memory / 1e9:.1f} GB beside {more / 1e9:.1f}; "
+                f"answers {rows[-1]['apart']:.1g} apart",
+                flush=True,
+            )
     rows.append(batch(asked.batch))
-    each, alone = rows[-1]["seconds_each"], rows[-1]["one_by_one_seconds_each"]
-    print(f"batch of {asked.batch}: {1e3 * each:.2f} ms each, {1e3 * alone:.2f} ms one by one", flush=True)
+    row = rows[-1]
+    print(
+        f"batch of {asked.batch}: {1e3 * row['seconds_each']:.2f} ms each "
+        f"({1e3 * row['cpu_seconds_each']:.2f} of the CPU), "
+        f"{1e3 * row['one_by_one_seconds_each']:.2f} ms one by one; {row['solved_alone']} solved alone",
+        flush=True,
+    )
     for elements in SHELLS:
         rows.append(shell(elements))
         share = rows[-1]["factorisation_share"]

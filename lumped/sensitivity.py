@@ -111,7 +111,7 @@ def rates(
     placed, ends = problem.prescribed(1.0), np.clip([value + step, value - step], low, high)
     for end in ends:
         changed_scene, recalibrated = _changed(scene, calibration, name, float(end))
-        changed = pose(changed_scene, recalibrated)
+        changed = pose(changed_scene, recalibrated, same=problem if changed_scene is scene else None)
         moved = changed.prescribed(1.0) - placed
         sides.append((changed.residual(u + moved, 1.0)[0], moved))
     apart = float(ends[0] - ends[1])

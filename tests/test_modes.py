@@ -122,7 +122,7 @@ def test_rigid_motions_left_out(supports, expected, model):
     assert got.frequencies[0] * factor(scene) > 1.0
 
 
-@pytest.mark.parametrize("model", REST_STATES)
+@pytest.mark.parametrize("model", ["plate", "solid"])
 def test_rigid_motions_have_the_mass_and_the_moments_of_inertia_of_the_sheet(model):
     """About its middle, through the thickness too; quadrature is exact for products of linear motions."""
     sheet = Sheet(length_x=0.3, length_y=0.2, thickness=0.05)

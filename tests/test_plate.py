@@ -304,7 +304,17 @@ def test_the_seed_s_linear_sheet_has_its_converged_corner():
     assert corner == pytest.approx(-19.835e-3, rel=5e-4)
 
 
+def test_what_is_written_for_pictures_is_what_probes_tell():
+    """At the nodes; directors are e_z and their linear change."""
+    found = plate.solve(sheet_on({"x0": "clamped"}), 2)
+    plan, moved = found.mesh.points[:, :2], found.mesh.point_data["displacement"]
+    np.testing.assert_allclose(moved, found.displacement(plan), atol=1e-12 * np.abs(moved).max())
+    directors = found.mesh.point_data["director"]
+    np.testing.assert_array_equal(directors[plan[:, 0] == 0.0], [[0.0, 0.0, 1.0]] * 5)
+    np.testing.assert_array_equal(directors[:, 2], 1.0)
+
+
 def test_divided_evenly_where_all_edges_hold_the_director():
     assert not plate.solve(sheet_on(dict.fromkeys(EDGES, "clamped")), 2).settings["graded"]
     hard = plate.solve(sheet_on(dict.fromkeys(EDGES, "hinged")), 2, hard_edges=tuple(EDGES))
-    assert not hard.settings["graded"]
+    assert not hard.settings["graded"] and hard.settings["hard_edges"] == list(EDGES)

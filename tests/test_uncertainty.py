@@ -99,6 +99,16 @@ def test_what_the_meshes_miss_of_the_layer_is_in_the_bar() -> None:
     assert still < 1e-5  # a layer that is found on one mesh more than on another and changes nothing
 
 
+@pytest.mark.parametrize(("share", "order"), [(0.0, 3.0), (0.5, 2.0), (1.0, 1.0)])
+def test_a_layer_that_the_mesh_misses_lowers_the_order_that_is_banked_on(share: float, order: float) -> None:
+    """To 3 − 2 s, from answers that show order 3."""
+    answers, powers = made(3.0), [(size / SIZES[0]) ** order for size in SIZES]
+    pairs = [(0, 1), (0, 2), (1, 2)]
+    each = [abs(answers[i] - answers[j]).item() / (powers[j] - powers[i]) for i, j in pairs]
+    found = estimate(answers, SIZES, [Missed(share, 0.0)] * 3)
+    assert found.bar.item() == pytest.approx(1.35 * max(each), rel=1e-6)
+
+
 def test_rounding_is_no_evidence() -> None:
     answers = [np.array([[1.0, 1e-17 * k, 0.5]]) for k in (1, -3, 2)]
     found = estimate(answers, SIZES)

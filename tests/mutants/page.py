@@ -13,6 +13,7 @@ import json
 import platform
 import tomllib
 from collections.abc import Sequence
+from math import sqrt
 from pathlib import Path
 from typing import Any
 
@@ -31,10 +32,10 @@ those that import the faulty module, that speak of it or of its function, then `
 What has not been noticed after {enough:.0f} seconds of processor time has survived, though the whole suite
 might catch it.
 
-Written by `make mutants SAMPLE={size}` on {day}: Python {python}, {processor}; commits {commits}. In
-the mean a fault took {mean:.0f} seconds of processor time.
+Written by `make mutants` on {day}, of the {size} faults tried so far (it goes on where it stopped): Python
+{python}, {processor}; commits {commits}. In the mean a fault took {mean:.0f} seconds of processor time.
 
-| package | tried | caught | equivalent | caught of those that can be told |
+| package | tried | caught | equivalent | caught of those that can be told (95 % interval) |
 |---|---:|---:|---:|---:|
 """
 
@@ -55,7 +56,7 @@ def page(rows: Sequence[dict[str, Any]], reasons: dict[str, str]) -> str:
         here = [row for row in rows if row["fault"].startswith(f"{package}/")]
         caught = sum(row["failed"] is not None for row in here)
         same = sum(row["failed"] is None and row["fault"] in reasons for row in here)
-        share = f"{100 * caught / (len(here) - same):.0f} %" if len(here) > same else "–"
+        share = interval(caught, len(here) - same) if len(here) > same else "–"
         text += f"| {package} | {len(here)} | {caught} | {same} | {share} |\n"
     survivors = sorted((row for row in rows if row["failed"] is None), key=lambda row: row["fault"])
     missing = [row for row in survivors if row["fault"] not in reasons]
@@ -64,6 +65,14 @@ def page(rows: Sequence[dict[str, Any]], reasons: dict[str, str]) -> str:
     return text + "".join(
         f"{entry(row).rstrip()}\n  {reasons[row['fault']]}\n" for row in survivors if row["fault"] in reasons
     )
+
+
+def interval(caught: int, tried: int) -> str:
+    """A share and what it tells of all faults: Wilson's interval (1927) at 95 %."""
+    share, z = caught / tried, 1.96
+    middle, room = share + z**2 / (2 * tried), z * sqrt(share * (1 - share) / tried + (z / (2 * tried)) ** 2)
+    low, high = ((middle + side) / (1 + z**2 / tried) for side in (-room, room))
+    return f"{100 * share:.0f} % ({100 * low:.0f} to {100 * high:.0f})"
 
 
 def entry(row: dict[str, Any]) -> str:

@@ -30,7 +30,7 @@ comparison, operator, number, index, condition or sign written otherwise, or one
 of `lumped` as of `fem_reference` are drawn, every one as likely as another. The nearest tests come first:
 those that import the faulty module, that speak of it or of its function, then `make check`'s, then others.
 What has not been noticed after {enough:.0f} seconds of processor time has survived, though the whole suite
-might catch it.
+might catch it; a survivor that a test was then written for is tried again, and counts as caught.
 
 Written by `make mutants` on {day}, of the {size} faults tried so far (it goes on where it stopped): Python
 {python}, {processor}; commits {commits}. In the mean a fault took {mean:.0f} seconds of processor time.

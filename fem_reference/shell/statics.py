@@ -99,7 +99,7 @@ def _run(
     """graded: give up where stretched elements bend too much (see `validity`)."""
     begin = perf_counter()
     structure, nodes = discretise(mesh, scene, section, law)
-    solver = DirectSolver(structure.symmetric)
+    solver = DirectSolver(structure.symmetric, cells=structure.cells)
     ready = perf_counter()
     inspect, settle = inspector(scene, structure, solver, graded), settler(structure, solver)
     path = trace(structure, solver, inspect, settle, progress)
@@ -108,7 +108,7 @@ def _run(
 
 def trace_on(scene: Scene, structure: ShellStructure) -> tuple[State, Status, list[str]]:
     """The equilibrium of a structure under the full load, how the path to it ended and what is to be said."""
-    solver = DirectSolver(structure.symmetric)
+    solver = DirectSolver(structure.symmetric, cells=structure.cells)
     path = trace(structure, solver, inspector(scene, structure, solver, False), settler(structure, solver))
     return path.state, *judge(scene, structure, path, membrane_strain(structure, path.state))
 

@@ -26,6 +26,7 @@ from scipy.sparse import csr_matrix
 from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
 from fem_reference.shell.element import Element, forces_of, strain_of, tangents, weighed
 from fem_reference.shell.reduction import projected
+from fem_reference.solving.fronts import Cells
 from fem_reference.solving.sparsity import Pattern
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surface
 from fem_reference.surface.loads import Follower
@@ -118,6 +119,12 @@ class ShellStructure:
     def unknowns(self) -> int:
         """How many there are."""
         return self.pattern.size
+
+    @property
+    def cells(self) -> Cells:
+        """The elements and the rods' sides, which couple unknowns, each at the middle of its nodes."""
+        sheet, rods = self.element.reference[:, :9, :2], self.rods.elements.reference[:, :3, :2]
+        return Cells(self.pattern.cells, np.concatenate([sheet.mean(axis=1), rods.mean(axis=1)]))
 
     @property
     def symmetric(self) -> bool:

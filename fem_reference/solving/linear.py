@@ -1,8 +1,9 @@
 """Sparse direct solution of A x = b: analyse a pattern once, factorise many times, know the inertia.
 
-rslab does the work: L D Lᵀ with Bunch–Kaufman pivots where A is symmetric (Sylvester's law: D has A's
-inertia), L U where it is not. SciPy's SuperLU does where rslab is missing; without row exchanges its U
-is D Lᵀ and tells the inertia too. Every solution is refined, its residual checked.
+Where it is known which cells the unknowns belong to and the matrix is positive definite, it has Cholesky
+factors (see `multifrontal`). rslab does the rest: L D Lᵀ with Bunch–Kaufman pivots where A is symmetric
+(Sylvester's law: D has A's inertia), L U where it is not. SciPy's SuperLU does where rslab is missing; its U
+is D Lᵀ without row exchanges and tells the inertia too. Every solution is refined, its residual checked.
 """
 
 from __future__ import annotations
@@ -12,6 +13,9 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import splu
+
+from fem_reference.solving.fronts import Cells, Fronts, fronts_of
+from fem_reference.solving.multifrontal import Cholesky, NotPositiveDefinite
 
 rslab: Any
 try:
@@ -65,11 +69,14 @@ class Factor:
 class DirectSolver:
     """Factorises matrices of one sparsity pattern; the symbolic analysis is done once.
 
-    symmetric: the matrices are symmetric (both triangles stored) and the factors tell the inertia.
+    symmetric: the matrices are symmetric (both triangles stored) and the factors tell the inertia; cells: all
+    that they couple, and where it lies in the plane.
     """
 
-    def __init__(self, symmetric: bool = True, use_rslab: bool = True):
+    def __init__(self, symmetric: bool = True, use_rslab: bool = True, cells: Cells | None = None):
         self.symmetric = symmetric
+        self._cells = cells if symmetric else None
+        self._fronts: Fronts | None = None
         self._analysis: Any = None
         self._use_rslab = use_rslab and rslab is not None
 
@@ -80,6 +87,13 @@ class DirectSolver:
         """
         if not np.all(np.isfinite(matrix.data)):
             raise SingularMatrix("an entry of the matrix is not finite")
+        if self._cells is not None:
+            if self._fronts is None:
+                self._fronts = fronts_of(matrix.indices, matrix.indptr, self._cells)
+            try:
+                return Factor(matrix, Cholesky(matrix.data, self._fronts), Inertia(matrix.shape[0], 0, 0))
+            except NotPositiveDefinite:
+                pass  # its inertia is to be told
         columns = _columns(matrix, self.symmetric)
         try:
             if self._use_rslab:

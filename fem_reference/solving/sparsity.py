@@ -21,6 +21,7 @@ class Pattern:
 
     def __init__(self, *unknowns: np.ndarray, size: int):
         self.size = size
+        self._unknowns = unknowns
         widths = np.concatenate([np.full(len(number), number.shape[1]) for number in unknowns])
         starts = np.concatenate([[0], np.cumsum(widths)])
         entries = np.concatenate([number.ravel() for number in unknowns]).astype(np.int64)
@@ -36,6 +37,16 @@ class Pattern:
         kinds = pairwise(np.cumsum([0, *(number.size * number.shape[1] for number in unknowns)]))
         self._slots = [slots[first:last] for first, last in kinds]
         self._diagonal = np.flatnonzero(self._columns == np.repeat(np.arange(size), np.diff(self._starts)))
+
+    @property
+    def cells(self) -> np.ndarray:
+        """The unknowns of all elements (M, k), −1 where one has fewer or holds them."""
+        out = np.full((sum(map(len, self._unknowns)), max(u.shape[1] for u in self._unknowns)), -1)
+        first = 0
+        for number in self._unknowns:
+            out[first : first + len(number), : number.shape[1]] = number
+            first += len(number)
+        return out
 
     def matrix(self, *blocks: np.ndarray, diagonal: np.ndarray | None = None) -> csr_matrix:
         """Sum of element matrices (m, k, k) by kind, kinds left out being zero, and of a diagonal (size,)."""

@@ -1,0 +1,69 @@
+"""Cholesky factors by fronts: they solve, whatever the cells, and say where there are none."""
+
+import numpy as np
+import pytest
+from scipy.sparse import csr_matrix
+
+from fem_reference.solving import multifrontal
+from fem_reference.solving.fronts import Cells, fronts_of
+from fem_reference.solving.linear import DirectSolver
+from fem_reference.solving.sparsity import Pattern
+
+
+def system(nx: int, ny: int, unknowns: int, seed: int = 0) -> tuple[csr_matrix, Cells]:
+    """A positive definite matrix of cells in a grid whose corners have so many unknowns, some held."""
+    rng = np.random.default_rng(seed)
+    x, y = (a.ravel() for a in np.meshgrid(np.arange(nx), np.arange(ny), indexing="ij"))
+    corners = np.stack([(x + i) * (ny + 1) + y + j for i in (0, 1) for j in (0, 1)], axis=1)
+    free = rng.uniform(size=((nx + 1) * (ny + 1), unknowns)) > 0.1
+    number = np.where(free.ravel(), np.cumsum(free) - 1, -1).reshape(free.shape)
+    of_cells = number[corners].reshape(len(corners), -1)
+    root = rng.normal(size=(len(corners), of_cells.shape[1], of_cells.shape[1]))
+    pattern = Pattern(of_cells, size=int(free.sum()))
+    matrix = pattern.matrix(root @ root.swapaxes(1, 2), diagonal=np.full(int(free.sum()), 0.1))
+    return matrix, Cells(pattern.cells, np.stack([x, y], axis=1) * rng.uniform(1.0, 3.0, 2))
+
+
+@pytest.mark.parametrize("shape", [(1, 1, 3), (2, 1, 1), (5, 4, 2), (1, 13, 5), (12, 12, 5), (6, 5, 31)])
+def test_factors_by_fronts_solve(shape: tuple[int, int, int]) -> None:
+    matrix, cells = system(*shape)
+    b = np.random.default_rng(1).normal(size=matrix.shape[0])
+    found = multifrontal.Cholesky(matrix.data, fronts_of(matrix.indices, matrix.indptr, cells)).solve(b)
+    np.testing.assert_allclose(found, np.linalg.solve(matrix.toarray(), b), rtol=1e-8, atol=1e-9)
+
+
+def test_fronts_wide_enough_for_blocks_are_tested() -> None:
+    matrix, cells = system(6, 5, 31)
+    assert fronts_of(matrix.indices, matrix.indptr, cells).widest > 2 * multifrontal.WIDE
+
+
+@pytest.mark.parametrize("value", [-1e6, np.nan, np.inf])
+def test_a_pivot_that_is_not_positive_is_told(value: float) -> None:
+    matrix, cells = system(5, 4, 2)
+    data = matrix.data.copy()
+    data[matrix.indptr[17] + np.flatnonzero(matrix.indices[matrix.indptr[17] : matrix.indptr[18]] == 17)] = (
+        value
+    )
+    with pytest.raises(multifrontal.NotPositiveDefinite):
+        multifrontal.Cholesky(data, fronts_of(matrix.indices, matrix.indptr, cells))
+
+
+def test_a_singular_matrix_has_no_factors() -> None:
+    spring = np.array([[1.0, -1.0], [-1.0, 1.0]]) / 3.0
+    cells = Cells(np.array([[0, 1], [1, 2], [2, 3]]), np.array([[0.0, 0], [1, 0], [2, 0]]))
+    matrix = Pattern(cells.unknowns, size=4).matrix(np.array([spring, 7.0 * spring, spring]))
+    with pytest.raises(multifrontal.NotPositiveDefinite):
+        multifrontal.Cholesky(matrix.data, fronts_of(matrix.indices, matrix.indptr, cells))
+
+
+def test_the_inertia_of_a_matrix_that_is_not_positive_definite_is_told() -> None:
+    matrix, cells = system(5, 4, 2)
+    solver, values = DirectSolver(cells=cells), np.linalg.eigvalsh(matrix.toarray())
+    n, b = len(values), np.ones(len(values))
+    shift = 0.5 * (values[2] + values[3])
+    shifted = (matrix - csr_matrix(shift * np.eye(n)).multiply(matrix != 0)).tocsr()
+    shifted.sort_indices()
+    for each, below in ((matrix, 0), (shifted, 3), (matrix, 0)):
+        factor = solver.factor(each)
+        assert factor.inertia == (n - below, below, 0)
+        assert each @ factor.solve(b) == pytest.approx(b)

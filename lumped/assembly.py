@@ -72,6 +72,13 @@ class Assembly:
         """Masses by plan position, positions at rest, and areas of the cells: made once for all samples."""
         return self.lattice.columns(), self.lattice.positions, self.lattice.cell_areas
 
+    @cached_property
+    def link_geometry(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Masses, rest vectors [m] and rest lengths [m] of the links of every family: a run looks at them at
+        each sample."""
+        links = (family for family in self.springs if isinstance(family, Links))
+        return [(each.nodes, each.offset, each.rest_length) for each in links]
+
     @property
     def rounding(self) -> float:
         """Relative spacing of the numbers that the internal force is computed with."""

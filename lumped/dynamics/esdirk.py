@@ -58,7 +58,8 @@ class Esdirk(DenseIntegrator):
         self._newton = Newton(system, CLOSE, STALE)
         self._largest = 0.0
         self._end: tuple[State | None, np.ndarray] = None, np.zeros(2)  # the last state, and its power
-        self._curve: np.ndarray | None = None  # of the last step, once it is asked for
+        self._curve: np.ndarray | None = None  # of the last step, once it is asked for,
+        self._passed = np.empty((0, 2))  # and coefficients of θ⁰ to θ⁷ of its energies [J]
 
     @classmethod
     def default_step(cls, period: object, limit: object) -> float:
@@ -96,7 +97,7 @@ class Esdirk(DenseIntegrator):
                 continue
             if self._fixed:
                 break
-            error = h * float(np.abs(np.tensordot(ERRORS, stages.v, 1)).max())
+            error = h * float(np.abs(ERRORS @ stages.v.reshape(len(ERRORS), -1)).max())
             largest = max(self._largest, float(np.abs(stages.u[-1]).max()))
             ratio = 0.9 * (self._error * largest / max(error, 1e-30)) ** (1.0 / 5.0)
             if ratio < 0.9 and h > shortest:
@@ -127,6 +128,8 @@ class Esdirk(DenseIntegrator):
     def _from_kink(self, state: State, at_most: float) -> tuple[State, float]:
         """The state with its acceleration from now on, and how long nothing changes its course at most."""
         system, now = self.system, state.time
+        if not len(system.kinks):
+            return state, at_most
         near = 1e-9 * at_most
         if np.any(np.abs(system.kinks - now) < near) and now > near:
             if system.moving:  # a velocity jumps, and dampers with it: the steps begin as at the start
@@ -184,10 +187,10 @@ class Esdirk(DenseIntegrator):
         """The state at a time within the last step, and what was taken and put in since its start."""
         stages, h = self._step
         if self._curve is None:
-            self._curve = _curve(stages, h)
+            self._curve, self._passed = _curve(stages, h), h * (CUMULATIVE @ stages.power)
         theta = (time - float(stages.time[0])) / h
-        taken, put_in = h * (theta ** np.arange(len(CUMULATIVE)) @ CUMULATIVE @ stages.power)
-        return Passed(State(time, *_at(self._curve, theta, h)), float(taken), float(put_in))
+        vectors, taken, put_in = _at(self._curve, self._passed, theta, h)
+        return Passed(State(time, *vectors), taken, put_in)
 
     def _advance(self, start: State, stages: Stages, h: float) -> Advance:
         system, power = self.system, stages.power
@@ -240,8 +243,8 @@ def _curve(stages: Stages, h: float) -> np.ndarray:
 
 
 @njit(cache=True)
-def _at(curve: np.ndarray, theta: float, h: float) -> np.ndarray:
-    """Displacement, velocity and acceleration (3, n, 3) at θ of a step of length h [s]."""
+def _at(curve: np.ndarray, passed: np.ndarray, theta: float, h: float) -> tuple[np.ndarray, float, float]:
+    """Displacement, velocity and acceleration (3, n, 3) at θ of a step of length h [s], and both energies."""
     out = np.empty((3, curve.shape[1]))
     for i in range(curve.shape[1]):
         u = v = a = 0.0
@@ -250,4 +253,8 @@ def _at(curve: np.ndarray, theta: float, h: float) -> np.ndarray:
             v = v * theta + u
             u = u * theta + curve[power, i]
         out[0, i], out[1, i], out[2, i] = u, v / h, a / (h * h)
-    return out.reshape(3, -1, 3)
+    taken = put_in = 0.0
+    for power in range(len(passed) - 1, -1, -1):
+        taken = taken * theta + passed[power, 0]
+        put_in = put_in * theta + passed[power, 1]
+    return out.reshape(3, -1, 3), taken, put_in

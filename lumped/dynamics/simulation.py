@@ -64,7 +64,7 @@ def simulate(
     "axes", of each edge with chains the rest places (p, 3) and displacements (n, p, 3) [m] of its axis.
     progress: called with the time reached.
     precision: of the internal force (see `lumped.assembly`). options: the integrator's own (`radius`,
-    `iterations`).
+    `error`, `iterations`, `modes`).
 
     Raises BadInput for an unknown integrator, a step above the limit of an explicit one, more than ten
     million default steps of it; for a folder that cannot be written to, that another process writes to, that

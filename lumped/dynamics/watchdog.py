@@ -26,7 +26,8 @@ def bark(system: System, state: State, row: np.ndarray, origin: float, round_abo
     if not np.isfinite(row).all():
         where = fastest(lattice, state.v)
         return Fault(Status.NON_FINITE, f"{when} a number overflowed, first at {where}: use smaller steps")
-    gained = float(row[1:5].sum() - row[5]) - origin
+    kinetic, elastic, potential, dissipated, work = row[1:6].tolist()
+    gained = kinetic + elastic + potential + dissipated - work - origin
     if grows := energy_grows(system, state, gained, round_about):
         return grows
     fault = broken(system.assembly, state.u)

@@ -54,8 +54,7 @@ def _sound(assembly: Assembly, u: np.ndarray) -> bool:
     """Whether nothing is wrong, by compiled loops: a run looks at every sample."""
     if not upright(*assembly.plan, u):
         return False
-    links = (links for links in assembly.springs if isinstance(links, Links))
-    return all(long_enough(u, each.nodes, each.offset, each.rest_length, COLLAPSED) for each in links)
+    return all(long_enough(u, *links, COLLAPSED) for links in assembly.link_geometry)
 
 
 def place(lattice: Lattice, mass: int) -> str:

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from comparisons.comparison import comparison as displacement
 from comparisons.models.candidate import Candidate
-from comparisons.report import offscreen
+from comparisons.report import offscreen, style
 from comparisons.runs import executors
 from comparisons.runs.campaign import campaign, carry_out
 from comparisons.runs.store import Store
@@ -37,6 +37,12 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> dict[str, Solution]:
 
     monkeypatch.setattr(displacement, "answer", answer)
     return answers
+
+
+@pytest.fixture(autouse=True)
+def coarse_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures have fewer pixels, for their painting and packing not to take longer than what they show."""
+    monkeypatch.setattr(style, "DPI", 60)
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@
     python tests/kernels.py
 
 Two processes, since that is what small machines have: one for equilibria and implicit steps, the other for
-explicit ones, in both precisions. Where all is in the cache, three seconds.
+explicit ones, in both precisions, and the shell. Where all is in the cache, three seconds.
 """
 
 from __future__ import annotations
@@ -28,11 +28,13 @@ def equilibria() -> None:
 
 
 def explicit() -> None:
-    """What explicit integrators call."""
+    """What explicit integrators and the shell call."""
     from dynamic_cases import scene, springs
 
+    import fem_reference
     import lumped
 
+    fem_reference.solve(scene(), "shell", elements=2)
     damped = scene(damping_time=1e-3)
     for integrator, precision in (
         ("verlet", "double"),

@@ -16,13 +16,13 @@ import json
 import os
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 _ticks = itertools.count()
 time.perf_counter = lambda: 1e-3 * next(_ticks)
 
+from answers import once  # noqa: E402
 from campaigns import Here  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from terminals import resize  # noqa: E402
@@ -30,9 +30,7 @@ from terminals import resize  # noqa: E402
 from comparisons import stability  # noqa: E402
 from comparisons.cli import console, main  # noqa: E402
 from comparisons.models import registry  # noqa: E402
-from comparisons.models.candidate import Candidate  # noqa: E402
 from comparisons.runs import campaign, executors  # noqa: E402
-from sheetbench.scenes import Scene, Solution  # noqa: E402
 
 
 class Echo(io.RawIOBase):
@@ -53,20 +51,6 @@ class Echo(io.RawIOBase):
     def write(self, data: Any) -> int:
         self.shown += bytes(data)
         return os.write(self.file, data)
-
-
-def once(ask: Callable[..., Solution]) -> Callable[..., Solution]:
-    """A question that was answered before has the same answer: what is looked at is how it is shown."""
-    answers: dict[str, Solution] = {}
-
-    def answer(scene: Scene, candidate: Candidate, *name: str, **settings: Any) -> Solution:
-        asked = sorted((key, value) for key, value in settings.items() if key != "progress")
-        key = f"{scene.model_dump_json()} {candidate} {name} {asked}"
-        if key not in answers:
-            answers[key] = ask(scene, candidate, *name, **settings)
-        return answers[key]
-
-    return answer
 
 
 def screen(
@@ -94,7 +78,7 @@ def screen(
 
 if __name__ == "__main__":
     sys.stdin = io.StringIO()  # nobody is there to be asked
-    registry.answer = once(registry.answer)
+    registry.answer = once(registry.answer)  # what is looked at is how it is shown
     executors.processes = Here
     campaign.carry_out.__kwdefaults__["pool"] = executors.processes
     Figure.savefig = lambda self, place, *_, **__: Path(place).touch()  # type: ignore[method-assign, assignment]

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from answers import once
 from campaigns import Here
 from commands import one_line, run
 
@@ -26,6 +27,7 @@ from sheetbench import scenes
 from sheetbench.scenes import Clamped, Gravity, Scene, Solution
 
 SECONDS = 1e-5  # an unknown and factorisation
+answer = once(solve)  # one for all tests: what is looked at is what the advisor makes of it
 
 
 @pytest.fixture(autouse=True)
@@ -33,7 +35,7 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every solve takes what its size says, however busy the machine is."""
 
     def solve_in_time(scene: Scene, model: str, **settings: object) -> Solution:
-        solution = solve(scene, model, **settings)
+        solution = answer(scene, model, **settings)
         seconds = SECONDS * solution.unknowns * (1 + solution.iterations)
         return replace(solution, solve_seconds=seconds)
 
@@ -50,7 +52,7 @@ def truth(text: str) -> np.ndarray:
 def actual_error(advice: Advice) -> float:
     """Error of the choice against the shell."""
     assert advice.choice is not None
-    chosen = solve(advice.scene, advice.choice.model, **advice.choice.settings)
+    chosen = answer(advice.scene, advice.choice.model, **advice.choice.settings)
     text = advice.scene.model_dump_json(by_alias=True, exclude_none=True)
     found = error(chosen.displacement(advice.scene.probe_points()), truth(text))
     assert found is not None

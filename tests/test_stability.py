@@ -249,7 +249,7 @@ def test_command_writes_maps_tables_and_texts_and_resumes(tmp_path, capsys, monk
         """As PNG, the first time; in other formats and again it is the same."""
         if Path(place).suffix == ".png" and len(drawn) < len(NAMES):
             drawn.append(place)
-            savefig(self, place, **{**options, "dpi": 50})
+            savefig(self, place, **options)
         else:
             Path(place).write_bytes(bytes(200))
 

@@ -197,6 +197,7 @@ def polish(
     unbalanced, before = problem.residual(u, load_factor)
     for fresh in range(POLISHINGS + 1):
         if fresh:
+            near = None  # its memory is needed
             done = problem.correction(u, load_factor, unbalanced)
             if not np.isfinite(done.residual) or done.length > POLISHED * problem.size:
                 raise StepFailed("the polishing step is not small")
@@ -204,6 +205,7 @@ def polish(
                 u, unbalanced, before = done.u, done.unbalanced, done.residual
             problem.note(load_factor, before, done.length)
             near = Tangent(done.blocks, done.factor)
+            del done
         if near is None:
             continue
         while not before < aim:

@@ -22,6 +22,7 @@ from lumped.linear.threads import one_blas_thread
 from lumped.statics.answer import Outcome, solution
 from lumped.statics.batch import alike, batch, paths
 from lumped.statics.equilibrium import State
+from lumped.statics.fused import Posed
 from lumped.statics.problem import Problem
 from lumped.statics.solver import compile_kernels, judged, pose, solve
 from sheetbench.scenes import AnyScene, Iteration, Scene, Solution, require_static, scene_of
@@ -93,13 +94,14 @@ def _together(cases: Sequence[Case], weights: Weights = "tributary") -> list[tup
         ready.append((scene, springs, before))
     setup = (time.perf_counter() - began) / len(cases)
     batches: list[list[int]] = []
+    first: Posed | None = None  # of the last batch
     for at, (_, _, problem) in enumerate(ready):
-        if problem.posed is None:
-            continue
-        if batches and alike(ready[batches[-1][0]][2].posed, problem.posed):  # type: ignore[arg-type]
+        posed = problem.posed
+        if posed is not None and first is not None and alike(first, posed):
             batches[-1].append(at)
-        else:
+        elif posed is not None:
             batches.append([at])
+            first = posed
     found: dict[int, Solution] = {}
     for members in batches:
         found |= _solutions({at: ready[at] for at in members}, setup, weights)

@@ -226,16 +226,16 @@ class ShellStructure:
             pull[load.elements] += np.einsum("eicjd,ejd->eic", tangent, of_step[load.elements])
             stiffness[load.elements] += projected(tangent, frames[self.element_nodes[load.elements]])
 
-        full = self.rods.elements.tangent(forces.rods.gradient, rod_stress)
-        onto = self._onto_rods(frames)
-        on_rods = self.rods.elements.product(full, self.rods.gather(step))
-        on_sheet, on_aside = self._split(self.rods.scatter(on_rods, self._vectors))
-
-        matrix = self.pattern.matrix(
-            stiffness, onto.swapaxes(1, 2) @ full @ onto, diagonal=self._multiplier(state, pressing)
-        )
-        total = forces.residual + self._scatter(pull) + on_sheet
-        couple = np.concatenate([total[1], forces.aside + on_aside])
+        blocks, total, aside = [stiffness], forces.residual + self._scatter(pull), forces.aside
+        if self.rods.rods:
+            full = self.rods.elements.tangent(forces.rods.gradient, rod_stress)
+            onto = self._onto_rods(frames)
+            on_rods = self.rods.elements.product(full, self.rods.gather(step))
+            on_sheet, on_aside = self._split(self.rods.scatter(on_rods, self._vectors))
+            blocks.append(onto.swapaxes(1, 2) @ full @ onto)
+            total, aside = total + on_sheet, aside + on_aside
+        matrix = self.pattern.matrix(*blocks, diagonal=self._multiplier(state, pressing))
+        couple = np.concatenate([total[1], aside])
         return matrix, -self._of_unknowns(total[0], np.einsum("nc,nck->nk", couple, frames))
 
     def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:

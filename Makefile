@@ -41,7 +41,7 @@ help:
 	@echo "make bench     settling beside SciPy's BDF, statics, explicit steps, start-up: time and what it goes to (files in $(OUT)/, history in benchmarks/history/)"
 	@echo "make suite     the reference set anew, comparisons/suite/data (ten minutes; a change of values is a new version)"
 	@echo "make viewer    the viewer of sheets in a browser, comparisons/browser/viewer.js, from its source (needs Node)"
-	@echo "make standing  where models, plug-ins and judges stand on that set (three minutes): docs/suite.md"
+	@echo "make standing  where models, plug-ins and judges stand on that set (three minutes; MODELS=felupe:elements=4 for one that takes longer): docs/suite.md"
 	@echo "make docs-scene  the page of every key of a scene and its sketch, docs/scene.md, from the types"
 	@echo "make animations  the README's moving pictures, docs/images/settling.gif and actuated.gif (two minutes)"
 	@echo "make notebooks the notebooks of docs/notebooks anew, with what they print and draw"
@@ -161,7 +161,7 @@ suite: install
 	@cp $(OUT)/suite/cases.md docs/suite.md
 
 standing: install
-	@$(BIN)/python -m comparisons.suite.standing
+	@$(BIN)/python -m comparisons.suite.standing $(MODELS)
 	@$(BIN)/python -m sheetbench suite --out $(OUT)/suite --overwrite
 	@cp $(OUT)/suite/cases.md docs/suite.md
 

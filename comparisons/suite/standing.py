@@ -2,7 +2,8 @@
 
 Our own models, and other people's programs as plug-ins: what each gets wrong on every case, and its time. It
 writes these rows into the set's file and leaves its values alone (`make standing`). Models as `tradeoff
---model` has them ("mujoco:grid=9"), all of `STANDING` unless named; what is not installed keeps its rows.
+--model` has them ("mujoco:grid=9"), all of `STANDING` unless named, those of `SLOW` only where named; what is
+not installed keeps its rows.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ STANDING = (
     Candidate("kratos", {"elements": 16}),
     Candidate("calculix", {"elements": 4}),
 )
+SLOW = (Candidate("felupe", {"elements": 4}),)  # minutes
 
 
 def standing(case: Reference, candidate: Candidate) -> dict[str, Any]:
@@ -66,13 +68,13 @@ def measured(candidate: Candidate) -> Iterator[dict[str, Any]]:
 
 def main(names: list[str]) -> None:
     """Measure, and put the rows into the file."""
-    known = {written(candidate): candidate for candidate in STANDING}
+    known = {written(candidate): candidate for candidate in (*STANDING, *SLOW)}
     for name in names:
         require_choice("model", name, known)
     rows: dict[str, list[dict[str, Any]]] = {}
     for row in document()["standing"]:
         rows.setdefault(written(Candidate(row["model"], row["settings"])), []).append(row)
-    for name in names or known:
+    for name in names or map(written, STANDING):
         if found := list(measured(known[name])):
             rows[name] = found
             kept = [row for name in known for row in rows.get(name, [])]

@@ -13,18 +13,19 @@ if TYPE_CHECKING:
     from lumped import Description
 
 Holds = dict[int, dict[int, float]]  # of a mass: its displacement [m] along each axis held
+Mean = tuple[tuple[int, ...], int, float]  # masses, the axis, their mean displacement [m]
 
 
-def require_links(lattice: Description, simulator: str) -> None:
-    """Raises BadInput where the lattice has springs that are not between two masses, supports that do not
-    hold one mass each, or loads that are not dead."""
+def require_links(lattice: Description, simulator: str, means: bool) -> None:
+    """Raises BadInput where the lattice has springs that are not between two masses, or loads that are not
+    dead; unless the simulator has `means`, also where supports do not hold one mass each."""
     if lattice.cells:
         raise BadInput(
             f"--for {simulator}: has springs between two points alone, and these springs have "
             f"{' and '.join(sorted({table.kind for table in lattice.cells}))} springs of cells; "
             "take --method central"
         )
-    if any(len(hold.masses) > 1 for hold in lattice.holds):
+    if not means and held_means(lattice):
         raise BadInput(
             f"--for {simulator}: hinged and held edges hold the mean of their layers, which has no plain "
             "form there; clamped and curved edges only"
@@ -34,11 +35,17 @@ def require_links(lattice: Description, simulator: str) -> None:
 
 
 def held_masses(lattice: Description) -> Holds:
-    """Supports by mass."""
+    """Supports of one mass each, by mass."""
     found: Holds = {}
     for hold in lattice.holds:
-        found.setdefault(hold.masses[0], {})[hold.axis] = hold.displacement
+        if len(hold.masses) == 1:
+            found.setdefault(hold.masses[0], {})[hold.axis] = hold.displacement
     return found
+
+
+def held_means(lattice: Description) -> list[Mean]:
+    """Supports that hold the mean of several masses: hinged and held edges."""
+    return [(hold.masses, hold.axis, hold.displacement) for hold in lattice.holds if len(hold.masses) > 1]
 
 
 def weight_and_rest(lattice: Description, scene: Scene) -> tuple[np.ndarray, np.ndarray]:

@@ -2,11 +2,14 @@
 
 A tendon of two sites is as long as they are apart and pulls with stiffness × (length − springlength), a
 link's force to the last digit: at a lattice's equilibrium MuJoCo's accelerations vanish (tests). Masses that
-are held stand where they are held, without joints there. Drag is joint damping. Loads other than weight are
-motors, whose keyframe `loaded` says how much. The time step is half of what the stiffest motion bears, by
-Gershgorin's bound.
+are held stand where they are held, without joints there. Where the mean of several is held, as hinged edges
+hold their layers', a fixed tendon is that mean, and an equality keeps it. MuJoCo's constraints yield: at rest
+by 1 − d of what the edge's springs would do to it in a step, with d as near to 1 as there is (0.9999), and
+twice the time step to come back. Drag is joint damping. Loads other than weight are motors, whose keyframe
+`loaded` says how much. The time step is half of what the stiffest motion bears, by Gershgorin's bound.
 
-Source: MuJoCo's XML reference, `tendon/spatial`, `keyframe`.
+Source: MuJoCo's XML reference, `tendon/spatial`, `tendon/fixed`, `equality/tendon`, `keyframe`; the chapter
+on computation, of solver parameters.
 """
 
 from __future__ import annotations
@@ -16,27 +19,31 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.export.links import held_masses, require_links, weight_and_rest, words
+from comparisons.export.links import held_masses, held_means, require_links, weight_and_rest, words
 from sheetbench.scenes import Scene
 
 if TYPE_CHECKING:
     from lumped import Description
 
 AXES = np.eye(3, dtype=int)
+RIGID = 0.9999  # d of MuJoCo's constraints, the nearest to 1 that it takes
 SMALL = 1e-9  # kg m²: what does not turn needs an inertia all the same
 
 
 def to_mjcf(lattice: Description, scene: Scene) -> str:
     """The model's text. Raises BadInput for what MuJoCo's springs cannot say (`require_links`)."""
-    require_links(lattice, "mujoco")
+    require_links(lattice, "mujoco", means=True)
     gravity, forces = weight_and_rest(lattice, scene)
+    step = _time_step(lattice)
     parts = [
-        f'<mujoco model="lattice">\n<option timestep="{_time_step(lattice)!r}" gravity="{words(gravity)}">'
+        f'<mujoco model="lattice">\n<option timestep="{step!r}" gravity="{words(gravity)}">'
         '<flag contact="disable"/></option>\n<worldbody>',
         *_bodies(lattice),
         "</worldbody>\n<tendon>",
         *_tendons(lattice),
+        *_means(lattice),
         "</tendon>",
+        *_equalities(lattice, step),
         *_motors(lattice, forces),
         "</mujoco>\n",
     ]
@@ -80,6 +87,25 @@ def _tendons(lattice: Description) -> Iterator[str]:
             f'<spatial springlength="{length!r}" stiffness="{k!r}" damping="{c!r}">'
             f'<site site="site{a}"/><site site="site{b}"/></spatial>'
         )
+
+
+def _means(lattice: Description) -> Iterator[str]:
+    for number, (masses, axis, _) in enumerate(held_means(lattice)):
+        share = 1.0 / len(masses)
+        joints = (f'<joint joint="{_joint(mass, axis)}" coef="{share!r}"/>' for mass in masses)
+        yield f'<fixed name="mean{number}">{"".join(joints)}</fixed>'
+
+
+def _equalities(lattice: Description, step: float) -> Iterator[str]:
+    held = held_means(lattice)
+    if held:
+        yield "<equality>"
+        for number, (_, _, mean) in enumerate(held):
+            yield (
+                f'<tendon tendon1="mean{number}" polycoef="{mean!r} 0 0 0 0" '
+                f'solref="{2.0 * step!r} 1" solimp="{RIGID} {RIGID} 0.001 0.5 2"/>'
+            )
+        yield "</equality>"
 
 
 def _motors(lattice: Description, forces: np.ndarray) -> Iterator[str]:

@@ -5,6 +5,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
+import scipy.sparse as sp
+
+from lumped.linear.maps import rows
 from sheetbench.kernels import ROOT, SAID, made_of
 
 ASK = """
@@ -23,6 +27,13 @@ def test_a_kernel_is_made_of_the_files_whose_kernels_it_calls():
     tuples = {path.name for path in made_of(ROOT / "lumped/springs/all_forces.py")}
     assert {"packing.py", "tiles.py", "cell_tiles.py"} <= tuples  # a tuple's fields count too
     assert "assembly.py" not in {path.name for path in made_of(ROOT / "lumped/dynamics/compiled_newton.py")}
+
+
+def test_matrices_are_alike_to_kernels_whatever_integers_scipy_takes():
+    small = sp.csr_array(np.eye(2))
+    large = sp.csr_array((small.data, small.indices.astype(np.int64), small.indptr.astype(np.int64)))
+    assert small.indices.dtype != large.indices.dtype
+    assert [part.dtype for part in rows(small)] == [part.dtype for part in rows(large)]
 
 
 def test_the_first_compilation_is_announced_and_the_second_run_compiles_nothing(tmp_path: Path):

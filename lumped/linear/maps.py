@@ -18,8 +18,9 @@ class Rows(NamedTuple):
 
 
 def rows(matrix: sp.csr_array) -> Rows:
-    """The rows of SciPy's matrix."""
-    return Rows(matrix.indptr, matrix.indices, matrix.data)
+    """The rows of SciPy's matrix, with integers of one size: kernels are compiled for either apart."""
+    pointers, columns = (part.astype(np.int64) for part in (matrix.indptr, matrix.indices))
+    return Rows(pointers, columns, matrix.data)
 
 
 @njit(cache=True, nogil=True)

@@ -5,9 +5,11 @@ a solid of L layers of bricks 3 (2 L + 1). What is kept and done is proportional
 factors of the tangent.
 
 The constants were fitted to static solves on an AMD EPYC with Python 3.11, 2026-11-22: bytes to the peaks of
-the resident set for plates of 32² to 96² elements, shells of 16² to 64², solids of 8² to 24² and of two
-layers, strips of 4 × 256, all of them within 21 %; seconds to 0.24 and 1.7 s for shells of 16² and 32² on a
-quiet core and, where there was none, to half the processor time on a busy one.
+the resident set for plates of 32² to 96² elements, solids of 8² to 24² and of two layers, strips of 4 × 256,
+all of them within 21 %. Shells of 16² to 64² reach 1/1.5 of their bytes, within 4 %, while their tangent is
+positive definite; where it is not, it is factored another way, which takes about twice as much. Seconds to
+0.24 and 1.7 s for shells of 16² and 32² on a quiet core and, where there was none, to half the processor time
+on a busy one.
 """
 
 from __future__ import annotations
@@ -31,7 +33,7 @@ class _Cost:
 
 COSTS = {
     "plate": _Cost(10e6, 0.21e6, 8.0, 0.5e-3, 2e-10),
-    "shell": _Cost(100e6, 0.21e6, 14.0, 1.35e-3, 1e-9),
+    "shell": _Cost(8e6, 0.093e6, 29.0, 1.35e-3, 1e-9),
     "solid": _Cost(20e6, 1.2e6, 14.0, 6e-3, 1.2e-9),
 }
 

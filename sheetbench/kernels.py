@@ -30,7 +30,7 @@ ROOT = Path(__file__).resolve().parent.parent
 OURS = ("lumped", "fem_reference")
 IMPORTS = re.compile(rf"^from ((?:{'|'.join(OURS)})[\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
 COMPILED = re.compile(r"\bnjit\b|\bNamedTuple\b")
-SAID = "compiling for this machine, once: up to a minute …"
+SAID = "compiling for this machine, once: a minute or two …"
 
 
 class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]  # numba is not typed

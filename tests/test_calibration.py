@@ -130,7 +130,8 @@ def test_least_squares_finds_the_closed_form_on_square_cells(masses):
     fitted = lumped.calibrate(SEED.sheet, SEED.material, grid, "moduli")
     assert fitted.notes == ()
     for name, value in fitted.springs.model_dump().items():
-        assert value == pytest.approx(closed[name], rel=1e-5, abs=1e-6), name
+        known = closed[name]
+        assert value == (known if known is None else pytest.approx(known, rel=1e-5, abs=1e-6)), name
 
 
 @pytest.mark.parametrize("method", ["consistent", "moduli"])

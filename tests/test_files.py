@@ -17,11 +17,13 @@ import pyvista
 from comparisons.calibration import tables as calibration
 from comparisons.comparison.comparison import Comparison, compare
 from comparisons.comparison.tables import draw
-from comparisons.report import files, vtk
+from comparisons.report import files, style, vtk
 from comparisons.report import offscreen as rendering
 from comparisons.runs.folder import Folder
 from sheetbench import scenes
 from sheetbench.scenes import Scene
+
+DPI = style.DPI  # of pictures as users have them
 
 
 @pytest.fixture(scope="module")
@@ -121,7 +123,10 @@ def test_springs_as_toml_are_the_same_springs(scene: Scene) -> None:
     assert table == found["springs"] and lattice == {name: found[name] for name in lattice}
 
 
-def test_picture_is_drawn_or_the_missing_packages_are_named(comparison: Comparison, tmp_path: Path) -> None:
+def test_picture_is_drawn_or_the_missing_packages_are_named(
+    comparison: Comparison, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(style, "DPI", DPI)
     impossible = draw(comparison, [tmp_path / "comparison.png"])
     if impossible is not None:
         assert rendering.PACKAGES in impossible

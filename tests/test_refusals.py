@@ -173,7 +173,8 @@ def test_whatever_is_put_in_its_place_the_refusal_is_ours() -> None:
 
 
 WITHOUT_UNIT = {
-    "grid", "grading", "poisson", "factor", "components", "support", "load", "actuator", "x", "y", "z"
+    "grid", "grading", "graded_edges", "poisson", "factor", "components", "support", "load", "actuator",
+    "x", "y", "z"
 }  # fmt: skip
 
 

@@ -19,6 +19,8 @@ from lumped.linear.maps import Rows, product, transposed_product
 from lumped.springs import together
 from lumped.springs.together import Springs, Stresses
 
+NOT_REFINED = np.int64(0)  # corrections of a solution; Python's own numba would compile for once more
+
 
 class Posed(NamedTuple):
     """A lattice of n masses under supports and dead loads as arrays.
@@ -88,7 +90,7 @@ def solved(force: np.ndarray, posed: Posed, work: Work) -> tuple[np.ndarray, flo
     """The displacement (n, 3) [m] by a force (n, 3) [N] with the factors at hand, and its backward error."""
     band = posed.band
     right = transposed_product(posed.free, force.ravel(), len(band.order))
-    x, miss = banded.solve(work.matrix, work.factors, band.width, band.order, right, 0)
+    x, miss = banded.solve(work.matrix, work.factors, band.width, band.order, right, NOT_REFINED)
     return product(posed.free, x).reshape(force.shape), miss
 
 

@@ -15,6 +15,7 @@ from numba import njit
 
 from lumped.linear.banded import BACKWARD_ERROR
 from lumped.springs import together
+from lumped.springs.tiles import NO, YES
 from lumped.springs.together import Stresses
 from lumped.statics import fused
 from lumped.statics.fused import Posed, Work
@@ -34,6 +35,7 @@ from lumped.statics.limits import (
 )
 from lumped.statics.soundness import long_enough, upright
 
+NONE = np.int64(0)  # for Python's own numba would compile what it is handed to once more
 LINES = 200  # of history: room for ten load steps and more
 LINES_A_STEP = 60  # at most
 HALVINGS = 3  # of one load step, before it is left to Python
@@ -69,7 +71,7 @@ def followed(posed: Posed, work: Work) -> Followed:
     """The path from the flat sheet to full load, as far as it goes."""
     u = np.zeros_like(posed.dead)
     stress = together.stresses(u, posed.springs)
-    history, lines, factorisations = np.empty((LINES, 3)), 0, 1
+    history, lines, factorisations = np.empty((LINES, 3)), NONE, 1
     load_factor, step, reach, halvings = 0.0, 1.0, FIRST_REACH * posed.size, 0
     if not fused.factored(u, stress, posed, work):
         return Followed(False, load_factor, u, stress, reach, step, factorisations, history[:lines])
@@ -110,7 +112,7 @@ def followed(posed: Posed, work: Work) -> Followed:
     return Followed(True, load_factor, u, stress, reach, step, factorisations, history[:lines])
 
 
-@njit(cache=True, nogil=True)
+@njit(inline="always")
 def predicted(step: float, posed: Posed, work: Work) -> tuple[np.ndarray, float]:
     """Displacement (n, 3) [m] of a load step, linear at the state whose factors are at hand, and its backward
     error."""
@@ -126,7 +128,7 @@ def predicted(step: float, posed: Posed, work: Work) -> tuple[np.ndarray, float]
     return moved + posed.placed, miss
 
 
-@njit(cache=True, nogil=True)
+@njit(inline="always")
 def _corrected(
     u: np.ndarray,
     stress: Stresses,
@@ -152,7 +154,7 @@ def _corrected(
             return _polished(
                 u, load_factor, unbalanced, residual, tolerance, close, count, posed, work, history, lines
             )
-        done = fused.corrected(u, unbalanced, load_factor, stress, True, posed, work)
+        done = fused.corrected(u, unbalanced, load_factor, stress, YES, posed, work)
         if not done.definite or not done.miss <= BACKWARD_ERROR:
             return Reached(False, u, count + 1, lines)
         u, unbalanced, residual, stress = u + done.step, done.unbalanced, done.residual, done.stresses
@@ -163,7 +165,7 @@ def _corrected(
     return Reached(False, u, CORRECTIONS, lines)
 
 
-@njit(cache=True, nogil=True)
+@njit(inline="always")
 def _polished(
     u: np.ndarray,
     load_factor: float,
@@ -182,7 +184,7 @@ def _polished(
     for fresh in range(POLISHINGS + 1):
         if fresh:
             done = fused.corrected(
-                u, unbalanced, load_factor, together.stresses(u, posed.springs), False, posed, work
+                u, unbalanced, load_factor, together.stresses(u, posed.springs), NO, posed, work
             )
             factorisations += 1
             length = np.abs(done.step).max()
@@ -208,7 +210,7 @@ def _polished(
     return Reached(False, u, factorisations, lines)
 
 
-@njit(cache=True, nogil=True)
+@njit(inline="always")
 def floor(u: np.ndarray, load_factor: float, unbalanced: np.ndarray, posed: Posed) -> float:
     """`lumped.statics.equilibrium.rounding_floor`, from the unbalanced force (n, 3) [N] at u."""
     external = load_factor * posed.dead
@@ -217,7 +219,7 @@ def floor(u: np.ndarray, load_factor: float, unbalanced: np.ndarray, posed: Pose
     return np.finfo(np.float64).eps * carried / size if size > 0.0 else np.inf
 
 
-@njit(cache=True, nogil=True)
+@njit(inline="always")
 def sound(u: np.ndarray, posed: Posed) -> bool:
     """Whether u (n, 3) [m] is a state that means something (`lumped.statics.faults`)."""
     links = posed.springs.links

@@ -110,7 +110,7 @@ def test_a_grid_of_six_gigabytes_needs_a_machine_that_has_them(monkeypatch: pyte
 def test_a_long_thin_sheet_is_refused_with_what_fits(strip: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
     """Four elements across are 75 000 in all."""
     room(monkeypatch, 4 * GB)
-    with pytest.raises(BadInput, match=r"shell 4x18688: .* --elements 1 would fit"):
+    with pytest.raises(BadInput, match=r"shell 4x18688: .* --elements 2 would fit"):
         sb.compare(strip, grid=(3, 9), elements=4)
     room(monkeypatch, 0.5 * GB)
     with pytest.raises(BadInput, match="take fewer along the longer side, --elements NxM"):

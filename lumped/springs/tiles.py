@@ -19,7 +19,8 @@ import numpy as np
 from numba import njit
 
 WIDTH = 128
-YES, NO = np.True_, np.False_  # for Python's own numba compiles a kernel once for each
+YES: Any = np.True_  # for Python's own numba compiles a kernel once for each
+NO: Any = np.False_
 ROWS = tuple(np.uint64(row * WIDTH) for row in range(24))
 OPTIONS: dict[str, Any] = {
     "cache": True,

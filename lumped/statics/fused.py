@@ -8,7 +8,7 @@ refined: their backward error is of the order of rounding, and it is looked at.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
@@ -19,7 +19,7 @@ from lumped.linear.maps import Rows, product, transposed_product
 from lumped.springs import together
 from lumped.springs.together import Springs, Stresses
 
-NOT_REFINED = np.int64(0)  # corrections of a solution; Python's own numba would compile for once more
+NOT_REFINED: Any = np.int64(0)  # corrections of a solution; Python's own numba would compile for once more
 
 
 class Posed(NamedTuple):

@@ -8,7 +8,7 @@ are known at full load only: a path under them is one load step here, or none.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
@@ -35,7 +35,7 @@ from lumped.statics.limits import (
 )
 from lumped.statics.soundness import long_enough, upright
 
-NONE = np.int64(0)  # for Python's own numba would compile what it is handed to once more
+NONE: Any = np.int64(0)  # for Python's own numba would compile what it is handed to once more
 LINES = 200  # of history: room for ten load steps and more
 LINES_A_STEP = 60  # at most
 HALVINGS = 3  # of one load step, before it is left to Python

@@ -132,7 +132,7 @@ def test_the_numpy_reader_is_a_program(folder: Path, capsys: pytest.CaptureFixtu
     assert capsys.readouterr().out.startswith("forces of 3 states off by")
 
 
-@pytest.mark.skipif(shutil.which("octave") is None, reason="Octave is not installed")
+@pytest.mark.skipif(shutil.which("octave") is None, reason="needs Octave: install the Debian package octave")
 def test_octave_finds_our_displacements(folder: Path) -> None:
     command = ["octave", "--quiet", "--no-gui", "--eval", f"read_lattice('{folder}')"]
     found = subprocess.run(command, cwd=READERS, capture_output=True, text=True, timeout=120)
@@ -143,7 +143,7 @@ def test_octave_finds_our_displacements(folder: Path) -> None:
 COMPILER = shutil.which("c++") or shutil.which("g++") or shutil.which("clang++")
 
 
-@pytest.mark.skipif(COMPILER is None, reason="there is no C++ compiler")
+@pytest.mark.skipif(COMPILER is None, reason="needs a C++ compiler: install the Debian package g++")
 def test_cpp_steps_to_our_displacements(folder: Path, tmp_path: Path) -> None:
     program = tmp_path / "read_lattice"
     source = READERS / "read_lattice.cpp"

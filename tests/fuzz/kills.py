@@ -11,7 +11,6 @@ that came to its end is a line of FOLDER/kills-SEED.jsonl and is not filled agai
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import random
@@ -33,6 +32,7 @@ import lumped
 from comparisons.runs.campaign import campaign, carry_out
 from comparisons.runs.manifest import made_with
 from comparisons.runs.store import FILE
+from fuzz import record
 from sheetbench.files import LOCK
 
 TREE = Path(__file__).resolve().parents[2]
@@ -191,24 +191,16 @@ def table(done: list[dict[str, Any]], seed: int) -> str:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("--seed", type=int, default=1)
-    for name, kind in KINDS.items():
-        parser.add_argument(f"--{name}", type=int, default=kind.kills, metavar="N")
-    asked = parser.parse_args()
-    asked.folder.mkdir(parents=True, exist_ok=True)
+    asked = record.asked(__doc__, {name: kind.kills for name, kind in KINDS.items()})
     done: list[dict[str, Any]] = []
-    with (asked.folder / f"kills-{asked.seed}.jsonl").open("a+", encoding="utf-8") as file:
-        file.seek(0)
-        kept = {(line["kind"], line["chain"]): line for line in map(json.loads, file)}
+    with record.opened(asked.folder / f"kills-{asked.seed}.jsonl", "chain") as found:
         for name, kind in KINDS.items():
             with tempfile.TemporaryDirectory() as place:
                 whole, kills, wanted = None, 0, getattr(asked, name)
                 for number in count():
                     if kills >= wanted:
                         break
-                    line = kept.get((name, number))
+                    line = found.get(name, number)
                     if line is None or line["fault"]:
                         whole = whole or undisturbed(kind, Path(place))
                         instants = random.Random(f"{asked.seed} {name} {number}")
@@ -217,8 +209,7 @@ def main() -> int:
                             line["kills"] = chain(kind, Path(place) / str(number), whole, instants)
                         except AssertionError as fault:
                             line |= {"kills": 1, "fault": str(fault)}
-                        file.write(json.dumps(line) + "\n")
-                        file.flush()
+                        found.add(line)
                     done.append(line)
                     kills += line["kills"]
                     print(f"{name}: {kills}/{wanted} {line['fault']}", file=sys.stderr)

@@ -3,15 +3,13 @@
     python -m fuzz.long FOLDER [--scenes 20000] [--solved 1000] [--commands 1000] [--measured 2000]
 
 Examples are drawn in batches, each from a seed of its own; a batch without a fault is a line of
-FOLDER/fuzz.jsonl and not drawn again. A fault does not end the run: the example and what was said of it stand
-in FOLDER/faults, the run ends with status 1, and the next draws its batch again, to see that it is mended.
-At the end a table of counts, FOLDER/fuzz.md.
+FOLDER/fuzz-SEED.jsonl and not drawn again. A fault does not end the run: the example and what was said of it
+stand in FOLDER/faults, the run ends with status 1, and the next draws its batch again, to see that it is
+mended. At the end a table of counts, FOLDER/fuzz.md.
 """
 
 from __future__ import annotations
 
-import argparse
-import json
 import signal
 import sys
 import tempfile
@@ -30,7 +28,7 @@ from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
 
 from comparisons.runs.manifest import made_with
-from fuzz import trials
+from fuzz import record, trials
 from fuzz.grammar import command_lines, measured, sound, texts
 
 LONGEST = 300.0  # s of the processor that one example may take; the longest honest one takes a few
@@ -123,27 +121,18 @@ def table(done: list[dict[str, Any]], base: int) -> str:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("--seed", type=int, default=1)
-    for name, kind in KINDS.items():
-        parser.add_argument(f"--{name}", type=int, default=kind.asked, metavar="N")
-    asked = parser.parse_args()
-    asked.folder.mkdir(parents=True, exist_ok=True)
+    asked = record.asked(__doc__, {name: kind.asked for name, kind in KINDS.items()})
     done: list[dict[str, Any]] = []
-    with (asked.folder / f"fuzz-{asked.seed}.jsonl").open("a+", encoding="utf-8") as file:
-        file.seek(0)
-        kept = {(line["kind"], line["batch"]): line for line in map(json.loads, file)}
+    with record.opened(asked.folder / f"fuzz-{asked.seed}.jsonl", "batch") as found:
         for name, kind in KINDS.items():
             counted, wanted = 0, getattr(asked, name)
             for number in count():
                 if counted >= wanted:
                     break
-                line = kept.get((name, number))
+                line = found.get(name, number)
                 if line is None or FAULT in line["words"]:
                     line = batch(name, number, asked.seed, asked.folder / "faults")
-                    file.write(json.dumps(line) + "\n")
-                    file.flush()
+                    found.add(line)
                 done.append(line)
                 counted += sum(line["words"].get(word, 0) for word in kind.counts)
                 print(f"{name}: {counted}/{wanted} {dict(line['words'])}", file=sys.stderr)

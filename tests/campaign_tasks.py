@@ -69,6 +69,11 @@ def stumble(over: str) -> dict[str, Any]:
     return {}
 
 
+def interrupted() -> dict[str, Any]:
+    """As the interpreter says it when an interrupt falls into a compiled function's look at its arguments."""
+    raise SystemError("returned a result with an exception set") from KeyboardInterrupt()
+
+
 def fail() -> dict[str, Any]:
     raise ZeroDivisionError("by nothing")
 

@@ -87,6 +87,12 @@ def test_a_fault_is_not_filed_as_the_users_mistake(store: Store) -> None:
         assert "in stumble" in outcome.row["traceback"]
 
 
+def test_an_interrupt_within_compiled_code_is_no_outcome(store: Store) -> None:
+    with pytest.raises(KeyboardInterrupt):
+        carry_out([task("interrupted")], store, pool=Here)
+    assert not rows_in(store.path)
+
+
 def test_what_failed_is_done_again_only_when_asked(store: Store, tmp_path: Path) -> None:
     runs = [task("square", x=1.0), task("needs", path=str(tmp_path / "file"))]
     first = carry_out(runs, store)

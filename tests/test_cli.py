@@ -15,6 +15,7 @@ import pytest
 from commands import one_line, run
 from scene_files import BAD, LOOSE, written
 
+from comparisons.cli import interruption
 from comparisons.comparison import comparison as displacement
 from comparisons.models.candidate import Candidate
 from sheetbench import scenes
@@ -198,6 +199,17 @@ def test_what_is_finished_is_kept_when_a_later_model_fails(
     assert {path.name for path in tmp_path.iterdir()} == {"lumped.vtu", "manifest.json"}
     (run_of_compare,) = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))["runs"].values()
     assert run_of_compare["files"] == ["lumped.vtu"] and not run_of_compare["finished"]
+
+
+def test_an_interrupt_within_compiled_code_is_an_interrupt(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def answer(*_: object, **__: object) -> Solution:
+        raise SystemError("returned a result with an exception set") from KeyboardInterrupt()
+
+    monkeypatch.setattr(displacement, "answer", answer)
+    assert run("compare", "two-edges-clamped") == interruption.STATUS
+    assert capsys.readouterr().err.strip().endswith("interrupted; nothing was kept")
 
 
 def test_scenes_lists_the_catalogue_whole(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -20,6 +20,7 @@ from typing import Any
 import typer
 
 from comparisons.cli import announced, characters, interruption, warned
+from comparisons.runs import interrupts
 
 VERBS = (
     "new",
@@ -114,6 +115,9 @@ def main(arguments: list[str] | None = None) -> None:
                 interruption.say()
             raise
         except Exception as error:
+            if interrupts.is_behind(error):
+                interruption.say()
+                raise SystemExit(interruption.STATUS) from None
             raise SystemExit(_explained(error)) from None
 
 

@@ -26,6 +26,7 @@ from time import perf_counter
 from typing import Any
 
 from comparisons.report.files import plain
+from comparisons.runs import interrupts
 from comparisons.runs.executors import Pool, Watched, processes, single_threaded
 from comparisons.runs.manifest import source, version
 from comparisons.runs.store import FILE, Finished, Store
@@ -217,6 +218,8 @@ def execute(key: str, task: str, arguments: dict[str, Any]) -> Finished:
     except BadInput as error:
         row, status, message = {}, "refused", str(error)
     except Exception as error:  # a fault is a row of the study, not the end of it
+        if interrupts.is_behind(error):
+            raise KeyboardInterrupt from error
         row = {"traceback": traceback.format_exc()}
         status, message = "failed", f"{type(error).__name__}: {error}"
     return Finished(key, status, plain(row), message, started, _now(), perf_counter() - clock)

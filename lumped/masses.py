@@ -14,6 +14,13 @@ higher-order  that error gone whatever f and g are, for which neighbours along a
               but the ends, c = ± l²/12; nor is it where the director is held and f g has no slope. In the
               interior no correction is wanted: with S* (`lumped.moduli`) tributary masses carry a bending
               wave of wave number q across the cells with ω² = D q⁴/ρh (1 − (q l)⁴/720 + …).
+              That is right in l² and for motions f, g that are linear. In l³ a coefficient is free,
+
+                  M += l³/24 (e₁ κ₁ᵀ + κ₁ e₁ᵀ),    κ₁ the second difference quotient at the first inner line,
+
+              with which the rule is off as if s were the slope there. Free edges have it: their inertia is
+              then l³/6 f g″ too large instead of half of it, against springs that are too stiff along them
+              (docs/theory.md).
               Across the thickness L layers at the heights z_k share theirs so that a director that turns has
               the sheet's rotary inertia ρ h³/12, not ρ h Σ z_k²/L:
 
@@ -40,6 +47,7 @@ from lumped.lattice import Lattice
 from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.springs import Distribution
+from sheetbench.scenes.supports import held_axes
 
 Inertia = Distribution | Literal["higher-order"]
 
@@ -70,10 +78,10 @@ def mass_matrix(scene: Scene, lattice: Lattice, distribution: Inertia) -> sp.coo
         return sp.dia_array(
             (masses(scene, lattice, distribution)[None], [0]), shape=2 * (lattice.mass_count,)
         ).tocoo()
-    along = (
-        _corrected(lines, axis, lattice.twisting) for axis, lines in zip("xy", lattice.lines, strict=True)
+    x, y = (
+        _corrected(lines, axis, lattice.twisting, _free(scene, lattice))
+        for axis, lines in zip("xy", lattice.lines, strict=True)
     )
-    x, y = along
     per_area = scene.material.density * scene.sheet.thickness
     return sp.coo_array(per_area * sp.kron(sp.kron(y, x), _across(scene.sheet.thickness, lattice)))
 
@@ -88,7 +96,12 @@ def _across(thickness: float, lattice: Lattice) -> np.ndarray:
     return shares
 
 
-def _corrected(lines: Lines, axis: str, twisting: frozenset[str]) -> sp.csr_array:
+def _free(scene: Scene, lattice: Lattice) -> frozenset[str]:
+    """The edges that move and turn: nothing holds their director, nor their height."""
+    return lattice.twisting - {support.edge for support in scene.supports if 2 in held_axes(support)}
+
+
+def _corrected(lines: Lines, axis: str, twisting: frozenset[str], free: frozenset[str]) -> sp.csr_array:
     """The corrected trapezoidal rule over the lines across an axis, (n, n) [m]."""
     left, right = np.concatenate([[0.0], lines.widths]), np.concatenate([lines.widths, [0.0]])
     correction = (left**2 - right**2) / 12.0
@@ -98,7 +111,20 @@ def _corrected(lines: Lines, axis: str, twisting: frozenset[str]) -> sp.csr_arra
     row = np.arange(len(left))
     slopes[row, after] += correction / (left + right)
     slopes[row, before] -= correction / (left + right)
+    if len(left) > 2:
+        for end, inner in ((0, 1), (-1, -2)):
+            if f"{axis}{-end}" in free:
+                slopes[inner] -= _curl(lines, end)
     return sp.csr_array(np.diag(lines.tributary) - slopes - slopes.T)
+
+
+def _curl(lines: Lines, end: int) -> np.ndarray:
+    """l³/24 of the second difference quotient at the first line within an end, (n,) [m]."""
+    first, second = lines.widths[[0, 1] if end == 0 else [-1, -2]]
+    quotient = np.array([1.0 / first, -1.0 / first - 1.0 / second, 1.0 / second])
+    row = np.zeros(len(lines.at))
+    row[:3] = first**3 / 12.0 / (first + second) * quotient
+    return row if end == 0 else row[::-1]
 
 
 def _gregory(n: int) -> np.ndarray:

@@ -12,7 +12,7 @@ from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
-from skfem import Basis, ElementQuad2, MeshQuad
+from skfem import MeshQuad
 
 from fem_reference.shell.balance import balance
 from fem_reference.shell.element import Element
@@ -30,7 +30,7 @@ from fem_reference.surface.balance import Surface
 from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
-from fem_reference.surface.mesh import Elements, divisions, mesh_of, quarters
+from fem_reference.surface.mesh import Elements, divisions, mesh_of, nodes_of, on_boundary, quarters
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 from sheetbench.scenes.errors import BadInput, require_choice
@@ -99,7 +99,7 @@ def _run(
     """graded: give up where stretched elements bend too much (see `validity`)."""
     begin = perf_counter()
     structure, nodes = discretise(mesh, scene, section, law)
-    solver = DirectSolver(structure.symmetric, cells=structure.cells)
+    solver = DirectSolver(structure.symmetric, fronts=structure.fronts)
     ready = perf_counter()
     inspect, settle = inspector(scene, structure, solver, graded), settler(structure, solver)
     path = trace(structure, solver, inspect, settle, progress)
@@ -108,7 +108,7 @@ def _run(
 
 def trace_on(scene: Scene, structure: ShellStructure) -> tuple[State, Status, list[str]]:
     """The equilibrium of a structure under the full load, how the path to it ended and what is to be said."""
-    solver = DirectSolver(structure.symmetric, cells=structure.cells)
+    solver = DirectSolver(structure.symmetric, fronts=structure.fronts)
     path = trace(structure, solver, inspector(scene, structure, solver, False), settler(structure, solver))
     return path.state, *judge(scene, structure, path, membrane_strain(structure, path.state))
 
@@ -167,11 +167,10 @@ def discretise(
     mesh: MeshQuad, scene: Scene, section: Section | None = None, law: str = STRAIN_LAW
 ) -> tuple[ShellStructure, np.ndarray]:
     """The discrete shell of a scene on a mesh, and its nodes' plan positions (n, 2) [m]."""
-    basis = Basis(mesh, ElementQuad2())
-    nodes, element_nodes = basis.doflocs.T, basis.element_dofs.T
+    nodes, element_nodes = nodes_of(mesh)
     element = _elements(nodes[element_nodes], scene, section, law)
     holding = (*scene.supports, *scene.actuators)
-    on_edge = {str(on.edge): basis.get_dofs(on.edge).flatten() for on in holding}
+    on_edge = {str(on.edge): on_boundary(mesh, on.edge) for on in holding}
     supports = surface_supports.of_scene(scene, nodes, on_edge)
     dead, followers = loads.of_scene(scene, mesh, element_nodes, nodes)
     sides = rod.sides(scene, mesh, element_nodes, nodes)

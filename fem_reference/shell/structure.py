@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -26,8 +27,8 @@ from scipy.sparse import csr_matrix
 from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
 from fem_reference.shell.element import Element, forces_of, strain_of, tangents, weighed
 from fem_reference.shell.reduction import projected
-from fem_reference.solving.fronts import Cells
-from fem_reference.solving.sparsity import Pattern
+from fem_reference.solving.fronts import Fronts
+from fem_reference.solving.sparsity import Pattern, pattern_of
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surface
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.rod_elements import Strained
@@ -107,7 +108,10 @@ class ShellStructure:
             number[rods.sites[:, :3], :3].reshape(k, 9),
             turns[rods.sites[:, 3:] - len(dead)].reshape(k, 12),
         ]
-        pattern = Pattern(*(np.concatenate(n, axis=1) for n in (of_sheet, on_rod)), size=int(every.sum()))
+        sheet, on_edges = element.reference[:, :9, :2], rods.elements.reference[:, :3, :2]
+        places = np.concatenate([sheet.mean(axis=1), on_edges.mean(axis=1)])
+        unknowns = (np.concatenate(n, axis=1) for n in (of_sheet, on_rod))
+        pattern = pattern_of(places, *unknowns, size=int(every.sum()))
         return cls(element, element_nodes, supports, dead, followers, rods, number, turns, pattern)
 
     @property
@@ -120,11 +124,9 @@ class ShellStructure:
         """How many there are."""
         return self.pattern.size
 
-    @property
-    def cells(self) -> Cells:
-        """The elements and the rods' sides, which couple unknowns, each at the middle of its nodes."""
-        sheet, rods = self.element.reference[:, :9, :2], self.rods.elements.reference[:, :3, :2]
-        return Cells(self.pattern.cells, np.concatenate([sheet.mean(axis=1), rods.mean(axis=1)]))
+    def fronts(self) -> Fronts:
+        """Where everything goes in the tangent's Cholesky factors."""
+        return self.pattern.fronts
 
     @property
     def symmetric(self) -> bool:
@@ -266,7 +268,7 @@ class ShellStructure:
         free = self.supports.tilt & ~self.supports.director[:, None]
         return tangent_frames(self.directors(state), *np.nonzero(free))
 
-    @property
+    @cached_property
     def lever(self) -> float:
         return float(np.ptp(self.element.reference[:, :9, :2], axis=(0, 1)).max())
 

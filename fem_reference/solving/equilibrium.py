@@ -38,6 +38,8 @@ from fem_reference.solving.threads import one_blas_thread
 from sheetbench.scenes import Iteration, Status
 
 TOLERANCE = 5e-9  # residual, relative to the forces that balance
+SOLVED = 1e-14  # backward error of a correction that is not refined: the next one is its refinement
+ALIKE = 1e-6  # sizes of the structure: a correction no longer than that leaves the tangent what it is
 VANISHING = 1e-13  # work of a step, relative to the load step's first: beyond it only rounding is left
 ITERATIONS = 24  # in one load step
 BACK = 4  # corrections that are no shorter than so many before are given up
@@ -66,7 +68,7 @@ class Path(Generic[State]):
     """Where the tracing stands: the last equilibrium, its load factor, and what it took.
 
     snaps: load factors that it snapped at; fault: what has ended it early; notes: what to
-    say of it; progress: told of every iteration.
+    say of it; progress: told of every iteration; factor: of the equilibrium's tangent, where it is at hand.
     """
 
     state: State
@@ -79,6 +81,7 @@ class Path(Generic[State]):
     fault: Fault | None = None
     notes: list[str] = field(default_factory=list)
     progress: Progress | None = None
+    factor: Factor | None = None
 
     def note(self, load_factor: float, residual: float, step: float) -> None:
         """Keep an iteration and tell whoever watches."""
@@ -129,6 +132,7 @@ def trace(
         path.fault = ended
         path.status, said = ended or stability(structure, solver, path)
         path.notes.extend([said] if said else [])
+        path.factor = None  # an answer is kept longer than that
         return path
 
 
@@ -146,14 +150,15 @@ def _follow(
         try:
             first = _Predictor(structure, solver, path, min(1.0, path.load_factor + size), reach, factor)
             factor = first.factor if structure.symmetric else None
-            state = newton(structure, solver, path, first)
+            state, found = newton(structure, solver, path, first)
         except StepFailed as failure:
             size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
             if size < SMALLEST_STEP or path.factorisations >= path.limit:
                 return failure
             continue
         grown = first.target - path.load_factor
-        path.state, path.load_factor, factor = state, first.target, None
+        path.state, path.load_factor, path.factor = state, first.target, found
+        factor = found if structure.symmetric else None
         if (fault := inspect(path)) is not None:
             return fault
         easy = path.factorisations - before <= EASY
@@ -187,7 +192,7 @@ def _snap(
     if nothing stable was found."""
     beyond = min(1.0, path.load_factor + SNAP_STEP)
     path.limit = min(path.factorisations + FACTORISATIONS, SNAPPING)
-    path.state, path.load_factor = settle(path, beyond), beyond
+    path.state, path.load_factor, path.factor = settle(path, beyond), beyond, None
     path.limit = min(path.factorisations + FACTORISATIONS, SNAPPING)
     return inspect(path) or _follow(structure, solver, path, inspect)
 
@@ -234,7 +239,7 @@ class _Predictor(Generic[State, Forces]):
             if self.factor is None or not structure.symmetric:
                 path.factorisations += 1
                 self.factor = solver.factor(matrix)
-            step = self.factor.solve(rows)
+            step = self.factor.solve(rows, SOLVED)
         except SingularMatrix as error:
             raise StepFailed(Status.SINGULAR, str(error), FIRST_REACH) from None
         self.state = structure.advance(path.state, forces, self.target, step)
@@ -247,9 +252,11 @@ def newton(
     solver: DirectSolver,
     path: Path[State],
     first: Start[State] | _Predictor[State, Forces],
-) -> State:
-    """The equilibrium at the load factor of a start. Raises StepFailed."""
+) -> tuple[State, Factor | None]:
+    """The equilibrium at the load factor of a start, and the factors of its tangent where those of the last
+    correction are, which was next to nothing. Raises StepFailed."""
     state, target, before = first.state, first.target, np.inf
+    factor: Factor | None = None
     works, lengths = [first.work], [first.length]
     for _ in range(ITERATIONS):
         forces = structure.forces(state, target)
@@ -260,7 +267,7 @@ def newton(
             raise StepFailed(Status.NON_FINITE, "a number overflowed", first.length)
         rounded = works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before
         if structure.gap(state, target) <= TOLERANCE and (relative <= TOLERANCE or rounded):
-            return state
+            return state, factor if lengths[-1] <= ALIKE else None
         if len(lengths) > BACK and lengths[-1] >= lengths[-1 - BACK]:
             raise StepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
         if path.factorisations >= path.limit:
@@ -269,7 +276,8 @@ def newton(
         path.factorisations += 1
         try:
             matrix, rows = structure.system(state, forces, target)
-            step = solver.factor(matrix).solve(rows)
+            factor = solver.factor(matrix)
+            step = factor.solve(rows, SOLVED)
         except SingularMatrix as error:
             raise StepFailed(Status.SINGULAR, str(error), first.length) from None
         following = structure.advance(state, forces, target, step)
@@ -303,17 +311,15 @@ def stability(
 ) -> tuple[Status, str]:
     """Whether the tangent at the path's last equilibrium is positive definite or, under follower loads, has
     no real eigenvalue below 0; a sentence where it is not."""
-    forces = structure.forces(path.state, path.load_factor)
-    matrix, _ = structure.system(path.state, forces, path.load_factor, mixed=False)
-    path.factorisations += 1
     try:
         if structure.symmetric:
-            inertia = solver.factor(matrix).inertia
+            path.factor = path.factor or solver.factor(_tangent(structure, path))
+            inertia = path.factor.inertia
             if inertia is None:
                 return Status.CONVERGED, "stability not checked: the factors do not tell the inertia"
             negative, zero = inertia.negative, inertia.zero
         else:
-            lowest = nearest_to_zero(matrix, solver)
+            lowest = nearest_to_zero(_tangent(structure, path), solver)
             negative, zero = int(np.sum((lowest.imag == 0.0) & (lowest.real < 0.0))), 0
     except SingularMatrix as error:
         return Status.SINGULAR, str(error)
@@ -322,6 +328,13 @@ def stability(
     if negative:
         return Status.UNSTABLE, f"the tangent has {negative} negative eigenvalues"
     return Status.CONVERGED, ""
+
+
+def _tangent(structure: Structure[State, Forces], path: Path[State]) -> csr_matrix:
+    """At the path's last equilibrium; counted as one that is factorised."""
+    path.factorisations += 1
+    forces = structure.forces(path.state, path.load_factor)
+    return structure.system(path.state, forces, path.load_factor, mixed=False)[0]
 
 
 def nearest_to_zero(matrix: csr_matrix, solver: DirectSolver, count: int = 6) -> np.ndarray:

@@ -1,20 +1,21 @@
 """Sparse direct solution of A x = b: analyse a pattern once, factorise many times, know the inertia.
 
-Where it is known which cells the unknowns belong to and the matrix is positive definite, it has Cholesky
+Where the fronts of the pattern are known and the matrix is positive definite, it has Cholesky
 factors (see `multifrontal`). rslab does the rest: L D Lᵀ with Bunch–Kaufman pivots where A is symmetric
 (Sylvester's law: D has A's inertia), L U where it is not. SciPy's SuperLU does where rslab is missing; its U
-is D Lᵀ without row exchanges and tells the inertia too. Every solution is refined, its residual checked.
+is D Lᵀ without row exchanges and tells the inertia too. Solutions are refined, their residuals checked.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import splu
 
-from fem_reference.solving.fronts import Cells, Fronts, fronts_of
+from fem_reference.solving.fronts import Fronts
 from fem_reference.solving.multifrontal import Cholesky, NotPositiveDefinite
 
 rslab: Any
@@ -55,28 +56,42 @@ class Factor:
         self._factors = factors
         self._largest = np.abs(matrix.data).max(initial=0.0)
 
-    def solve(self, b: np.ndarray) -> np.ndarray:
-        """x (n,) with A x = b, refined once. Raises SingularMatrix if the residual stays large."""
+    def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
+        """x (n,) with A x = b, refined once where its backward error exceeds `enough`. Raises SingularMatrix
+        if the residual stays large."""
         x = self._factors.solve(b)
-        x = x + self._factors.solve(b - self.matrix @ x)
-        size = self._largest * np.abs(x).max(initial=0.0) + np.abs(b).max(initial=0.0)
-        gap = np.abs(self.matrix @ x - b).max(initial=0.0)
-        if not gap <= BACKWARD_ERROR * size:  # also catches nan
+        left, error = self._backward(x, b)
+        if not error <= enough:  # also catches nan
+            x = x + self._factors.solve(left)
+            left, error = self._backward(x, b)
+        if not error <= BACKWARD_ERROR:
+            gap = np.abs(left).max()
             raise SingularMatrix(f"residual {gap:.1e} after refinement: singular to working precision")
         return x
+
+    def _backward(self, x: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, float]:
+        """b − A x (n,), and how large it is relative to ‖A‖‖x‖ + ‖b‖."""
+        left = b - self.matrix @ x
+        size = self._largest * np.abs(x).max(initial=0.0) + np.abs(b).max(initial=0.0)
+        gap = np.abs(left).max(initial=0.0)
+        return left, float(gap / size) if gap else 0.0
 
 
 class DirectSolver:
     """Factorises matrices of one sparsity pattern; the symbolic analysis is done once.
 
-    symmetric: the matrices are symmetric (both triangles stored) and the factors tell the inertia; cells: all
-    that they couple, and where it lies in the plane.
+    symmetric: the matrices are symmetric (both triangles stored) and the factors tell the inertia; fronts:
+    gives those of the pattern, where they are to have Cholesky factors.
     """
 
-    def __init__(self, symmetric: bool = True, use_rslab: bool = True, cells: Cells | None = None):
+    def __init__(
+        self,
+        symmetric: bool = True,
+        use_rslab: bool = True,
+        fronts: Callable[[], Fronts] | None = None,
+    ):
         self.symmetric = symmetric
-        self._cells = cells if symmetric else None
-        self._fronts: Fronts | None = None
+        self._fronts = fronts if symmetric else None
         self._analysis: Any = None
         self._use_rslab = use_rslab and rslab is not None
 
@@ -87,11 +102,9 @@ class DirectSolver:
         """
         if not np.all(np.isfinite(matrix.data)):
             raise SingularMatrix("an entry of the matrix is not finite")
-        if self._cells is not None:
-            if self._fronts is None:
-                self._fronts = fronts_of(matrix.indices, matrix.indptr, self._cells)
+        if self._fronts is not None:
             try:
-                return Factor(matrix, Cholesky(matrix.data, self._fronts), Inertia(matrix.shape[0], 0, 0))
+                return Factor(matrix, Cholesky(matrix.data, self._fronts()), Inertia(matrix.shape[0], 0, 0))
             except NotPositiveDefinite:
                 pass  # its inertia is to be told
         columns = _columns(matrix, self.symmetric)

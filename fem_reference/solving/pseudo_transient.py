@@ -163,7 +163,7 @@ class _Creep(Generic[State, Forces]):
         released = abs(self.first - self.energy)
         start = Start(self.state, self.load_factor, self.length, released)
         try:
-            state = newton(self.structure, self.solver, self.path, start)
+            state, _ = newton(self.structure, self.solver, self.path, start)
         except StepFailed:
             return None
         return self.structure.unextrapolated(state) if self._accepts(state) else None

@@ -6,22 +6,27 @@ are left out.
 
 from __future__ import annotations
 
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 from numba import njit
 from scipy.sparse import csr_matrix
 
+from fem_reference.solving.fronts import Cells, Fronts, fronts_of
+from fem_reference.solving.kept import kept
+
 
 class Pattern:
     """Of one kind of element or of several.
 
-    unknowns: for every kind (m, k), the number of each element's unknowns in 0 … size − 1, or −1 where held.
+    unknowns: for every kind (m, k), the number of each element's unknowns in 0 … size − 1, or −1 where held;
+    places: of all elements in the plane (M, 2), which the order of elimination goes by.
     """
 
-    def __init__(self, *unknowns: np.ndarray, size: int):
+    def __init__(self, *unknowns: np.ndarray, size: int, places: np.ndarray | None = None):
         self.size = size
-        self._unknowns = unknowns
+        self._unknowns, self._places = unknowns, places
         widths = np.concatenate([np.full(len(number), number.shape[1]) for number in unknowns])
         starts = np.concatenate([[0], np.cumsum(widths)])
         entries = np.concatenate([number.ravel() for number in unknowns]).astype(np.int64)
@@ -37,6 +42,12 @@ class Pattern:
         kinds = pairwise(np.cumsum([0, *(number.size * number.shape[1] for number in unknowns)]))
         self._slots = [slots[first:last] for first, last in kinds]
         self._diagonal = np.flatnonzero(self._columns == np.repeat(np.arange(size), np.diff(self._starts)))
+
+    @cached_property
+    def fronts(self) -> Fronts:
+        """Where everything goes in Cholesky factors."""
+        assert self._places is not None
+        return fronts_of(self._columns, self._starts, Cells(self.cells, self._places))
 
     @property
     def cells(self) -> np.ndarray:
@@ -58,6 +69,12 @@ class Pattern:
         assembled = csr_matrix((data, self._columns, self._starts), shape=(self.size, self.size))
         assembled.has_canonical_format = True
         return assembled
+
+
+@kept(last=8, most=1 << 20)
+def pattern_of(places: np.ndarray, *unknowns: np.ndarray, size: int) -> Pattern:
+    """The pattern of elements at these places; of small ones the last few are kept."""
+    return Pattern(*unknowns, size=size, places=places)
 
 
 @njit(cache=True)

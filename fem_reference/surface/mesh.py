@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 
 import numpy as np
-from skfem import MeshQuad
+from skfem import Dofs, ElementQuad2, MeshQuad
 
+from fem_reference.solving.kept import kept
 from sheetbench.scenes import EDGES, Scene, Sheet, Symmetric
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import near_square
@@ -60,9 +61,37 @@ def rectangle(
     a thick sheet has boundary layers: the same number of elements, a far smaller error.
     """
     x, y = _lines(sheet, divisions(sheet, elements), graded, cuts, reach)
+    return _tensor(x, y, *sheet.lengths)
+
+
+@kept(last=16, most=1 << 14)
+def _tensor(x: np.ndarray, y: np.ndarray, *lengths: float) -> MeshQuad:
+    """The mesh between lines at x and y of a sheet with these sides [m]."""
     mesh = MeshQuad.init_tensor(x, y)
-    ends = {name: sheet.lengths[edge.normal_axis] * edge.far_end for name, edge in EDGES.items()}
+    ends = {name: lengths[edge.normal_axis] * edge.far_end for name, edge in EDGES.items()}
     return mesh.with_boundaries({name: _at(EDGES[name].normal_axis, end) for name, end in ends.items()})
+
+
+def nodes_of(mesh: MeshQuad) -> tuple[np.ndarray, np.ndarray]:
+    """Plan positions (n, 2) [m] of a mesh's biquadratic nodes, corners first, then mid-sides and centres, and
+    the nodes of every element (m, 9). Neither may be changed."""
+    return _nodes(type(mesh), mesh.doflocs, mesh.t)
+
+
+@kept(last=8, most=1 << 18)
+def _nodes(kind: type[MeshQuad], places: np.ndarray, elements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    mesh, element = kind(places, elements), ElementQuad2()
+    numbers = Dofs(mesh, element)
+    nodes = np.empty((numbers.N, 2))
+    for of_elements, at in zip(numbers.element_dofs, mesh.mapping().F(element.doflocs.T).T, strict=True):
+        nodes[of_elements] = at
+    return nodes, numbers.element_dofs.T
+
+
+def on_boundary(mesh: MeshQuad, name: str) -> np.ndarray:
+    """The biquadratic nodes (k,) of a boundary, in order."""
+    facets = mesh.boundaries[name]
+    return np.unique(np.concatenate([mesh.facets[:, facets].ravel(), mesh.nvertices + facets]))
 
 
 def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float = 1.0) -> MeshQuad:

@@ -1,0 +1,43 @@
+"""What was found for the same arrays before: meshes, patterns and orders of elimination are the same from one
+solution to the next, whatever the material and the loads."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable
+from functools import wraps
+from typing import ParamSpec, TypeVar
+
+import numpy as np
+
+Given = ParamSpec("Given")
+Found = TypeVar("Found")
+
+
+def kept(last: int, most: int) -> Callable[[Callable[Given, Found]], Callable[Given, Found]]:
+    """For a function of arrays and of what can be hashed: its last results, which nobody may change, are
+    given again where all arguments are the same; of arguments beyond `most` bytes none is kept."""
+
+    def decorate(function: Callable[Given, Found]) -> Callable[Given, Found]:
+        found: OrderedDict[object, Found] = OrderedDict()
+
+        @wraps(function)
+        def remembering(*given: Given.args, **named: Given.kwargs) -> Found:
+            if sum(one.nbytes for one in given if isinstance(one, np.ndarray)) > most:
+                return function(*given, **named)
+            key = (tuple(map(_content, given)), tuple((name, _content(one)) for name, one in named.items()))
+            out = found.pop(key, None)
+            if out is None:
+                out = function(*given, **named)
+            found[key] = out
+            while len(found) > last:
+                found.popitem(last=False)
+            return out
+
+        return remembering
+
+    return decorate
+
+
+def _content(one: object) -> object:
+    return (one.shape, one.dtype.str, one.tobytes()) if isinstance(one, np.ndarray) else one

@@ -13,18 +13,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 import scipy.sparse as sp
 
 from lumped.actuators import Coupling
 from lumped.lattice import Lattice
-from sheetbench.scenes import Scene, held_axes, holds_tilt
+from lumped.linear.maps import Rows, rows
+from lumped.linear.solver import ReducedSystem, reduced
+from lumped.pattern import KEPT, Pattern
+from lumped.springs.rest import Itself
+from sheetbench.scenes import Scene, Sheet, Support, held_axes, holds_tilt
 from sheetbench.scenes.kinematics import bent_or_tilted
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Constraints:
     """transform: (3n, m) sparse, q → u; prescribed: λ → g (n, 3) [m]; holders: edge → (mass rows of the
     edge (m, layers), axes held); held: (n, 3) bool, components that some support acts on; fixed: (n, 3)
@@ -36,6 +40,23 @@ class Constraints:
     held: np.ndarray
     fixed: np.ndarray
     coupling: Coupling | None = None
+
+    @cached_property
+    def rows(self) -> Rows:
+        """The transform as compiled loops take it."""
+        return rows(self.transform)
+
+    def reduced(self, pattern: Pattern, symmetric: bool) -> ReducedSystem:
+        """The system of the free unknowns, without multipliers, over a pattern: the same one when asked for
+        again."""
+        found = self._reduced.get((pattern, symmetric))
+        if found is None:
+            found = self._reduced[pattern, symmetric] = reduced(pattern, self.transform, symmetric)
+        return found
+
+    @cached_property
+    def _reduced(self) -> dict[tuple[Pattern, bool], ReducedSystem]:
+        return {}
 
     def reactions(self, residual: np.ndarray) -> tuple[dict[str, np.ndarray], np.ndarray]:
         """Force [N] of each support on the sheet, (3,) by edge, and of all supports on each mass, (n, 3),
@@ -80,13 +101,27 @@ class Constraints:
 
 def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) -> Constraints:
     """The constraints of a scene's supports on a lattice, and of its actuators: u of a bound mass is a linear
-    map of the actuator's rows. Columns of edges moved rigidly are the motion's, not the supports'."""
+    map of the actuator's rows. Columns of edges moved rigidly are the motion's, not the supports'. Of the
+    same supports without actuators on the same small lattice they are the same every time."""
+    if coupling is not None or lattice.mass_count > KEPT:
+        return _constrain(scene.supports, scene.sheet, lattice, coupling)
+    return _kept(tuple(scene.supports), scene.sheet, Itself(lattice))
+
+
+@lru_cache(maxsize=16)
+def _kept(supports: tuple[Support, ...], sheet: Sheet, itself: Itself) -> Constraints:
+    return _constrain(supports, sheet, itself.lattice, None)
+
+
+def _constrain(
+    supports: tuple[Support, ...], sheet: Sheet, lattice: Lattice, coupling: Coupling | None
+) -> Constraints:
     moved = np.zeros(lattice.mass_count, dtype=bool) if coupling is None else coupling.moved
     n = lattice.mass_count if coupling is None else coupling.size
     fixed = np.zeros((n, 3), dtype=bool)
     mean_held: dict[tuple[int, int], np.ndarray] = {}  # (last mass of a column, axis) → the column
     holders: dict[str, tuple[np.ndarray, tuple[int, ...]]] = {}
-    for support in scene.supports:
+    for support in supports:
         masses = lattice.edge_columns(support.edge)
         masses = masses[~moved[masses[:, 0]]]
         axes = held_axes(support)
@@ -113,7 +148,7 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
     transform = _selection(free)
     if mean_held or bindings:
         transform = _with_dependent(free, mean_held, bindings)
-    driven = bent_or_tilted(scene.supports, scene.sheet)
+    driven = bent_or_tilted(supports, sheet)
 
     def prescribed(load_factor: float) -> np.ndarray:
         g = np.zeros((n, 3))

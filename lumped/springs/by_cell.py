@@ -26,8 +26,7 @@ def varies(springs: SpringSet) -> bool:
 
 def of_cells(value: Any, count: int) -> np.ndarray:
     """The value of each of `count` cells, (count,)."""
-    flat = np.ravel(np.asarray(value, dtype=float))
-    return flat if isinstance(value, tuple) else np.full(count, flat[0])
+    return np.array(value, dtype=float).ravel() if isinstance(value, tuple) else np.full(count, float(value))
 
 
 def of_cell(springs: SpringSet, row: int, column: int) -> SpringSet:

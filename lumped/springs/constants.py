@@ -18,6 +18,16 @@ from sheetbench.scenes.springs import DamperSet, Either
 SIGNED = ("area", "mid_area", "mid_shear", *EDGES_OWN)
 
 
+def number(table: SpringSet | DamperSet, family: str, direction: str) -> float | None:
+    """The same as `along` where it is one number for all components and cells, else None."""
+    value: Any = getattr(table, family)
+    if isinstance(value, PerDirection):
+        if value.z is not None or direction not in ("x", "y"):
+            return None
+        value = value.x if direction == "x" else value.y
+    return None if isinstance(value, tuple) else float(value)
+
+
 def along(table: SpringSet | DamperSet, family: str, direction: str) -> np.ndarray:
     """Stiffness [N/m] (or damping [N·s/m]) of the links of a family that run in a direction, by components x,
     y, z, (3,): three equal ones but for the seed's per-direction law, where the scene gives x, y and z. Where
@@ -37,14 +47,13 @@ def along(table: SpringSet | DamperSet, family: str, direction: str) -> np.ndarr
 def of_strains(springs: SpringSet, cells: str, count: int = 1) -> tuple[str, np.ndarray]:
     """Name and stiffness (count, 3) [N/m], of ε1, ε2 and γ, of the strain springs on the `count` plan cells
     called "area" (each layer) or "mid_area" (the mid-surface)."""
-    stiffness = np.zeros((count, 3))
     name, stretch, shear = "mid_strain", springs.mid_stretch, springs.mid_shear
     if cells == "area":
         name, stretch, shear = "strain", springs.stretch, springs.shear
     x, y = (stretch.x, stretch.y) if isinstance(stretch, PerDirection) else (stretch, stretch)
-    for column, value in enumerate((x, y, shear)):
-        stiffness[:, column] = of_cells(value, count)
-    return name, stiffness
+    if not any(isinstance(value, tuple) for value in (x, y, shear)):
+        return name, np.tile(np.array([x, y, shear], dtype=float), (count, 1))
+    return name, np.stack([of_cells(value, count) for value in (x, y, shear)], axis=1)
 
 
 def of_edge_cells(springs: SpringSet, grid: tuple[int, int, int], twisting: frozenset[str]) -> np.ndarray:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
@@ -27,6 +26,7 @@ from lumped.springs import (
     strains,
 )
 from lumped.springs.family import Dampers, Family
+from lumped.springs.rest import Rest, rest_of
 from sheetbench.scenes import SpringSet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.springs import DamperSet
@@ -97,10 +97,11 @@ class DirectionalLinks(Links):
 
 @dataclass(frozen=True, eq=False)
 class Cells(Family):
-    """Springs of one kind on cells: nodes (c, 4, p), rest diagonals (c, 2, 3) [m], and which of the lattice's
-    cells of that kind they are on, (all of them,)."""
+    """Springs of one kind on cells: nodes (c, 4, p), rest diagonals (c, 2, 3) [m] and areas (c,) [m²], and
+    which of the lattice's cells of that kind they are on, (all of them,)."""
 
     diagonals: np.ndarray
+    rest_area: np.ndarray
     name: str
     on: np.ndarray
 
@@ -109,18 +110,11 @@ class Cells(Family):
         """Rest diagonals."""
         return (self.diagonals,)
 
-    @cached_property
-    def rest_area(self) -> np.ndarray:
-        """a0, (c,) [m²]."""
-        (x, y, z), (p, q, r) = self.diagonals[:, 0].T, self.diagonals[:, 1].T
-        area: np.ndarray = 0.5 * np.sqrt((y * r - z * q) ** 2 + (z * p - x * r) ** 2 + (x * q - y * p) ** 2)
-        return area
-
     def energies(self, stress: np.ndarray) -> np.ndarray:
         """½ τ²/k a0, summed over a cell's strains where it has several."""
         k = self.stiffness
         density = 0.5 * np.divide(stress**2, k, out=np.zeros_like(k), where=k != 0.0)
-        return self.rest_area * density.reshape(len(density), -1).sum(axis=1)
+        return self.rest_area * (density if density.ndim == 1 else density.sum(axis=1))
 
     def by_name(self, energies: np.ndarray) -> dict[str, float]:
         """All under the one name."""
@@ -149,6 +143,12 @@ class StrainSprings(Cells):
 
 def link_springs(lattice: Lattice, pattern: Pattern, table: SpringSet | DamperSet) -> Iterator[Links]:
     """Central links, first and even where there are none; then those of a per-direction law."""
+    rest, names = rest_of(lattice, pattern), lattice.link_names
+    numbers = [constants.number(table, family.name, family.direction) for family in lattice.links]
+    if None not in numbers:
+        central = rest.weight * np.repeat(np.array(numbers, dtype=float), rest.counts)
+        yield _links(Links, rest, central > 0.0, central, names)
+        return
     stiffness = []
     for family in lattice.links:
         k = constants.along(table, family.name, family.direction)
@@ -157,29 +157,28 @@ def link_springs(lattice: Lattice, pattern: Pattern, table: SpringSet | DamperSe
         else:
             of_links = family.weight[:, None] * k
         stiffness.append(of_links)
-    k, names = np.concatenate(stiffness), lattice.link_names
-    nodes, offset, rest, number = lattice.joined
+    k = np.concatenate(stiffness)
     unequal = (k != k[:, :1]).any(axis=1)
-
-    def chosen(kind: type[Links], which: np.ndarray, k: np.ndarray) -> Links:
-        slots = pattern.among(nodes[which]).reshape(-1, 4)
-        return kind(nodes[which], k[which], slots, offset[which], rest[which], number[which], names)
-
-    yield chosen(Links, ~unequal & (k[:, 0] > 0.0), k[:, 0])
+    yield _links(Links, rest, ~unequal & (k[:, 0] > 0.0), k[:, 0], names)
     if unequal.any():
-        yield chosen(DirectionalLinks, unequal, k)
+        yield _links(DirectionalLinks, rest, unequal, k, names)
+
+
+def _links(kind: type[Links], rest: Rest, which: np.ndarray, k: np.ndarray, names: tuple[str, ...]) -> Links:
+    nodes, slots, offset, rest_length, number = rest.links(which)
+    return kind(nodes, k[which], slots, offset, rest_length, number, names)
 
 
 def area_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[AreaSprings]:
     """On the cells of the layers and of the mid-surface."""
-    count = lattice.cell_areas.size
+    count = (lattice.grid[0] - 1) * (lattice.grid[1] - 1)
     for cells in lattice.cells:
         stiffness = by_cell.of_cells(getattr(springs, cells.name), count)
         if stiffness.any():
-            nodes, every = cells.nodes, np.full(len(cells.nodes), True)
-            stiffness = np.tile(stiffness, len(nodes) // count)
-            slots = pattern.among(nodes.reshape(len(nodes), -1))
-            yield AreaSprings(nodes, stiffness, slots, lattice.diagonals[cells.name], cells.name, every)
+            every = np.full(len(cells.nodes), True)
+            stiffness = np.tile(stiffness, len(every) // count)
+            nodes, slots, diagonals, area, on = rest_of(lattice, pattern).cells(cells.name, every)
+            yield AreaSprings(nodes, stiffness, slots, diagonals, area, cells.name, on)
 
 
 def strain_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[StrainSprings]:
@@ -193,11 +192,10 @@ def strain_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> It
             stiffness = np.tile(stiffness, (layers, 1))
         else:
             stiffness[:, 2] -= layers * twist
-        stiff = np.any(stiffness != 0.0, axis=1)  # edges stiffen the cells along them alone
+        stiff = (stiffness != 0.0).any(axis=1)  # edges stiffen the cells along them alone
         if stiff.any():
-            nodes, diagonals = cells.nodes[stiff], lattice.diagonals[cells.name][stiff]
-            slots = pattern.among(nodes.reshape(len(nodes), -1))
-            yield StrainSprings(nodes, stiffness[stiff], slots, diagonals, name, stiff)
+            nodes, slots, diagonals, area, on = rest_of(lattice, pattern).cells(cells.name, stiff)
+            yield StrainSprings(nodes, stiffness[stiff], slots, diagonals, area, name, on)
 
 
 FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] = (

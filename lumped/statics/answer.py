@@ -19,12 +19,14 @@ from sheetbench.scenes.grading import as_settings
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a solve ended: status, the last equilibrium, where it snapped, and what else there is to say."""
+    """How a solve ended: status, the last equilibrium, where it snapped, what else there is to say, and the
+    springs' energies [J] there by name where they are known."""
 
     status: Status
     state: State
     snaps: tuple[float, ...] = ()
     notes: tuple[str, ...] = ()
+    energies: dict[str, float] | None = None
 
 
 def solution(
@@ -39,7 +41,7 @@ def solution(
     state, lattice = outcome.state, problem.assembly.lattice
     assembly, u, stresses = problem.assembly, state.u, state.stresses  # they outlive the solve
     linear = asked.get("linear", False)
-    exerted, energies = _of_small_displacements(problem, state) if linear else _at(problem, state)
+    exerted, energies = _of_small_displacements(problem, state) if linear else _at(problem, outcome)
     reactions, on_masses = problem.constraints.reactions(exerted)
     coupling = problem.assembly.coupling
     wrenches = coupling.wrenches(state.u, exerted) if coupling is not None else {}
@@ -70,11 +72,12 @@ def solution(
     )
 
 
-def _at(problem: Problem, state: State) -> tuple[np.ndarray, dict[str, float]]:
+def _at(problem: Problem, outcome: Outcome) -> tuple[np.ndarray, dict[str, float]]:
     """What is exerted on masses and rows at an equilibrium, internal less external force (size, 3) [N], and
     the energies [J]."""
+    state = outcome.state
     unbalanced, _ = problem.residual(state.u, state.load_factor)
-    return -unbalanced, problem.assembly.energies(state.u, state.stresses)
+    return -unbalanced, outcome.energies or problem.assembly.energies(state.u, state.stresses)
 
 
 def _of_small_displacements(problem: Problem, state: State) -> tuple[np.ndarray, dict[str, float]]:

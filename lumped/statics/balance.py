@@ -30,15 +30,16 @@ def balance(
     at = np.zeros_like(state.u) if linear else state.u
     places = lattice.positions + at[:n]
     external = problem.external(at, share)
-    followers = problem.loads.followers(at)[:n].sum(axis=0)
-    force = np.sum(list(reactions.values()), axis=0) + share * (dead_force(scene) + followers)
+    followers = 0.0 if problem.loads.conservative else problem.loads.followers(at)[:n].sum(axis=0)
+    force = sum(reactions.values(), share * (dead_force(scene) + followers))
     held = np.where(problem.constraints.held[:n], exerted[:n], 0.0)
-    moment = np.cross(places, held + external[:n]).sum(axis=0)
+    arms = places.T @ (held + external[:n])  # Σ x f, whose antisymmetric part is Σ x × f
+    moment = np.array([arms[1, 2] - arms[2, 1], arms[2, 0] - arms[0, 2], arms[0, 1] - arms[1, 0]])
     if coupling is not None:
         moment += coupling.held_moment(at, exerted, problem.commands(share))
         moment += coupling.moment(at, external)
     size = problem.force_scale(at, share) if linear else problem.scale_of(exerted + external, external)
     # a sum of n numbers is at most √n times their norm, in which residuals are measured
     allowed = np.sqrt(len(at)) * max(FINE * size, rounding(problem, state.u))
-    arm = float(np.linalg.norm(places, axis=1).max())
+    arm = float(np.sqrt((places**2).sum(axis=1).max()))
     return Balance(force, moment, size, float(allowed), arm, objective=problem.assembly.conservative)

@@ -15,8 +15,8 @@ import numpy as np
 from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
 from lumped.linear.iterated import iterated
-from lumped.linear.maps import product, rows, transposed_product
-from lumped.linear.solver import BandedFactor, Factor, ReducedSystem, checked, reduced
+from lumped.linear.maps import product, transposed_product
+from lumped.linear.solver import BandedFactor, Factor, ReducedSystem, checked
 from lumped.loads import Loads
 from lumped.springs.together import Stresses
 from lumped.statics import fused
@@ -79,10 +79,10 @@ class Problem:
         in_double = self.assembly.precision == "double"
         self._plain = self.loads.potential and self.base is None and coupling is None and in_double
         self.multipliers = coupling.multipliers if coupling is not None else 0
-        self._free = rows(self.constraints.transform)
+        self._free = self.constraints.rows
         pattern, transform = self.assembly.pattern, self.constraints.transform
         if coupling is None:
-            self.system = reduced(pattern, transform, self.conservative)
+            self.system = self.constraints.reduced(pattern, self.conservative)
         else:
             multipliers = self._multiplier_unknowns(coupling)
             self.system = ReducedSystem(pattern, transform, self.conservative, multipliers)

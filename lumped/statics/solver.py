@@ -251,7 +251,8 @@ def judged(
     elif state.negative:
         status = Status.UNSTABLE
         notes.append(f"{state.negative} directions of negative curvature")
-    doubts = validity.layers(scene, problem.assembly, state.u, state.stresses)
+    energies = problem.assembly.energies(state.u, state.stresses)
+    doubts = validity.layers(scene, problem.assembly, state.u, state.stresses, sum(energies.values()))
     rounded = validity.digits(problem, state)
     if rounded is not None and status is Status.CONVERGED:
         status = rounded.status
@@ -272,17 +273,15 @@ def judged(
         )
     elif not problem.conservative:
         notes.append("follower loads: solved with an unsymmetric tangent")
-    return Outcome(status, state, tuple(snaps), tuple(notes))
+    return Outcome(status, state, tuple(snaps), tuple(notes), energies)
 
 
 def link_stretch(assembly: Assembly, stresses: Stresses) -> float:
     """Largest relative change of length of the in-plane central links."""
     links = assembly.links
-    in_plane = np.abs(links.offset[:, 2]) == 0.0
-    if not in_plane.any():
-        return 0.0
-    tension = stresses[0][in_plane]  # the links come first
-    return float(np.max(np.abs(tension / links.stiffness[in_plane] / links.rest_length[in_plane])))
+    in_plane = links.offset[:, 2] == 0.0
+    stretch = np.abs(stresses[0] / (links.stiffness * links.rest_length))  # the links come first
+    return float(stretch.max(where=in_plane, initial=0.0))
 
 
 def _nothing(problem: Problem) -> tuple[Any, ...]:

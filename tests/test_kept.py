@@ -1,0 +1,41 @@
+"""What small lattices keep from one solve to the next, against what is found anew."""
+
+import numpy as np
+import pytest
+
+import lumped
+from lumped import supports
+from lumped.springs import rest
+from sheetbench.scenes import Clamped, load
+
+
+def arrays(problem):
+    """All that a lattice is solved with."""
+    families = [part for family in problem.posed.springs for part in family]
+    constraints = problem.constraints
+    return [*families, *problem.posed.free, constraints.held, constraints.prescribed(0.5), problem.posed.dead]
+
+
+@pytest.mark.parametrize("name", ["two-edges-clamped", "curved-edge"])
+def test_what_is_kept_is_what_would_be_found(name, monkeypatch):
+    """Springs with and without some of their families, by turns, on one lattice."""
+    scene = load(name)
+    full = lumped.calibrate(scene.sheet, scene.material, grid=(3, 4))
+    several = [full, full.with_constant("vertical", 0.0), full.with_constant("edge_shear", 0.0), full]
+    kept = [lumped.pose(scene, springs) for springs in several]
+    assert kept[0].constraints is kept[3].constraints and kept[0].system is kept[3].system
+    monkeypatch.setattr(rest, "KEPT", 0)
+    monkeypatch.setattr(supports, "KEPT", 0)
+    for problem, springs in zip(kept, several, strict=True):
+        anew = lumped.pose(scene, springs)
+        assert anew.constraints is not problem.constraints
+        for found, expected in zip(arrays(problem), arrays(anew), strict=True):
+            assert np.array_equal(found, expected)
+
+
+def test_supports_alike_but_for_their_tilt_are_kept_apart():
+    scene = load("one-edge-clamped")
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(3, 4))
+    tilted = scene.replace(supports=(Clamped(edge=scene.supports[0].edge, tilt=0.1),))
+    flat, turned, again = (lumped.pose(s, springs).constraints for s in (scene, tilted, scene))
+    assert flat is again and not flat.prescribed(1.0).any() and turned.prescribed(1.0).any()

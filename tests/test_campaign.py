@@ -72,7 +72,7 @@ def test_every_task_is_where_its_name_says() -> None:
 
 
 def test_a_run_that_fails_is_a_row_with_its_status(store: Store) -> None:
-    found = carry_out([task(name) for name in ("refuse", "fail", "not_finite")], store)
+    found = carry_out([task(name) for name in ("refuse", "fail", "not_finite")], store, pool=Here)
     assert [outcome.status for outcome in found] == ["refused", "failed", "done"]
     assert found[0].message == "x = −1: must be positive"
     assert found[1].message == "ZeroDivisionError: by nothing"
@@ -80,7 +80,7 @@ def test_a_run_that_fails_is_a_row_with_its_status(store: Store) -> None:
 
 
 def test_a_fault_is_not_filed_as_the_users_mistake(store: Store) -> None:
-    found = carry_out([task("stumble", over=over) for over in ("value", "type", "matrix")], store)
+    found = carry_out([task("stumble", over=over) for over in ("value", "type", "matrix")], store, pool=Here)
     for outcome, kind in zip(found, ("ValueError", "TypeError", "LinAlgError"), strict=True):
         assert outcome.status == "failed"
         assert outcome.message.startswith(f"{kind}: ")
@@ -95,11 +95,11 @@ def test_an_interrupt_within_compiled_code_is_no_outcome(store: Store) -> None:
 
 def test_what_failed_is_done_again_only_when_asked(store: Store, tmp_path: Path) -> None:
     runs = [task("square", x=1.0), task("needs", path=str(tmp_path / "file"))]
-    first = carry_out(runs, store)
+    first = carry_out(runs, store, pool=Here)
     assert [outcome.status for outcome in first] == ["done", "failed"]
     (tmp_path / "file").touch()
-    assert carry_out(runs, store) == first
-    again = carry_out(runs, store, retry=True)
+    assert carry_out(runs, store, pool=pytest.fail) == first
+    again = carry_out(runs, store, pool=Here, retry=True)
     assert again[0] == first[0] and again[1].status == "done"
 
 

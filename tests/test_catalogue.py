@@ -33,14 +33,14 @@ def test_the_answers_are_those_of_the_table(name: str, model: str) -> None:
     np.testing.assert_allclose(places(found), u, rtol=0.0, atol=within)
 
 
-@pytest.mark.parametrize("model", ["lattice", "shell"])
-def test_threads_and_processes_change_nothing(model: str) -> None:
-    name = "two-edges-clamped"
-    found = []
+def test_threads_and_processes_change_nothing() -> None:
+    name, models = "two-edges-clamped", ("lattice", "shell")
+    found = {}
     for threads in (1, 2):
         with threadpool_limits(threads):
-            found.append(places(answer(name, model)))
-    code = f"import json; from catalogue import answer; print(json.dumps(answer({name!r}, {model!r})))"
+            found[threads] = [places(answer(name, model)) for model in models]
+    code = "import json; from catalogue import answer; "
+    code += f"print(json.dumps([answer({name!r}, model) for model in {models}]))"
     environment = {
         **os.environ,
         "PYTHONPATH": str(FILE.parent),
@@ -48,6 +48,8 @@ def test_threads_and_processes_change_nothing(model: str) -> None:
         "NUMBA_NUM_THREADS": "1",
     }
     done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, check=True)
-    found.append(places(json.loads(done.stdout)))
-    for other in found[1:]:
-        np.testing.assert_allclose(other, found[0], rtol=0.0, atol=1e-10 * np.abs(found[0]).max())
+    elsewhere = [places(one) for one in json.loads(done.stdout)]
+    for one, two, other in zip(*found.values(), elsewhere, strict=True):
+        within = {"rtol": 0.0, "atol": 1e-10 * np.abs(one).max()}
+        np.testing.assert_allclose(two, one, **within)
+        np.testing.assert_allclose(other, one, **within)

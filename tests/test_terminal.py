@@ -89,7 +89,6 @@ WIDE = 400  # columns, where nothing has to give way
 WAYS: dict[str, tuple[int, dict[str, str], str]] = {
     "50": (50, {}, "utf-8"),
     "80": (80, {}, "utf-8"),
-    "160": (160, {}, "utf-8"),
     "160, no colour": (160, {"NO_COLOR": "1"}, "utf-8"),
     "80, ASCII": (80, {"NO_COLOR": "1"}, "ascii"),
 }

@@ -33,9 +33,13 @@ SMALL = [
     *("--plate", "", "--shell", "2,4", "--solid", "", "--elements", "8", "--repeats", "2"),
 ]
 KILLED = """
-import os, signal
+import os, signal, sys
+sys.path.insert(0, {here!r})
+from campaigns import Here
 from comparisons.cli import main
+from comparisons.runs import campaign, executors
 from comparisons.runs.store import Store
+campaign.carry_out.__kwdefaults__["pool"] = executors.processes = Here
 kept, add = [], Store.add
 def add_and_die(store, task, arguments, outcome):
     add(store, task, arguments, outcome)
@@ -58,7 +62,8 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("tradeoff")
     command = [sys.executable, "-c", "from comparisons.cli import main; main()"]
     arguments = [*SMALL, "--out", str(folder)]
-    killed = subprocess.run([*command[:2], KILLED, *arguments], stderr=subprocess.DEVNULL)
+    killing = KILLED.format(here=str(Path(__file__).parent))
+    killed = subprocess.run([*command[:2], killing, *arguments], stderr=subprocess.DEVNULL)
     assert killed.returncode == -signal.SIGKILL
     kept = rows_in(folder / FILE)
     assert len(kept) == 4

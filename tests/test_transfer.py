@@ -111,7 +111,7 @@ def test_tables_have_a_column_per_method_and_a_row_per_scene(study):
     assert found.static[0]["trained_on"] is False and "fit-static" in FITTED
 
 
-def test_command(tmp_path, capsys):
+def test_command(tmp_path, in_process, capsys):
     arguments = ["--methods", "uniform", "--scenes", "two-edges-clamped", "--grids", "5,9", "--elements", "4"]
     arguments += ["--part", "static", "--workers", "1", "--json", "--out", str(tmp_path)]
     assert run("transfer", *arguments) == 0

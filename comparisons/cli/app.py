@@ -12,12 +12,13 @@ from __future__ import annotations
 import sys
 import traceback
 from collections.abc import Callable
-from functools import wraps
+from functools import cache, wraps
 from importlib import import_module
 from shutil import get_terminal_size
 from typing import Any
 
 import typer
+from typer.main import get_command
 
 from comparisons.cli import announced, characters, interruption, warned
 from comparisons.runs import interrupts
@@ -102,14 +103,21 @@ def _help_where_nothing_is_asked(
         print(context.get_help(), end="")
 
 
+@cache
+def _group(boxes: bool) -> Callable[..., None]:
+    """All verbs with their options, whose reading from the signatures takes a tenth of a second."""
+    app.rich_markup_mode = "rich" if boxes else None
+    return get_command(app)
+
+
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit status."""
     for stream in (sys.stdout, sys.stderr):
         characters.adapt(stream)
-    app.rich_markup_mode = "rich" if get_terminal_size().columns >= BOXES else None
+    verbs = _group(get_terminal_size().columns >= BOXES)
     with interruption.heeded(), warned.in_a_line(), announced.in_a_line():
         try:
-            app(args=arguments, prog_name="sheetbench")
+            verbs(args=arguments, prog_name="sheetbench")
         except SystemExit as leaving:
             if leaving.code == interruption.STATUS:
                 interruption.say()

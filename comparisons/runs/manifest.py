@@ -62,6 +62,7 @@ def digest(files: Mapping[str, Path]) -> str:
     return total.hexdigest()[:16]
 
 
+@cache
 def versions() -> dict[str, str]:
     """Versions of every package that sheetbench is declared to use, optional ones where installed."""
     names = sorted(

@@ -36,7 +36,7 @@ from comparisons.transfer.tasks import FINE
 from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.scenes import Scene, comparable
 
-OTHERS = ("consistent-interior", "consistent-membrane")  # `consistent` has their moduli
+OTHERS = ("consistent-interior", "consistent-membrane", "consistent-oblique")  # `consistent` has their moduli
 METHODS = tuple(name for name in CALIBRATIONS if name not in OTHERS)
 FITTED = tuple(name for name in METHODS if CALIBRATIONS[name].fitted)
 PARTS = ("static", "limits", "modal", "aspect", "left-out")

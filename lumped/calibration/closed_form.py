@@ -8,8 +8,8 @@ Square cells of side l, two layers at distance lz (docs/theory.md, section 3; S*
 
 Here for cells of sides lx, ly (r = lx/ly) and L layers. The cross-layer links between two layers have the in-
 plane form G11 = S*x lx²/(s lz²), G22 = S*y ly²/(s lz²), G12 = G66 = P whatever their split, s the shear gaps
-of `lumped.moduli`, and a third of it at most goes to the furthest diagonals. With σ = Σ z_k²/lz² and σ' = Σ
-z_g²/lz² of layers and gaps, a layer's form is
+of `lumped.moduli`, and a share d of it at most goes to the furthest diagonals, d = ⅓ unless said. With σ = Σ
+z_k²/lz² and σ' = Σ z_g²/lz² of layers and gaps, a layer's form is
 
     C = (D − σ' lz² (G − δ))/(σ lz²),
 
@@ -31,6 +31,13 @@ shear as before with less in each: the sides carry a third (`gradients`) from
     lz² = [L (C11 − C12 + (1 − r²) f C66) + (L − 1)(G11 − P r²)] lz²/E_x
 
 on, and its like along y; the mid-surface has the rest.
+
+The diagonals' share d is free too. Against a wave of wave number q at the angle θ to the grid the stiffness
+of square cells is too small by (q l)² sin² 2θ/48 times
+
+    5 + 3ν − (21 d − 9 d²)/(1 + t) − 12 d t/(1 + t),    1 + t = 12 D/(S* l²),
+
+which is 3ν − 1 + 2 S*/κGh for a third and vanishes (`waves`) for a d from 0.27 to 0.54, ν from 0 to ½.
 """
 
 from __future__ import annotations
@@ -50,18 +57,21 @@ def closed_form(
     layers: int,
     layer_distance: float | None = None,
     gradients: bool = False,
+    waves: bool = False,
 ) -> SpringSet | None:
     """The springs that have the moduli asked; None where a link would be negative (many layers on coarse
     grids: there the cross-layer links alone bend too stiffly), and where a layer distance [m] that is given
     is less than the cell needs. gradients: whether layers are so far apart that strains in the plane that
-    vary across a cell cost what they cost the sheet."""
+    vary across a cell cost what they cost the sheet; waves: whether oblique waves of bending are right in l²,
+    of oblong cells as if they were squares of the same area."""
     lx, ly = spacing
     heights = np.arange(layers) - (layers - 1) / 2
     sigma = float((heights**2).sum())
     sigma_gap = float((((heights[1:] + heights[:-1]) / 2) ** 2).sum())
     gap = asked.shear * np.array([lx**2, ly**2]) / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
     ratios = np.array([lx**2 / ly**2, ly**2 / lx**2])
-    p = float(min(gap.max(), *(1.5 * gap / ratios))) / 3.0
+    share = _for_waves(asked, lx * ly) if waves else 1.0 / 3.0
+    p = share * float(min(gap.max(), *(1.5 * gap / ratios)))
     by_diagonals = 1.0 if ratios.max() <= 2.0 else 1.0 / (ratios.max() - 1.0)  # the share of a layer's C66
     gap_form = np.array([[gap[0], p, 0.0], [p, gap[1], 0.0], [0.0, 0.0, p]])
 
@@ -115,6 +125,15 @@ def closed_form(
         mid_stretch=by_direction(rest[0, 0] / lz2, rest[1, 1] / lz2),
         layer_distance=math.sqrt(lz2),
     )
+
+
+def _for_waves(asked: Moduli, area: float) -> float:
+    """d for waves, of cells of that area [m²]."""
+    rigidity, contraction = asked.bending[0, :2]
+    stiffening = 12.0 * rigidity / (float(np.sqrt(asked.shear.prod())) * area)  # 1 + t
+    linear = 12.0 * stiffening + 9.0
+    product = 36.0 * (5.0 + 3.0 * contraction / rigidity) * stiffening
+    return float(linear - math.sqrt(linear**2 - product)) / 18.0
 
 
 def _on_sides(form: np.ndarray) -> np.ndarray:

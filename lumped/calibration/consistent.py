@@ -51,6 +51,21 @@ def consistent_membrane(
     return _with_twist("consistent-membrane", sheet, found, grading)
 
 
+def consistent_oblique(
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    layer_distance: float | None = None,
+    grading: Graded = 0.0,
+) -> Calibration:
+    """As `consistent`, with waves oblique to the grid right in l² too.
+
+    Raises BadInput as `consistent_interior`.
+    """
+    found = consistent_interior(sheet, material, grid, layer_distance, grading, waves=True)
+    return _with_twist("consistent-oblique", sheet, found, grading)
+
+
 def _with_twist(method: str, sheet: Sheet, found: Calibration, grading: Graded) -> Calibration:
     springs, notes = with_edges(sheet, found.grid, found.springs, grading)
     return replace(found, method=method, springs=springs, notes=(*found.notes, *notes))
@@ -63,20 +78,24 @@ def consistent_interior(
     layer_distance: float | None = None,
     grading: Graded = 0.0,
     gradients: bool = False,
+    waves: bool = False,
 ) -> Calibration:
     """The moduli alone, cells along edges like those inside: the closed form; with a given layer distance, or
     where it would need a negative link, bounded least squares on the same moduli. grading: of the grid
     (`lumped.grid_lines`), gradients: whether layers are so far apart that strains in the plane that vary
-    across a cell cost what they cost the sheet (`lumped.calibration.closed_form`), both in closed form only.
+    across a cell cost what they cost the sheet, waves: whether oblique ones are right in the second power of
+    the cells (`lumped.calibration.closed_form`), all in closed form only.
 
     Raises BadInput where area springs would leave a cell without positive energy, and for a graded grid whose
     cells have no closed form.
     """
     if grading:
-        springs: SpringSet | None = _graded(sheet, material, grid, layer_distance, grading, gradients)
+        springs: SpringSet | None = _graded(sheet, material, grid, layer_distance, grading, gradients, waves)
     elif layer_distance is None:
         spacing = plan_spacing(sheet, grid)
-        springs = closed_form(moduli.of_sheet(sheet, material, spacing), spacing, grid[2], None, gradients)
+        springs = closed_form(
+            moduli.of_sheet(sheet, material, spacing), spacing, grid[2], None, gradients, waves
+        )
     else:
         springs = None
     if springs is None:
@@ -91,10 +110,11 @@ def _graded(
     layer_distance: float | None,
     grading: Graded,
     gradients: bool,
+    waves: bool,
 ) -> SpringSet:
     def of_cell(cell: Sheet, distance: float | None) -> SpringSet:
         asked = moduli.of_sheet(cell, material, cell.lengths)
-        springs = closed_form(asked, cell.lengths, grid[2], distance, gradients)
+        springs = closed_form(asked, cell.lengths, grid[2], distance, gradients, waves)
         if springs is None:
             given = f"{grid[2]} layers" if distance is None else f"layer_distance = {distance:g} m"
             raise BadInput(

@@ -7,7 +7,12 @@ from dataclasses import dataclass, field, replace
 
 from lumped.calibration.calibration import Calibration
 from lumped.calibration.central import central
-from lumped.calibration.consistent import consistent, consistent_interior, consistent_membrane
+from lumped.calibration.consistent import (
+    consistent,
+    consistent_interior,
+    consistent_membrane,
+    consistent_oblique,
+)
 from lumped.calibration.least_squares import fit_moduli
 from lumped.calibration.report import report
 from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
@@ -41,6 +46,7 @@ MAKERS: dict[str, Callable[..., Calibration]] = {
     "consistent": consistent,
     "consistent-interior": consistent_interior,
     "consistent-membrane": consistent_membrane,
+    "consistent-oblique": consistent_oblique,
     "moduli": fit_moduli,
     "uniform": uniform,
     "cauchy": cauchy,

@@ -37,7 +37,7 @@ help:
 	@echo "make crosscheck every model and other people's programs on eight scenes: docs/crosscheck.md (ten minutes)"
 	@echo "make peers     ours and other people's codes in one run: docs/peers.md and its picture (six minutes)"
 	@echo "make stability where each solver holds, degrades, refuses or breaks: eight maps (six minutes; files in $(OUT)/stability/)"
-	@echo "make stability-full  every cell of them, 257 x 257 masses among them: the maps of docs/stability.md (twenty minutes)"
+	@echo "make stability-full  every cell of them, 257 x 257 masses among them: docs/stability.md and its maps (twenty minutes)"
 	@echo "make bench     settling beside SciPy's BDF, statics, explicit steps, start-up: time and what it goes to (files in $(OUT)/, history in benchmarks/history/)"
 	@echo "make suite     the reference set anew, comparisons/suite/data (ten minutes; a change of values is a new version)"
 	@echo "make viewer    the viewer of sheets in a browser, comparisons/browser/viewer.js, from its source (needs Node)"
@@ -152,7 +152,9 @@ stability: install
 
 stability-full: install
 	@$(BIN)/sheetbench stability --full --out $(OUT)/stability-full
-	@cp $(OUT)/stability-full/*.csv $(OUT)/stability-full/*.png $(OUT)/stability-full/stability.md docs/stability/
+	@cp $(OUT)/stability-full/*.csv $(OUT)/stability-full/*.png $(OUT)/stability-full/stability.md \
+	  $(OUT)/stability-full/manifest.json docs/stability/
+	@$(BIN)/python docs/stability_page.py
 
 suite: install
 	@$(BIN)/python -m comparisons.suite.regenerate

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -273,3 +274,14 @@ def test_command_writes_maps_tables_and_texts_and_resumes(tmp_path, capsys, monk
 def test_an_unknown_study_is_refused_in_one_line(capsys):
     assert run("stability", "--study", "weather") == 2
     assert "study" in (said := one_line(capsys)) and "weather" in said and "time-step" in said
+
+
+def test_the_page_is_that_of_the_tables_beside_it(monkeypatch):
+    """Every figure of docs/stability.md is of the last full run: `make stability-full` writes it again."""
+    monkeypatch.syspath_prepend(Path(__file__).parents[1] / "docs")
+    written = importlib.import_module("stability_page")
+    assert written.page() == written.PAGE.read_text(encoding="utf-8")
+    rows = {name: written._rows(name) for name in written.STUDIES}
+    assert all(written.promises(rows).values())
+    rows["mass"][0]["status"] = "failed"
+    assert [said for said, holds in written.promises(rows).items() if not holds] == ["no cell failed"]

@@ -6,6 +6,7 @@ springs or elements carry it each solver derives for itself, for a shared deriva
 """
 
 import ast
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -22,23 +23,34 @@ ALLOWED = {
 }
 
 
+def text_of(path: Path) -> str:
+    return path.read_text(encoding="utf-8")
+
+
+@cache
+def nodes_of(path: Path) -> list[ast.AST]:
+    """All of a file's code, read once."""
+    return list(ast.walk(ast.parse(text_of(path))))
+
+
 WORDS = {"interp", "sinc", "from_rotvec"}  # of values over time and of the kinematics of edges
 
 
 @pytest.mark.parametrize("package", ["lumped", "fem_reference"])
 def test_what_a_scenes_words_mean_is_left_to_the_scenes(package):
     for path in sorted((ROOT / package).rglob("*.py")):
-        named = {n.attr for n in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(n, ast.Attribute)}
+        named = {node.attr for node in nodes_of(path) if isinstance(node, ast.Attribute)}
         assert not named & WORDS or path.parent.name == "verification", f"{path} has {named & WORDS}"
 
 
 PACKAGES = ("sheetbench", "lumped", "fem_reference", "comparisons")
 
 
+@cache
 def names_in(path: Path) -> set[str]:
     """Names that a file imports; a literal's counts too, but for that of the plug-ins' entry points."""
     names = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in nodes_of(path):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
@@ -88,13 +100,12 @@ def module_of(path: Path) -> str:
     return ".".join(path.relative_to(ROOT).with_suffix("").parts)
 
 
-def without_types(path: Path) -> ast.Module:
+def without_types(path: Path) -> list[ast.AST]:
     """A file's code without what it imports for types alone, which no program runs."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    for node in ast.walk(tree):
-        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
-            node.body = []
-    return tree
+    blocks = [node for node in nodes_of(path) if isinstance(node, ast.If)]
+    for_types = [node for node in blocks if ast.unparse(node.test) == "TYPE_CHECKING"]
+    left_out = {inner for block in for_types for part in block.body for inner in ast.walk(part)}
+    return [node for node in nodes_of(path) if node not in left_out]
 
 
 @pytest.mark.parametrize("package", PACKAGES)
@@ -106,8 +117,7 @@ def test_no_file_imports_itself_by_way_of_others(package):
 
     def modules(path: Path) -> set[str]:
         found = set()
-        code = ast.parse(path.read_text(encoding="utf-8"))
-        for node in ast.walk(code if package in ("lumped", "fem_reference") else without_types(path)):
+        for node in nodes_of(path) if package in ("lumped", "fem_reference") else without_types(path):
             if isinstance(node, ast.ImportFrom):
                 for name in (alias.name for alias in node.names):
                     inner, folder = f"{node.module}.{name}", f"{node.module}.__init__"
@@ -136,7 +146,7 @@ def test_imports_within_functions_are_for_a_quick_start_alone():
         place = path.relative_to(ROOT).as_posix()
         if place.startswith(AT_ONCE):
             continue
-        for function in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for function in nodes_of(path):
             if isinstance(function, ast.FunctionDef):
                 for node in ast.walk(function):
                     if isinstance(node, ast.ImportFrom | ast.Import):
@@ -147,10 +157,9 @@ def test_imports_within_functions_are_for_a_quick_start_alone():
 
 def names_from(path: Path) -> list[tuple[str, str]]:
     """(module, name) of every name that a file imports from a module of ours, and its own module's name."""
-    tree = ast.walk(ast.parse(path.read_text(encoding="utf-8")))
     return [
         (str(node.module), alias.name)
-        for node in tree
+        for node in nodes_of(path)
         if isinstance(node, ast.ImportFrom) and str(node.module).split(".")[0] in PACKAGES
         for alias in node.names
     ]
@@ -183,7 +192,7 @@ def test_the_reader_sees_every_way_to_import(tmp_path):
 def test_misuse_is_refused_by_an_error_of_its_own(package):
     """Whoever reads BadInput knows that the input is to blame, and of any other error that the program is."""
     for path in sorted((ROOT / package).rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in nodes_of(path):
             if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
                 raised = ast.unparse(node.exc.func)
                 assert raised not in ("ValueError", "TypeError"), f"{path}:{node.lineno}: {raised}"
@@ -192,6 +201,6 @@ def test_misuse_is_refused_by_an_error_of_its_own(package):
 def test_tests_share_by_modules_of_their_own_and_stay_short():
     """No test module imports another: what two need is in conftest.py or a module without tests."""
     for path in sorted((ROOT / "tests").rglob("*.py")):
-        assert len(path.read_text(encoding="utf-8").splitlines()) <= 350, path
+        assert len(text_of(path).splitlines()) <= 350, path
         shared = [name for name in names_in(path) if name.startswith("test_")]
         assert not shared, f"{path.relative_to(ROOT)} imports {', '.join(shared)}"

@@ -99,6 +99,7 @@ def test_every_verb_means_the_same(
     assert grid(json.loads(capsys.readouterr().out)) == [5, 3, 2]
 
 
+@pytest.mark.usefixtures("in_process")
 def test_elements_along_x_and_y_on_every_verb(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

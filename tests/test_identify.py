@@ -43,19 +43,19 @@ def test_exact_data_give_the_value_back(truth):
     assert np.abs(found.residuals).max() < 1e-9
 
 
-def test_the_interval_holds_the_true_value_in_90_of_100_draws():
+def test_the_interval_holds_the_true_value_in_45_of_50_draws():
     """1 % of the largest displacement as noise in every component; the search starts up to 65 % away."""
     rng = np.random.default_rng(11)
-    truth = lattice(with_material(SCENE, young=TRUE), (5, 5)).displacement(POINTS)
+    truth = lattice(with_material(SCENE, young=TRUE), (3, 3)).displacement(POINTS)
     hits, widths = 0, []
-    for _ in range(100):
+    for _ in range(50):
         start = with_material(SCENE, young=TRUE * float(np.exp(rng.uniform(-0.5, 0.5))))
         measured = Displacements(POINTS, noisy(truth, rng))
-        found = identify(start, measured, ["young"], grid=(5, 5, 2), refine=False)
+        found = identify(start, measured, ["young"], grid=(3, 3, 2), refine=False)
         low, high = found.unknowns["young"].interval
         hits += low <= TRUE <= high
         widths.append((high - low) / TRUE)
-    assert hits >= 90
+    assert hits >= 45
     assert 0.005 < np.median(widths) < 0.05
 
 
@@ -127,12 +127,12 @@ def test_a_tilt_left_out_goes_into_young():
 def test_both_intervals_hold_the_true_values_in_36_of_40_draws():
     """1 % of the largest displacement as noise; the search starts upright, up to 65 % away in E."""
     rng = np.random.default_rng(13)
-    values = lattice(tilted(), (5, 5)).displacement(POINTS)
+    values = lattice(tilted(), (3, 3)).displacement(POINTS)
     hits, widths = np.zeros(2), []
     for _ in range(40):
         start = tilted(TRUE * float(np.exp(rng.uniform(-0.5, 0.5))), 0.0)
         measured = Displacements(POINTS, noisy(values, rng))
-        found = identify(start, measured, BOTH, grid=(5, 5, 2), refine=False).unknowns
+        found = identify(start, measured, BOTH, grid=(3, 3, 2), refine=False).unknowns
         ends = np.array([found[name].interval for name in BOTH])
         hits += (ends[:, 0] < [TRUE, TILT]) & (ends[:, 1] > [TRUE, TILT])
         widths.append(ends[:, 1] - ends[:, 0])

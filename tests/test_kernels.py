@@ -7,7 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import scipy.sparse as sp
+from dynamic_cases import scene, springs
 
+import lumped
+from lumped.dynamics.explicit_steps import march
 from lumped.linear.maps import rows
 from sheetbench.kernels import ROOT, SAID, made_of
 
@@ -34,6 +37,16 @@ def test_matrices_are_alike_to_kernels_whatever_integers_scipy_takes():
     large = sp.csr_array((small.data, small.indices.astype(np.int64), small.indptr.astype(np.int64)))
     assert small.indices.dtype != large.indices.dtype
     assert [part.dtype for part in rows(small)] == [part.dtype for part in rows(large)]
+
+
+def test_steps_are_compiled_once_whether_edges_are_driven_or_not():
+    """Tables whose rows are apart are other arrays to a kernel, which takes ten seconds to compile."""
+    lifted = [[0.0] * 3, [0.0, 0.0, 0.01]]
+    motion = {"kind": "motion", "edge": "x1", "time": [0.0, 1.0], "displacement": lifted}
+    driven = scene("one-edge-clamped", [motion])
+    lumped.simulate(driven, springs(driven, 3), 1e-4, integrator="verlet")
+    layouts = {getattr(kind, "layout", "C") for signature in march.signatures for kind in signature}
+    assert layouts == {"C"}
 
 
 def test_the_first_compilation_is_announced_and_the_second_run_compiles_nothing(tmp_path: Path):

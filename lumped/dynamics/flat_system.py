@@ -123,7 +123,8 @@ class FlatSystem:
             for at, time in enumerate(times):
                 place[at] += system.coupling.driven(system.drive(time))
                 rate[at] += system.coupling.driven_velocity(time)
-        return place[:, rows, axes], rate[:, rows, axes]
+        # in rows, as they are where nothing is driven, or steps are compiled a second time
+        return np.ascontiguousarray(place[:, rows, axes]), np.ascontiguousarray(rate[:, rows, axes])
 
     def _of_masses(self, values: np.ndarray) -> np.ndarray:
         return np.repeat(values[:, None], 3, axis=1)

@@ -9,8 +9,9 @@ from rod_cases import CHAINS, STRIP, alone, chain, driven, shell
 
 import fem_reference
 import lumped
+from fem_reference.shell.state import State
 from fem_reference.shell.statics import discretise
-from fem_reference.shell.structure import UP, State
+from fem_reference.shell.structure import UP
 from fem_reference.surface import rod
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification import heavy_elastica

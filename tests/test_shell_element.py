@@ -10,8 +10,8 @@ from fem_reference.plate import statics as plate
 from fem_reference.shell import statics as shell
 from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
 from fem_reference.shell.element import Element, strain_of
+from fem_reference.shell.state import State
 from fem_reference.shell.statics import discretise
-from fem_reference.shell.structure import State
 from fem_reference.solid import statics as solid
 from fem_reference.solving.equilibrium import TOLERANCE
 from fem_reference.surface.loads import FollowerMoment, FollowerPressure, Line, area_force, orientation

@@ -10,7 +10,8 @@ from scipy.optimize import minimize_scalar
 from comparisons.comparison.comparison import error
 from comparisons.stability import equilibria
 from fem_reference.shell import statics as shell
-from fem_reference.shell.structure import ShellStructure, State
+from fem_reference.shell.state import State
+from fem_reference.shell.structure import ShellStructure
 from fem_reference.solving import pseudo_transient
 from fem_reference.solving.equilibrium import Path, trace
 from fem_reference.solving.linear import DirectSolver

@@ -10,8 +10,8 @@ import lumped
 from comparisons.stability.equilibria import loaded, sheet
 from comparisons.stability.vibrating import start, system
 from fem_reference.shell import validity
+from fem_reference.shell.state import State as ShellState
 from fem_reference.shell.statics import discretise
-from fem_reference.shell.structure import State as ShellState
 from fem_reference.surface.mesh import rectangle
 from lumped.dynamics import watchdog
 from lumped.dynamics.system import State

@@ -13,7 +13,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from fem_reference.shell.element import magnitudes
-from fem_reference.shell.structure import Forces, ShellStructure, State
+from fem_reference.shell.state import Forces, State
+from fem_reference.shell.structure import ShellStructure
 from fem_reference.solving.equilibrium import TOLERANCE, Path
 from fem_reference.surface.actuator_forces import OnEdge
 from fem_reference.surface.balance import Surface, applied

@@ -31,7 +31,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem_reference.shell import sampling, tangent
+from fem_reference.solving.kept import kept
 from fem_reference.surface.biquadratic import (
+    AT_GAUSS,
     GAUSS,
     GAUSS_WEIGHTS,
     THREE,
@@ -53,6 +55,7 @@ MEMBRANE = slice(0, 21)
 BENDING = slice(21, 42)
 SHEAR = slice(42, 54)
 STRAINS = 54
+ROUNDED = 1e-14  # of an element's size, below which its sides' slant is rounding
 
 
 def _tables() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -98,17 +101,7 @@ class Element:
     @classmethod
     def build(cls, nodes: np.ndarray, section: Section) -> Element:
         """From the nodes' plan positions (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
-        _, slope = shape(*GAUSS)
-        jacobian = jacobians(nodes, slope)
-        area = np.linalg.det(jacobian)
-        turn = np.sign(area[:, :1])  # scikit-fem numbers some meshes clockwise
-        if not np.all(area * turn > 0.0):
-            worst = int(np.argmin((area * turn).min(axis=1)))
-            raise BadInput(f"element {worst} of the mesh is inverted or degenerate")
-        inverse = np.linalg.inv(jacobian)  # ∂ξ_a/∂x_b
-        areas = GAUSS_WEIGHTS * np.abs(area)
-        in_plane, bending = cartesian(nodes)
-        transverse = _cartesian_shear(inverse)
+        areas, in_plane, bending, transverse = _geometry(nodes)
         stiffness = np.zeros((len(nodes), STRAINS, STRAINS))
         stiffness[:, MEMBRANE, MEMBRANE] = _integrate(in_plane, section.membrane, areas)
         stiffness[:, BENDING, BENDING] = _integrate(bending, section.bending, areas)
@@ -206,13 +199,34 @@ def tangents(
 def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """What makes Cartesian strains [xx, yy, 2xy] at the Gauss points of the sampled membrane and bending
     ones, (m, 9, 3, 21) each, of elements with nodes (m, 9, 2)."""
-    jacobian = jacobians(nodes, shape(*GAUSS)[1])
-    areas, inverse = GAUSS_WEIGHTS * np.abs(np.linalg.det(jacobian)), np.linalg.inv(jacobian)
-    return _cartesian_in_plane(inverse, areas), _cartesian_in_plane(inverse, areas, np.eye(9))
+    _, in_plane, bending, _ = _geometry(nodes)
+    return in_plane, bending
+
+
+@kept(last=4, most=1 << 16)
+def _geometry(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Areas w |det J| (m, 9) [m²], and what makes Cartesian membrane, bending and shear strains of the
+    sampled ones. Raises BadInput if an element is inverted."""
+    jacobian = jacobians(nodes, AT_GAUSS[1])
+    # A side along an axis has no slant, not one of rounding: D couples neither rr nor ss with rs then.
+    jacobian[np.abs(jacobian) < ROUNDED * np.abs(jacobian).max(axis=(1, 2, 3), keepdims=True)] = 0.0
+    area = np.linalg.det(jacobian)
+    turn = np.sign(area[:, :1])  # scikit-fem numbers some meshes clockwise
+    if not np.all(area * turn > 0.0):
+        worst = int(np.argmin((area * turn).min(axis=1)))
+        raise BadInput(f"element {worst} of the mesh is inverted or degenerate")
+    inverse = np.linalg.inv(jacobian)  # ∂ξ_a/∂x_b
+    areas = GAUSS_WEIGHTS * np.abs(area)
+    in_plane, bending = _cartesian_in_plane(inverse, areas), _cartesian_in_plane(inverse, areas, np.eye(9))
+    return areas, in_plane, bending, _cartesian_shear(inverse)
 
 
 def _integrate(to_cartesian: np.ndarray, moduli: np.ndarray, areas: np.ndarray) -> np.ndarray:
-    return np.einsum("egak,ab,egbl,eg->ekl", to_cartesian, moduli, to_cartesian, areas, optimize=True)
+    """∫ Tᵀ C T (m, k, k) of T (m, 9, a, k)."""
+    m, g, a, k = to_cartesian.shape
+    weighed = areas[:, :, None, None] * np.moveaxis(np.tensordot(to_cartesian, moduli, (2, 1)), -1, 2)
+    flat = to_cartesian.reshape(m, g * a, k)
+    return np.asarray(flat.swapaxes(1, 2) @ weighed.reshape(m, g * a, k))
 
 
 def _cartesian_in_plane(

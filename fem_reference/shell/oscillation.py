@@ -12,8 +12,9 @@ import numpy as np
 from scipy.sparse import csr_matrix, kron
 
 from fem_reference.plate import statics as plate
+from fem_reference.shell.state import State
 from fem_reference.shell.statics import discretise, trace_on
-from fem_reference.shell.structure import ShellStructure, State
+from fem_reference.shell.structure import ShellStructure
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import mesh_of

@@ -18,7 +18,8 @@ from fem_reference.shell.balance import balance
 from fem_reference.shell.element import Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
-from fem_reference.shell.structure import UP, ShellStructure, State
+from fem_reference.shell.state import State
+from fem_reference.shell.structure import UP, ShellStructure
 from fem_reference.shell.validity import STRETCHED, inspector, judge, membrane_strain
 from fem_reference.solving.equilibrium import Path, Progress, trace
 from fem_reference.solving.linear import DirectSolver

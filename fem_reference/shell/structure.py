@@ -17,7 +17,7 @@ edges, is one more director like d. In all there are 2n + q vectors: u, d and th
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Self
 
@@ -27,6 +27,7 @@ from scipy.sparse import csr_matrix
 from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
 from fem_reference.shell.element import Element, forces_of, strain_of, tangents, weighed
 from fem_reference.shell.reduction import projected
+from fem_reference.shell.state import Forces, State
 from fem_reference.solving.fronts import Fronts
 from fem_reference.solving.sparsity import Pattern, pattern_of
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surface
@@ -35,33 +36,6 @@ from fem_reference.surface.rod_elements import Strained
 from fem_reference.surface.supports import Supports
 
 UP = np.array([0.0, 0.0, 1.0])
-
-
-@dataclass(frozen=True)
-class State:
-    """change: q (2, n, 3); aside: of the rods' m (q, 3); stress (m, 54) and rod_stress (k, s): extrapolated,
-    the elements' own where None."""
-
-    change: np.ndarray
-    aside: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
-    stress: np.ndarray | None = None
-    rod_stress: np.ndarray | None = None
-
-
-@dataclass(frozen=True)
-class Forces:
-    """At a state: of the elements Q (m, 18, 3), s (m, 54), D (m, 54, 54); T (n + q, 3, 2) of the directors; B
-    and s of the rods; residuals R (2, n, 3) on the sheet and aside (q, 3) on the rods' m; size of the forces
-    that balance [N]."""
-
-    vectors: np.ndarray
-    stress: np.ndarray
-    moduli: np.ndarray
-    frames: np.ndarray
-    rods: Strained
-    residual: np.ndarray
-    aside: np.ndarray
-    size: float
 
 
 @dataclass(frozen=True)
@@ -186,22 +160,27 @@ class ShellStructure:
         size = np.abs(external[0]).sum() + np.abs(internal[0][self.supports.position]).sum()
         size += np.abs(external[1]).sum() / self.lever
 
-        elements = self.rods.elements
-        rods = elements.strained(self._on_rods(state), load_factor)
-        driving = load_factor * elements.driving(rods.gradient)
-        size += load_factor * np.abs(elements.weight[:, :3]).sum()
-        size += np.abs(driving[:, :3]).sum() + np.abs(driving[:, 3:]).sum() / self.lever
-        pull, aside = self._split(self.rods.scatter(rods.pull, self._vectors))
-        residual = internal - external + pull
+        residual, aside = internal - external, np.zeros_like(self.rods.own)
+        if self.rods.rods:
+            elements = self.rods.elements
+            rods = elements.strained(self._on_rods(state), load_factor)
+            driving = load_factor * elements.driving(rods.gradient)
+            size += load_factor * np.abs(elements.weight[:, :3]).sum()
+            size += np.abs(driving[:, :3]).sum() + np.abs(driving[:, 3:]).sum() / self.lever
+            pull, aside = self._split(self.rods.scatter(rods.pull, self._vectors))
+            residual += pull
+        else:
+            rods = self._no_rods
         moduli, frames = self.element.moduli(strain), self.frames(state)
-        return Forces(vectors, stress, moduli, frames, rods, residual, aside, float(size))
+        short = self._to_constraints(state, load_factor)
+        return Forces(vectors, stress, moduli, frames, rods, residual, aside, float(size), short)
 
     def imbalance(self, state: State, forces: Forces) -> float:
         """Sum of the free unknowns' residuals [N], directors' moments over the sheet's size."""
         couple = np.concatenate([forces.residual[1], forces.aside])
         moment = np.einsum("nc,nck->nk", couple, forces.frames) / self.lever
-        on_nodes = np.abs(forces.residual[0][self.number[:, :3] >= 0]).sum()
-        return float(on_nodes + np.abs(moment[self.turns >= 0]).sum())
+        left = self._of_unknowns(forces.residual[0], moment)
+        return float(np.abs(left).sum())
 
     def gap(self, state: State, load_factor: float) -> float:
         """Largest distance from the prescribed values and from |d| = 1, relative to the sheet's size."""
@@ -213,7 +192,7 @@ class ShellStructure:
     ) -> tuple[csr_matrix, np.ndarray]:
         """Tangent (unknowns, unknowns) and right-hand side of the step to equilibrium and constraints."""
         frames, vectors, moduli = forces.frames, forces.vectors, forces.moduli
-        step = self._to_constraints(state, load_factor)
+        step = forces.short
         pressing = np.concatenate([*forces.residual, forces.aside])
         stress, rod_stress = forces.stress, forces.rods.stress
         if mixed and state.stress is not None and state.rod_stress is not None:
@@ -242,18 +221,17 @@ class ShellStructure:
 
     def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
         """The state after a step (unknowns,), with the stresses it extrapolates."""
-        vectors = self._to_constraints(state, load_factor)
-        vectors[: self.count] += np.where(self.number >= 0, step[self.number], 0.0)[:, :3]
-        turn = np.where(self.turns >= 0, step[self.turns], 0.0)
+        every = np.zeros(3 * self.count + self.turns.size)
+        every[self._free] = step
+        vectors, turn = forces.short.copy(), every[3 * self.count :].reshape(-1, 2)
+        vectors[: self.count] += every[: 3 * self.count].reshape(-1, 3)
         vectors[self.count :] += np.einsum("nck,nk->nc", forces.frames, turn)
         change, aside = self._split(vectors)
         of_step = weighed(forces.moduli, strain_of(forces.vectors, self.gather(change)))
-        return State(
-            state.change + change,
-            state.aside + aside,
-            forces.stress + of_step,
-            self.rods.elements.extrapolated(forces.rods, self.rods.gather(vectors)),
-        )
+        rod_stress = forces.rods.stress
+        if self.rods.rods:
+            rod_stress = self.rods.elements.extrapolated(forces.rods, self.rods.gather(vectors))
+        return State(state.change + change, state.aside + aside, forces.stress + of_step, rod_stress)
 
     def length(self, start: State, end: State) -> float:
         """Largest nodal displacement between two states, relative to the sheet's size."""
@@ -261,7 +239,17 @@ class ShellStructure:
 
     def gather(self, nodal: np.ndarray) -> np.ndarray:
         """(2, n, 3) of nodes to (m, 18, 3) of elements."""
-        return np.concatenate([nodal[0][self.element_nodes], nodal[1][self.element_nodes]], axis=1)
+        return nodal.reshape(-1, 3).take(self._both, axis=0)
+
+    @cached_property
+    def _both(self) -> np.ndarray:
+        """Every element's positions, then directors (m, 18), among those of all nodes (2n,)."""
+        return np.concatenate([self.element_nodes, self.count + self.element_nodes], axis=1)
+
+    @cached_property
+    def _components(self) -> np.ndarray:
+        """Their components (54 m,) among all (6n,)."""
+        return (3 * self._both.ravel()[:, None] + np.arange(3)).ravel()
 
     def frames(self, state: State) -> np.ndarray:
         """T (n + q, 3, 2) ⊥ d, and ⊥ m of the rods."""
@@ -290,16 +278,21 @@ class ShellStructure:
 
     def _scatter(self, elementwise: np.ndarray) -> np.ndarray:
         """Sums (m, 18, 3) of elements into (2, n, 3) of nodes."""
-        where = (self.element_nodes.ravel()[:, None] * 3 + np.arange(3)).ravel()
-        parts = (elementwise[:, :9].ravel(), elementwise[:, 9:].ravel())
-        sums = [np.bincount(where, part, 3 * self.count) for part in parts]
-        return np.array(sums).reshape(2, self.count, 3)
+        sums = np.bincount(self._components, elementwise.ravel(), 6 * self.count)
+        return sums.reshape(2, self.count, 3)
 
     def _pull(self, forces: Forces, stress: np.ndarray, rod_stress: np.ndarray) -> np.ndarray:
         """Bᵀ s of stresses of elements and rods, (2n + q, 3)."""
-        out = self.rods.scatter(self.rods.elements.force(forces.rods.gradient, rod_stress), self._vectors)
+        out = np.zeros((self._vectors, 3))
+        if self.rods.rods:
+            out = self.rods.scatter(self.rods.elements.force(forces.rods.gradient, rod_stress), self._vectors)
         self._split(out)[0][:] += self._scatter(forces_of(forces.vectors, stress))
         return out
+
+    @cached_property
+    def _no_rods(self) -> Strained:
+        """Of a sheet without any."""
+        return self.rods.elements.strained(np.zeros((0, 9, 3)), 0.0)
 
     def _external(self, change: np.ndarray) -> np.ndarray:
         external = np.array([self.dead, np.zeros_like(self.dead)])
@@ -324,9 +317,16 @@ class ShellStructure:
 
     def _of_unknowns(self, positions: np.ndarray, turns: np.ndarray) -> np.ndarray:
         """Values (n, 3) of displacements and (n + q, 2) of rotations, of the free ones (unknowns,)."""
-        out = np.zeros(self.unknowns)
-        for number, values in ((self.number[:, :3], positions), (self.turns, turns)):
-            out[number[number >= 0]] = values[number >= 0]
+        values = np.concatenate([positions.ravel(), turns.ravel()])
+        out: np.ndarray = values[self._free]
+        return out
+
+    @cached_property
+    def _free(self) -> np.ndarray:
+        """Where the unknowns are among all displacements, then all rotations (unknowns,)."""
+        every = np.concatenate([self.number[:, :3].ravel(), self.turns.ravel()])
+        out = np.empty(self.unknowns, dtype=np.int64)
+        out[every[every >= 0]] = np.flatnonzero(every >= 0)
         return out
 
     def _onto_rods(self, frames: np.ndarray) -> np.ndarray:

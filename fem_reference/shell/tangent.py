@@ -17,7 +17,7 @@ from numba import njit
 from fem_reference.shell.sampling import REORDERED, sampled
 
 MOVES, UNKNOWNS = 27, 45  # of an element: displacements, and with them rotations
-AT_ONCE = 3  # strains that are gone through together, whose numbers by part, 21, 21 and 12, it divides
+AT_ONCE = 3  # strains and unknowns that are gone through together, whose numbers by part it divides
 
 
 @njit(cache=True, fastmath=REORDERED)
@@ -81,14 +81,23 @@ def _add_weighed(
     columns: int,
     out: np.ndarray,
 ) -> None:
-    """Adds D B of strains first … last from those of strains start … end, in so many columns."""
-    for k in range(first, last):
-        row, d = out[k], moduli[k]
+    """Adds D B of strains first … last from those of strains start … end, in so many columns; blocks of D
+    that are zero, as many are where sides lie along the axes, are left out."""
+    for k in range(first, last, AT_ONCE):
+        row0, row1, row2 = out[k], out[k + 1], out[k + 2]
         for by in range(start, end, AT_ONCE):
-            d0, d1, d2 = d[by], d[by + 1], d[by + 2]
+            d00, d01, d02 = moduli[k, by], moduli[k, by + 1], moduli[k, by + 2]
+            d10, d11, d12 = moduli[k + 1, by], moduli[k + 1, by + 1], moduli[k + 1, by + 2]
+            d20, d21, d22 = moduli[k + 2, by], moduli[k + 2, by + 1], moduli[k + 2, by + 2]
+            size = abs(d00) + abs(d01) + abs(d02) + abs(d10) + abs(d11) + abs(d12)
+            if size + abs(d20) + abs(d21) + abs(d22) == 0.0:
+                continue
             b0, b1, b2 = gradient[by], gradient[by + 1], gradient[by + 2]
             for j in range(columns):
-                row[j] += d0 * b0[j] + d1 * b1[j] + d2 * b2[j]
+                x, y, z = b0[j], b1[j], b2[j]
+                row0[j] += d00 * x + d01 * y + d02 * z
+                row1[j] += d10 * x + d11 * y + d12 * z
+                row2[j] += d20 * x + d21 * y + d22 * z
 
 
 @njit(cache=True, inline="always")
@@ -96,10 +105,15 @@ def _add_product(
     gradient: np.ndarray, weighed: np.ndarray, start: int, first: int, last: int, lower: np.ndarray
 ) -> None:
     """Adds Bᵀ (D B) of strains from `start` on to the rows first … last of the lower triangle."""
-    for i in range(first, last):
-        row = lower[i]
+    for i in range(first, last, AT_ONCE):
+        row0, row1, row2 = lower[i], lower[i + 1], lower[i + 2]
         for k in range(start, len(gradient), AT_ONCE):
-            b0, b1, b2 = gradient[k, i], gradient[k + 1, i], gradient[k + 2, i]
+            b00, b01, b02 = gradient[k, i], gradient[k, i + 1], gradient[k, i + 2]
+            b10, b11, b12 = gradient[k + 1, i], gradient[k + 1, i + 1], gradient[k + 1, i + 2]
+            b20, b21, b22 = gradient[k + 2, i], gradient[k + 2, i + 1], gradient[k + 2, i + 2]
             w0, w1, w2 = weighed[k], weighed[k + 1], weighed[k + 2]
-            for j in range(i + 1):
-                row[j] += b0 * w0[j] + b1 * w1[j] + b2 * w2[j]
+            for j in range(i + AT_ONCE):  # what is above the diagonal is written over
+                x, y, z = w0[j], w1[j], w2[j]
+                row0[j] += b00 * x + b10 * y + b20 * z
+                row1[j] += b01 * x + b11 * y + b21 * z
+                row2[j] += b02 * x + b12 * y + b22 * z

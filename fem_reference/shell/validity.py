@@ -23,10 +23,11 @@ from collections.abc import Callable
 import numpy as np
 
 from fem_reference.shell.element import BENDING, MEMBRANE
-from fem_reference.shell.structure import ShellStructure, State
+from fem_reference.shell.state import State
+from fem_reference.shell.structure import ShellStructure
 from fem_reference.solving.equilibrium import Fault, Path, stability
 from fem_reference.solving.linear import DirectSolver
-from fem_reference.surface.biquadratic import GAUSS, jacobians, shape
+from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
 from sheetbench.scenes import Scene, Status, outside_model
 
 STRETCH_LIMIT = 5.0
@@ -50,7 +51,7 @@ def inspector(
 
 def inverted(structure: ShellStructure, state: State) -> Fault | None:
     """The element that has turned inside out most, if one has."""
-    value, slope = shape(*GAUSS)
+    value, slope = AT_GAUSS
     reference = structure.element.reference
     now = reference + structure.gather(state.change)
     along, across = np.einsum("agi,eic->aegc", slope, now[:, :9])

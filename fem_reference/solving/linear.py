@@ -54,7 +54,7 @@ class Factor:
         self.matrix = matrix
         self.inertia = inertia
         self._factors = factors
-        self._largest = np.abs(matrix.data).max(initial=0.0)
+        self._largest = _largest(matrix)
 
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
         """x (n,) with A x = b, refined once where its backward error exceeds `enough`. Raises SingularMatrix
@@ -100,7 +100,7 @@ class DirectSolver:
 
         Raises SingularMatrix on a zero pivot or an entry that is not finite.
         """
-        if not np.all(np.isfinite(matrix.data)):
+        if not np.isfinite(_largest(matrix)):
             raise SingularMatrix("an entry of the matrix is not finite")
         if self._fronts is not None:
             try:
@@ -120,6 +120,11 @@ class DirectSolver:
             self._analysis = rslab.analyze(columns, path="ldlt" if self.symmetric else "lu")
         factors = self._analysis.factor(columns)
         return Factor(matrix, factors, Inertia(*factors.inertia) if self.symmetric else None)
+
+
+def _largest(matrix: csr_matrix) -> float:
+    """Of the entries' magnitudes; nan or infinite where one is."""
+    return float(max(matrix.data.max(initial=0.0), -matrix.data.min(initial=0.0)))
 
 
 def solve_free(matrix: csr_matrix, force: np.ndarray, u: np.ndarray, free: np.ndarray) -> np.ndarray:

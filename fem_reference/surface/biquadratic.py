@@ -54,6 +54,7 @@ def interpolation(r: np.ndarray, s: np.ndarray, at: np.ndarray) -> np.ndarray:
 
 GAUSS = product_grid(THREE, THREE)
 GAUSS_WEIGHTS = np.outer(THREE_WEIGHTS, THREE_WEIGHTS).ravel()
+AT_GAUSS = shape(*GAUSS)
 
 
 def jacobians(nodes: np.ndarray, slope: np.ndarray) -> np.ndarray:
@@ -63,5 +64,5 @@ def jacobians(nodes: np.ndarray, slope: np.ndarray) -> np.ndarray:
 
 def areas(nodes: np.ndarray) -> np.ndarray:
     """w |det J| (m, 9) [m²] at the Gauss points of elements with nodes at (m, 9, 2) [m]."""
-    along, across = np.moveaxis(jacobians(nodes, shape(*GAUSS)[1]), -1, 0)  # ∂x/∂ξ, ∂x/∂η
+    along, across = np.moveaxis(jacobians(nodes, AT_GAUSS[1]), -1, 0)  # ∂x/∂ξ, ∂x/∂η
     return GAUSS_WEIGHTS * np.abs(along[..., 0] * across[..., 1] - along[..., 1] * across[..., 0])

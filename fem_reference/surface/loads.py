@@ -19,7 +19,7 @@ import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.surface.biquadratic import (
-    GAUSS,
+    AT_GAUSS,
     GAUSS_WEIGHTS,
     THREE,
     THREE_WEIGHTS,
@@ -67,7 +67,7 @@ class FollowerPressure:
         return np.arange(len(self.orientation))
 
     def force(self, vectors: np.ndarray) -> np.ndarray:
-        value, slope = shape(*GAUSS)
+        value, slope = AT_GAUSS
         along, across = np.einsum("agi,eic->aegc", slope, vectors[:, :9])
         out = np.zeros_like(vectors)
         out[:, :9] = np.einsum(
@@ -76,7 +76,7 @@ class FollowerPressure:
         return out
 
     def tangent(self, vectors: np.ndarray) -> np.ndarray:
-        value, slope = shape(*GAUSS)
+        value, slope = AT_GAUSS
         along, across = np.einsum("agi,eic->aegc", slope, vectors[:, :9])
         weighted = GAUSS_WEIGHTS[:, None] * value
         out = np.zeros((len(vectors), 18, 3, 18, 3))
@@ -177,7 +177,7 @@ def area_force(
 
     element_areas: w |det J| at the Gauss points (m, 9) [m²]; element_nodes: (m, 9).
     """
-    shares = np.bincount(element_nodes.ravel(), (element_areas @ shape(*GAUSS)[0]).ravel(), count)
+    shares = np.bincount(element_nodes.ravel(), (element_areas @ AT_GAUSS[0]).ravel(), count)
     return shares[:, None] * force_per_area
 
 

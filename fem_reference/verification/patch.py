@@ -16,7 +16,7 @@ from skfem import MeshQuad
 
 from fem_reference.plate import statics as plate
 from fem_reference.shell import statics as shell
-from fem_reference.shell.structure import State as ShellState
+from fem_reference.shell.state import State as ShellState
 from fem_reference.solid import statics as solid
 from fem_reference.solid.structure import State as SolidState
 from fem_reference.surface.mesh import rectangle

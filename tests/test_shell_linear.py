@@ -8,8 +8,9 @@ from scipy.sparse import csr_matrix, random_array
 
 import fem_reference.shell.statics
 import fem_reference.solving.linear
-from fem_reference.solving.equilibrium import nearest_to_zero, trace
+from fem_reference.solving.equilibrium import Start, trace
 from fem_reference.solving.linear import DirectSolver, SingularMatrix
+from fem_reference.solving.stability import nearest_to_zero
 from sheetbench import scenes
 from sheetbench.scenes import Status
 
@@ -110,6 +111,14 @@ def test_a_limit_point_ends_with_its_load_and_a_status():
     assert path.status in (Status.DIVERGED, Status.STEP_LIMIT, Status.SINGULAR)
     assert 0.45 < path.load_factor <= 0.5
     assert "load factor" in path.notes[-1]
+
+
+def test_a_start_close_to_an_unstable_equilibrium_is_left_for_the_path_from_rest():
+    """f = 4 u − 2 u² = 1 at u = 1 ∓ √½."""
+    spring = Spring(lambda u: 4 * u - 2 * u**2, lambda u: 4 - 4 * u)
+    for near in (0.29, 1.7, 1.0):
+        path = trace(spring, DirectSolver(), near=Start(near, 1.0, near, 1.0))
+        assert path.status is Status.CONVERGED and path.state == pytest.approx(1 - np.sqrt(0.5), rel=1e-8)
 
 
 def test_overflow_is_told():

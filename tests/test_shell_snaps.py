@@ -13,8 +13,9 @@ from fem_reference.shell import statics as shell
 from fem_reference.shell.state import State
 from fem_reference.shell.structure import ShellStructure
 from fem_reference.solving import pseudo_transient
-from fem_reference.solving.equilibrium import Path, trace
+from fem_reference.solving.equilibrium import trace
 from fem_reference.solving.linear import DirectSolver
+from fem_reference.solving.path import Path
 from fem_reference.solving.pseudo_transient import relax, settler
 from fem_reference.surface.loads import point_force
 from fem_reference.surface.mesh import rectangle

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_matrix
 
-from fem_reference.solving.equilibrium import SNAPS, Path, StepFailed, trace
+from fem_reference.solving.equilibrium import SNAPS, trace
 from fem_reference.solving.linear import DirectSolver
+from fem_reference.solving.path import Path, StepFailed
 from sheetbench.scenes import Status
 
 

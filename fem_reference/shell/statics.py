@@ -8,12 +8,14 @@ and follower loads. Rotations may be large; the weight has no couple on the dire
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
 from skfem import MeshQuad
 
+from fem_reference.shell import coarse_start
 from fem_reference.shell.balance import balance
 from fem_reference.shell.element import Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
@@ -21,8 +23,9 @@ from fem_reference.shell.laws import LAWS
 from fem_reference.shell.state import State
 from fem_reference.shell.structure import UP, ShellStructure
 from fem_reference.shell.validity import STRETCHED, inspector, judge, membrane_strain
-from fem_reference.solving.equilibrium import Path, Progress, trace
+from fem_reference.solving.equilibrium import Start, trace
 from fem_reference.solving.linear import DirectSolver
+from fem_reference.solving.path import Path, Progress
 from fem_reference.solving.pseudo_transient import settler
 from fem_reference.surface import loads, rod
 from fem_reference.surface import supports as surface_supports
@@ -58,10 +61,10 @@ def solve(
     """
     require_static(scene)
     counts = divisions(scene.sheet, elements)
-    run = _run(mesh_of(scene, counts, graded), scene, section, law, graded, progress)
-    fallback, spent = "", None
+    run, *spent = _runs(scene, counts, section, law, graded, progress)
+    fallback = ""
     if run.path.fault is STRETCHED:
-        fallback, spent, graded = "divided evenly, for it bends much", run, False
+        fallback, spent, graded = "divided evenly, for it bends much", [run, *spent], False
         run = _run(mesh_of(scene, counts, graded), scene, section, law, graded, progress)
     settings: dict[str, Any] = {"elements": list(counts), "graded": graded, "law": law}
     if section is not None:
@@ -89,6 +92,21 @@ class _Run(NamedTuple):
     solve_seconds: float
 
 
+def _runs(
+    scene: Scene,
+    counts: tuple[int, int],
+    section: Section | None,
+    law: str,
+    graded: bool,
+    progress: Progress | None,
+) -> list[_Run]:
+    """The run on a mesh of so many elements, then those on coarser ones that it has begun with."""
+    few = coarse_start.coarse(counts, scene)
+    begun = [] if few is None else _runs(scene, few, section, law, graded, progress)
+    near = begun[0] if begun and coarse_start.plain(begun[0].path) else None
+    return [_run(mesh_of(scene, counts, graded), scene, section, law, graded, progress, near), *begun]
+
+
 def _run(
     mesh: MeshQuad,
     scene: Scene,
@@ -96,14 +114,19 @@ def _run(
     law: str = STRAIN_LAW,
     graded: bool = False,
     progress: Progress | None = None,
+    near: _Run | None = None,
 ) -> _Run:
-    """graded: give up where stretched elements bend too much (see `validity`)."""
+    """graded: give up where stretched elements bend too much (see `validity`); near: where to begin."""
     begin = perf_counter()
     structure, nodes = discretise(mesh, scene, section, law)
     solver = DirectSolver(structure.symmetric, fronts=structure.fronts)
+    begin_at: Start[State] | None = None
+    if near is not None:
+        found = near.mesh, near.structure.element_nodes, near.path.state
+        begin_at = coarse_start.start(*found, structure, nodes)
     ready = perf_counter()
     inspect, settle = inspector(scene, structure, solver, graded), settler(structure, solver)
-    path = trace(structure, solver, inspect, settle, progress)
+    path = trace(structure, solver, inspect, settle, progress, begin_at)
     return _Run(mesh, structure, nodes, path, ready - begin, perf_counter() - ready)
 
 
@@ -120,11 +143,11 @@ def _solution(
     label: str,
     settings: dict[str, Any],
     fallback: str = "",
-    spent: _Run | None = None,
+    spent: Sequence[_Run] = (),
     own: bool = False,
 ) -> Solution:
-    """The answer of a run; spent: one before it that led nowhere; own: whether the mesh has an outline of its
-    own."""
+    """The answer of a run; spent: those before it, the last first; own: whether the mesh has an outline of
+    its own."""
     structure, path = run.structure, run.path
     stretched = membrane_strain(structure, path.state)
     status, notes = judge(scene, structure, path, stretched)
@@ -138,7 +161,7 @@ def _solution(
     wrenches, line_force = exerted(scene, edges, structure.supports.moved, held)
     fields = {"actuator_line_force": line_force} if scene.actuators else {}
     surface = Surface(run.mesh, structure.element_nodes, run.nodes, position, director, own)
-    runs = [run] if spent is None else [spent, run]
+    runs = [*reversed(spent), run]
     of_rods = {"rod": structure.rod_energy(path.state)} if scene.actuators else {}
     return Solution(
         model="shell",

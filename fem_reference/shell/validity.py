@@ -25,8 +25,9 @@ import numpy as np
 from fem_reference.shell.element import BENDING, MEMBRANE
 from fem_reference.shell.state import State
 from fem_reference.shell.structure import ShellStructure
-from fem_reference.solving.equilibrium import Fault, Path, stability
 from fem_reference.solving.linear import DirectSolver
+from fem_reference.solving.path import Fault, Path
+from fem_reference.solving.stability import stability
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
 from sheetbench.scenes import Scene, Status, outside_model
 

@@ -28,8 +28,9 @@ from fem_reference.solid.materials import LAWS, lame
 from fem_reference.solid.mesh import Columns
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.structure import Forces, SolidStructure, State
-from fem_reference.solving.equilibrium import Progress, trace
+from fem_reference.solving.equilibrium import trace
 from fem_reference.solving.linear import DirectSolver
+from fem_reference.solving.path import Progress
 from fem_reference.surface import loads, rod
 from fem_reference.surface.actuator_forces import Held, OnEdge, exerted
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, require_upright

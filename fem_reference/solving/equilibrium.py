@@ -25,17 +25,17 @@ tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Generic, NamedTuple
+from dataclasses import dataclass
+from typing import Generic
 
 import numpy as np
-from scipy.sparse import csr_matrix
-from scipy.sparse.linalg import LinearOperator, eigs
 
 from fem_reference.solving.linear import DirectSolver, Factor, SingularMatrix
+from fem_reference.solving.path import FACTORISATIONS, Fault, Path, Progress, StepFailed
+from fem_reference.solving.stability import stability
 from fem_reference.solving.structure import Forces, State, Structure
 from fem_reference.solving.threads import one_blas_thread
-from sheetbench.scenes import Iteration, Status
+from sheetbench.scenes import Status
 
 TOLERANCE = 5e-9  # residual, relative to the forces that balance
 SOLVED = 1e-14  # backward error of a correction that is not refined: the next one is its refinement
@@ -45,57 +45,12 @@ ITERATIONS = 24  # in one load step
 BACK = 4  # corrections that are no shorter than so many before are given up
 EASY = 6  # a load step that took no more is followed by one GROWTH times as long
 GROWTH = 4.0
-FACTORISATIONS = 400  # in all
 FIRST_REACH = 8.0  # sizes of the structure that the first linear step may move it
 SMALLEST_STEP = 2.0**-10
 FARTHEST = 1e3  # a step beyond so many sizes of the structure has diverged
 SNAPS = 12  # of one path
 SNAP_STEP = 0.01  # in load factor, past the limit point
 SNAPPING = 4 * FACTORISATIONS  # in all, where the structure snaps
-
-Progress = Callable[[Iteration], None]
-
-
-class Fault(NamedTuple):
-    """What makes an equilibrium worthless: the status it deserves and a sentence."""
-
-    status: Status
-    message: str
-
-
-@dataclass
-class Path(Generic[State]):
-    """Where the tracing stands: the last equilibrium, its load factor, and what it took.
-
-    snaps: load factors that it snapped at; fault: what has ended it early; notes: what to
-    say of it; progress: told of every iteration; factor: of the equilibrium's tangent, where it is at hand.
-    """
-
-    state: State
-    load_factor: float = 0.0
-    status: Status = Status.STEP_LIMIT
-    factorisations: int = 0
-    limit: int = FACTORISATIONS  # of them
-    history: list[Iteration] = field(default_factory=list)
-    snaps: list[float] = field(default_factory=list)
-    fault: Fault | None = None
-    notes: list[str] = field(default_factory=list)
-    progress: Progress | None = None
-    factor: Factor | None = None
-
-    def note(self, load_factor: float, residual: float, step: float) -> None:
-        """Keep an iteration and tell whoever watches."""
-        self.history.append(Iteration(load_factor, residual, step))
-        if self.progress is not None:
-            self.progress(self.history[-1])
-
-
-class StepFailed(ArithmeticError):
-    """A load step found no equilibrium. status: how it ended; length: of its first linear step."""
-
-    def __init__(self, status: Status, said: str, length: float):
-        super().__init__(said)
-        self.status, self.length = status, length
 
 
 def trace(
@@ -104,17 +59,21 @@ def trace(
     inspect: Callable[[Path[State]], Fault | None] = lambda path: None,
     settle: Callable[[Path[State], float], State] | None = None,
     progress: Progress | None = None,
+    near: Start[State] | None = None,
 ) -> Path[State]:
     """The equilibrium at load factor 1, or the last one on the way with the reason it is the last.
 
     inspect: shown the path at every equilibrium on the way; a fault, if it finds one, ends it there.
     settle: the stable state of a structure under conservative loads that a path leads to at a load factor
     beyond a limit point, for the path to go on from; it raises StepFailed where it finds none.
-    progress: called once an iteration.
+    progress: called once an iteration. near: a state close to the equilibrium, to begin at; where that leads
+    to none that is stable, the path begins at rest.
     """
     with one_blas_thread():
         path = Path(structure.rest(), progress=progress)
-        ended = _follow(structure, solver, path, inspect)
+        ended: StepFailed | Fault | None = None
+        if near is None or not _arrived(structure, solver, path, inspect, near):
+            ended = _follow(structure, solver, path, inspect)
         while isinstance(ended, StepFailed):
             tried = ""
             if settle is not None and structure.symmetric and _at_limit_point(path, ended):
@@ -134,6 +93,26 @@ def trace(
         path.notes.extend([said] if said else [])
         path.factor = None  # an answer is kept longer than that
         return path
+
+
+def _arrived(
+    structure: Structure[State, Forces],
+    solver: DirectSolver,
+    path: Path[State],
+    inspect: Callable[[Path[State]], Fault | None],
+    near: Start[State],
+) -> bool:
+    """Whether a path is at a stable equilibrium close to a start; if not, it is where it was."""
+    before = path.state, path.load_factor, path.factor
+    try:
+        state, factor = newton(structure, solver, path, near)
+    except StepFailed:
+        return False
+    path.state, path.load_factor, path.factor = state, near.target, factor
+    if inspect(path) is None and stability(structure, solver, path)[0] is Status.CONVERGED:
+        return True
+    path.state, path.load_factor, path.factor = before
+    return False
 
 
 def _follow(
@@ -304,45 +283,3 @@ def _give_up(
         if status is not Status.CONVERGED:
             message += f"; {said} there: the answer is not unique on this grid"
     return Fault(failure.status, message)
-
-
-def stability(
-    structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]
-) -> tuple[Status, str]:
-    """Whether the tangent at the path's last equilibrium is positive definite or, under follower loads, has
-    no real eigenvalue below 0; a sentence where it is not."""
-    try:
-        if structure.symmetric:
-            path.factor = path.factor or solver.factor(_tangent(structure, path))
-            inertia = path.factor.inertia
-            if inertia is None:
-                return Status.CONVERGED, "stability not checked: the factors do not tell the inertia"
-            negative, zero = inertia.negative, inertia.zero
-        else:
-            lowest = nearest_to_zero(_tangent(structure, path), solver)
-            negative, zero = int(np.sum((lowest.imag == 0.0) & (lowest.real < 0.0))), 0
-    except SingularMatrix as error:
-        return Status.SINGULAR, str(error)
-    if zero:
-        return Status.SINGULAR, f"the tangent has {zero} zero eigenvalues"
-    if negative:
-        return Status.UNSTABLE, f"the tangent has {negative} negative eigenvalues"
-    return Status.CONVERGED, ""
-
-
-def _tangent(structure: Structure[State, Forces], path: Path[State]) -> csr_matrix:
-    """At the path's last equilibrium; counted as one that is factorised."""
-    path.factorisations += 1
-    forces = structure.forces(path.state, path.load_factor)
-    return structure.system(path.state, forces, path.load_factor, mixed=False)[0]
-
-
-def nearest_to_zero(matrix: csr_matrix, solver: DirectSolver, count: int = 6) -> np.ndarray:
-    """Eigenvalues (complex) of least magnitude of an unsymmetric matrix, by Arnoldi on its inverse."""
-    n = matrix.shape[0]
-    factor = solver.factor(matrix)
-    if n <= count + 2:
-        return np.linalg.eigvals(matrix.toarray()).astype(complex)
-    inverse = LinearOperator((n, n), matvec=factor.solve, dtype=float)
-    start = np.random.default_rng(0).uniform(-1.0, 1.0, n)
-    return eigs(matrix, count, sigma=0.0, OPinv=inverse, v0=start, return_eigenvectors=False)

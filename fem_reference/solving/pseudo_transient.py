@@ -24,8 +24,9 @@ from typing import Generic
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from fem_reference.solving.equilibrium import TOLERANCE, Path, Start, StepFailed, newton
+from fem_reference.solving.equilibrium import TOLERANCE, Start, newton
 from fem_reference.solving.linear import DirectSolver, Factor, SingularMatrix
+from fem_reference.solving.path import Path, StepFailed
 from fem_reference.solving.structure import Creeping, Forces, State
 from sheetbench.scenes import Status
 

@@ -1,0 +1,57 @@
+"""Where the tracing of an equilibrium stands, and what ends it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Generic, NamedTuple
+
+from fem_reference.solving.linear import Factor
+from fem_reference.solving.structure import State
+from sheetbench.scenes import Iteration, Status
+
+FACTORISATIONS = 400  # in all
+
+Progress = Callable[[Iteration], None]
+
+
+class Fault(NamedTuple):
+    """What makes an equilibrium worthless: the status it deserves and a sentence."""
+
+    status: Status
+    message: str
+
+
+@dataclass
+class Path(Generic[State]):
+    """Where the tracing stands: the last equilibrium, its load factor, and what it took.
+
+    snaps: load factors that it snapped at; fault: what has ended it early; notes: what to
+    say of it; progress: told of every iteration; factor: of the equilibrium's tangent, where it is at hand.
+    """
+
+    state: State
+    load_factor: float = 0.0
+    status: Status = Status.STEP_LIMIT
+    factorisations: int = 0
+    limit: int = FACTORISATIONS  # of them
+    history: list[Iteration] = field(default_factory=list)
+    snaps: list[float] = field(default_factory=list)
+    fault: Fault | None = None
+    notes: list[str] = field(default_factory=list)
+    progress: Progress | None = None
+    factor: Factor | None = None
+
+    def note(self, load_factor: float, residual: float, step: float) -> None:
+        """Keep an iteration and tell whoever watches."""
+        self.history.append(Iteration(load_factor, residual, step))
+        if self.progress is not None:
+            self.progress(self.history[-1])
+
+
+class StepFailed(ArithmeticError):
+    """A load step found no equilibrium. status: how it ended; length: of its first linear step."""
+
+    def __init__(self, status: Status, said: str, length: float):
+        super().__init__(said)
+        self.status, self.length = status, length

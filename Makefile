@@ -26,7 +26,7 @@ help:
 	@echo "make catalogue the table of the catalogue's answers, tests/catalogue.json, for a change that is meant"
 	@echo "make verify    the references against published values, every row (about a minute)"
 	@echo "make locking   the locking sweeps and their picture (files in $(OUT)/)"
-	@echo "make coverage  how often the references' error bars hold, on forty drawn scenes (20 minutes of one processor, resumed; files in $(OUT)/coverage/)"
+	@echo "make coverage  how often the references' error bars hold, on forty drawn scenes (20 minutes of one processor, resumed; files in $(OUT)/coverage/): a row of docs/theory.md"
 	@echo "make central   the table of the calibration central, trained anew (three minutes)"
 	@echo "make simulators  other simulators with what we export for them (two minutes; files in $(OUT)/simulators/)"
 	@echo "make transfer  every calibration on every scene of the transfer study: docs/transfer.md (ten minutes)"
@@ -94,7 +94,8 @@ locking: install
 	@$(BIN)/sheetbench verify --locking --out $(OUT)
 
 coverage: install
-	@$(BIN)/sheetbench verify --coverage --out $(OUT)/coverage
+	@$(BIN)/sheetbench verify --coverage --out $(OUT)/coverage; status=$$?; \
+	  $(BIN)/python docs/coverage_row.py $(OUT)/coverage/coverage.json && exit $$status
 
 central: install
 	@$(BIN)/python -m comparisons.cli.central_table

@@ -89,20 +89,32 @@ def test_a_loose_tolerance_costs_no_more_than_a_tight_one() -> None:
     assert tight.choice is not None and tight.choice.model == "shell"
 
 
-def test_graded_lattices_are_tried_where_layers_ask_for_them() -> None:
-    """The curved edge: nearer than even ones on the same grid, and the advice says why, or why not."""
+def test_lattices_are_tried_with_what_auto_chooses() -> None:
+    """The curved edge: the springs that `--grading auto` takes with no calibration named, even and graded,
+    nearer than the usual ones on the same grid, and the advice says why, or why not."""
     curved = advise(scenes.load("curved-edge"), 0.03, grading="auto")
     errors = {
         (tuple(row["settings"]["grid"]), row["settings"].get("grading", 0.0)): row["error"]
         for row in curved.tried
-        if row["model"] == "lumped"
+        if row["model"] == "lumped" and row["settings"]["calibration"] == "consistent-membrane"
     }
-    graded = [grid for grid, grading in errors if grading]
-    assert graded and all(errors[grid, 0.3] < errors[grid, 0.0] for grid in graded if (grid, 0.0) in errors)
+    usual = {
+        tuple(row["settings"]["grid"]): row["error"]
+        for row in curved.tried
+        if row["settings"].get("calibration") == "consistent"
+    }
+    both = [grid for grid, grading in errors if grid in usual and not grading]
+    assert (9, 9, 2) in usual and any(grading for _, grading in errors)
+    assert all(errors[grid, 0.0] < usual[grid] for grid in both if grid[0] > 3)
+    assert curved.calibration.endswith("ν = 0.48 is above 0.4")
+    assert curved.calibration.startswith("calibration consistent-membrane")
+    assert curved.as_dict()["calibration"] == curved.calibration
     assert "bent by 4 1/m" in curved.grading and curved.as_dict()["grading"] == curved.grading
     taken = Candidate("lumped", {"grid": [9, 9, 2], "calibration": "consistent", "grading": 0.3})
     line = replace(curved, choice=taken).report().document["command"]
     assert line == "sheetbench compare curved-edge --lumped 9x9x2 --grading 0.3"
+    line = replace(curved, choice=taken.but(calibration="consistent-membrane")).report().document["command"]
+    assert line.endswith("--lumped 9x9x2 --calibration consistent-membrane --grading 0.3")
 
 
 def test_the_advice_says_why_nothing_is_graded() -> None:

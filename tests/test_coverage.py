@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 from itertools import islice
 from pathlib import Path
@@ -96,3 +97,17 @@ def test_options_that_do_not_go_together_are_refused(wrong: list[str]) -> None:
     with pytest.raises(SystemExit) as caught:
         main(["verify", *wrong])
     assert caught.value.code == 2
+
+
+def test_the_studys_row_stands_in_its_table_once(monkeypatch):
+    """`make coverage` writes it; the rest of the page stays to the letter."""
+    monkeypatch.syspath_prepend(Path(__file__).parents[1] / "docs")
+    row = importlib.import_module("coverage_row")
+    page = row.PAGE.read_text(encoding="utf-8")
+    found = [{"model": "solid", "elements": 16, "scenes": 40, "inside": 0.951, "loose": 4.04}]
+    once = row.with_row(page, found)
+    added = next(line for line in once.splitlines() if line.startswith(row.FIRST))
+    assert added == "| `make coverage` (40 scenes) |  |  |  |  |  | 95.1 / 4.0 |"
+    assert row.with_row(once, found) == once
+    without = [line for line in page.splitlines() if not line.startswith(row.FIRST)]
+    assert [line for line in once.splitlines() if line != added] == without

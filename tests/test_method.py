@@ -13,6 +13,7 @@ from comparisons.comparison.comparison import error
 from comparisons.models.method import FAR, MEMBRANE, chosen, method_for
 from comparisons.models.registry import solve
 from comparisons.models.scales import scales
+from comparisons.tradeoff.asked import of_statics
 from comparisons.transfer.scenes import transfer_scenes
 from comparisons.transfer.study import _Study
 from comparisons.transfer.tasks import points
@@ -26,6 +27,14 @@ def held(*edges: str, poisson: float = 0.3, softer: float = 1.0) -> Scene:
     """The seed's sheet of another material, clamped along these edges."""
     material = RUBBER.material.replace(poisson=poisson, young=RUBBER.material.young / softer)
     return RUBBER.replace(supports=tuple(Clamped(edge=edge) for edge in edges), material=material)
+
+
+def test_a_trade_names_the_springs_that_auto_takes() -> None:
+    """Each once, on grids and pairs of grids, with the reason; what is named outright stays."""
+    measure = of_statics(RUBBER, "3,5", "consistent,consistent-membrane,auto", {}, of_two="3:5")
+    names = [candidate.settings["calibration"] for candidate in measure.args[1]]
+    assert names == [*2 * ["consistent"], *2 * [MEMBRANE], "consistent", MEMBRANE]
+    assert measure.keywords["reasons"] == (f"calibration {MEMBRANE}: ν = 0.48 is above 0.4",)
 
 
 def test_by_edges_load_and_poissons_ratio() -> None:

@@ -22,6 +22,7 @@ from comparisons.models.grading import Grading
 from comparisons.models.scales import Scales, scales
 from comparisons.report.report import Report
 from comparisons.report.work import Progress, silent
+from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import MASSES
@@ -35,8 +36,8 @@ STEEP = 0.1  # of the tolerance: the finest error bar a decision may hang on
 class Advice:
     """What to solve, and why. error, seconds: predicted for the choice; bar: of the judge.
 
-    choice is None, with `message` saying why, where no model converges or none in `budget` is known. grading:
-    what was made of graded lattices, where they were asked for.
+    choice is None, with `message` saying why, where no model converges or none in `budget` is known. grading,
+    calibration: what was made of graded lattices and of other springs, where they were asked for.
     """
 
     scene: Scene
@@ -53,6 +54,7 @@ class Advice:
     tried: tuple[dict[str, Any], ...] = field(repr=False)
     message: str = ""
     grading: str = ""
+    calibration: str = ""
 
     @property
     def reason(self) -> str:
@@ -88,7 +90,7 @@ class Advice:
             "probing_seconds": self.probing_seconds,
             "tried": list(self.tried),
             "message": self.message,
-            **({"grading": self.grading} if self.grading else {}),
+            **{name: said for name in ("grading", "calibration") if (said := getattr(self, name))},
         }
 
     def report(self, named: str = "") -> Report:
@@ -102,6 +104,7 @@ def advise(
     budget: float | None = None,
     *,
     grading: Grading = None,
+    calibration: str | None = None,
     large: bool = False,
     progress: Progress = silent,
 ) -> Advice:
@@ -109,13 +112,15 @@ def advise(
 
     With both, the cheapest that meets the tolerance; where that takes longer, the most accurate in time, and
     `met` is false. grading: lattices so graded may be chosen too, a number or "auto"
-    (`comparisons.models.grading`). Models that take more memory than there is are left out unless `large`.
-    progress: told of every solve. Raises SceneError for a scene without a static answer, BadInput where not
-    even the coarsest judges fit.
+    (`comparisons.models.grading`); calibration: lattices with these springs too, "auto" as
+    `comparisons.models.method` chooses, which the grading "auto" brings along. Models that take more memory
+    than there is are left out unless `large`. progress: told of every solve. Raises SceneError for a scene
+    without a static answer, BadInput where not even the coarsest judges fit or grading and calibration do not
+    go together.
     """
     scene = scene_of(scene)
     require_static(scene)
-    probing = Probing(scene, large, progress, grading)
+    probing = Probing(scene, large, progress, grading, calibration)
     sizes = scales(scene)
     resolution = tolerance or 0.01
     for _ in range(3):
@@ -242,6 +247,7 @@ def _advice(
         tried=tried,
         message=message,
         grading=_grading(probing, chosen),
+        calibration=_calibration(probing, chosen),
     )
 
 
@@ -257,6 +263,15 @@ def _grading(probing: Probing, chosen: Trial | None) -> str:
     taken = "taken" if lattice.settings.get("grading") else "not taken"
     said = f"grading {value:g} {taken}" if value else "no grading"
     return f"{said}, {masses} masses" + (f": {why}" if why else "")
+
+
+def _calibration(probing: Probing, chosen: Trial | None) -> str:
+    """What was made of the springs that were asked for."""
+    if probing.method == CALIBRATION and not probing.because:
+        return ""
+    taken = chosen is not None and chosen.candidate.settings.get("calibration") == probing.method
+    said = f"calibration {probing.method} {'taken' if taken else 'not taken'}"
+    return f"{said}: {probing.because}" if probing.because else said
 
 
 def _effects(

@@ -19,12 +19,15 @@ from comparisons.comparison.comparison import error
 from comparisons.models import registry as models
 from comparisons.models.candidate import Candidate, series
 from comparisons.models.grading import Grading, grading_of, plain, read
+from comparisons.models.method import chosen
 from comparisons.models.sizes import has_room, require_room
+from comparisons.models.springs import check_lattice
 from comparisons.models.symmetry import planes
 from comparisons.report.work import Progress, silent
+from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.grid import near_square
+from sheetbench.scenes.grid import LAYERS, MASSES, near_square
 
 JUDGES = (4, 6, 8, 12, 16, 24, 32)  # elements along the shorter side
 FIRST = 3  # of them are always solved
@@ -52,13 +55,23 @@ class Probing:
     """The solves of a scene so far."""
 
     def __init__(
-        self, scene: Scene, large: bool = False, progress: Progress = silent, grading: Grading = None
+        self,
+        scene: Scene,
+        large: bool = False,
+        progress: Progress = silent,
+        grading: Grading = None,
+        calibration: str | None = None,
     ) -> None:
         """large: whether to try what takes more memory than there is; grading: by how much lattices may be
-        graded too. Raises BadInput for a grading that is none and where the first judges take too much
-        memory, otherwise the larger models are left out."""
+        graded too; calibration: which springs they may have too, by `comparisons.models.method`. Raises
+        BadInput where these are none or do not go together and where the first judges take too much memory,
+        otherwise the larger models are left out."""
+        check_lattice(calibration, None, None, grading)
         self.scene, self.large, self.progress = scene, large, progress
         self.grading = read(grading)
+        usual = (MASSES, MASSES, LAYERS)
+        method, self.because = chosen(scene, usual, calibration, self.grading)
+        self.method = method or CALIBRATION
         self.points = scene.probe_points()
         self.planes = planes(scene)
         self.trials: dict[str, Trial] = {}
@@ -74,7 +87,7 @@ class Probing:
         for axis in self.planes:
             along[axis] += along[axis] % 2
         if model == "lumped":
-            settings |= {"grid": [along[0] + 1, along[1] + 1, 2], "calibration": "consistent"}
+            settings |= {"grid": [along[0] + 1, along[1] + 1, 2], "calibration": CALIBRATION}
         else:
             settings["elements"] = along
         if self.planes:
@@ -84,7 +97,8 @@ class Probing:
     def candidates(self, linear: bool) -> list[Candidate]:
         """What may be chosen: lattices and shells; the linear lattice and the plate where `linear`."""
         found = [self.candidate("lumped", n) for n in CELLS["lumped"]]
-        found += self.graded(found)
+        others = [one.but(calibration=self.method) for one in found] if self.method != CALIBRATION else []
+        found += others + self.graded(others or found)
         found += [self.candidate("shell", n) for n in CELLS["shell"]]
         if linear:
             found += [self.candidate("lumped", n, linear=True) for n in CELLS["lumped"]]
@@ -98,7 +112,8 @@ class Probing:
 
     def grading_of(self, lattice: Candidate) -> tuple[Graded | None, str]:
         """The grading that a lattice may have, and why where that is chosen."""
-        return grading_of(self.scene, lattice.settings["grid"], self.grading)
+        settings = lattice.settings
+        return grading_of(self.scene, settings["grid"], self.grading, calibration=settings["calibration"])
 
     def trial(self, candidate: Candidate, repeats: int = REPEATS) -> Trial:
         """The candidate's answer and time; solved once, whoever asks."""

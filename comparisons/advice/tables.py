@@ -64,7 +64,7 @@ def sentences(advice: Advice) -> list[str]:
         f"h/a = {number(scales.slenderness, '.3g')}, q a/(E h) = {number(scales.strain, '.2g')}",
         f"needs {', '.join(advice.needs)}",
         *(f"leaves out {left}" for left in advice.left_out),
-        *([advice.grading] if advice.grading else []),
+        *(said for said in (advice.grading, advice.calibration) if said),
         f"{advice.reason} (probing took {advice.probing_seconds:.2g} s)",
     ]
 
@@ -77,12 +77,10 @@ def command(advice: Advice, named: str = "") -> str | None:
     mirrored = ["--symmetry"] if settings.pop("symmetry", False) else []
     graded = settings.pop("grading", 0.0) if model == "lumped" and "linear" not in settings else 0.0
     mirrored += ["--grading", f"{read(graded):g}"] if graded else []
-    if (
-        model == "lumped"
-        and settings.keys() == {"grid", "calibration"}
-        and settings["calibration"] == CALIBRATION
-    ):
-        options = ["--lumped", "x".join(map(str, settings["grid"])), *mirrored]
+    if model == "lumped" and settings.keys() == {"grid", "calibration"}:
+        named_too = settings["calibration"] != CALIBRATION
+        springs = ["--calibration", settings["calibration"]] if named_too else []
+        options = ["--lumped", "x".join(map(str, settings["grid"])), *springs, *mirrored]
     elif model != "lumped" and settings.keys() == {"elements"}:
         options = ["--reference", model, "--elements", "x".join(map(str, settings["elements"])), *mirrored]
     else:

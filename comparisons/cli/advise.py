@@ -26,6 +26,14 @@ def command(
             show_default=False,
         ),
     ] = None,
+    calibration: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="Lattices with these springs may be chosen too; auto: by the scene, as for --grading auto.",
+            show_default=False,
+        ),
+    ] = None,
     large: Large = False,
     json: Json = False,
     out: Out = None,
@@ -48,5 +56,13 @@ def command(
     if tolerance is not None:
         checked_tolerance(tolerance)
     with finish("advise", json, out, overwrite, scene=asked) as end:
-        found = advise(asked, tolerance, budget, grading=grading, large=large, progress=end.progress)
+        found = advise(
+            asked,
+            tolerance,
+            budget,
+            grading=grading,
+            calibration=calibration,
+            large=large,
+            progress=end.progress,
+        )
         end(found.report(scene))

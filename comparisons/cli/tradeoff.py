@@ -22,7 +22,7 @@ from comparisons.cli.options import (
     Wait,
     Workers,
 )
-from sheetbench.choices import CALIBRATION, CALIBRATIONS, INTEGRATORS, REFERENCES, listed
+from sheetbench.choices import AUTO, CALIBRATION, CALIBRATIONS, INTEGRATORS, REFERENCES, listed
 
 if TYPE_CHECKING:
     from comparisons.tradeoff.motion import DynamicTradeoff
@@ -56,7 +56,10 @@ def command(
     ] = None,
     grading: Grading = None,
     calibration: Annotated[
-        str, typer.Option(metavar="NAMES", help=f"Calibrations of every grid: {listed(CALIBRATIONS)}.")
+        str,
+        typer.Option(
+            metavar="NAMES", help=f"Calibrations of every grid: {listed(CALIBRATIONS)}; auto: by the scene."
+        ),
     ] = f"{CALIBRATION},uniform",
     plate: Annotated[
         str,
@@ -127,7 +130,7 @@ def command(
         asked = load_static(scene)
         grids = GRIDS if lumped is None else lumped
         if lumped_pair is None:
-            usual = lumped is None and CALIBRATION in items(calibration)
+            usual = lumped is None and not {CALIBRATION, AUTO}.isdisjoint(items(calibration))
             lumped_pair = PAIRS if usual else ""
         meshes = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
         measure = of_statics(

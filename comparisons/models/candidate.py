@@ -15,7 +15,7 @@ from typing import Any
 from comparisons.models import plugins
 from comparisons.models.grids import parse_elements, parse_grid
 from comparisons.models.programs import PREFIX
-from sheetbench.choices import EXTRAPOLATED
+from sheetbench.choices import AUTO, EXTRAPOLATED
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import LAYERS
@@ -75,7 +75,7 @@ def pairs(sheet: Sheet, grids: Iterable[str], calibrations: Iterable[str]) -> li
         if not colon:
             raise BadInput(f"--lumped-pair = '{text}': two grids are written 5:9, the coarser first")
         shapes.append({"grid": list(parse_grid(sheet, finer)), "coarser": list(parse_grid(sheet, coarser))})
-    named = [name for name in calibrations if name in EXTRAPOLATED]
+    named = [name for name in calibrations if name in (AUTO, *EXTRAPOLATED)]
     if shapes and not named:
         raise BadInput(f"--lumped-pair: of calibrations there is none of {', '.join(EXTRAPOLATED)}")
     return [Candidate("lumped-pair", {**shape, "calibration": name}) for name in named for shape in shapes]

@@ -8,6 +8,7 @@ from functools import partial
 from comparisons.models.candidate import Candidate, items, lattices, pairs, parse_model, references
 from comparisons.models.grading import Grading, graded
 from comparisons.models.grids import parse_elements
+from comparisons.models.method import named
 from comparisons.tradeoff.motion import DynamicTradeoff, dynamic_tradeoff
 from comparisons.tradeoff.statics import Tradeoff, tradeoff
 from sheetbench.choices import REFERENCE
@@ -31,11 +32,13 @@ def of_statics(
     """The trade of lattices, of references on meshes by name, and of models as `parse_model` reads them.
 
     symmetry: of all but solids and the models; elements: of the reference that all are held against;
-    grading: of the lattices whose calibration takes one; of_two: pairs of grids, extrapolated.
+    grading: of the lattices whose calibration takes one; of_two: pairs of grids, extrapolated. The
+    calibration "auto" is the one for the scene (`comparisons.models.method`).
     Raises BadInput for what cannot be read, no model at all, and a reference of a single element.
     """
     springs = items(calibrations)
     asked = lattices(scene.sheet, items(grids), springs) + pairs(scene.sheet, items(of_two), springs)
+    asked, chosen = named(scene, asked)
     candidates, reasons = graded(scene, asked, grading)
     for name, sizes in meshes.items():
         candidates += references(name, items(sizes))
@@ -45,7 +48,7 @@ def of_statics(
     if not candidates:
         raise BadInput("no model left to measure")
     judge = None if elements is None else Candidate(REFERENCE, {"elements": _halved_too(elements)})
-    return partial(tradeoff, scene, candidates, reference=judge, repeats=repeats, reasons=reasons)
+    return partial(tradeoff, scene, candidates, reference=judge, repeats=repeats, reasons=chosen + reasons)
 
 
 def _halved_too(text: str) -> int | list[int]:

@@ -239,7 +239,7 @@ def test_the_sheet_follows_a_slow_ramp_through_the_static_solutions():
     asked = scene(
         "one-edge-clamped", [{"curvature": ramp, "damping_time": 5e-3}], gravity=False, damping_time=1e-2
     )
-    history = lumped.simulate(asked, springs(asked), 2.0, step=0.01, every=0.25)
+    history = lumped.simulate(asked, springs(asked), 2.0, step=0.02, every=0.5)
     assert history.status is scenes.Status.CONVERGED
     static = [
         lumped.solve(scene("one-edge-clamped", [{"curvature": 2.0 * t}], gravity=False), springs(asked))
@@ -248,24 +248,24 @@ def test_the_sheet_follows_a_slow_ramp_through_the_static_solutions():
     truth = np.array([s.displacement(asked.probe_points()) for s in static]).swapaxes(0, 1)
     found = np.array([history.probes[name][1:] for name in asked.probes])
     assert np.abs(found - truth).max() < 0.01 * np.abs(truth).max()
-    assert history.actuators["x1"].shape == (9, 8, 6)
+    assert history.actuators["x1"].shape == (5, 8, 6)
 
 
 @pytest.fixture(scope="module")
 def driven():
     """A sheet that a chain bends, and its motion in fine steps."""
-    ramp = {"time": [0.0, 0.05], "value": [0.0, 4.0]}
+    ramp = {"time": [0.0, 0.01], "value": [0.0, 4.0]}
     asked = scene("one-edge-clamped", [{"curvature": ramp, "segments": 4}], gravity=False)
     return asked, lumped.simulate(
-        asked, springs(asked, 4), 0.05, integrator="midpoint", step=1e-4, every=0.005
+        asked, springs(asked, 3), 0.01, integrator="midpoint", step=1e-4, every=0.001
     )
 
 
 @pytest.mark.parametrize("name", ["verlet", "generalised-alpha", "midpoint"])
 def test_integrators_agree_on_a_sheet_with_a_chain(driven, name):
     asked, truth = driven
-    step = {"verlet": None, "generalised-alpha": None, "midpoint": 5e-4}[name]
-    history = lumped.simulate(asked, springs(asked, 4), 0.05, integrator=name, step=step, every=0.005)
+    step = {"verlet": None, "generalised-alpha": None, "midpoint": 2.5e-4}[name]
+    history = lumped.simulate(asked, springs(asked, 3), 0.01, integrator=name, step=step, every=0.001)
     assert history.status is scenes.Status.CONVERGED
     scale = np.abs(truth.probes["P4"]).max()
     assert np.abs(history.probes["P4"] - truth.probes["P4"]).max() < 0.01 * scale
@@ -296,10 +296,10 @@ def test_a_held_base_carries_sheet_and_chain_in_statics_and_at_the_end_of_a_run(
     chain = {"edge": "x0", "base": base, "segments": segments, "bending_stiffness": 5.0}
     asked = scene("one-edge-clamped", [chain], supports=[], damping_rate=20.0)
     weight = 9.81 * (1678.0 * 0.188**2 * 0.003 + 0.05 * 0.188)
-    solution = lumped.solve(asked, springs(asked))
+    solution = lumped.solve(asked, springs(asked, 3))
     assert solution.status is scenes.Status.CONVERGED
     assert_allclose(solution.reactions["x0 base"], [0.0, 0.0, weight], atol=1e-8 * weight)
-    history = lumped.simulate(asked, springs(asked), 1.0, step=5e-3, every=0.1, radius=0.5)
+    history = lumped.simulate(asked, springs(asked, 3), 0.8, step=1e-2, every=0.1, radius=0.5)
     assert history.reactions["x0 base"][-1] == pytest.approx([0.0, 0.0, weight], abs=0.01 * weight)
 
 

@@ -28,12 +28,13 @@ def test_settles_on_the_static_answer():
     assert np.all(np.diff(history.energies["dissipated"]) >= 0.0)
 
 
-def test_the_conserving_integrator_holds_the_energy_for_ten_seconds():
+def test_the_conserving_integrator_holds_the_energy():
+    """A millionth in ten seconds, which the slow test runs for; a fifth of it in a fifth of the time."""
     asked = scene()
-    history = lumped.simulate(asked, springs(asked, 4), 10.0, integrator="midpoint", step=4e-3, every=0.02)
+    history = lumped.simulate(asked, springs(asked, 3), 2.0, integrator="midpoint", step=4e-3, every=0.02)
     assert history.status is Status.CONVERGED
     drift = largest(history.balance - history.balance[0])
-    assert drift < 1e-6 * largest(history.energies["potential"])
+    assert drift < 2e-7 * largest(history.energies["potential"])
     assert largest(history.probes["P4"]) > 0.02  # it still swings
 
 
@@ -45,8 +46,8 @@ def test_small_oscillations_have_the_lattices_own_frequencies(base):
     for frequency, shape in zip(modes.frequencies, modes.shapes, strict=True):
         u = 1e-6 * shape
         start = type(rest)(0.0, u, rest.v, equations.accelerate(equations.unbalanced(u, rest.v, 0.0)))
-        h = 1.0 / frequency / 200.0
-        states, _ = run(INTEGRATORS["midpoint"](equations, h), start, h, 450)
+        h = 1.0 / frequency / 100.0  # which lengthens the period by 3e-4
+        states, _ = run(INTEGRATORS["midpoint"](equations, h), start, h, 130)
         swing = np.array([np.sum(state.u * u) for state in states])
         swing /= swing[0]
         down = np.flatnonzero((swing[:-1] > 0.0) & (swing[1:] <= 0.0))
@@ -56,9 +57,9 @@ def test_small_oscillations_have_the_lattices_own_frequencies(base):
 
 @pytest.fixture(scope="module")
 def reference():
-    """P4 of a 5 × 5 × 2 lattice with a little damping, from solve_ivp with tight tolerances."""
+    """P4 of a 3 × 3 × 2 lattice with a little damping, from solve_ivp with tight tolerances."""
     asked = scene(damping_time=2e-4)
-    equations, _ = system(asked)
+    equations, _ = system(asked, 3)
     count = equations.reduced_mass.shape[0]
 
     def rate(time, y):
@@ -79,7 +80,7 @@ ADAPTED = [("verlet", None), ("generalised-alpha", None), ("esdirk", None), ("mi
 @pytest.mark.parametrize("name, step", ADAPTED)
 def test_integrators_agree_with_solve_ivp(reference, name, step):
     asked, times, truth = reference
-    history = lumped.simulate(asked, springs(asked), 0.1, integrator=name, step=step, every=0.002)
+    history = lumped.simulate(asked, springs(asked, 3), 0.1, integrator=name, step=step, every=0.002)
     assert history.time == pytest.approx(times)
     assert largest(history.probes["P4"] - truth) < 1e-3 * largest(truth)
 
@@ -128,11 +129,12 @@ def test_an_explicit_run_without_an_end_is_refused():
 def test_observed_order_is_the_declared_one(name, damping):
     asked = scene(damping_time=damping)
     step = ORDER_STEPS[name] * (0.1 if name == "verlet" and damping else 1.0)
+    masses, duration = (4, 0.004) if name == "esdirk" else (3, 0.002)
     ends = []
     options = {"tolerance": 1e-4} if name == "projective" else {}
     for h in (step / 2, step / 4, step / 8):
         history = lumped.simulate(
-            asked, springs(asked, 4), 0.004, integrator=name, step=h, every=0.004, **options
+            asked, springs(asked, masses), duration, integrator=name, step=h, every=duration, **options
         )
         ends.append(history.probes["P4"][-1])
     changes = [largest(a - b) for a, b in pairwise(ends)]
@@ -146,11 +148,14 @@ def grows(equations, rest, h, steps=400):
     rng = np.random.default_rng(0)
     v = equations.expand(1e-6 * rng.standard_normal(equations.reduced_mass.shape[0]))
     start = type(rest)(0.0, rest.u, v, equations.accelerate(equations.unbalanced(rest.u, v, 0.0)))
+    method, state = INTEGRATORS["verlet"](equations, h), start
     try:
-        states, _ = run(INTEGRATORS["verlet"](equations, h), start, h, steps)
+        while steps:
+            advance, taken = method.march(state, h, steps)
+            state, steps = advance.state, steps - taken
     except StepFailed:
         return True
-    return largest(states[-1].v) > 1e2 * largest(v)
+    return largest(state.v) > 1e2 * largest(v)
 
 
 def amplification(h, ratio):
@@ -213,7 +218,7 @@ def test_momentum_of_a_free_sheet_is_conserved(name, tolerance, damping):
     )
     start = type(rest)(0.0, rest.u, v, equations.accelerate(equations.unbalanced(rest.u, v, 0.0)))
     h = min(2e-5, 0.5 * step_limit(equations, rest.u).step) if name == "verlet" else 1e-3
-    states, _ = run(INTEGRATORS[name](equations, h), start, h, 300)
+    states, _ = run(INTEGRATORS[name](equations, h), start, h, 100)
     linear = [(mass * s.v).sum(axis=0) for s in states]
     angular = [np.cross(x + s.u, mass * s.v).sum(axis=0) for s in states]
     if name == "verlet" and damping:  # the second look at the dampers is not at the same place and velocity

@@ -47,9 +47,11 @@ def scene(supports, *actuators, gravity=GRAVITY) -> Scene:
     )
 
 
-def solve(asked: Scene, model: str, elements: tuple[int, int] = (16, 8)) -> Solution:
+def solve(
+    asked: Scene, model: str, elements: tuple[int, int] = (12, 6), grid: tuple[int, int] = (21, 11)
+) -> Solution:
     if model == "lumped":
-        found = lumped.solve(asked, lumped.calibrate(OBLONG, SILICONE, (33, 17)))
+        found = lumped.solve(asked, lumped.calibrate(OBLONG, SILICONE, grid))
     else:
         found = fem_reference.solve(asked, model=model, elements=elements)
     assert found.status is Status.CONVERGED, found.message
@@ -122,7 +124,7 @@ def test_the_plate_is_their_limit_of_small_motions(name: str) -> None:
 def test_a_chain_goes_where_the_corner_goes_in_whatever_order(model: str) -> None:
     bound, moved = chain(curvature=2.0), motion(displacement=LIFT)
     first, second = (
-        solve(scene((CLAMP,), *both), model, (6, 4)) for both in ((bound, moved), (moved, bound))
+        solve(scene((CLAMP,), *both), model, (4, 2), (9, 5)) for both in ((bound, moved), (moved, bound))
     )
     assert_allclose(
         first.displacement([CORNER, (0.1, 0.0)]), second.displacement([CORNER, (0.1, 0.0)]), atol=1e-9
@@ -134,10 +136,13 @@ def test_a_chain_goes_where_the_corner_goes_in_whatever_order(model: str) -> Non
 
 
 def test_wrenches_are_about_the_middle_of_the_moved_edge() -> None:
-    """Where the middle is now: a free sheet hung from an edge turned by a quarter has no moment about it."""
+    """Where the middle is now: a free sheet hung from an edge turned by a quarter has no moment about it.
+
+    A balance, which holds on any mesh.
+    """
     asked = scene((), motion(displacement=(0.0, 0.03, 0.02), rotation=(0.0, np.pi / 2.0, 0.0)))
     for model in ("lumped", "shell", "solid"):
-        wrench = solve(asked, model).actuators["x1"][0]
+        wrench = solve(asked, model, (4, 2), (9, 5)).actuators["x1"][0]
         assert_allclose(wrench, [0.0, 0.0, WEIGHT, 0.0, 0.0, 0.0], atol=1e-3 * WEIGHT * 0.2, err_msg=model)
 
 

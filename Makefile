@@ -65,6 +65,9 @@ $(VENV)/installed: pyproject.toml constraints.txt
 demo: install
 	@$(BIN)/sheetbench compare two-edges-clamped --lumped 9 --reference shell --out $(OUT)
 
+# a process that may not keep its byte code compiles every module anew, and the tests start many
+test check: export PYTHONDONTWRITEBYTECODE :=
+
 test: install lint kernels
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile
 

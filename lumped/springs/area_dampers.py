@@ -17,10 +17,11 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from lumped.springs.areas import cross, diagonal_changes, measure, scatter
+from lumped.springs.areas import add_blocks, area_rate, diagonal, gradients, measure, scatter
+from lumped.springs.vectors import cross, dot, less, outer, plus, times
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def add_forces(
     u: np.ndarray,
     v: np.ndarray,
@@ -30,25 +31,18 @@ def add_forces(
     force: np.ndarray,
 ) -> float:
     """Add the damping force, signed as an internal one, to `force` (n, 3) [N]; the power taken [W]."""
-    change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
-    normal, work = np.empty(3), np.empty(3)
     power = 0.0
     for c in range(len(nodes)):
-        _, area, _ = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
-        diagonal_changes(v, nodes, c, change)
-        rate = 0.0
-        for q in range(3):
-            rate += gradient[0, q] * change[0, q] + gradient[1, q] * change[1, q]
+        _, area, _, d1, d2, normal = measure(u, nodes, diagonals, c)
+        g1, g2 = gradients(d1, d2, normal)
+        rate = area_rate(v, nodes, c, g1, g2)
         stress = damping[c] * rate / area
         power += stress * rate
-        for q in range(3):
-            gradient[0, q] *= stress
-            gradient[1, q] *= stress
-        scatter(nodes, c, gradient, force)
+        scatter(nodes, c, times(stress, g1), times(stress, g2), force)
     return power
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def add_turning(
     u: np.ndarray,
     v: np.ndarray,
@@ -59,38 +53,17 @@ def add_turning(
     blocks: np.ndarray,
 ) -> None:
     """Add (c/a0) ∇a (∇²a v)ᵀ of every cell to the 3×3 blocks."""
-    change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
-    normal, work, turning = np.empty(3), np.empty(3), np.empty(3)
-    turned = np.empty((2, 3))
-    p = nodes.shape[2]
+    p, hessian = nodes.shape[2], np.empty((4, 9))  # of (d1, d1), (d1, d2), (d2, d1), (d2, d2)
     for c in range(len(nodes)):
-        _, area, size = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
-        diagonal_changes(v, nodes, c, change)
-        cross(change[0], current[1], turning)
-        cross(current[0], change[1], work)
-        along = 0.0
-        for q in range(3):
-            turning[q] += work[q]
-            along += normal[q] * turning[q]
-        for q in range(3):
-            turning[q] = (turning[q] - along * normal[q]) / size
-        cross(change[1], normal, turned[0])
-        cross(current[1], turning, work)
-        for q in range(3):
-            turned[0, q] = 0.5 * (turned[0, q] + work[q])
-        cross(turning, current[0], turned[1])
-        cross(normal, change[0], work)
-        for q in range(3):
-            turned[1, q] = 0.5 * (turned[1, q] + work[q])
-        for corner in range(4):
-            d, sign = corner % 2, -1.0 if corner < 2 else 1.0
-            for other in range(4):
-                e, scale = other % 2, sign * (-1.0 if other < 2 else 1.0) / (p * p)
-                for s in range(p):
-                    for t in range(p):
-                        slot = slots[c, corner * p + s, other * p + t]
-                        for q in range(3):
-                            for r in range(3):
-                                blocks[slot, q, r] += (
-                                    scale * damping[c] / area * gradient[d, q] * turned[e, r]
-                                )
+        _, area, size, d1, d2, normal = measure(u, nodes, diagonals, c)
+        g1, g2 = gradients(d1, d2, normal)
+        v1, v2 = diagonal(v, nodes, c, 0), diagonal(v, nodes, c, 1)
+        rate = plus(cross(v1, d2), cross(d1, v2))
+        turning = times(1.0 / size, less(rate, times(dot(normal, rate), normal)))
+        turned1 = times(0.5, plus(cross(v2, normal), cross(d2, turning)))
+        turned2 = times(0.5, plus(cross(turning, d1), cross(normal, v1)))
+        outer(damping[c] / area, g1, turned1, hessian[0])
+        outer(damping[c] / area, g1, turned2, hessian[1])
+        outer(damping[c] / area, g2, turned1, hessian[2])
+        outer(damping[c] / area, g2, turned2, hessian[3])
+        add_blocks(hessian, p, slots[c], blocks)

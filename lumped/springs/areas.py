@@ -19,161 +19,131 @@ import math
 import numpy as np
 from numba import njit
 
-
-@njit(cache=True)
-def cross(a: np.ndarray, b: np.ndarray, out: np.ndarray) -> None:
-    out[0] = a[1] * b[2] - a[2] * b[1]
-    out[1] = a[2] * b[0] - a[0] * b[2]
-    out[2] = a[0] * b[1] - a[1] * b[0]
+from lumped.springs.vectors import Vector, cross, dot, less, outer_sum, plus, times
 
 
-@njit(cache=True)
-def diagonal_changes(u: np.ndarray, nodes: np.ndarray, c: int, change: np.ndarray) -> None:
-    """Change of the two diagonals of cell c, (2, 3), into `change`."""
-    p = nodes.shape[2]
-    for q in range(3):
-        first = second = 0.0
-        for s in range(p):
-            first += u[nodes[c, 2, s], q] - u[nodes[c, 0, s], q]
-            second += u[nodes[c, 3, s], q] - u[nodes[c, 1, s], q]
-        change[0, q] = first / p
-        change[1, q] = second / p
+@njit(cache=True, error_model="numpy")
+def diagonal(u: np.ndarray, nodes: np.ndarray, c: int, corner: int) -> Vector:
+    """What u changes in the diagonal of cell c that begins at a corner, in double precision."""
+    share = 1.0 / nodes.shape[2]
+    x = y = z = 0.0
+    for s in range(nodes.shape[2]):
+        a, b = np.uint64(nodes[c, corner, s]), np.uint64(nodes[c, corner + 2, s])
+        x += u[b, 0] - u[a, 0]
+        y += u[b, 1] - u[a, 1]
+        z += u[b, 2] - u[a, 2]
+    return x * share, y * share, z * share
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
+def at_rest(diagonals: np.ndarray, c: int, which: int) -> Vector:
+    """One of the two diagonals of cell c at rest, in double precision."""
+    d = diagonals[c, which]
+    return 1.0 * d[0], 1.0 * d[1], 1.0 * d[2]
+
+
+@njit(cache=True, error_model="numpy")
 def measure(
-    u: np.ndarray,
-    nodes: np.ndarray,
-    diagonals: np.ndarray,
-    c: int,
-    change: np.ndarray,
-    current: np.ndarray,
-    normal: np.ndarray,
-    gradient: np.ndarray,
-    work: np.ndarray,
-) -> tuple[float, float, float]:
-    """Relative area change, rest area, |c|; fills normal (3,) and gradient (2, 3) = ∂a/∂d1, ∂a/∂d2."""
-    diagonal_changes(u, nodes, c, change)
-    d1, d2 = diagonals[c, 0], diagonals[c, 1]
-    for q in range(3):
-        current[0, q] = d1[q] + change[0, q]
-        current[1, q] = d2[q] + change[1, q]
-    cross(current[0], current[1], normal)
-    size = math.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
-    rest_x, rest_y, rest_z = (
-        d1[1] * d2[2] - d1[2] * d2[1],
-        d1[2] * d2[0] - d1[0] * d2[2],
-        d1[0] * d2[1] - d1[1] * d2[0],
-    )
-    rest = math.sqrt(rest_x**2 + rest_y**2 + rest_z**2)
+    u: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, c: int
+) -> tuple[float, float, float, Vector, Vector, Vector]:
+    """Relative area change, rest area, |c|, the diagonals d1 and d2, and the normal n."""
+    change1, change2 = diagonal(u, nodes, c, 0), diagonal(u, nodes, c, 1)
+    rest1, rest2 = at_rest(diagonals, c, 0), at_rest(diagonals, c, 1)
+    d1, d2 = plus(rest1, change1), plus(rest2, change2)
+    now, before = cross(d1, d2), cross(rest1, rest2)
+    size, rest = math.sqrt(dot(now, now)), math.sqrt(dot(before, before))
     # |c| − |c0| = (2 c0·δ + δ·δ)/(|c| + |c0|) with δ = δd1 × d2 + current d1 × δd2: no digits lost
-    cross(change[0], d2, work)
-    dx, dy, dz = work[0], work[1], work[2]
-    cross(current[0], change[1], work)
-    dx, dy, dz = dx + work[0], dy + work[1], dz + work[2]
-    growth = 2.0 * (rest_x * dx + rest_y * dy + rest_z * dz) + dx * dx + dy * dy + dz * dz
-    strain = growth / (size + rest) / rest
-    for q in range(3):
-        normal[q] /= size
-    cross(current[1], normal, gradient[0])
-    cross(normal, current[0], gradient[1])
-    for q in range(3):
-        gradient[0, q] *= 0.5
-        gradient[1, q] *= 0.5
-    return strain, 0.5 * rest, size
+    grown = plus(cross(change1, rest2), cross(d1, change2))
+    strain = (2.0 * dot(before, grown) + dot(grown, grown)) / (size + rest) / rest
+    normal = now[0] / size, now[1] / size, now[2] / size
+    return strain, 0.5 * rest, size, d1, d2, normal
 
 
-@njit(cache=True)
-def scatter(nodes: np.ndarray, c: int, pair: np.ndarray, force: np.ndarray) -> None:
-    """Add forces (2, 3) on the two diagonals of cell c to its masses."""
-    p = nodes.shape[2]
-    for q in range(3):
-        for s in range(p):
-            force[nodes[c, 0, s], q] -= pair[0, q] / p
-            force[nodes[c, 2, s], q] += pair[0, q] / p
-            force[nodes[c, 1, s], q] -= pair[1, q] / p
-            force[nodes[c, 3, s], q] += pair[1, q] / p
+@njit(cache=True, error_model="numpy")
+def gradients(d1: Vector, d2: Vector, normal: Vector) -> tuple[Vector, Vector]:
+    """∂a/∂d1 and ∂a/∂d2."""
+    return times(0.5, cross(d2, normal)), times(0.5, cross(normal, d1))
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
+def scatter(nodes: np.ndarray, c: int, on_d1: Vector, on_d2: Vector, force: np.ndarray) -> None:
+    """Add forces on the two diagonals of cell c to its masses."""
+    share = 1.0 / nodes.shape[2]
+    for corner in range(2):
+        x, y, z = times(share, on_d1 if corner == 0 else on_d2)
+        for s in range(nodes.shape[2]):
+            a, b = np.uint64(nodes[c, corner, s]), np.uint64(nodes[c, corner + 2, s])
+            force[a, 0] -= x
+            force[a, 1] -= y
+            force[a, 2] -= z
+            force[b, 0] += x
+            force[b, 1] += y
+            force[b, 2] += z
+
+
+@njit(cache=True, error_model="numpy")
 def stresses(u: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
     """Stress k (a/a0 − 1) of every cell, (c,) [N/m]."""
-    change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
-    normal, work = np.empty(3), np.empty(3)
     out = np.empty(len(nodes))
     for c in range(len(nodes)):
-        strain, _, _ = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
-        out[c] = stiffness[c] * strain
+        out[c] = stiffness[c] * measure(u, nodes, diagonals, c)[0]
     return out
 
 
-@njit(cache=True)
-def area_rate(v: np.ndarray, nodes: np.ndarray, c: int, change: np.ndarray, gradient: np.ndarray) -> float:
-    """∇a·v of cell c [m² per unit of v's time], ∇a as `measure` left it; change takes v's diagonals."""
-    diagonal_changes(v, nodes, c, change)
-    grown = 0.0
-    for q in range(3):
-        grown += gradient[0, q] * change[0, q] + gradient[1, q] * change[1, q]
-    return grown
+@njit(cache=True, error_model="numpy")
+def area_rate(v: np.ndarray, nodes: np.ndarray, c: int, g1: Vector, g2: Vector) -> float:
+    """∇a·v of cell c [m² per unit of v's time], of its gradients."""
+    return dot(g1, diagonal(v, nodes, c, 0)) + dot(g2, diagonal(v, nodes, c, 1))
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def rates(
     u: np.ndarray, v: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray
 ) -> np.ndarray:
     """Rates k ȧ/a0 of the stresses as the masses move with v (n, 3), (c,) [N/m per unit of v's time]."""
-    change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
-    normal, work = np.empty(3), np.empty(3)
     out = np.empty(len(nodes))
     for c in range(len(nodes)):
-        _, area, _ = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
-        out[c] = stiffness[c] * area_rate(v, nodes, c, change, gradient) / area
+        _, area, _, d1, d2, normal = measure(u, nodes, diagonals, c)
+        g1, g2 = gradients(d1, d2, normal)
+        out[c] = stiffness[c] * area_rate(v, nodes, c, g1, g2) / area
     return out
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def extrapolated(
     u: np.ndarray, v: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray
 ) -> np.ndarray:
     """Stresses that the linearisation at u predicts after a step v (n, 3) [m], (c,) [N/m]."""
-    change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
-    normal, work = np.empty(3), np.empty(3)
     out = np.empty(len(nodes))
     for c in range(len(nodes)):
-        strain, area, _ = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
-        out[c] = stiffness[c] * (strain + area_rate(v, nodes, c, change, gradient) / area)
+        strain, area, _, d1, d2, normal = measure(u, nodes, diagonals, c)
+        g1, g2 = gradients(d1, d2, normal)
+        out[c] = stiffness[c] * (strain + area_rate(v, nodes, c, g1, g2) / area)
     return out
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def add_forces(
     u: np.ndarray, nodes: np.ndarray, diagonals: np.ndarray, stiffness: np.ndarray, force: np.ndarray
 ) -> float:
     """Add the internal force to `force` (n, 3) [N]; returns the energy [J]."""
-    change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
-    normal, work = np.empty(3), np.empty(3)
     energy = 0.0
     for c in range(len(nodes)):
-        strain, area, _ = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        strain, area, _, d1, d2, normal = measure(u, nodes, diagonals, c)
+        g1, g2 = gradients(d1, d2, normal)
         stress = stiffness[c] * strain
         energy += 0.5 * stress * strain * area
-        for q in range(3):
-            gradient[0, q] *= stress
-            gradient[1, q] *= stress
-        scatter(nodes, c, gradient, force)
+        scatter(nodes, c, times(stress, g1), times(stress, g2), force)
     return energy
 
 
-@njit(cache=True)
-def _products(d: np.ndarray) -> tuple[float, float, float]:
-    """g11, g12, g22 of two vectors (2, 3)."""
-    g11 = d[0, 0] * d[0, 0] + d[0, 1] * d[0, 1] + d[0, 2] * d[0, 2]
-    g12 = d[0, 0] * d[1, 0] + d[0, 1] * d[1, 1] + d[0, 2] * d[1, 2]
-    g22 = d[1, 0] * d[1, 0] + d[1, 1] * d[1, 1] + d[1, 2] * d[1, 2]
-    return g11, g12, g22
+@njit(cache=True, error_model="numpy")
+def _products(d1: Vector, d2: Vector) -> tuple[float, float, float]:
+    """g11, g12, g22 of two vectors."""
+    return dot(d1, d1), dot(d1, d2), dot(d2, d2)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def add_average_forces(
     start: np.ndarray,
     end: np.ndarray,
@@ -189,29 +159,24 @@ def add_average_forces(
     with g_ij = d_i·d_j, bars for means and |c| = 2 a: |c|² = g11 g22 − g12² is quadratic in g, and g in d, so
     that the mean values give the differences exactly. Derived here, after Simo and Tarnow (1992).
     """
-    first, second, pair = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
     for c in range(len(nodes)):
-        diagonal_changes(start, nodes, c, first)
-        diagonal_changes(end, nodes, c, second)
-        for d in range(2):
-            for q in range(3):
-                first[d, q] += diagonals[c, d, q]
-                second[d, q] += diagonals[c, d, q]
-        a11, a12, a22 = _products(first)
-        b11, b12, b22 = _products(second)
-        r11, r12, r22 = _products(diagonals[c])
+        rest1, rest2 = at_rest(diagonals, c, 0), at_rest(diagonals, c, 1)
+        a1, a2 = plus(rest1, diagonal(start, nodes, c, 0)), plus(rest2, diagonal(start, nodes, c, 1))
+        b1, b2 = plus(rest1, diagonal(end, nodes, c, 0)), plus(rest2, diagonal(end, nodes, c, 1))
+        a11, a12, a22 = _products(a1, a2)
+        b11, b12, b22 = _products(b1, b2)
+        r11, r12, r22 = _products(rest1, rest2)
         size = math.sqrt(a11 * a22 - a12 * a12) + math.sqrt(b11 * b22 - b12 * b12)
         rest = math.sqrt(r11 * r22 - r12 * r12)
         g11, g12, g22 = 0.5 * (a11 + b11), 0.5 * (a12 + b12), 0.5 * (a22 + b22)
         stress = stiffness[c] * (0.5 * size / rest - 1.0) / size
-        for q in range(3):
-            d1, d2 = 0.5 * (first[0, q] + second[0, q]), 0.5 * (first[1, q] + second[1, q])
-            pair[0, q] = stress * (g22 * d1 - g12 * d2)
-            pair[1, q] = stress * (g11 * d2 - g12 * d1)
-        scatter(nodes, c, pair, force)
+        d1, d2 = times(0.5, plus(a1, b1)), times(0.5, plus(a2, b2))
+        on_d1 = times(stress, less(times(g22, d1), times(g12, d2)))
+        on_d2 = times(stress, less(times(g11, d2), times(g12, d1)))
+        scatter(nodes, c, on_d1, on_d2, force)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def add_tangent(
     u: np.ndarray,
     nodes: np.ndarray,
@@ -227,16 +192,14 @@ def add_tangent(
 
     with g = ∇a and aᵀ N b = n·(a × b).
     """
-    change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
-    normal, work = np.empty(3), np.empty(3)
     hessian = np.empty((4, 9))  # of (d1, d1), (d1, d2), (d2, d1), (d2, d2)
     for c in range(len(nodes)):
-        _, area, size = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
-        _of_diagonals(stiffness[c] / area, stress[c] / size, size, current, normal, gradient, hessian)
+        _, area, size, d1, d2, normal = measure(u, nodes, diagonals, c)
+        _of_diagonals(stiffness[c] / area, stress[c] / size, size, d1, d2, normal, hessian)
         add_blocks(hessian, nodes.shape[2], slots[c], blocks)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def add_own_tangent(
     u: np.ndarray,
     nodes: np.ndarray,
@@ -247,50 +210,45 @@ def add_own_tangent(
     blocks: np.ndarray,
 ) -> None:
     """The same with this share of the stresses at u."""
-    change, current, gradient = np.empty((2, 3)), np.empty((2, 3)), np.empty((2, 3))
-    normal, work = np.empty(3), np.empty(3)
     hessian = np.empty((4, 9))
     for c in range(len(nodes)):
-        strain, area, size = measure(u, nodes, diagonals, c, change, current, normal, gradient, work)
+        strain, area, size, d1, d2, normal = measure(u, nodes, diagonals, c)
         turning = share * stiffness[c] * strain / size
-        _of_diagonals(stiffness[c] / area, turning, size, current, normal, gradient, hessian)
+        _of_diagonals(stiffness[c] / area, turning, size, d1, d2, normal, hessian)
         add_blocks(hessian, nodes.shape[2], slots[c], blocks)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _of_diagonals(
     material: float,
     turning: float,
     size: float,
-    current: np.ndarray,
-    normal: np.ndarray,
-    gradient: np.ndarray,
+    d1: Vector,
+    d2: Vector,
+    normal: Vector,
     hessian: np.ndarray,
 ) -> None:
     """The tangent in the diagonals, from k/a0 and τ/|c|."""
     turning *= 0.5
-    outer = material - 4.0 * turning
-    g11, g12, g22 = _products(current)
-    for q in range(3):
-        for r in range(3):
-            at, d1, d2 = 3 * q + r, current[0, q], current[1, q]
-            g1, g2 = outer * gradient[0, q], outer * gradient[1, q]
-            hessian[0, at] = g1 * gradient[0, r] - turning * d2 * current[1, r]
-            hessian[1, at] = g1 * gradient[1, r] + turning * d1 * current[1, r]
-            hessian[3, at] = g2 * gradient[1, r] - turning * d1 * current[0, r]
-    for q in range(3):
-        hessian[0, 4 * q] += turning * g22
-        hessian[1, 4 * q] -= turning * g12
-        hessian[3, 4 * q] += turning * g11
-        ahead, behind, along = (q + 1) % 3, (q + 2) % 3, turning * size * normal[q]
-        hessian[1, 3 * ahead + behind] += along
-        hessian[1, 3 * behind + ahead] -= along
+    along = material - 4.0 * turning
+    g1, g2 = gradients(d1, d2, normal)
+    g11, g12, g22 = _products(d1, d2)
+    outer_sum(along, g1, g1, -turning, d2, d2, turning * g22, hessian[0])
+    outer_sum(along, g1, g2, turning, d1, d2, -turning * g12, hessian[1])
+    outer_sum(along, g2, g2, -turning, d1, d1, turning * g11, hessian[3])
+    x, y, z = times(turning * size, normal)
+    hessian[1, 5] += x
+    hessian[1, 7] -= x
+    hessian[1, 6] += y
+    hessian[1, 2] -= y
+    hessian[1, 1] += z
+    hessian[1, 3] -= z
     for q in range(3):
         for r in range(3):
             hessian[2, 3 * r + q] = hessian[1, 3 * q + r]
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def add_blocks(hessian: np.ndarray, p: int, slots: np.ndarray, blocks: np.ndarray) -> None:
     """Add a tangent in a cell's diagonals, (4, 9) of (d1, d1), (d1, d2), (d2, d1), (d2, d2), to the blocks of
     its corners, each the mean of p masses."""

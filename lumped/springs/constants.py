@@ -52,7 +52,9 @@ def of_strains(springs: SpringSet, cells: str, count: int = 1) -> tuple[str, np.
         name, stretch, shear = "strain", springs.stretch, springs.shear
     x, y = (stretch.x, stretch.y) if isinstance(stretch, PerDirection) else (stretch, stretch)
     if not any(isinstance(value, tuple) for value in (x, y, shear)):
-        return name, np.tile(np.array([x, y, shear], dtype=float), (count, 1))
+        stiffness = np.empty((count, 3))
+        stiffness[:] = x, y, shear
+        return name, stiffness
     return name, np.stack([of_cells(value, count) for value in (x, y, shear)], axis=1)
 
 

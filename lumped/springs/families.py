@@ -176,7 +176,7 @@ def area_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iter
         stiffness = by_cell.of_cells(getattr(springs, cells.name), count)
         if stiffness.any():
             every = np.full(len(cells.nodes), True)
-            stiffness = np.tile(stiffness, len(every) // count)
+            stiffness = np.concatenate([stiffness] * (len(every) // count))
             nodes, slots, diagonals, area, on = rest_of(lattice, pattern).cells(cells.name, every)
             yield AreaSprings(nodes, stiffness, slots, diagonals, area, cells.name, on)
 
@@ -189,7 +189,7 @@ def strain_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> It
         layers = lattice.grid[2]
         if cells.name == "area":
             stiffness[:, 2] += twist
-            stiffness = np.tile(stiffness, (layers, 1))
+            stiffness = np.concatenate([stiffness] * layers)
         else:
             stiffness[:, 2] -= layers * twist
         stiff = (stiffness != 0.0).any(axis=1)  # edges stiffen the cells along them alone

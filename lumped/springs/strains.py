@@ -18,10 +18,17 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from lumped.springs.areas import add_blocks, diagonal_changes
+from lumped.springs.areas import add_blocks, diagonal
 
 A_SIGNS = np.array([-0.5, 0.5, 0.5, -0.5])  # a = Σ A_SIGNS[corner] x[corner]
 B_SIGNS = np.array([-0.5, -0.5, 0.5, 0.5])
+
+
+@njit(cache=True)
+def diagonal_changes(u: np.ndarray, nodes: np.ndarray, c: int, change: np.ndarray) -> None:
+    """Change of the two diagonals of cell c, (2, 3), into `change`."""
+    change[0, 0], change[0, 1], change[0, 2] = diagonal(u, nodes, c, 0)
+    change[1, 0], change[1, 1], change[1, 2] = diagonal(u, nodes, c, 1)
 
 
 @njit(cache=True)

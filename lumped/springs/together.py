@@ -9,6 +9,7 @@ themselves are each family's own; here they release the interpreter's lock.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -58,10 +59,10 @@ class Together:
 
     def __init__(self, families: Sequence[Family], places: Sequence[int]):
         found = dict(zip(places, families, strict=True))
-        links_, *cells = (_arrays(found[at]) if at in found else _empty(k) for at, k in enumerate(KINDS))
+        links_, *cells = [_arrays(found[at]) if at in found else _empty(k) for at, k in enumerate(KINDS)]
         self.springs = Springs(LinkArrays(*links_), *(CellArrays(*parts) for parts in cells))
         self._places = places
-        self._none = [np.empty_like(part.stiffness) for part in self.springs]
+        self._none = [_empty(kind)[2] for kind in KINDS]
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Energy [J] and internal force."""
@@ -107,9 +108,11 @@ def together(families: Sequence[Family]) -> Together | None:
 
 
 def _arrays(family: Family) -> tuple[np.ndarray, ...]:
-    return tuple(np.ascontiguousarray(part) for part in (*family.arrays, family.slots))
+    parts = family.nodes, *family.geometry, family.stiffness, family.slots
+    return tuple([np.ascontiguousarray(part) for part in parts])
 
 
+@cache
 def _empty(kind: type[Family]) -> tuple[np.ndarray, ...]:
     stiffness = np.empty((0, 3)) if kind is StrainSprings else np.empty(0)
     return np.empty((0, 4, 1), int), np.empty((0, 2, 3)), stiffness, np.empty((0, 4, 4), np.int32)

@@ -21,7 +21,7 @@ from lumped.lattice import Lattice
 from sheetbench.scenes import Scene
 
 METHOD = "consistent"
-FROM = 10_000  # unknowns from which smaller lattices cost less than the factorisations they spare
+FROM = 5_000  # unknowns from which smaller lattices cost less than the factorisations they spare
 
 
 def halved(scene: Scene, calibration: Calibration) -> Calibration | None:

@@ -17,6 +17,8 @@ from lumped.statics.limits import COLLAPSED
 from lumped.statics.soundness import long_enough, upright
 from sheetbench.scenes import Status
 
+TINY = float(np.finfo(float).tiny)
+
 
 class Fault(NamedTuple):
     """What makes a state worthless: the status it deserves and a sentence."""
@@ -76,10 +78,11 @@ def cell_corners(field: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray,
 
 def surface(lattice: Lattice, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Mid-surface positions (ny, nx, 3) [m] and unit directors, from the bottom layer to the top."""
-    now = (lattice.positions + u)[lattice.columns()]
+    nx, ny, layers = lattice.grid
+    now = (lattice.positions + u).reshape(ny, nx, layers, 3)
     across = now[:, :, -1] - now[:, :, 0]
-    size = np.linalg.norm(across, axis=2, keepdims=True)
-    return now.mean(axis=2), across / np.maximum(size, np.finfo(float).tiny)
+    size = np.sqrt((across**2).sum(axis=2, keepdims=True))
+    return now.sum(axis=2) / layers, across / np.maximum(size, TINY)
 
 
 def _facing(lattice: Lattice, u: np.ndarray) -> np.ndarray:

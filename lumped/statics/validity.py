@@ -28,7 +28,7 @@ from lumped.assembly import Assembly
 from lumped.lattice import Lattice
 from lumped.springs.together import Stresses
 from lumped.statics.equilibrium import State
-from lumped.statics.faults import Fault, cell_corners, place, surface
+from lumped.statics.faults import Fault, place, surface
 from lumped.statics.problem import Problem
 from sheetbench.scenes import Scene, Status
 
@@ -100,16 +100,12 @@ def layers(scene: Scene, assembly: Assembly, u: np.ndarray, stresses: Stresses, 
 
 def _double_curvature(lattice: Lattice, u: np.ndarray) -> np.ndarray:
     """√|κ₁ κ₂| of every cell from the directors' changes along x and y, (ny − 1, nx − 1) [1/m]."""
-    middle, director = surface(lattice, u)
-    (a, b, c, d), (p, q, r, s) = cell_corners(middle), cell_corners(director)
-    along, across = 0.5 * (b + c - a - d), 0.5 * (c + d - a - b)
-    bent_along, bent_across = 0.5 * (q + r - p - s), 0.5 * (r + s - p - q)
-    lx, ly = lattice.lines[0].widths[None, :], lattice.lines[1].widths[:, None]
-    kxx = np.einsum("jiq,jiq->ji", along, bent_along) / lx**2
-    kyy = np.einsum("jiq,jiq->ji", across, bent_across) / ly**2
-    kxy = 0.5 * np.einsum("jiq,jiq->ji", along, bent_across) / (lx * ly)
-    kxy += 0.5 * np.einsum("jiq,jiq->ji", across, bent_along) / (lx * ly)
-    gauss: np.ndarray = np.sqrt(np.abs(kxx * kyy - kxy**2))
+    both = np.stack(surface(lattice, u))
+    by_x, by_y = both[:, :, 1:] - both[:, :, :-1], both[:, 1:] - both[:, :-1]
+    changes = 0.5 * np.stack([by_x[:, :-1] + by_x[:, 1:], by_y[:, :, :-1] + by_y[:, :, 1:]])
+    # of the middle along axis a times that of the director along b
+    (xx, xy), (yx, yy) = np.einsum("ajiq,bjiq->abji", changes[:, 0], changes[:, 1])
+    gauss: np.ndarray = np.sqrt(np.abs(xx * yy - (0.5 * (xy + yx)) ** 2)) / lattice.cell_areas
     return gauss
 
 

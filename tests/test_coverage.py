@@ -99,6 +99,17 @@ def test_options_that_do_not_go_together_are_refused(wrong: list[str]) -> None:
     assert caught.value.code == 2
 
 
+def test_a_study_whose_solves_all_fail_ends(store, monkeypatch):
+    """It drew scenes without end: after a change of the code under a run no solve succeeds."""
+
+    def fail(*args, **kwargs):
+        raise ValueError("the code changed")
+
+    monkeypatch.setattr("comparisons.coverage.tasks.answer", fail)
+    with pytest.raises(RuntimeError, match="the code changed"):
+        coverage(store, count=2, models=("plate",), meshes=(8,), truth=TRUTH, pool=Here)
+
+
 def test_the_studys_row_stands_in_its_table_once(monkeypatch):
     """`make coverage` writes it; the rest of the page stays to the letter."""
     monkeypatch.syspath_prepend(Path(__file__).parents[1] / "docs")

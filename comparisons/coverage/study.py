@@ -134,7 +134,8 @@ def coverage(
 ) -> Coverage:
     """Measure the bars of the models on the meshes on `count` drawn scenes, through a campaign's store.
 
-    truth: elements of the truth by model.
+    truth: elements of the truth by model. Raises RuntimeError where every solve of a draw fails, as after the
+    code has changed under a run: other scenes would too.
     """
     from fem_reference.uncertainty import coarser
 
@@ -162,7 +163,11 @@ def coverage(
     components: list[Component] = []
     while len(chosen) < count:
         drawn = list(islice(endless, count - len(chosen)))
-        for scene, outcomes in zip(drawn, answers(drawn), strict=True):
+        found = answers(drawn)
+        ends = [list(outcomes.values())[-1] for outcomes in found]
+        if all(end.status == "failed" for end in ends):
+            raise RuntimeError(ends[0].message)
+        for scene, outcomes in zip(drawn, found, strict=True):
             if (failure := _failure(outcomes)) is not None:
                 skipped[scene.name] = failure
                 continue

@@ -3,7 +3,8 @@
 They are kept in the user's cache, unless NUMBA_CACHE_DIR names another place: numba would keep them inside
 the installed package, where uninstalling leaves them behind. By itself numba compiles a kernel anew when its
 own file changes; one that calls kernels of other files would go on with what they were. So a kernel's stamp
-here is that of all files with kernels, or with the tuples that they take, which its file imports, and theirs.
+here is that of all files with kernels, or with the tuples and options that they take, which its file imports,
+and theirs.
 
 To be imported before numba is. Whoever wants to know that something is compiled listens to the logger
 "sheetbench"; nothing is said where all is in the cache.
@@ -29,7 +30,7 @@ from numba.core import caching, event  # after its directory is set
 ROOT = Path(__file__).resolve().parent.parent
 OURS = ("lumped", "fem_reference")
 IMPORTS = re.compile(rf"^from ((?:{'|'.join(OURS)})[\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
-COMPILED = re.compile(r"\bnjit\b|\bNamedTuple\b")
+COMPILED = re.compile(r"\b(njit|NamedTuple|intrinsic|OPTIONS)\b")
 SAID = "compiling for this machine, once: a minute or two …"
 
 

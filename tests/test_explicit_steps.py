@@ -6,6 +6,7 @@ import scipy.sparse as sp
 
 from lumped import INTEGRATORS, StepFailed, System, pose, simulate, step_limit
 from lumped.dynamics.initial import initial_state
+from lumped.springs import packing
 from tests.dynamic_cases import scene, springs
 
 STEPS = 60
@@ -74,6 +75,20 @@ def test_compiled_steps_are_the_steps_one_by_one(name, precision):
     scale = max(abs(dissipated), abs(work), system.balance(state)[0]["kinetic"])
     assert compiled.dissipated == pytest.approx(dissipated, abs=tolerance * scale)
     assert compiled.work == pytest.approx(work, abs=tolerance * scale)
+
+
+def test_dampers_ask_for_shapes_that_were_kept_or_find_them_anew(monkeypatch):
+    system, state = start_of(CASES["both damped"])
+    step = 0.8 * step_limit(system, state.u).step
+    ends = []
+    for most, keeping in ((packing.KEPT, True), (0, False)):
+        monkeypatch.setattr(packing, "KEPT", most)
+        system, _ = start_of(CASES["both damped"])
+        assert system.packing.keeping == keeping
+        ends.append(INTEGRATORS["verlet"](system, step).march(state, step, STEPS)[0])
+    kept, found = ends
+    assert np.abs(kept.state.v - found.state.v).max() < 1e-12 * np.abs(kept.state.v).max()
+    assert kept.dissipated == pytest.approx(found.dissipated, rel=1e-12)
 
 
 def newmark(system, state, step):

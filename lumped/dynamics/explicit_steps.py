@@ -17,9 +17,9 @@ import numpy as np
 from numba import njit
 
 from lumped.dynamics.follower_loads import Followers, add_followers
-from lumped.springs.all_forces import add_at_places
+from lumped.springs.all_forces import add_at_places, add_damping_again
 from lumped.springs.packing import Packing
-from lumped.springs.tiles import NO, OPTIONS, YES
+from lumped.springs.tiles import OPTIONS, YES
 
 
 class Motion(NamedTuple):
@@ -110,8 +110,9 @@ def march(
             for i in range(len(d)):
                 d[i] = v[i] - w[i]
             damping[:] = 0.0
-            _, beyond = add_at_places(x, d, NO, packing.damped, packing, damping, room.tile)
-            beyond += resist(rate, d, damping)
+            beyond = resist(rate, d, damping)
+            if packing.damped:
+                beyond += add_damping_again(x, d, packing, damping, room.tile)
             now += 2.0 * _correct(motion, w, damping, force) + beyond
             taken += 0.5 * h * (power + now)
             power = now
@@ -138,7 +139,7 @@ def _predict(
 ) -> None:
     """w = v + h a where there are dampers, v half a step and u a step on; what u moved where loads work."""
     count = motion.packing.layers * motion.packing.plane
-    size = count + motion.packing.plane
+    size = motion.packing.size
     for q in range(3):
         first = np.uint64(q) * size
         if motion.damped:
@@ -159,7 +160,7 @@ def _accelerate(
 ) -> bool:
     """a = T M⁻¹ Tᵀ (load − force), and v by half a step [s] of it; whether all is finite."""
     count = motion.packing.layers * motion.packing.plane
-    size, inverse = count + motion.packing.plane, motion.inverse_mass
+    size, inverse = motion.packing.size, motion.inverse_mass
     lost = 0.0
     for q in range(3):
         first = np.uint64(q) * size
@@ -197,7 +198,7 @@ def _correct(motion: Motion, w: np.ndarray, damping: np.ndarray, force: np.ndarr
     count = motion.packing.layers * motion.packing.plane
     power = 0.0
     for q in range(3):
-        first = np.uint64(q) * (count + motion.packing.plane)
+        first = np.uint64(q) * motion.packing.size
         for i in range(count):
             power += w[first + i] * damping[first + i]
             force[first + i] += damping[first + i]
@@ -251,7 +252,7 @@ def work_of_loads(motion: Motion, before: np.ndarray, after: np.ndarray, moved: 
     count = motion.packing.layers * motion.packing.plane
     work = 0.0
     for q in range(3):
-        first = np.uint64(q) * (count + motion.packing.plane)
+        first = np.uint64(q) * motion.packing.size
         for i in range(count):
             mean = 0.5 * (before[first + i] + after[first + i]) - motion.dead[0, first + i]
             work += mean * moved[first + i]

@@ -17,7 +17,7 @@ from lumped.dynamics.system import State, System
 from lumped.springs.packing import pack, scratch
 
 Steps = Callable[..., tuple[bool, int, float, float]]  # as `lumped.dynamics.explicit_steps.march`
-CALL, PER_SPRING = 0.03, 3e-8  # s that a call takes, about, and a step of a spring
+CALL, PER_SPRING = 0.03, 1e-8  # s that a call takes, about, and a step of a spring
 
 
 class FlatSystem:
@@ -31,8 +31,8 @@ class FlatSystem:
         packing = system.packing
         if single:
             packing = pack(assembly.lattice, assembly.springs, system.damping.dampers, single)
-        count, plane = len(packing.order), int(packing.plane)
-        self._order, self._count, self._stride = packing.order, count, count + plane
+        count = len(packing.order)
+        self._order, self._count, self._stride = packing.order, count, int(packing.size)
         self._place = np.empty(count, dtype=int)
         self._place[packing.order] = np.arange(count)
         mass = self.flat(self._of_masses(system.lattice_mass))
@@ -137,7 +137,8 @@ class FlatSystem:
         lattice = self._system.assembly.lattice
         layers, plane = lattice.grid[2], self._count // lattice.grid[2]
         positions = self.flat(lattice.positions).reshape(3, self._stride)
-        positions[:, self._count :] = positions[:, : self._count].reshape(3, layers, plane).mean(axis=1)
+        by_layer = positions[:, : self._count].reshape(3, layers, plane)
+        positions[:, self._count : self._count + plane] = by_layer.mean(axis=1)
         pressure = np.array([part.pressure for part in self._parts])
         cells = next(cells.nodes for cells in lattice.cells if cells.name == "mid_area")
         columns, strengths, owners = [np.empty((0, 4))], [np.empty(0)], [np.empty(0)]

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.springs.all_forces import average, clear, share
+from lumped.springs.all_forces import average, clear, share_out
 from lumped.springs.packing import Packing
 from lumped.springs.tiles import OPTIONS
 
@@ -60,7 +60,7 @@ def add_followers(
             load[p] += sign * (ay * bz - az * by)
             load[p + size] += sign * (az * bx - ax * bz)
             load[p + size + size] += sign * (ax * by - ay * bx)
-    share(packing, load)
+    share_out(packing, load)
     clear(packing, load)
 
 

@@ -22,7 +22,7 @@ from lumped.dynamics.explicit_steps import (
     work_of_loads,
     work_of_supports,
 )
-from lumped.springs.all_forces import add_at_places
+from lumped.springs.all_forces import add_at_places, add_damping_again
 from lumped.springs.tiles import NO, OPTIONS, YES
 
 CLOSE = 1e-8  # what corrections leave of the velocity, relative to the largest
@@ -104,7 +104,7 @@ def march(
         for k in range(CORRECTIONS):
             w[:] = guess
             damping[:] = 0.0
-            add_at_places(x, w, NO, YES, packing, damping, room.tile)
+            add_damping_again(x, w, packing, damping, room.tile)
             resist(rate, w, damping)
             before = size
             size, largest = _correct(0.5 * h, motion, band, v, load, force, damping, guess, solved)
@@ -119,7 +119,7 @@ def march(
             return False, n, taken, work
         now = 0.0
         for q in range(3):
-            first = np.uint64(q) * (count + packing.plane)
+            first = np.uint64(q) * packing.size
             for i in range(count):
                 gained = (guess[first + i] - v[first + i]) * (2.0 / h)
                 inertia = motion.mass[first + i] * gained

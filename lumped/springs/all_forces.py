@@ -11,15 +11,23 @@ import numpy as np
 from numba import njit
 
 from lumped.springs import packing as kinds
-from lumped.springs.cell_tiles import add_strain_forces, area_forces, gather_sides, spread_sides
-from lumped.springs.link_tiles import add_directional, link_forces
+from lumped.springs.cell_tiles import (
+    AREA_SHAPE,
+    HALF,
+    gather_sides,
+    push_corner,
+    resist_areas,
+    resist_strains,
+    stretch_areas,
+    stretch_strains,
+)
+from lumped.springs.link_tiles import pull_ends, resist_links, stretch_directional, stretch_links
 from lumped.springs.packing import Packing, Scratch
-from lumped.springs.tiles import OPTIONS, ROWS, difference, spread
+from lumped.springs.tiles import LANES, NO, OPTIONS, ROWS, YES
 
 DIRECTIONAL, CELLS = np.uint64(kinds.DIRECTIONAL), np.uint64(kinds.CELLS)
 NONE, ONE = np.uint64(0), np.uint64(1)
-R0, R1, R2, R3, R4, R5, R6, R7, R8 = ROWS[:9]
-R12, R13, R14, R15, R16, R17 = ROWS[12:18]
+R6, R11, AREA_ROWS = ROWS[6], ROWS[11], ROWS[AREA_SHAPE]
 
 
 @njit(**OPTIONS)
@@ -35,7 +43,7 @@ def add_forces(
     """Add the internal force at displacement u (n, 3) [m] and the damping force at velocity v (n, 3) [m/s],
     or one of them, to `force` (n, 3) [N]; the energy [J] and the power taken [W]. Rows after those of the
     masses are left alone."""
-    order, size = packing.order, (packing.layers + ONE) * packing.plane
+    order, size = packing.order, packing.size
     for q in range(3):
         past = np.uint64(q) * size
         for p in range(len(order)):
@@ -65,58 +73,75 @@ def add_at_places(
     """The same with u, v and force at the places of a packing, flat. The mid-surface's are written to."""
     if packing.mid:
         average(packing, u)
+    return _pass(u, v, YES, elastic, damped, packing, force, tile)
+
+
+@njit(**OPTIONS)
+def add_damping_again(
+    u: np.ndarray, v: np.ndarray, packing: Packing, force: np.ndarray, tile: np.ndarray
+) -> float:
+    """Add the damping force at velocity v once more, at the displacement u of the last pass, whose shapes
+    are taken if the packing keeps them; the power taken [W]. The mid-surface's places of v are written to."""
+    return _pass(u, v, not packing.keeping, NO, YES, packing, force, tile)[1]
+
+
+@njit(**OPTIONS)
+def _pass(
+    u: np.ndarray,
+    v: np.ndarray,
+    fresh: bool,
+    elastic: bool,
+    damped: bool,
+    packing: Packing,
+    force: np.ndarray,
+    tile: np.ndarray,
+) -> tuple[float, float]:
+    """Energy and power of a pass that finds shapes (fresh) or takes those that were kept."""
+    if packing.mid:
         if damped:
             average(packing, v)
         clear(packing, force)
-    size = (packing.layers + ONE) * packing.plane
-    past = size + size
+    size, rest, share = packing.size, packing.rest, 1.0 if elastic else 0.0
     energy = power = 0.0
     for r in range(len(packing.runs)):
         run = packing.runs[r]
-        kind, count, t, a, b = run[0], run[1], run[2], run[3], run[4]
+        kind, blocks, t, a, b, at = run[0], run[1], run[2], run[3], run[4], run[9]
         if kind != CELLS:
-            difference(u, a, b, R0, count, tile)
-            difference(u, a + size, b + size, R1, count, tile)
-            difference(u, a + past, b + past, R2, count, tile)
             if kind == DIRECTIONAL:
                 if not elastic:
                     continue
-                add_directional(packing.rest, t, tile, count)
+                stretch_directional(u, rest, t, a, b, size, blocks, tile, at)
+            elif fresh:
+                energy += stretch_links(u, share, rest, t, a, b, size, blocks, tile, at)
             else:
-                if damped:
-                    difference(v, a, b, R3, count, tile)
-                    difference(v, a + size, b + size, R4, count, tile)
-                    difference(v, a + past, b + past, R5, count, tile)
-                stored, taken = link_forces(packing.rest, t, tile, count, elastic, damped)
-                energy += stored
-                power += taken
-            spread(tile, R0, a, b, count, force)
-            spread(tile, R1, a + size, b + size, count, force)
-            spread(tile, R2, a + past, b + past, count, force)
+                tile[: blocks * LANES] = 0.0
+            if damped and kind != DIRECTIONAL:
+                power += resist_links(v, rest, t, a, b, size, blocks, tile, at)
+            pull_ends(-1.0, a, size, blocks, tile, at, force)
+            pull_ends(1.0, b, size, blocks, tile, at, force)
             continue
-        c, d = run[5], run[6]
-        gather_sides(u, a, b, c, d, R0, count, tile)
-        gather_sides(u, a + size, b + size, c + size, d + size, R1, count, tile)
-        gather_sides(u, a + past, b + past, c + past, d + past, R2, count, tile)
+        c, d, area, strain = run[5], run[6], run[7] != NONE, run[8] != NONE
+        sides = at + AREA_ROWS if area else at
+        if not (fresh and area):
+            tile[R6 : R11 + blocks * LANES] = 0.0
+        if fresh:
+            gather_sides(u, a, b, c, d, size, blocks, tile)
+            if area:
+                energy += stretch_areas(share, rest, t, blocks, tile, at)
+            if strain:
+                energy += stretch_strains(share, rest, t, blocks, tile, sides)
         if damped:
-            gather_sides(v, a, b, c, d, R6, count, tile)
-            gather_sides(v, a + size, b + size, c + size, d + size, R7, count, tile)
-            gather_sides(v, a + past, b + past, c + past, d + past, R8, count, tile)
-        if run[7] != NONE:
-            stored, taken = area_forces(packing.rest, t, tile, count, elastic, damped)
-            energy += stored
-            power += taken
-        else:
-            tile[R12 : R17 + count] = 0.0
-        if run[8] != NONE:
-            stored, taken = add_strain_forces(packing.rest, t, tile, count, elastic, damped)
-            energy += stored
-            power += taken
-        spread_sides(tile, R12, a, b, c, d, count, force)
-        spread_sides(tile, R13, a + size, b + size, c + size, d + size, count, force)
-        spread_sides(tile, R14, a + past, b + past, c + past, d + past, count, force)
+            gather_sides(v, a, b, c, d, size, blocks, tile)
+            if area:
+                power += resist_areas(rest, t, blocks, tile, at)
+            if strain:
+                power += resist_strains(rest, t, blocks, tile, sides)
+        push_corner(-HALF, -HALF, a, size, blocks, tile, force)
+        push_corner(HALF, -HALF, b, size, blocks, tile, force)
+        push_corner(HALF, HALF, c, size, blocks, tile, force)
+        push_corner(-HALF, HALF, d, size, blocks, tile, force)
     if packing.mid:
-        share(packing, force)
+        share_out(packing, force)
     return energy, power
 
 
@@ -126,7 +151,7 @@ def average(packing: Packing, x: np.ndarray) -> None:
     plane, mid = packing.plane, packing.layers * packing.plane
     part = x.dtype.type(1.0) / x.dtype.type(packing.layers)
     for q in range(3):
-        first = np.uint64(q) * (mid + plane)
+        first = np.uint64(q) * packing.size
         for i in range(plane):
             x[first + mid + i] = x[first + i]
         for k in range(ONE, packing.layers):
@@ -141,18 +166,18 @@ def clear(packing: Packing, force: np.ndarray) -> None:
     """No force on the mid-surface."""
     plane, mid = packing.plane, packing.layers * packing.plane
     for q in range(3):
-        first = np.uint64(q) * (mid + plane) + mid
+        first = np.uint64(q) * packing.size + mid
         for i in range(plane):
             force[first + i] = 0.0
 
 
 @njit(**OPTIONS)
-def share(packing: Packing, force: np.ndarray) -> None:
+def share_out(packing: Packing, force: np.ndarray) -> None:
     """Give the force on the mid-surface to the layers, equally."""
     plane, mid = packing.plane, packing.layers * packing.plane
     part = force.dtype.type(1.0) / force.dtype.type(packing.layers)
     for q in range(3):
-        first = np.uint64(q) * (mid + plane)
+        first = np.uint64(q) * packing.size
         for k in range(packing.layers):
             for i in range(plane):
                 force[first + k * plane + i] += part * force[first + mid + i]

@@ -1,9 +1,8 @@
 """Links and their dampers by tiles: the forces of `lumped.springs.links`, `directional` and `link_dampers`.
 
-With r = d0 + du, the relative position, and L the rest length, a link pulls with k (|r| − L)/|r| r, and its
-damper with c (r·dv)/|r|² r. Rows of a tile: du and dv in, the force in place of du out. Rows of rest data:
-d0, L, c, k; of the per-direction law three k. A place without a link has no stiffness, and TINY keeps it
-finite.
+With r = d0 + du, the relative position, n = r/|r| and L the rest length, a link pulls with k (|r| − L) n, and
+its damper with c (n·dv) n. Rows of rest data: d0, L, c, k; of the per-direction law three k. Kept of every
+link: n; the pull is a row of the tile. A place without a link has no stiffness, and TINY keeps it finite.
 """
 
 from __future__ import annotations
@@ -13,60 +12,101 @@ import math
 import numpy as np
 from numba import njit
 
-from lumped.springs.tiles import OPTIONS, ROWS
+from lumped.springs.memory import FORCE_X, FORCE_Y, FORCE_Z, GIVEN, KEPT, ROW, load, store
+from lumped.springs.tiles import LANES, OPTIONS, ROWS
 
 R0, R1, R2, R3, R4, R5, R6, R7 = ROWS[:8]
-DATA = 8  # rows of rest data
+DATA, SHAPE = 8, 3  # rows of rest data, and of what is kept
 TINY = 1e-36  # m²
 
 
 @njit(**OPTIONS)
-def link_forces(
-    rest: np.ndarray, t: int, tile: np.ndarray, count: int, elastic: bool, damped: bool
-) -> tuple[float, float]:
-    """Forces of the springs if elastic, and of the dampers if damped; energy, and power taken."""
-    energy, power = rest.dtype.type(0.0), rest.dtype.type(0.0)
-    one, tiny = rest.dtype.type(1.0), rest.dtype.type(TINY)
-    for i in range(count):
-        ox, oy, oz = rest[t + i], rest[t + R1 + i], rest[t + R2 + i]
-        dx, dy, dz = tile[i], tile[R1 + i], tile[R2 + i]
+def stretch_links(
+    u: np.ndarray,
+    share: float,
+    rest: np.ndarray,
+    t: int,
+    a: int,
+    b: int,
+    size: int,
+    blocks: int,
+    tile: np.ndarray,
+    at: int,
+) -> float:
+    """Keep the directions at displacement u, and put this share of the springs' pulls in the first row; the
+    energy."""
+    energy = rest.dtype.type(0.0)
+    one, tiny, part = rest.dtype.type(1.0), rest.dtype.type(TINY), rest.dtype.type(share)
+    a1, b1, a2, b2 = a + size, b + size, a + size + size, b + size + size
+    for i in range(blocks * LANES):
+        ox, oy, oz = load(GIVEN, rest, t + i), load(GIVEN, rest, t + R1 + i), load(GIVEN, rest, t + R2 + i)
+        dx = load(GIVEN, u, b + i) - load(GIVEN, u, a + i)
+        dy = load(GIVEN, u, b1 + i) - load(GIVEN, u, a1 + i)
+        dz = load(GIVEN, u, b2 + i) - load(GIVEN, u, a2 + i)
         rx, ry, rz = ox + dx, oy + dy, oz + dz
-        square = rx * rx + ry * ry + rz * rz + tiny
-        pull = rest.dtype.type(0.0)
-        if elastic:
-            along = ox * dx + oy * dy + oz * dz
-            gained = along + along + (dx * dx + dy * dy + dz * dz)  # r² − L², no digits lost
-            length = math.sqrt(square)
-            both = length + rest[t + R3 + i]
-            inverse = one / (both * length)
-            strain = gained * inverse
-            pull = rest[t + R5 + i] * strain
-            energy += pull * strain * square
-            turn = both * inverse
-            by_square = turn * turn
-        else:
-            by_square = one / square
-        if damped:
-            rate = rx * tile[R3 + i] + ry * tile[R4 + i] + rz * tile[R5 + i]
-            resisting = rest[t + R4 + i] * rate * by_square
-            power += resisting * rate
-            pull += resisting
-        tile[i], tile[R1 + i], tile[R2 + i] = pull * rx, pull * ry, pull * rz
-    return 0.5 * energy, 1.0 * power
+        along = ox * dx + oy * dy + oz * dz
+        gained = along + along + (dx * dx + dy * dy + dz * dz)  # r² − L², no digits lost
+        length = math.sqrt(rx * rx + ry * ry + rz * rz + tiny)
+        both = length + load(GIVEN, rest, t + R3 + i)
+        inverse = one / (both * length)
+        turn, elongation = both * inverse, gained * (length * inverse)
+        pull = part * load(GIVEN, rest, t + R5 + i) * elongation
+        energy += pull * elongation
+        store(ROW, tile, R0 + i, pull)
+        store(KEPT, tile, at + i, rx * turn)
+        store(KEPT, tile, at + R1 + i, ry * turn)
+        store(KEPT, tile, at + R2 + i, rz * turn)
+    return 0.5 * energy
 
 
 @njit(**OPTIONS)
-def add_directional(rest: np.ndarray, t: int, tile: np.ndarray, count: int) -> None:
-    """Forces of the per-direction law, which has no energy."""
-    tiny = rest.dtype.type(TINY)
-    for i in range(count):
-        ox, oy, oz = rest[t + i], rest[t + R1 + i], rest[t + R2 + i]
-        dx, dy, dz = tile[i], tile[R1 + i], tile[R2 + i]
+def resist_links(
+    v: np.ndarray, rest: np.ndarray, t: int, a: int, b: int, size: int, blocks: int, tile: np.ndarray, at: int
+) -> float:
+    """Add the pulls of the dampers at velocity v to the first row; the power taken."""
+    power = rest.dtype.type(0.0)
+    a1, b1, a2, b2 = a + size, b + size, a + size + size, b + size + size
+    for i in range(blocks * LANES):
+        rate = load(KEPT, tile, at + i) * (load(GIVEN, v, b + i) - load(GIVEN, v, a + i))
+        rate += load(KEPT, tile, at + R1 + i) * (load(GIVEN, v, b1 + i) - load(GIVEN, v, a1 + i))
+        rate += load(KEPT, tile, at + R2 + i) * (load(GIVEN, v, b2 + i) - load(GIVEN, v, a2 + i))
+        resisting = load(GIVEN, rest, t + R4 + i) * rate
+        power += resisting * rate
+        store(ROW, tile, R0 + i, load(ROW, tile, R0 + i) + resisting)
+    return 1.0 * power
+
+
+@njit(**OPTIONS)
+def stretch_directional(
+    u: np.ndarray, rest: np.ndarray, t: int, a: int, b: int, size: int, blocks: int, tile: np.ndarray, at: int
+) -> None:
+    """The per-direction law, which has no energy: its force where others keep n, to be pulled with 1."""
+    one, tiny = rest.dtype.type(1.0), rest.dtype.type(TINY)
+    a1, b1, a2, b2 = a + size, b + size, a + size + size, b + size + size
+    for i in range(blocks * LANES):
+        ox, oy, oz = load(GIVEN, rest, t + i), load(GIVEN, rest, t + R1 + i), load(GIVEN, rest, t + R2 + i)
+        dx = load(GIVEN, u, b + i) - load(GIVEN, u, a + i)
+        dy = load(GIVEN, u, b1 + i) - load(GIVEN, u, a1 + i)
+        dz = load(GIVEN, u, b2 + i) - load(GIVEN, u, a2 + i)
         along = ox * dx + oy * dy + oz * dz
         gained = along + along + (dx * dx + dy * dy + dz * dz)
         dx, dy, dz = dx + ox, dy + oy, dz + oz
         length = math.sqrt(dx * dx + dy * dy + dz * dz + tiny)
-        strain = gained / ((length + rest[t + R3 + i]) * length)
-        tile[i] = rest[t + R5 + i] * strain * dx
-        tile[R1 + i] = rest[t + R6 + i] * strain * dy
-        tile[R2 + i] = rest[t + R7 + i] * strain * dz
+        strain = gained / ((length + load(GIVEN, rest, t + R3 + i)) * length)
+        store(ROW, tile, R0 + i, one)
+        store(KEPT, tile, at + i, load(GIVEN, rest, t + R5 + i) * strain * dx)
+        store(KEPT, tile, at + R1 + i, load(GIVEN, rest, t + R6 + i) * strain * dy)
+        store(KEPT, tile, at + R2 + i, load(GIVEN, rest, t + R7 + i) * strain * dz)
+
+
+@njit(**OPTIONS)
+def pull_ends(
+    sign: float, end: int, size: int, blocks: int, tile: np.ndarray, at: int, force: np.ndarray
+) -> None:
+    """Add the pulls, times 1 or −1, to the forces on one end of the links."""
+    y, z, way = end + size, end + size + size, tile.dtype.type(sign)
+    for i in range(blocks * LANES):
+        pull = way * load(ROW, tile, R0 + i)
+        store(FORCE_X, force, end + i, load(FORCE_X, force, end + i) + pull * load(KEPT, tile, at + i))
+        store(FORCE_Y, force, y + i, load(FORCE_Y, force, y + i) + pull * load(KEPT, tile, at + R1 + i))
+        store(FORCE_Z, force, z + i, load(FORCE_Z, force, z + i) + pull * load(KEPT, tile, at + R2 + i))

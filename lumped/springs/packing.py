@@ -18,9 +18,11 @@ from lumped.lattice import Lattice
 from lumped.springs import cell_tiles, link_tiles
 from lumped.springs.families import AreaSprings, DirectionalLinks, Links, StrainSprings
 from lumped.springs.family import Dampers, Family
-from lumped.springs.tiles import WIDTH
+from lumped.springs.tiles import LANES, STRIDE, WIDTH
 
 LINKS, DIRECTIONAL, CELLS = range(3)
+BLOCK = int(LANES)
+KEPT = 2**18  # numbers of all shapes at most: from beyond the caches they come slower than they are found
 BRIDGED = 4  # places at most from one spring of a run to the next
 ROWS = {LINKS: link_tiles.DATA, DIRECTIONAL: link_tiles.DATA, CELLS: cell_tiles.DATA}
 GEOMETRY = {LINKS: (0, 1, 2, 3), DIRECTIONAL: (0, 1, 2, 3), CELLS: (0, 1, 2, 3, 4, 5, 6, 9, 10, 11)}
@@ -33,18 +35,24 @@ AREA, STRAIN = slice(7, 9), slice(12, 18)  # rows of stiffness and damping of a 
 
 
 class Packing(NamedTuple):
-    """order: (n,) mass at each place; layers, plane: how many planes, and of how many masses; mid: whether
-    there are cells on the mid-surface; damped: whether there are dampers; runs: (r, 9), of each what it is,
-    its number of springs, where its rest data begin, its first four (or two) masses, and whether its cells
-    resist changes of area and strains; rest: rest data, flat."""
+    """order: (n,) mass at each place; layers, plane: how many planes, and of how many masses; size: places
+    of a component, with some to spare after the mid-surface's for blocks that are not full; mid: whether
+    there are cells on the mid-surface; damped: whether there are dampers; runs: (r, 10), of each what it is,
+    its blocks of springs, where its rest data begin, its first four (or two) masses, whether its cells
+    resist changes of area and strains, and where in a tile its shapes are kept; rest: rest data, flat;
+    keeping: whether shapes are kept for dampers, those of each run in a place of its own; length: of a tile
+    with what is kept."""
 
     order: np.ndarray
     layers: np.uint64
     plane: np.uint64
+    size: np.uint64
     mid: bool
     damped: bool
     runs: np.ndarray
     rest: np.ndarray
+    keeping: bool
+    length: int
 
 
 class Scratch(NamedTuple):
@@ -58,8 +66,8 @@ class Scratch(NamedTuple):
 
 def scratch(packing: Packing) -> Scratch:
     """Room for whoever asks for forces."""
-    kind, size = packing.rest.dtype, 3 * int(packing.layers + 1) * int(packing.plane)
-    tile = np.zeros(cell_tiles.DATA * WIDTH, kind)
+    kind, size = packing.rest.dtype, 3 * int(packing.size)
+    tile = np.zeros(packing.length, kind)
     return Scratch(np.zeros(size, kind), np.zeros(size, kind), np.zeros(size, kind), tile)
 
 
@@ -95,15 +103,36 @@ def pack(
                 used += table.size
             of_run[2] = tables[key]
             runs.append(of_run)
+    table = np.array(runs, dtype=np.uint64).reshape(-1, 10)
+    table = table[np.argsort(table[:, 3] % plane, kind="stable")]  # masses stay in the fastest memory
+    keeping, length = _place_shapes(table, bool(dampers))
     return Packing(
         planes.ravel(),
         np.uint64(layers),
         np.uint64(plane),
+        np.uint64(_in_blocks((layers + 1) * plane + BLOCK - 1) * BLOCK),
         mid,
         bool(dampers),
-        np.array(runs, dtype=np.uint64).reshape(-1, 9),
+        table,
         np.concatenate(rest).astype(np.float32 if single else float),
+        keeping,
+        length,
     )
+
+
+def _in_blocks(count: int) -> int:
+    return -(-count // BLOCK)
+
+
+def _place_shapes(runs: np.ndarray, damped: bool) -> tuple[bool, int]:
+    """Set where the shapes of each run (r, 10) are kept, all in one place where none are asked for again, or
+    there are too many; whether each has its own, and a tile's length."""
+    links = np.where(runs[:, 0] == CELLS, 0, link_tiles.SHAPE)
+    rows = links + cell_tiles.AREA_SHAPE * runs[:, 7] + cell_tiles.STRAIN_SHAPE * runs[:, 8]
+    before = np.append(0, np.cumsum(rows)).astype(int)
+    keeping = damped and STRIDE * int(before[-1]) <= KEPT
+    runs[:, 9] = STRIDE * (cell_tiles.USED + before[:-1] * keeping)
+    return keeping, STRIDE * (cell_tiles.USED + int(before[-1] if keeping else rows.max(initial=0)))
 
 
 def _data(family: Family, damped: bool) -> tuple[int, np.ndarray]:
@@ -148,7 +177,7 @@ def _merged(kind: int, nodes: np.ndarray, data: np.ndarray) -> tuple[np.ndarray,
 def _runs(
     kind: int, nodes: np.ndarray, data: np.ndarray, width: int, plane: int
 ) -> Iterator[tuple[list[int], np.ndarray]]:
-    """Runs, where their rest data begin left out, and their rest data (rows, WIDTH)."""
+    """Runs, where their rest data begin left out, and their rest data (rows, STRIDE)."""
     first = nodes[:, 0]
     apart = nodes - first[:, None]
     lines, columns = max(1, WIDTH // width), -(-width // -(-width // WIDTH))
@@ -164,9 +193,9 @@ def _runs(
     begins = np.append(0, np.flatnonzero(parted) + 1)
     ends = np.append(begins[1:], len(first))
     for begin, end in zip(begins.tolist(), ends.tolist(), strict=True):
-        table = np.zeros((ROWS[kind], WIDTH))
+        table = np.zeros((ROWS[kind], STRIDE))
         table[list(GEOMETRY[kind])] = np.array(NOTHING[kind])[:, None]
         table[:, first[begin:end] - first[begin]] = data[begin:end].T
         corners = nodes[begin].tolist() + [0] * (4 - nodes.shape[1])
         has = [int(table[rows].any()) if kind == CELLS else 0 for rows in (AREA, STRAIN)]
-        yield [kind, int(first[end - 1] - first[begin]) + 1, 0, *corners, *has], table
+        yield [kind, _in_blocks(int(first[end - 1] - first[begin]) + 1), 0, *corners, *has, 0], table

@@ -24,7 +24,7 @@ def test_thin_to_thick_within_2_percent(model: str) -> None:
     assert all(row.passed for row in rows)
 
 
-@pytest.mark.parametrize("poisson", [0.3, 0.48, 0.499, 0.4999])
+@pytest.mark.parametrize("poisson", [0.48, 0.4999])
 def test_solid_within_1_percent_at_the_seeds_slenderness(poisson: float) -> None:
     """h/a = 3/188."""
     coarse, fine = (deflection("solid", "clamped", 3 / 188, n, poisson) for n in (8, 14))

@@ -156,7 +156,7 @@ def test_no_spurious_mode_when_held(support):
     """The lowest eigenvalue of a held sheet is that of a physical mode: it does not fall on refinement."""
     hinged = (support, Hinged(edge="y1")) if support.kind == "hinged" else (support,)
     lowest = []
-    for elements in (4, 8):
+    for elements in (3, 6):
         structure, _ = discretise(rectangle(SHEET, elements), scene(supports=hinged))
         matrix, _ = structure.system(structure.rest(), structure.forces(structure.rest(), 0.0), 0.0)
         areas = area_force(structure.element.areas, structure.element_nodes, structure.count, np.ones(1))

@@ -85,7 +85,7 @@ def test_wrong_limits_are_measured_and_predicted(study):
 
 
 def test_long_cells(study, monkeypatch):
-    monkeypatch.setattr(studies, "LONG_EVERYWHERE", ((17, 49),))
+    monkeypatch.setattr(studies, "LONG_EVERYWHERE", ((9, 25),))
     found = study(methods=["moduli"], grids=[9], scenes=SEED, parts=["aspect"])
     assert {row["aspect"] for row in found.aspect} == {1.0, 1.5, 2.0, 3.0}
     assert max(row["error"] for row in found.aspect) < 0.02

@@ -113,7 +113,7 @@ class Cells(Family):
     def energies(self, stress: np.ndarray) -> np.ndarray:
         """½ τ²/k a0, summed over a cell's strains where it has several."""
         k = self.stiffness
-        density = 0.5 * np.divide(stress**2, k, out=np.zeros_like(k), where=k != 0.0)
+        density = 0.5 * np.divide(stress**2, k, out=np.zeros(k.shape), where=k != 0.0)
         return self.rest_area * (density if density.ndim == 1 else density.sum(axis=1))
 
     def by_name(self, energies: np.ndarray) -> dict[str, float]:

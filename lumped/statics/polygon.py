@@ -49,6 +49,8 @@ def lost_bending(scene: Scene, grid: Sequence[int]) -> dict[str, float]:
 
 def polygons(scene: Scene, grid: Sequence[int]) -> str:
     """A sentence about chains whose segments keep a noticeable part of the bending back, else nothing."""
+    if not scene.actuators:
+        return ""
     said = [
         f"the chain on {edge} bends it some {100.0 * share:.2g} % less than an elastic rod would: each rigid "
         "segment holds several cells straight; take one segment a cell"

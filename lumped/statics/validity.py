@@ -100,9 +100,9 @@ def layers(scene: Scene, assembly: Assembly, u: np.ndarray, stresses: Stresses, 
 
 def _double_curvature(lattice: Lattice, u: np.ndarray) -> np.ndarray:
     """√|κ₁ κ₂| of every cell from the directors' changes along x and y, (ny − 1, nx − 1) [1/m]."""
-    both = np.stack(surface(lattice, u))
+    both = np.array(surface(lattice, u))
     by_x, by_y = both[:, :, 1:] - both[:, :, :-1], both[:, 1:] - both[:, :-1]
-    changes = 0.5 * np.stack([by_x[:, :-1] + by_x[:, 1:], by_y[:, :, :-1] + by_y[:, :, 1:]])
+    changes = 0.5 * np.array([by_x[:, :-1] + by_x[:, 1:], by_y[:, :, :-1] + by_y[:, :, 1:]])
     # of the middle along axis a times that of the director along b
     (xx, xy), (yx, yy) = np.einsum("ajiq,bjiq->abji", changes[:, 0], changes[:, 1])
     gauss: np.ndarray = np.sqrt(np.abs(xx * yy - (0.5 * (xy + yx)) ** 2)) / lattice.cell_areas

@@ -8,7 +8,7 @@ One rule for every model; where a model looks is its own affair.
 
 from __future__ import annotations
 
-import numpy as np
+import math
 
 from sheetbench.scenes.scene import Scene
 
@@ -20,7 +20,7 @@ def weight_strain(scene: Scene) -> float:
     """ρ g a/E under the last of the weight."""
     if scene.gravity is None:
         return 0.0
-    weight = scene.material.density * float(np.linalg.norm(scene.gravity.last_acceleration))
+    weight = scene.material.density * math.hypot(*scene.gravity.last_acceleration)
     return weight * max(scene.sheet.lengths) / scene.material.young
 
 

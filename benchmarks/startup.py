@@ -3,7 +3,9 @@
     python benchmarks/startup.py [--first] [--keep]
 
 CPU seconds and seconds by the clock, the least of REPEATS with what is compiled in the cache, and what is
-said on standard error about compiling, which should be nothing. --first: with an empty cache too (a minute).
+said on standard error about compiling, which should be nothing. Python keeps what it makes of its sources, as
+by default, whatever the environment here says: else every process would read them all anew. --first: with an
+empty cache too (a minute).
 """
 
 from __future__ import annotations
@@ -34,7 +36,7 @@ def process(arguments: tuple[str, ...], **environment: str) -> tuple[float, floa
     before, began = getrusage(RUSAGE_CHILDREN), perf_counter()
     done = subprocess.run(
         [sys.executable, "-m", "sheetbench", *arguments],
-        env={**os.environ, **environment},
+        env={**os.environ, "PYTHONDONTWRITEBYTECODE": "", **environment},
         capture_output=True,
         text=True,
         check=True,

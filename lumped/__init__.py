@@ -1,21 +1,15 @@
-"""The spring lattice: topology, springs and cells, calibration, statics, vibration, dynamics."""
+"""The spring lattice: topology, springs and cells, calibration, statics, vibration, dynamics.
+
+Motion is imported when it is first asked for: a tenth of a second that statics need not wait for.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration, given, homogenised
 from lumped.description import Description, describe
-from lumped.dynamics import (
-    INTEGRATORS,
-    Integrator,
-    State,
-    StepFailed,
-    StepLimit,
-    System,
-    simulate,
-    step_limit,
-    turn_limit,
-    watchdog,
-)
 from lumped.fitting import (
     CALIBRATIONS,
     FittedCalibration,
@@ -27,11 +21,9 @@ from lumped.fitting import (
 )
 from lumped.footprint import footprint
 from lumped.lattice import Lattice
-from lumped.linearised import Linear, linearise
 from lumped.masses import Inertia
 from lumped.mid_surface import MidSurface
 from lumped.sensitivity import Sensitivity, gradient, sensitivity
-from lumped.state_space import Balanced, StateSpace
 from lumped.statics.buckling import buckling_loads
 from lumped.statics.continuation import Path, trace
 from lumped.statics.equilibrium import at_rest, follow
@@ -39,6 +31,16 @@ from lumped.statics.many import solve_many
 from lumped.statics.polygon import polygons
 from lumped.statics.solver import pose, solve
 from lumped.vibration import Modes, modes, usual_masses
+
+if TYPE_CHECKING:
+    from lumped.dynamics import watchdog
+    from lumped.dynamics.integrator import Integrator, StepFailed
+    from lumped.dynamics.integrators import INTEGRATORS
+    from lumped.dynamics.simulation import simulate
+    from lumped.dynamics.step_limit import StepLimit, step_limit, turn_limit
+    from lumped.dynamics.system import State, System
+    from lumped.linearised import Linear, linearise
+    from lumped.state_space import Balanced, StateSpace
 
 __all__ = [
     "CALIBRATIONS",
@@ -89,3 +91,16 @@ __all__ = [
     "usual_masses",
     "watchdog",
 ]
+
+_LATER = {"Linear": "lumped.linearised", "linearise": "lumped.linearised"}
+_LATER |= {"Balanced": "lumped.state_space", "StateSpace": "lumped.state_space"}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in __all__:
+        raise AttributeError(f"module 'lumped' has no attribute {name!r}")
+    return getattr(import_module(_LATER.get(name, "lumped.dynamics")), name)
+
+
+def __dir__() -> list[str]:
+    return __all__

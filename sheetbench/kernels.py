@@ -4,7 +4,8 @@ They are kept in the user's cache, unless NUMBA_CACHE_DIR names another place: n
 the installed package, where uninstalling leaves them behind. By itself numba compiles a kernel anew when its
 own file changes; one that calls kernels of other files would go on with what they were. So a kernel's stamp
 here is that of all files with kernels, or with the tuples and options that they take, which its file imports,
-and theirs.
+and theirs. And before it loads what is compiled numba gets all that it would need to compile: here only where
+it does.
 
 To be imported before numba is. Whoever wants to know that something is compiled listens to the logger
 "sheetbench"; nothing is said where all is in the cache.
@@ -26,6 +27,7 @@ from platformdirs import user_cache_path
 os.environ.setdefault("NUMBA_CACHE_DIR", str(user_cache_path("sheetbench") / "numba"))  # numba reads it once
 
 from numba.core import caching, event  # after its directory is set
+from numba.core.runtime import rtsys
 
 ROOT = Path(__file__).resolve().parent.parent
 OURS = ("lumped", "fem_reference")
@@ -39,16 +41,24 @@ class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]  # numba 
 
     def get_source_stamp(self) -> str:
         """A digest of all that the kernel may be compiled from."""
-        return stamp(Path(self._py_file).resolve())
+        return stamp(_resolved(self._py_file))
+
+    def ensure_cache_path(self) -> None:
+        """Once a folder, not once a kernel."""
+        if self.get_cache_path() not in _writable:
+            super().ensure_cache_path()
+            _writable.add(self.get_cache_path())
 
     @classmethod
     def from_function(cls, function: Callable[..., Any], file: str) -> Locator | None:
         """The locator of a function of ours; None of others, which numba looks after."""
-        path = Path(file).resolve()
-        if not path.is_relative_to(ROOT) or path.relative_to(ROOT).parts[0] not in OURS:
+        if not _ours(file):
             return None
         found: Locator | None = super().from_function(function, file)
         return found
+
+
+_writable: set[str] = set()
 
 
 @cache
@@ -64,7 +74,7 @@ def made_of(path: Path) -> set[Path]:
     """A file, the files with kernels that it imports, and so on."""
     found, ahead = {path}, [path]
     while ahead:
-        fresh = {other for other in _imported(ahead.pop()) if COMPILED.search(_text(other))} - found
+        fresh = _imported(ahead.pop()) - found
         found |= fresh
         ahead.extend(fresh)
     return found
@@ -72,18 +82,34 @@ def made_of(path: Path) -> set[Path]:
 
 @cache
 def _imported(path: Path) -> set[Path]:
-    """Our files that a file imports."""
+    """Our files with kernels that a file imports."""
     found = set()
     for module, names in IMPORTS.findall(_text(path)):
         parts = ROOT.joinpath(*module.split("."))
         inside = [parts / name for name in re.findall(r"\w+", names)]
-        found |= {file for place in (parts, *inside) if (file := place.with_suffix(".py")).is_file()}
+        found |= {file for place in (parts, *inside) if _compiled(file := place.with_suffix(".py"))}
     return found
+
+
+@cache
+def _compiled(path: Path) -> bool:
+    return path.is_file() and COMPILED.search(_text(path)) is not None
 
 
 @cache
 def _text(path: Path) -> str:
     return path.read_text(encoding="utf-8")
+
+
+@cache
+def _resolved(file: str) -> Path:
+    return Path(file).resolve()
+
+
+@cache
+def _ours(file: str) -> bool:
+    path = _resolved(file)
+    return path.is_relative_to(ROOT) and path.relative_to(ROOT).parts[0] in OURS
 
 
 class _Announcement(event.Listener):  # type: ignore[misc]
@@ -101,5 +127,16 @@ class _Announcement(event.Listener):  # type: ignore[misc]
         """Nothing."""
 
 
+def _load(self: caching.FunctionCache, signature: object, target_context: object) -> object:
+    """A compiled kernel of the cache, or None: what numba does, without what only compiling needs."""
+    if not isinstance(self._impl.locator, Locator):
+        return _load_as_numba(self, signature, target_context)
+    rtsys.initialize(target_context)
+    with self._guard_against_spurious_io_errors():
+        return self._load_overload(signature, target_context)
+
+
+_load_as_numba = caching.FunctionCache.load_overload
+setattr(caching.FunctionCache, "load_overload", _load)  # noqa: B010  # a method of numba's, for ours alone
 caching.CacheImpl._locator_classes.insert(0, Locator)
 event.register("numba:compile", _Announcement())

@@ -30,6 +30,24 @@ def test_importing_the_command_line_imports_nothing_heavy() -> None:
     assert done.stdout.strip() == "[]"
 
 
+UNUSED = ("matplotlib", "pyvista", "vtkmodules", "meshio", "pandas", "fem_reference.solid", "lumped.dynamics")
+UNUSED += ("scipy.optimize", "scipy.interpolate", "scipy.spatial", "scipy.stats", "numba.cpython.printimpl")
+COMPARE = """
+import sys
+from comparisons.cli import main
+try:
+    main(["compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json"])
+finally:
+    print([name for name in sys.argv[1:] if name in sys.modules], file=sys.stderr)
+"""
+
+
+def test_a_comparison_imports_nothing_that_it_does_not_use() -> None:
+    asked = [sys.executable, "-c", COMPARE, *UNUSED]
+    done = subprocess.run(asked, capture_output=True, text=True, check=True)
+    assert done.stderr.splitlines()[-1] == "[]"
+
+
 @pytest.mark.parametrize("asked", [(), ("--help",)])
 def test_help_lists_the_verbs(asked: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
     assert run(*asked) == 0

@@ -13,7 +13,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
 
 .PHONY: docs docs-scene help install demo test check kernels slow fuzz kills catalogue verify locking coverage transfer coarse tradeoff \
         advisor-study animations notebooks reproduce crosscheck peers bench central simulators stability stability-full suite standing mutants viewer \
-        wheel-check lint clean
+        wheel-check extras-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
@@ -47,6 +47,7 @@ help:
 	@echo "make notebooks the notebooks of docs/notebooks anew, with what they print and draw"
 	@echo "make docs      the documentation as a site, docs/_build/html/index.html (three minutes; a warning is an error)"
 	@echo "make wheel-check  the wheel as its users get it: installed elsewhere, run there, uninstalled without a trace"
+	@echo "make extras-check  the wheel with each extra on its own, and with none, in environments that have nothing else"
 	@echo "make install   set up only: $(BIN)/sheetbench"
 	@echo "make clean     remove the environment and the demo's files"
 
@@ -204,6 +205,9 @@ mutants: install
 
 wheel-check: install
 	@.ci/wheel-check $(BIN)/python
+
+extras-check: install
+	@.ci/extras-check $(PYTHON)
 
 viewer:
 	@cd comparisons/browser/source && npm ci --ignore-scripts --silent && npm run --silent build

@@ -2,10 +2,10 @@
 
 The reduced tangent Tᵀ K T keeps one pattern, so the map from block entries to its entries is computed
 once and the symbolic analysis is done once. Solvers, in the order they are tried for symmetric systems: a
-banded Cholesky (small grids; fails on indefinite matrices, which then go on), rslab's sparse L D Lᵀ with
-exact inertia, SciPy's SuperLU (always there; the inertia from the signs of U's diagonal when no row was
-exchanged). Unsymmetric systems go to rslab's or SciPy's L U. Each solution's residual is checked, with one
-step of refinement.
+banded Cholesky (small grids; fails on indefinite matrices, which then go on), a sparse L D Lᵀ with exact
+inertia by MKL's PARDISO where the extra `mkl` is installed and by rslab where it is not, SciPy's SuperLU
+(always there; the inertia from the signs of U's diagonal when no row was exchanged). Unsymmetric systems
+go to rslab's or SciPy's L U. Each solution's residual is checked, with one step of refinement.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, eigs, onenormest, splu
 
-from lumped.linear import banded
+from lumped.linear import banded, pardiso
 from lumped.linear.banded import BACKWARD_ERROR
 from lumped.linear.reduction import Reduction, reduction
 from lumped.linear.saddle_point import Saddle
@@ -194,13 +194,14 @@ class ReducedSystem:
         matrix = self.matrix(blocks)
         if not np.isfinite(matrix.data).all():
             raise SingularMatrixError("an entry is not finite")
-        if self._saddle is not None and self.symmetric and rslab is not None:
+        sparse = rslab is not None or (self.symmetric and pardiso.library() is not None)
+        if self._saddle is not None and self.symmetric and sparse:
             return self._quasi_definite(self._saddle, matrix)
         try:
-            if rslab is None:
+            if not sparse:
                 return _superlu(matrix, self.symmetric and self._saddle is None)
             if self._analysis is None:
-                self._analysis = rslab.analyze(matrix, path="ldlt" if self.symmetric else "lu")
+                self._analysis = _analysis(matrix, self.symmetric)
             factors = self._analysis.factor(matrix)
             return Factor(matrix, factors.solve, factors.inertia[1] if self.symmetric else None)
         except RuntimeError as error:
@@ -210,7 +211,7 @@ class ReducedSystem:
         close_by, augmented = saddle.quasi_definite(matrix)
         try:
             if self._analysis is None:
-                self._analysis = rslab.analyze(close_by, path="ldlt")
+                self._analysis = _analysis(close_by, symmetric=True)
             factors = self._analysis.factor(close_by)
         except RuntimeError as error:
             raise SingularMatrixError(str(error)) from None
@@ -233,6 +234,13 @@ def _kept(
 ) -> ReducedSystem:
     parts = np.frombuffer(values), np.frombuffer(columns, np.int32), np.frombuffer(pointers, np.int32)
     return ReducedSystem(pattern, sp.csr_array(parts, shape=shape), symmetric)
+
+
+def _analysis(matrix: sp.csc_array, symmetric: bool) -> Any:
+    """What factorises matrices of this one's pattern and tells the inertia of symmetric ones."""
+    if symmetric and pardiso.library() is not None:
+        return pardiso.Analysis(matrix)
+    return rslab.analyze(matrix, path="ldlt" if symmetric else "lu")
 
 
 def _symmetric(matrix: sp.csc_array) -> Factor:

@@ -1,0 +1,76 @@
+"""The extra `mkl`: PARDISO's factors of a lattice's tangent are those of rslab, each in its own memory."""
+
+from __future__ import annotations
+
+import gc
+import weakref
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+import lumped
+from lumped.linear import pardiso, solver
+from sheetbench import scenes
+
+pytestmark = pytest.mark.skipif(pardiso.library() is None, reason="needs the extra sheetbench[mkl]")
+
+
+def laplacian(n: int, shift: float) -> sp.csc_array:
+    """Of n × n points, minus a shift: (n², n²), indices sorted; its eigenvalues are known."""
+    line = sp.diags_array([-1.0, 2.0, -1.0], offsets=[-1, 0, 1], shape=(n, n))  # type: ignore[list-item]
+    one = sp.eye_array(n)
+    matrix = sp.csc_array(sp.kron(line, one) + sp.kron(one, line) - shift * sp.eye_array(n * n))
+    matrix.sort_indices()
+    return matrix
+
+
+def negative(n: int, shift: float) -> int:
+    of_a_line = 4.0 * np.sin(np.arange(1, n + 1) * np.pi / (2 * n + 2)) ** 2
+    return int(np.sum(of_a_line[:, None] + of_a_line < shift))
+
+
+def test_solutions_and_inertia_of_factors_that_live_side_by_side() -> None:
+    n, b = 15, np.random.default_rng(1).standard_normal(225)
+    shifts = (0.0, 0.7, 3.1)
+    matrices = [laplacian(n, shift) for shift in shifts]
+    analysis = pardiso.Analysis(matrices[0])
+    found = [analysis.factor(matrix) for matrix in matrices]
+    for matrix, factors, shift in zip(matrices, found, shifts, strict=True):
+        below = negative(n, shift)
+        assert factors.inertia == (n * n - below, below, 0)
+        np.testing.assert_allclose(matrix @ factors.solve(b), b, atol=1e-10)
+
+
+def test_a_handle_is_used_again_and_let_go() -> None:
+    matrix = laplacian(9, 0.0)
+    analysis = pardiso.Analysis(matrix)
+    first = analysis.factor(matrix)
+    handle = weakref.ref(first._handle)
+    del first
+    again = analysis.factor(matrix)
+    assert again._handle is handle()
+    del analysis, again
+    gc.collect()
+    assert handle() is None
+
+
+def test_a_lattice_comes_to_rest_where_it_does_without_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = scenes.load("two-edges-clamped")
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 5))
+    monkeypatch.setattr(solver, "BANDED_LIMIT", 0.0)
+    solver._kept.cache_clear()
+    asked: list[int] = []
+    factor = pardiso.Analysis.factor
+
+    def counted(self: pardiso.Analysis, matrix: sp.csc_array) -> pardiso.Factors:
+        asked.append(matrix.shape[0])
+        return factor(self, matrix)
+
+    monkeypatch.setattr(pardiso.Analysis, "factor", counted)
+    points = scene.probe_points()
+    found = lumped.solve(scene, springs).displacement(points)
+    assert asked
+    monkeypatch.setattr(pardiso, "library", lambda: None)
+    solver._kept.cache_clear()
+    np.testing.assert_allclose(found, lumped.solve(scene, springs).displacement(points), rtol=1e-9)

@@ -126,7 +126,8 @@ def _run(
         begin_at = coarse_start.start(*found, structure, nodes)
     ready = perf_counter()
     inspect, settle = inspector(scene, structure, solver, graded), settler(structure, solver)
-    path = trace(structure, solver, inspect, settle, progress, begin_at)
+    slenderness = scene.sheet.thickness / structure.lever
+    path = trace(structure, solver, inspect, settle, progress, begin_at, slenderness)
     return _Run(mesh, structure, nodes, path, ready - begin, perf_counter() - ready)
 
 

@@ -39,7 +39,7 @@ from sheetbench.scenes import Status
 
 TOLERANCE = 5e-9  # residual, relative to the forces that balance
 SOLVED = 1e-14  # backward error of a correction that is not refined: the next one is its refinement
-ALIKE = 1e-6  # sizes of the structure: a correction no longer than that leaves the tangent what it is
+ALIKE = 1e-2  # of (thickness/size)², strains that buckle a sheet: what changes by less has the same tangent
 VANISHING = 1e-13  # work of a step, relative to the load step's first: beyond it only rounding is left
 ITERATIONS = 24  # in one load step
 BACK = 4  # corrections that are no shorter than so many before are given up
@@ -60,6 +60,7 @@ def trace(
     settle: Callable[[Path[State], float], State] | None = None,
     progress: Progress | None = None,
     near: Start[State] | None = None,
+    slenderness: float = 0.0,
 ) -> Path[State]:
     """The equilibrium at load factor 1, or the last one on the way with the reason it is the last.
 
@@ -67,10 +68,11 @@ def trace(
     settle: the stable state of a structure under conservative loads that a path leads to at a load factor
     beyond a limit point, for the path to go on from; it raises StepFailed where it finds none.
     progress: called once an iteration. near: a state close to the equilibrium, to begin at; where that leads
-    to none that is stable, the path begins at rest.
+    to none that is stable, the path begins at rest. slenderness: thickness over size; where it is given, the
+    factors of a last correction that is next to nothing tell the stability.
     """
     with one_blas_thread():
-        path = Path(structure.rest(), progress=progress)
+        path = Path(structure.rest(), progress=progress, alike=ALIKE * slenderness**2)
         ended: StepFailed | Fault | None = None
         if near is None or not _arrived(structure, solver, path, inspect, near):
             ended = _follow(structure, solver, path, inspect)
@@ -137,7 +139,7 @@ def _follow(
             continue
         grown = first.target - path.load_factor
         path.state, path.load_factor, path.factor = state, first.target, found
-        factor = found if structure.symmetric else None
+        factor = None  # those of the last correction are too far off to step with: a thin sheet's path halts
         if (fault := inspect(path)) is not None:
             return fault
         easy = path.factorisations - before <= EASY
@@ -246,7 +248,9 @@ def newton(
             raise StepFailed(Status.NON_FINITE, "a number overflowed", first.length)
         rounded = works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before
         if structure.gap(state, target) <= TOLERANCE and (relative <= TOLERANCE or rounded):
-            return state, factor if lengths[-1] <= ALIKE else None
+            # the extrapolated stress, too, is off by the square of the correction before
+            alike = factor is not None and max(lengths[-1], lengths[-2] ** 2) <= path.alike
+            return state, factor if alike else None
         if len(lengths) > BACK and lengths[-1] >= lengths[-1 - BACK]:
             raise StepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
         if path.factorisations >= path.limit:

@@ -26,8 +26,9 @@ class Fault(NamedTuple):
 class Path(Generic[State]):
     """Where the tracing stands: the last equilibrium, its load factor, and what it took.
 
-    snaps: load factors that it snapped at; fault: what has ended it early; notes: what to
-    say of it; progress: told of every iteration; factor: of the equilibrium's tangent, where it is at hand.
+    alike: change of the strain that leaves the tangent what it is; snaps: load factors that it snapped at;
+    fault: what has ended it early; notes: what to say of it; progress: told of every iteration; factor: of
+    the equilibrium's tangent, where it is at hand.
     """
 
     state: State
@@ -41,6 +42,7 @@ class Path(Generic[State]):
     notes: list[str] = field(default_factory=list)
     progress: Progress | None = None
     factor: Factor | None = None
+    alike: float = 0.0
 
     def note(self, load_factor: float, residual: float, step: float) -> None:
         """Keep an iteration and tell whoever watches."""

@@ -6,8 +6,11 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pytest
 import scipy.sparse as sp
 from dynamic_cases import scene, springs
+from numba import njit
+from numba.core import event
 
 import lumped
 from lumped.dynamics.explicit_steps import march
@@ -61,3 +64,24 @@ def test_the_first_compilation_is_announced_and_the_second_run_compiles_nothing(
         for _ in range(2)
     ]
     assert said == [SAID + "\n", ""]
+
+
+def test_a_part_of_an_array_is_set_without_making_text_of_its_shape():
+    heard = []
+
+    class Heard(event.Listener):
+        def on_start(self, event):
+            heard.append(event.data["dispatcher"].py_func.__module__)
+
+        def on_end(self, event):
+            """Nothing."""
+
+    @njit
+    def put(where, what):
+        where[1:] = what
+
+    with event.install_listener("numba:compile", Heard()):
+        put(np.zeros(4), np.zeros(3))
+        with pytest.raises(ValueError, match="shape"):
+            put(np.zeros(4), np.zeros(2))
+    assert "numba.cpython.unicode" not in heard

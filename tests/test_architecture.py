@@ -137,6 +137,7 @@ def test_no_file_imports_itself_by_way_of_others(package):
 # what draws, reads or writes by a large library; the command line and the face import nothing before its use
 SLOW = ("lumped", "fem_reference", "scipy", "matplotlib", "vtkmodules", "pyvista", "meshio", "pandas")
 SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "pypardiso", "comparisons.models.training")
+SLOW += ("numba.core.extending", "numba.np")  # what compiles, where nothing is compiled
 DRAWS = ("figure", "probes_figure", "animation", "offscreen", "locking", "vtk", "toml")
 AT_ONCE = ("comparisons/cli/", "sheetbench/face.py", "sheetbench/__init__.py", "sheetbench/__main__.py")
 

@@ -8,6 +8,7 @@ its start and its reading and writing.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from typing import NamedTuple
 
 from comparisons.comparison.comparison import error
 from comparisons.judges.found import installed
@@ -17,16 +18,29 @@ from comparisons.peers.row import PeerRow, repeated
 from sheetbench.scenes import Solution, load
 from sheetbench.scenes.errors import BadInput
 
-SCENE, TRUTH = "two-edges-clamped", 32
-LADDERS: dict[str, tuple[str, str, tuple[int, ...]]] = {
-    "lumped": ("lattice", "grid", (3, 5, 9, 17, 33)),
-    "shell": ("shell", "elements", (4, 8, 12, 16)),
-    "solid": ("solid", "elements", (4, 8)),
-    "kratos": ("Kratos' thin shell", "elements", (8, 16, 32)),
-    "calculix": ("CalculiX, 20-node bricks", "elements", (4, 6, 8, 12)),
-    "felupe": ("FElupe, 20-node bricks", "elements", (4, 6, 8)),
-    "mujoco": ("MuJoCo's flexible sheet", "grid", (5, 9)),
-}
+SCENE, TRUTH, OBLIQUE = "two-edges-clamped", 32, "consistent-oblique"
+
+
+class Ladder(NamedTuple):
+    """A model by size: the setting that refines it, its values; calibration: of a lattice."""
+
+    model: str
+    code: str
+    setting: str
+    sizes: tuple[int, ...]
+    calibration: str | None = None
+
+
+LADDERS = (
+    Ladder("lumped", "lattice", "grid", (3, 5, 9, 17, 33)),
+    Ladder("lumped", f"lattice, {OBLIQUE}", "grid", (5, 9, 17), OBLIQUE),
+    Ladder("shell", "shell", "elements", (4, 8, 12, 16)),
+    Ladder("solid", "solid", "elements", (4, 8)),
+    Ladder("kratos", "Kratos' thin shell", "elements", (8, 16, 32)),
+    Ladder("calculix", "CalculiX, 20-node bricks", "elements", (4, 6, 8, 12)),
+    Ladder("felupe", "FElupe, 20-node bricks", "elements", (4, 6, 8)),
+    Ladder("mujoco", "MuJoCo's flexible sheet", "grid", (5, 9)),
+)
 
 
 def rows(say: Callable[[str], None]) -> Iterator[PeerRow]:
@@ -35,10 +49,11 @@ def rows(say: Callable[[str], None]) -> Iterator[PeerRow]:
     points = scene.probe_points()
     say(f"shell {TRUTH}, the reference")
     truth = solve_reference(scene, model="shell", elements=TRUTH).displacement(points)
-    for model, (code, setting, sizes) in LADDERS.items():
+    for model, code, setting, sizes, calibration in LADDERS:
         absent = model in judges and judges[model].version() is None
         for size in sizes:
-            asked = Candidate(model, {setting: size})
+            springs = {} if calibration is None else {"calibration": calibration}
+            asked = Candidate(model, {setting: size, **springs})
             shown = f"{size} × {size}"
             say(f"{code}, {shown}")
             if absent:

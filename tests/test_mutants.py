@@ -1,11 +1,13 @@
 """The faults that `make mutants` puts into the solvers, and the tests that it takes for the nearest."""
 
 import ast
+import json
 from pathlib import Path
 
 import pytest
 from mutants.faults import faults
 from mutants.nearest import Nearest, words_of
+from mutants.reach import Reach
 
 TREE = Path(__file__).parent.parent
 
@@ -43,8 +45,9 @@ def test_every_fault_of_a_file_is_python_and_has_a_name_of_its_own():
     source = path.read_bytes()
     found = faults("verlet.py", source)
     assert len({fault.name for fault in found}) == len(found) > 50
+    sound = ast.dump(ast.parse(source))
     for fault in found:
-        assert ast.dump(ast.parse(fault.put_into(source))) != ast.dump(ast.parse(source))
+        assert ast.dump(ast.parse(fault.put_into(source))) != sound
 
 
 def test_names_stay_when_lines_come():
@@ -62,3 +65,19 @@ def test_the_nearest_tests_speak_of_the_module():
     ):
         assert test in nearest.tests(module, words_of(module, function), [])[:2]
     assert "tests/test_cli.py" in nearest.tests("fem_reference/solid/element.py", [], [])
+
+
+def test_a_compiled_function_is_run_by_what_runs_its_callers(tmp_path):
+    module = tmp_path / "lumped" / "links.py"
+    module.parent.mkdir()
+    module.write_text(
+        "LIMIT = 3\n@njit\ndef pull(x): return x\n@njit\ndef pulls(x): return pull(x)\n"
+        "def forces(x): return pulls(x)\nclass Rod:\n def turn(self): return 1\n"
+    )
+    book = tmp_path / "book"
+    runs = {"a": ["lumped/links.py forces"], "b": ["lumped/links.py Rod.turn"], "c": ["lumped/grid.py even"]}
+    rows = [{"test": test, "seconds": 1.0, "runs": names} for test, names in runs.items()]
+    book.write_text("".join(json.dumps(row) + "\n" for row in rows))
+    reach = Reach(tmp_path, book)
+    for function, tests in (("forces", "a"), ("pull", "a"), ("Rod.turn", "b"), ("Rod", "b"), ("", "ab")):
+        assert reach.tests("lumped/links.py", function) == set(tests)

@@ -1,9 +1,9 @@
 """Whether tests notice: run, the promising and quick ones first, until one fails or enough time is spent.
 
 Usage, in the tree to be judged: python judge.py ASKED VERDICT
-ASKED, JSON: files of tests, the nearest first; words that promising tests use; seconds that may be spent, and
-what single tests are known to take. VERDICT, JSON: the test that failed or null, the seconds of processor
-time spent, and what each test took.
+ASKED, JSON: files of tests, the nearest first; tests to be skipped; words that promising tests use; seconds
+that may be spent, and what single tests are known to take. VERDICT, JSON: the test that failed or null, the
+seconds of processor time spent, and what each test took.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from typing import Any
 import pytest
 from nearest import SPOKEN_OF, has
 
-HUNG = 4  # times the time that may be spent: no test takes as long
+HUNG = 2  # times the time that may be spent: no test that is begun takes as long
 UNKNOWN = 1.0  # second, of a test that was not run yet
 
 
@@ -39,6 +39,7 @@ class Watch:
         self.failed: str | None = None
         self.took: dict[str, float] = {}
         self._since = 0.0
+        self._too_long: set[str] = set()
 
     def effort(self, item: pytest.Item) -> float:
         """The logarithm of the time that a test takes by how likely it is to notice."""
@@ -50,7 +51,13 @@ class Watch:
 
     @pytest.hookimpl(trylast=True)
     def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
-        items.sort(key=self.effort)
+        skipped = set(self.asked["skipped"])
+        items[:] = sorted((item for item in items if item.nodeid not in skipped), key=self.effort)
+
+    def pytest_runtest_setup(self, item: pytest.Item) -> None:
+        if self.asked["took"].get(item.nodeid, 0.0) > self.asked["seconds"] - spent():
+            self._too_long.add(item.nodeid)
+            pytest.skip("longer than what is left")
 
     def pytest_collectreport(self, report: pytest.CollectReport) -> None:
         if report.failed:
@@ -64,7 +71,8 @@ class Watch:
             self.failed = self.failed or report.nodeid
 
     def pytest_runtest_logfinish(self, nodeid: str) -> None:
-        self.took[nodeid] = round(spent() - self._since, 2)
+        if nodeid not in self._too_long:
+            self.took[nodeid] = round(spent() - self._since, 2)
 
     def pytest_runtest_teardown(self, item: pytest.Item) -> None:
         if spent() > self.asked["seconds"]:

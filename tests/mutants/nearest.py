@@ -6,11 +6,12 @@ of its folder or of the faulty function is nearer than that.
 
 from __future__ import annotations
 
-import ast
 import re
 from pathlib import Path
 
 FOLDERS = ("lumped", "fem_reference", "comparisons", "sheetbench", "tests")
+# also in a text that a test runs as a program; all files by ast would take seconds
+IMPORTS = re.compile(r"^[ \t]*(?:from ([\w.]+) )?import (\([^)]*\)|[^\n]*)", re.MULTILINE)
 SPOKEN_OF = 2.0  # imports that a mention is worth
 
 
@@ -28,7 +29,7 @@ class Nearest:
     def tests(self, module: str, words: list[str], usual: list[str]) -> list[str]:
         """All files of tests, the nearest first, with mentions of words; of those as near the ``usual``."""
         distances = self._distances(self._files[module])
-        farthest = max(distances.values()) + 1  # what is imported by a text, or not at all
+        farthest = max(distances.values()) + 1  # what is not imported at all
 
         def nearness(test: str) -> tuple[float, bool, str]:
             spoken = sum(has(self._texts[test], word) for word in words)
@@ -72,9 +73,7 @@ def modules(tree: Path, folder: str) -> dict[str, Path]:
 def imported(path: Path, files: dict[str, Path]) -> set[str]:
     """Our modules that a file imports."""
     found = set()
-    for node in ast.walk(ast.parse(path.read_text())):
-        if isinstance(node, ast.ImportFrom):
-            found |= {node.module or "", *(f"{node.module}.{name.name}" for name in node.names)}
-        elif isinstance(node, ast.Import):
-            found |= {name.name for name in node.names}
+    for module, names in IMPORTS.findall(path.read_text()):
+        named = [name.split()[0] for name in names.strip("()").split(",") if name.strip()]
+        found |= {module, *(f"{module}.{name}" for name in named)} if module else set(named)
     return found & files.keys()

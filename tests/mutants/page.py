@@ -17,7 +17,8 @@ from math import sqrt
 from pathlib import Path
 from typing import Any
 
-from session import ENOUGH, PACKAGES
+from reach import PACKAGES
+from session import COMPILING, ENOUGH
 
 from comparisons.runs.manifest import processor
 
@@ -27,10 +28,11 @@ HEAD = """\
 
 Faults put into the solvers one at a time, and the tests run against each until one fails. A fault is one
 comparison, operator, number, index, condition or sign written otherwise, or one statement left out; as many
-of `lumped` as of `fem_reference` are drawn, every one as likely as another. The nearest tests come first:
-those that import the faulty module, that speak of it or of its function, then `make check`'s, then others.
-What has not been noticed after {enough:.0f} seconds of processor time has survived, though the whole suite
-might catch it; a survivor that a test was then written for is tried again, and counts as caught.
+of `lumped` as of `fem_reference` are drawn, every one as likely as another. It is tried on the tests that
+run the faulty function, the quick ones first, and on those that are near: that import the module, that speak
+of it or of its function. What has not been noticed after {enough:.0f} seconds of processor time, or
+{compiled:.0f} where kernels are compiled anew, has survived, though the whole suite might catch it; one
+that a test was then written for is tried again, and counts as caught.
 
 Written by `make mutants` on {day}, of the {size} faults tried so far (it goes on where it stopped): Python
 {python}, {processor}; commits {commits}. In the mean a fault took {mean:.0f} seconds of processor time.
@@ -45,6 +47,7 @@ def page(rows: Sequence[dict[str, Any]], reasons: dict[str, str]) -> str:
     times = [row["seconds"] for row in rows if row["seconds"] is not None]
     text = HEAD.format(
         enough=ENOUGH,
+        compiled=ENOUGH + COMPILING,
         size=len(rows),
         day=datetime.date.today().isoformat(),
         python=platform.python_version(),

@@ -5,6 +5,9 @@ first of each package are taken. What was tried is kept line by line in FOLDER/t
 but for the survivors of an older commit, with ``--survivors``. A test that notices a fault is itself run once
 on the code as it is: what fails there too proves nothing, and ends the session.
 
+Which tests run which function is recorded first, by one run of the tests (record.py), and kept as
+FOLDER/reach.jsonl: a fault is tried on those that run it, and on tests that came later.
+
 Usage: python tests/mutants/session.py FOLDER SIZE TEST_FILE...   (the files are the usual ones: make check's)
 """
 
@@ -24,13 +27,15 @@ from typing import Any
 
 from faults import Fault, faults
 from nearest import Nearest, words_of
+from reach import PACKAGES, Reach
 
-JUDGE = Path(__file__).with_name("judge.py").resolve()
-PACKAGES = ("lumped", "fem_reference")
-ENOUGH = 60.0  # seconds of processor time after which a fault has survived
+JUDGE, RECORD = (Path(__file__).with_name(name).resolve() for name in ("judge.py", "record.py"))
+ENOUGH = 40.0  # seconds of processor time after which a fault has survived
+COMPILING = 30.0  # seconds more where kernels are compiled anew
 HUNG = 1800  # seconds on the clock
 NO_END = "no end, or a crash"
 FIRST, ALL = 6, 30  # files of tests that are read first, and at most
+NEW = 3  # files that are read for the tests that came after the record
 COMPILED = ("njit", "NamedTuple")  # of a file that sheetbench.kernels makes kernels' stamps of
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
 
@@ -49,6 +54,17 @@ class Session:
         self.commit = self.git("rev-parse", "--short", "HEAD").strip()
         self._sound: dict[str, bool] = {}
         self._nearest, self._usual = Nearest(self.tree), usual
+        whole, part = (self.folder / name for name in ("reach.jsonl", "reach-so-far.jsonl"))
+        if not whole.exists():
+            words = [sys.executable, str(RECORD), str(part), "tests"]
+            subprocess.run(words, cwd=self.tree, env=self.environment(self.cache), stdout=subprocess.DEVNULL)
+            part.rename(whole)
+        self._reach = Reach(self.tree, whole)
+
+    def environment(self, cache: Path) -> dict[str, str]:
+        """Of what runs in the tree."""
+        places = {"PYTHONPATH": str(self.tree), "NUMBA_CACHE_DIR": str(cache)}
+        return {**os.environ, **ONE_THREAD, **places}
 
     def git(self, *words: str) -> str:
         return subprocess.run(
@@ -65,7 +81,13 @@ class Session:
         path = self.tree / fault.module
         source, written = path.read_bytes(), path.stat().st_mtime
         words = words_of(fault.module, fault.function)
-        tests = self._nearest.tests(fault.module, words, self._usual)
+        nearest = self._nearest.tests(fault.module, words, self._usual)
+        reaching = self._reach.tests(fault.module, fault.function)
+        met = {name.partition("::")[0] for name in reaching}
+        files = [name for name in nearest if name in met] or nearest
+        # what came after the book is in files that are near
+        files = list(dict.fromkeys([*files[:FIRST], *nearest[:NEW], *files[FIRST:ALL]]))
+        skipped = [name for name in self._reach.seconds if name not in reaching] if reaching else []
         kernels = any(word in source.decode() for word in COMPILED)
         cache = self.cache
         try:
@@ -75,10 +97,11 @@ class Session:
                 cache = self.folder / "cache-of-the-fault"
                 shutil.rmtree(cache, ignore_errors=True)
                 shutil.copytree(self.cache, cache, copy_function=os.link)
-            failed, seconds = self.judge(tests[:FIRST], words, cache, ENOUGH, learn=not kernels)
-            if not failed:
-                others = tests[FIRST:ALL]
-                failed, more = self.judge(others, words, cache, ENOUGH - seconds, learn=not kernels)
+            enough, first = ENOUGH + COMPILING * kernels, FIRST + NEW
+            failed, seconds = self.judge(files[:first], words, cache, enough, skipped, learn=not kernels)
+            if not failed and seconds < enough and files[first:]:
+                left = enough - seconds
+                failed, more = self.judge(files[first:], words, cache, left, skipped, learn=not kernels)
                 seconds += more
         finally:
             path.write_bytes(source)
@@ -96,22 +119,30 @@ class Session:
     def is_sound(self, test: str) -> bool:
         """Whether a test passes on the code as it is."""
         if test not in self._sound:
-            self._sound[test] = self.judge([test], [], self.cache, ENOUGH)[0] is None
+            self._sound[test] = self.judge([test], [], self.cache, ENOUGH + COMPILING, [])[0] is None
         return self._sound[test]
 
     def judge(
-        self, tests: list[str], words: list[str], cache: Path, most: float, learn: bool = False
+        self,
+        tests: list[str],
+        words: list[str],
+        cache: Path,
+        most: float,
+        skipped: list[str],
+        learn: bool = False,
     ) -> tuple[str | None, float]:
         """The test that noticed and the seconds spent; a run without an end, or a verdict, has noticed."""
         asked, verdict, book = (self.folder / name for name in ("asked.json", "verdict.json", "took.json"))
-        took = json.loads(book.read_text()) if book.exists() else {}
-        asked.write_text(json.dumps({"files": tests, "words": words, "seconds": most, "took": took}))
+        learnt = json.loads(book.read_text()) if book.exists() else {}
+        took = {**self._reach.seconds, **learnt}
+        asked.write_text(
+            json.dumps({"files": tests, "words": words, "seconds": most, "took": took, "skipped": skipped})
+        )
         verdict.unlink(missing_ok=True)
-        places = {"PYTHONPATH": str(self.tree), "NUMBA_CACHE_DIR": str(cache)}
         run = subprocess.Popen(
             [sys.executable, str(JUDGE), str(asked), str(verdict)],
             cwd=self.tree,
-            env={**os.environ, **ONE_THREAD, **places},
+            env=self.environment(cache),
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
             start_new_session=True,
@@ -127,7 +158,7 @@ class Session:
             return NO_END, most
         found = json.loads(verdict.read_text())
         if learn:
-            book.write_text(json.dumps({**took, **found["took"]}))
+            book.write_text(json.dumps({**learnt, **found["took"]}))
         return found["failed"], found["seconds"]
 
 

@@ -68,6 +68,8 @@ demo: install
 
 # a process that may not keep its byte code compiles every module anew, and the tests start many
 test check: export PYTHONDONTWRITEBYTECODE :=
+# the tests' processes are as many as processors are: BLAS's own threads would wait for each other, busily
+test check: export OPENBLAS_NUM_THREADS := 1
 
 test: install lint kernels
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile

@@ -1,13 +1,17 @@
-"""References solve on one BLAS thread, whatever is set, and leave the setting as it was."""
+"""References solve, and springs are fitted, on one BLAS thread whatever is set, which stays as it was."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
 import fem_reference
+import lumped
 from fem_reference.solving import linear
+from lumped.fitting import methods
 from sheetbench import scenes
 
 SCENE = scenes.load("one-edge-clamped")
@@ -39,3 +43,18 @@ def test_a_reference_is_solved_on_one_thread(model: str, monkeypatch: pytest.Mon
         assert 2 in blas_threads()
     assert seen and set(seen) == {1}
     assert found == pytest.approx(alone, rel=1e-9, abs=1e-12)
+
+
+def test_springs_are_found_on_one_thread(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[int] = []
+    moduli = methods.CALIBRATIONS["moduli"]
+
+    def watched(*sheet: object, **options: object) -> lumped.Calibration:
+        seen.extend(blas_threads())
+        return moduli.make(*sheet, **options)
+
+    monkeypatch.setitem(methods.CALIBRATIONS, "moduli", replace(moduli, make=watched))
+    with threadpool_limits(2, user_api="blas"):
+        lumped.calibrate(SCENE.sheet, SCENE.material, grid=3, method="moduli")
+        assert 2 in blas_threads()
+    assert seen and set(seen) == {1}

@@ -9,6 +9,7 @@ from lumped.calibration.calibration import Calibration
 from lumped.calibration.methods import MAKERS, described
 from lumped.fitting.fits import fit_modal, fit_static
 from lumped.fitting.targets import Target
+from lumped.linear.threads import one_blas_thread
 from sheetbench import choices
 from sheetbench.scenes import Material, Sheet
 from sheetbench.scenes.errors import BadInput
@@ -51,4 +52,5 @@ def calibrate(
             raise BadInput(f"{given}calibration '{method}' takes no {name}; {name} goes with {others}")
         if name in UNITS:
             require_positive(name, value, UNITS[name])
-    return chosen.make(sheet, material, grid_of(sheet, grid), **options)
+    with one_blas_thread():
+        return chosen.make(sheet, material, grid_of(sheet, grid), **options)

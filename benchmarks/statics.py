@@ -1,6 +1,6 @@
 """Equilibria of lattices and shells: time, what it goes to, and the rate of the factorisations, in one run.
 
-    python benchmarks/statics.py [--large] [--batch N] [--against FOLDER] [--json FILE] [--keep]
+    python benchmarks/statics.py [--large] [--batch N] [--against FOLDER [--sides N …]] [--json FILE] [--keep]
 
 Of every lattice the best of its solves, the call with its set-up over the solve, factorisations, their share
 of the solve and the rate that they reach; then a batch, by the clock, and the shell with the share of its
@@ -8,7 +8,8 @@ factorisations. Warm code, one BLAS thread; CPU seconds, which other programs on
 than the clock's. --large: 129×129×2 and 257×257×2 too, with the peak of the memory (minutes, 3 GB).
 
 --against FOLDER: the lattices beside those of another state of the code in the same run, each in a process of
-its own, by turns (`git worktree add ../before 123119f`, then --against ../before).
+its own, by turns (`git worktree add ../before 123119f`, then --against ../before); with --sides nothing but
+that, for lattices of so many masses a side.
 """
 
 from __future__ import annotations
@@ -184,17 +185,39 @@ def shell(elements: int) -> dict[str, Any]:
     }
 
 
+def of_batch_and_shells(count: int) -> list[dict[str, Any]]:
+    """Their rows, printed."""
+    rows = [batch(count)]
+    row = rows[-1]
+    print(
+        f"batch of {count}: {1e3 * row['seconds_each']:.2f} ms each "
+        f"({1e3 * row['cpu_seconds_each']:.2f} of the CPU), "
+        f"{1e3 * row['one_by_one_seconds_each']:.2f} ms one by one; {row['solved_alone']} solved alone",
+        flush=True,
+    )
+    for elements in SHELLS:
+        rows.append(shell(elements))
+        share = rows[-1]["factorisation_share"]
+        called = 1e3 * rows[-1]["call_seconds"]
+        print(f"shell {rows[-1]['shell']:>6}  call {called:9.1f} ms  factorisations {share:.0%}", flush=True)
+    return rows
+
+
 def main() -> None:
     """Measure, print, keep."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--large", action="store_true", help="129×129×2 and 257×257×2 too (minutes, 3 GB)")
     parser.add_argument("--batch", type=int, default=BATCH, help="lattices in the batch")
     parser.add_argument("--against", type=Path, metavar="FOLDER", help="another state of the code, beside it")
+    parser.add_argument("--sides", type=int, nargs="+", metavar="N", help="only lattices of N masses a side")
     parser.add_argument("--json", metavar="FILE", help="where to keep the numbers")
     parser.add_argument("--keep", action="store_true", help="keep the rows in benchmarks/history")
     asked = parser.parse_args()
+    if asked.sides and asked.against is None:
+        parser.error("--sides goes with --against")
     rows: list[dict[str, Any]] = []
-    for masses in LATTICES + (LARGE if asked.large else ()):
+    sides = asked.sides or LATTICES + (LARGE if asked.large else ())
+    for masses in () if asked.sides else sides:
         rows.append(lattice(masses))
         row = rows[-1]
         share = min(1.0, row["factorisations"] * row["one_factorisation_seconds"] / row["solve_seconds"])
@@ -205,7 +228,7 @@ def main() -> None:
             flush=True,
         )
     if asked.against is not None:
-        for masses in LATTICES + (LARGE if asked.large else ()):
+        for masses in sides:
             rows.append(against(masses, asked.against.resolve()))
             (was, now), (more, memory) = rows[-1]["call_seconds"], rows[-1]["peak_bytes"]
             print(
@@ -214,19 +237,8 @@ def main() -> None:
                 f"answers {rows[-1]['apart']:.1g} apart",
                 flush=True,
             )
-    rows.append(batch(asked.batch))
-    row = rows[-1]
-    print(
-        f"batch of {asked.batch}: {1e3 * row['seconds_each']:.2f} ms each "
-        f"({1e3 * row['cpu_seconds_each']:.2f} of the CPU), "
-        f"{1e3 * row['one_by_one_seconds_each']:.2f} ms one by one; {row['solved_alone']} solved alone",
-        flush=True,
-    )
-    for elements in SHELLS:
-        rows.append(shell(elements))
-        share = rows[-1]["factorisation_share"]
-        called = 1e3 * rows[-1]["call_seconds"]
-        print(f"shell {rows[-1]['shell']:>6}  call {called:9.1f} ms  factorisations {share:.0%}", flush=True)
+    if not asked.sides:
+        rows.extend(of_batch_and_shells(asked.batch))
     if asked.json:
         about = {"machine": platform.processor() or platform.machine(), "python": platform.python_version()}
         with open(asked.json, "w", encoding="utf-8") as file:

@@ -3,10 +3,11 @@
 A column of L masses is joined to itself and eight others, every layer with the next ones: 9 (3 L − 2) blocks
 of the tangent. What is kept and done is proportional to the blocks, but for the factors of the tangent.
 
-The constants were fitted to static solves on an AMD EPYC with Python 3.11, 2026-11-22: bytes to the peaks of
-the resident set for 17 × 17 × 2 to 257 × 257 × 2 masses, four layers and a strip of 5 × 1025, all of them
-within 31 %; seconds to 0.24, 1.4 and 42 s for 33, 65 and 257 masses a side on a quiet core. One that is
-shared takes up to three times as long.
+The constants were fitted on an Intel Xeon at 2.5 GHz with Python 3.11, 2026-11-22. Bytes: to the peaks of
+the resident set on the whole path from the flat sheet, 1.2 GB at 129 × 129 × 2 and 0.3 GB at 33 × 33 × 4
+masses; what begins at a coarser lattice, as large `consistent` ones do, has one set of factors at a time and
+takes about half. Seconds: to those, 0.25, 1.1, 6 and 30 s for 33, 65, 129 and 257 masses a side on a quiet
+core; the whole path takes about twice as long, and a core that is shared up to three times.
 """
 
 from __future__ import annotations
@@ -15,9 +16,9 @@ from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.size import Size, factors
 
 ALWAYS = 40e6  # bytes
-A_BLOCK = 1200.0  # bytes
-A_NONZERO = 26.0  # bytes, of the factors, with what the solver needs on the way
-BLOCK_SECONDS, OPERATION_SECONDS = 4e-6, 1.5e-9
+A_BLOCK = 600.0  # bytes
+A_NONZERO = 24.0  # bytes, of the factors, with what the solver needs on the way
+BLOCK_SECONDS, OPERATION_SECONDS = 8e-6, 3e-10
 
 
 def footprint(grid: Grid) -> Size:

@@ -2,7 +2,7 @@
 
 The reduced matrix has sorted rows by columns (CSC). Entry e of the map adds weight[e] times entry source[e]
 of the blocks, laid out one after the other, to the nonzero k with starts[k] ≤ e < starts[k + 1]. Where all
-weights are one, as without hinges and actuators, none are kept.
+weights are one, as without hinges and actuators, none are kept, nor starts where every nonzero has one entry.
 """
 
 from __future__ import annotations
@@ -29,6 +29,10 @@ class Reduction(NamedTuple):
         """Column of every nonzero."""
         return np.repeat(np.arange(len(self.pointers) - 1), np.diff(self.pointers))
 
+    def entries(self) -> np.ndarray:
+        """How many entries every nonzero has."""
+        return np.diff(self.starts) if len(self.starts) else np.ones(len(self.rows), int)
+
     def matrix(self, blocks: np.ndarray) -> sp.csc_array:
         """The reduced matrix (m, m) of blocks (b, 3, 3)."""
         size = len(self.pointers) - 1
@@ -47,9 +51,12 @@ def reduction(pattern: Pattern, transform: sp.csr_array) -> Reduction:
     arrays = (block_pointers, by_column, block_rows, *across, *down)
     count = _count(block_pointers, block_rows, transform.indptr, columns.indptr, columns.indices)
     pointers, rows, starts, source, weight, nonzeros = _reduction(*arrays, count)
+    starts = starts[: nonzeros + 1].copy()
     if (transform.data == 1.0).all():
         weight = np.empty(0)
-    return Reduction(pointers, rows[:nonzeros].copy(), starts[: nonzeros + 1].copy(), source, weight)
+        if nonzeros == count:
+            starts = np.empty(0, np.int32)
+    return Reduction(pointers, rows[:nonzeros].copy(), starts, source, weight)
 
 
 @njit(cache=True)
@@ -118,6 +125,8 @@ def _reduction(
 @njit(cache=True, nogil=True)
 def _gathered(entries: np.ndarray, starts: np.ndarray, source: np.ndarray, weight: np.ndarray) -> np.ndarray:
     """The nonzeros of the reduced matrix."""
+    if not len(starts):
+        return entries[source]
     out = np.zeros(len(starts) - 1)
     for k in range(len(out)):
         for e in range(starts[k], starts[k + 1]):

@@ -133,6 +133,21 @@ class BandedFactor(Factor):
         return banded.solve(self._stored, self._factors, width, order, b, refinements)
 
 
+class SparseFactor(Factor):
+    """Sparse factors of a matrix that is made of its blocks (b, 3, 3) only once it is asked for: while large
+    factors are made there is no memory to spare."""
+
+    def __init__(self, reduction: Reduction, blocks: np.ndarray, factors: Any):
+        self._reduction, self._blocks, self._solve = reduction, blocks, factors.solve
+        self.negative, self._refinements = factors.inertia[1], REFINEMENTS
+
+    @cached_property
+    def _matrix(self) -> sp.csc_array:
+        matrix = self._reduction.matrix(self._blocks)
+        del self._blocks
+        return matrix
+
+
 class ReducedSystem:
     """Tᵀ K T over a fixed pattern, from the blocks of K to factors.
 
@@ -159,7 +174,7 @@ class ReducedSystem:
             rows, columns = found.rows, found.columns()
             order, width = banded.ordered(rows, columns, self.unknowns)
             if banded.cost(self.unknowns, width) < BANDED_LIMIT:
-                entries = np.diff(found.starts)
+                entries = found.entries()
                 rows, columns = np.repeat(rows, entries), np.repeat(columns, entries)
                 weight = found.weight if len(found.weight) else np.ones(len(rows))
                 self.band = banded.band_of(found.source, rows, columns, weight, order, width)
@@ -191,10 +206,11 @@ class ReducedSystem:
             factors = stored.copy()
             if banded.factor(factors, self.unknowns, self.band.width):
                 return BandedFactor(self.band, stored, factors)
-        matrix = self.matrix(blocks)
-        if not np.isfinite(matrix.data).all():
-            raise SingularMatrixError("an entry is not finite")
-        sparse = rslab is not None or (self.symmetric and pardiso.library() is not None)
+        with_pardiso = pardiso.library() is not None
+        if self.symmetric and self._multipliers is None and rslab is not None and not with_pardiso:
+            return self._ldlt(blocks)
+        matrix = _finite(self.matrix(blocks))
+        sparse = rslab is not None or (self.symmetric and with_pardiso)
         if self._saddle is not None and self.symmetric and sparse:
             return self._quasi_definite(self._saddle, matrix)
         try:
@@ -207,6 +223,19 @@ class ReducedSystem:
         except RuntimeError as error:
             raise SingularMatrixError(str(error)) from None
 
+    def _ldlt(self, blocks: np.ndarray) -> Factor:
+        """Factors by rslab, which is given the lower triangle and nothing that it would copy."""
+        found, matrix = self._reduction, _finite(self.matrix(blocks))
+        try:
+            if self._analysis is None:
+                self._analysis = _analysis(matrix, symmetric=True)
+            lower = matrix.data[found.rows >= found.columns()]
+            del matrix
+            factors = self._analysis.factor(lower)
+        except RuntimeError as error:
+            raise SingularMatrixError(str(error)) from None
+        return SparseFactor(found, blocks, factors)
+
     def _quasi_definite(self, saddle: Saddle, matrix: sp.csc_array) -> Factor:
         close_by, augmented = saddle.quasi_definite(matrix)
         try:
@@ -217,6 +246,13 @@ class ReducedSystem:
             raise SingularMatrixError(str(error)) from None
         negative = factors.inertia[1]
         return Factor(matrix, lambda b: factors.solve(augmented(b)), negative, SADDLE_REFINEMENTS)
+
+
+def _finite(matrix: sp.csc_array) -> sp.csc_array:
+    """A matrix whose entries are all finite. Raises SingularMatrixError."""
+    if not np.isfinite(matrix.data).all():
+        raise SingularMatrixError("an entry is not finite")
+    return matrix
 
 
 def reduced(pattern: Pattern, transform: sp.csr_array, symmetric: bool) -> ReducedSystem:

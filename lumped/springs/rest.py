@@ -72,12 +72,15 @@ class Rest:
         return found
 
     def _links(self, which: np.ndarray) -> LinkRest:
-        nodes, offset, rest, kind = (part[which] for part in self._lattice.joined)
+        joined = self._lattice.joined
+        nodes, offset, rest, kind = joined if which.all() else (part[which] for part in joined)
         return LinkRest(nodes, self._pattern.among(nodes).reshape(-1, 4), offset, rest, kind)
 
     def _cells(self, name: str, which: np.ndarray) -> CellRest:
         (cells,) = (family for family in self._lattice.cells if family.name == name)
-        nodes, diagonals = cells.nodes[which], self._lattice.diagonals[name][which]
+        nodes, diagonals = cells.nodes, self._lattice.diagonals[name]
+        if not which.all():
+            nodes, diagonals = nodes[which], diagonals[which]
         slots = self._pattern.among(nodes.reshape(len(nodes), -1))
         (x, y, z), (p, q, r) = diagonals[:, 0].T, diagonals[:, 1].T
         area = 0.5 * np.sqrt((y * r - z * q) ** 2 + (z * p - x * r) ** 2 + (x * q - y * p) ** 2)

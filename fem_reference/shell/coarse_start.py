@@ -1,8 +1,9 @@
 """Where a fine shell's path may begin: at the equilibrium of a coarse one, and not at the flat sheet.
 
-The interpolated shape is some 1e-4 of the sheet's size away from the equilibrium, but its membrane stresses
-are nothing but the error of the interpolation: the first tangent is that of the material alone. Three
-corrections lead from there to the end, where the path from the flat sheet takes five.
+The interpolated shape is some 1e-4 to 1e-3 of the sheet's size away from the equilibrium, but its membrane
+stresses are nothing but the error of the interpolation: the first tangent is formed with those of the coarse
+mesh (see `membrane_strains`), and neither with bending nor with shear. Three corrections lead from there to
+the end, where the path from the flat sheet takes five.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ from __future__ import annotations
 import numpy as np
 from skfem import MeshQuad
 
+from fem_reference.shell.element import MEMBRANE
+from fem_reference.shell.membrane_strains import at_nodes, sampled
 from fem_reference.shell.state import State
 from fem_reference.shell.structure import UP, ShellStructure
 from fem_reference.solving.equilibrium import Start
@@ -18,7 +21,8 @@ from fem_reference.surface.location import interpolate
 from sheetbench.scenes import Scene, Status
 
 COARSER = 4  # times as many elements along a side
-FINE = 16  # elements along the shorter side, from which on a coarse one saves more than it takes
+FINE = 8  # elements along the shorter side, from which on a coarse one saves more than it takes
+ENOUGH = 10  # factorisations of a coarse path that leads straight; others are given up
 
 
 def coarse(counts: tuple[int, int], scene: Scene) -> tuple[int, int] | None:
@@ -36,17 +40,20 @@ def plain(path: Path[State]) -> bool:
 
 
 def start(
-    mesh: MeshQuad, element_nodes: np.ndarray, state: State, structure: ShellStructure, nodes: np.ndarray
+    mesh: MeshQuad, coarser: ShellStructure, state: State, structure: ShellStructure, nodes: np.ndarray
 ) -> Start[State]:
-    """The state on a mesh with elements (m, 9), on the nodes (n, 2) [m] of another structure."""
-    both = np.concatenate(list(state.change), axis=1)
-    displacement, turn = np.split(interpolate(mesh, element_nodes, both, nodes), 2, axis=1)
+    """The state of a shell on a mesh, on the nodes (n, 2) [m] of another."""
+    on, at, finer = coarser.element_nodes, coarser.element.reference[:, :9, :2], structure.element
+    strain = at_nodes(at, on, coarser.element.strain(coarser.gather(state.change))[:, MEMBRANE])
+    every = np.concatenate([*state.change, strain.reshape(-1, 4)], axis=1)
+    displacement, turn, flat = np.split(interpolate(mesh, on, every, nodes), (3, 6), axis=1)
     director = turn + UP
     director /= np.linalg.norm(director, axis=1, keepdims=True)
-    rest = structure.rest()
-    change, unstressed = (
-        np.array([displacement, director - UP]),
-        np.zeros(structure.element.stiffness.shape[:2]),
+    stretched = np.zeros(finer.stiffness.shape[:2])
+    stretched[:, MEMBRANE] = sampled(
+        finer.reference[:, :9, :2], flat.reshape(-1, 2, 2)[structure.element_nodes]
     )
-    found = State(change, rest.aside, unstressed, np.zeros_like(structure.rods.elements.stiffness))
+    change = np.array([displacement, director - UP])
+    rest, no_rods = structure.rest(), np.zeros_like(structure.rods.elements.stiffness)
+    found = State(change, rest.aside, finer.stress(stretched), no_rods)
     return Start(found, 1.0, structure.length(rest, found), structure.potential(found, 1.0)[1])

@@ -47,7 +47,7 @@ from fem_reference.surface.materials import Section
 from sheetbench.scenes.errors import BadInput
 
 # Sampling grids of the covariant components and their interpolation to the Gauss points.
-_GRIDS = {**TYING, "rs": (THREE, THREE)}
+GRIDS = {**TYING, "rs": (THREE, THREE)}
 _TO_GAUSS = {name: interpolation(*TYING[name], GAUSS) for name in TYING}
 _TO_GAUSS["rs"] = _TO_GAUSS["rs"] @ interpolation(THREE, THREE, product_grid(*TYING["rs"]))
 
@@ -62,7 +62,7 @@ def _tables() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """a and b (21, 9), v (12, 9) of `fem_reference.shell.sampling`."""
     first, second, values = [], [], []
     for name, (a, b) in {"rr": (0, 0), "ss": (1, 1), "rs": (0, 1)}.items():
-        value, slope = shape(*product_grid(*_GRIDS[name]))
+        value, slope = shape(*product_grid(*GRIDS[name]))
         first.append(slope[a])
         second.append(slope[b])
         if a == b:

@@ -25,7 +25,7 @@ from fem_reference.shell.structure import UP, ShellStructure
 from fem_reference.shell.validity import STRETCHED, inspector, judge, membrane_strain
 from fem_reference.solving.equilibrium import Start, trace
 from fem_reference.solving.linear import DirectSolver
-from fem_reference.solving.path import Path, Progress
+from fem_reference.solving.path import FACTORISATIONS, Path, Progress
 from fem_reference.solving.pseudo_transient import settler
 from fem_reference.surface import loads, rod
 from fem_reference.surface import supports as surface_supports
@@ -99,12 +99,14 @@ def _runs(
     law: str,
     graded: bool,
     progress: Progress | None,
+    limit: int = FACTORISATIONS,
 ) -> list[_Run]:
     """The run on a mesh of so many elements, then those on coarser ones that it has begun with."""
     few = coarse_start.coarse(counts, scene)
-    begun = [] if few is None else _runs(scene, few, section, law, graded, progress)
+    begun = [] if few is None else _runs(scene, few, section, law, graded, progress, coarse_start.ENOUGH)
     near = begun[0] if begun and coarse_start.plain(begun[0].path) else None
-    return [_run(mesh_of(scene, counts, graded), scene, section, law, graded, progress, near), *begun]
+    mesh = mesh_of(scene, counts, graded)
+    return [_run(mesh, scene, section, law, graded, progress, near, limit), *begun]
 
 
 def _run(
@@ -115,19 +117,20 @@ def _run(
     graded: bool = False,
     progress: Progress | None = None,
     near: _Run | None = None,
+    limit: int = FACTORISATIONS,
 ) -> _Run:
-    """graded: give up where stretched elements bend too much (see `validity`); near: where to begin."""
+    """graded: give up where stretched elements bend too much (see `validity`); near: where to begin; limit:
+    of factorisations."""
     begin = perf_counter()
     structure, nodes = discretise(mesh, scene, section, law)
     solver = DirectSolver(structure.symmetric, fronts=structure.fronts)
+    ready = perf_counter()
     begin_at: Start[State] | None = None
     if near is not None:
-        found = near.mesh, near.structure.element_nodes, near.path.state
-        begin_at = coarse_start.start(*found, structure, nodes)
-    ready = perf_counter()
+        begin_at = coarse_start.start(near.mesh, near.structure, near.path.state, structure, nodes)
     inspect, settle = inspector(scene, structure, solver, graded), settler(structure, solver)
     slenderness = scene.sheet.thickness / structure.lever
-    path = trace(structure, solver, inspect, settle, progress, begin_at, slenderness)
+    path = trace(structure, solver, inspect, settle, progress, begin_at, slenderness, limit)
     return _Run(mesh, structure, nodes, path, ready - begin, perf_counter() - ready)
 
 

@@ -48,6 +48,7 @@ GROWTH = 4.0
 FIRST_REACH = 8.0  # sizes of the structure that the first linear step may move it
 SMALLEST_STEP = 2.0**-10
 FARTHEST = 1e3  # a step beyond so many sizes of the structure has diverged
+NEAR = 0.25  # of a start's displacement: an equilibrium farther from it may be on another branch
 SNAPS = 12  # of one path
 SNAP_STEP = 0.01  # in load factor, past the limit point
 SNAPPING = 4 * FACTORISATIONS  # in all, where the structure snaps
@@ -61,6 +62,7 @@ def trace(
     progress: Progress | None = None,
     near: Start[State] | None = None,
     slenderness: float = 0.0,
+    limit: int = FACTORISATIONS,
 ) -> Path[State]:
     """The equilibrium at load factor 1, or the last one on the way with the reason it is the last.
 
@@ -69,10 +71,10 @@ def trace(
     beyond a limit point, for the path to go on from; it raises StepFailed where it finds none.
     progress: called once an iteration. near: a state close to the equilibrium, to begin at; where that leads
     to none that is stable, the path begins at rest. slenderness: thickness over size; where it is given, the
-    factors of a last correction that is next to nothing tell the stability.
+    factors of a last correction that is next to nothing tell the stability. limit: of factorisations.
     """
     with one_blas_thread():
-        path = Path(structure.rest(), progress=progress, alike=ALIKE * slenderness**2)
+        path = Path(structure.rest(), limit=limit, progress=progress, alike=ALIKE * slenderness**2)
         ended: StepFailed | Fault | None = None
         if near is None or not _arrived(structure, solver, path, inspect, near):
             ended = _follow(structure, solver, path, inspect)
@@ -111,7 +113,8 @@ def _arrived(
     except StepFailed:
         return False
     path.state, path.load_factor, path.factor = state, near.target, factor
-    if inspect(path) is None and stability(structure, solver, path)[0] is Status.CONVERGED:
+    close = structure.length(near.state, state) <= NEAR * near.length
+    if close and inspect(path) is None and stability(structure, solver, path)[0] is Status.CONVERGED:
         return True
     path.state, path.load_factor, path.factor = before
     return False

@@ -30,6 +30,7 @@ from nearest import Nearest, words_of
 from reach import PACKAGES, Reach
 
 JUDGE, RECORD = (Path(__file__).with_name(name).resolve() for name in ("judge.py", "record.py"))
+KERNELS = "tests/kernels.py"
 ENOUGH = 40.0  # seconds of processor time after which a fault has survived
 COMPILING = 30.0  # seconds more where kernels are compiled anew
 HUNG = 1800  # seconds on the clock
@@ -54,12 +55,17 @@ class Session:
         self.commit = self.git("rev-parse", "--short", "HEAD").strip()
         self._sound: dict[str, bool] = {}
         self._nearest, self._usual = Nearest(self.tree), usual
+        self.run(KERNELS)  # or else they would be compiled for each fault, and thrown away with it
         whole, part = (self.folder / name for name in ("reach.jsonl", "reach-so-far.jsonl"))
         if not whole.exists():
-            words = [sys.executable, str(RECORD), str(part), "tests"]
-            subprocess.run(words, cwd=self.tree, env=self.environment(self.cache), stdout=subprocess.DEVNULL)
+            self.run(RECORD, str(part), "tests")
             part.rename(whole)
         self._reach = Reach(self.tree, whole)
+
+    def run(self, *program: str | Path) -> None:
+        """A program in the tree as it is."""
+        words = [sys.executable, *map(str, program)]
+        subprocess.run(words, cwd=self.tree, env=self.environment(self.cache), stdout=subprocess.DEVNULL)
 
     def environment(self, cache: Path) -> dict[str, str]:
         """Of what runs in the tree."""

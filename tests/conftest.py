@@ -43,6 +43,7 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> dict[str, Solution]:
 def coarse_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures have fewer pixels, for their painting and packing not to take longer than what they show."""
     monkeypatch.setattr(style, "DPI", 60)
+    monkeypatch.setattr(style, "PIXELS", 360)
 
 
 @pytest.fixture

@@ -17,7 +17,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from comparisons.report import acting
+from comparisons.report import acting, style
 from comparisons.report.labels import place_labels
 from comparisons.report.look import PLAIN, Look
 from comparisons.report.stage import Stage
@@ -58,7 +58,7 @@ def compose(comparison: Comparison, look: Look = PLAIN) -> Figure:
     difference_limits = (0.0, float(difference.max()) or 1.0)
     scale = exaggeration(scene, [lattice, reference])
 
-    left, middle, right = (Stage(scene, reference, scale) for _ in range(3))
+    left, middle, right = (Stage(scene, reference, scale, style.PIXELS) for _ in range(3))
     if any(kind == "line" for kind, _ in lattice.mesh.cells):
         left.lattice(lattice.mesh, masses, height_limits, HEIGHTS)
     else:

@@ -17,7 +17,7 @@ from comparisons.report.vtk import PLAN_CELLS, plan_mesh
 from sheetbench.scenes import EDGES, FieldMesh, Scene, Sheet, Solution, holds_director
 from sheetbench.scenes.grid import near_square
 
-PIXELS, MARGIN = 1800, 0.04  # width of the image; margin as a share of it
+MARGIN = 0.04  # as a share of the image's width
 ELEVATION, TURN = 27.0, 24.0  # degrees above the plane, and aside from the free side's direction
 PALE, OUTLINE, ROD = "#c9ced4", "#a9afb6", "#c8553d"
 
@@ -25,7 +25,7 @@ PALE, OUTLINE, ROD = "#c9ced4", "#a9afb6", "#c8553d"
 class Stage:
     """A white stage with the undeformed outline and the supports of a scene, seen from the free side."""
 
-    def __init__(self, scene: Scene, held: Solution, scale: float, pixels: int = PIXELS) -> None:
+    def __init__(self, scene: Scene, held: Solution, scale: float, pixels: int) -> None:
         self.scene = scene
         self.pixels = pixels
         self.scale = scale

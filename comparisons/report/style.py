@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from sheetbench.files import whole
 
 DPI = 300  # of pictures as PNG, and of what is rendered inside those as PDF or SVG
+PIXELS = 1800  # across a sheet that is rendered
 MOST = 12  # probes with a panel or a line of their own
 DARK, GREY = "#222222", "#8a8a8a"
 # Okabe and Ito's colours, which everyone tells apart.

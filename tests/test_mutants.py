@@ -68,16 +68,18 @@ def test_the_nearest_tests_speak_of_the_module():
 
 
 def test_a_compiled_function_is_run_by_what_runs_its_callers(tmp_path):
-    module = tmp_path / "lumped" / "links.py"
-    module.parent.mkdir()
-    module.write_text(
+    (tmp_path / "lumped").mkdir()
+    (tmp_path / "lumped" / "links.py").write_text(
         "LIMIT = 3\n@njit\ndef pull(x): return x\n@njit\ndef pulls(x): return pull(x)\n"
         "def forces(x): return pulls(x)\nclass Rod:\n def turn(self): return 1\n"
     )
+    (tmp_path / "lumped" / "grid.py").write_text("def even(x): return links.pull(x)\n")
     book = tmp_path / "book"
     runs = {"a": ["lumped/links.py forces"], "b": ["lumped/links.py Rod.turn"], "c": ["lumped/grid.py even"]}
     rows = [{"test": test, "seconds": 1.0, "runs": names} for test, names in runs.items()]
     book.write_text("".join(json.dumps(row) + "\n" for row in rows))
-    reach = Reach(tmp_path, book)
+    reach = Reach(tmp_path, book, {})
     for function, tests in (("forces", "a"), ("pull", "a"), ("Rod.turn", "b"), ("Rod", "b"), ("", "ab")):
         assert reach.tests("lumped/links.py", function) == set(tests)
+    reach = Reach(tmp_path, book, {"lumped.grid": {"lumped.links"}})
+    assert reach.tests("lumped/links.py", "pull") == {"a", "c"}

@@ -21,7 +21,7 @@ class Nearest:
     def __init__(self, tree: Path):
         files = {name: path for folder in FOLDERS for name, path in modules(tree, folder).items()}
         self._files = {str(path.relative_to(tree)): name for name, path in files.items()}
-        self._imports = {name: imported(path, files) for name, path in files.items()}
+        self.imports = {name: imported(path, files) for name, path in files.items()}
         tests = {name: path for name, path in files.items() if path.name.startswith("test_")}
         self._tests = {name: str(path.relative_to(tree)) for name, path in tests.items()}
         self._texts = {name: path.read_text() for name, path in tests.items()}
@@ -41,7 +41,7 @@ class Nearest:
         """How many imports lie between each file and a module."""
         distances, ahead = {module: 0}, [module]
         for name in ahead:
-            for other, names in self._imports.items():
+            for other, names in self.imports.items():
                 if name in names and other not in distances:
                     distances[other] = distances[name] + 1
                     ahead.append(other)

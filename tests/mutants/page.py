@@ -30,9 +30,9 @@ Faults put into the solvers one at a time, and the tests run against each until 
 comparison, operator, number, index, condition or sign written otherwise, or one statement left out; as many
 of `lumped` as of `fem_reference` are drawn, every one as likely as another. It is tried on the tests that
 run the faulty function, the quick ones first, and on those that are near: that import the module, that speak
-of it or of its function. What has not been noticed after {enough:.0f} seconds of processor time, or
-{compiled:.0f} where kernels are compiled anew, has survived, though the whole suite might catch it; one
-that a test was then written for is tried again, and counts as caught.
+of it or of its function; kernels before they are compiled, and after. What has not been noticed after
+{enough:.0f} seconds of processor time, or {compiled:.0f} where kernels are compiled, has survived, though
+the whole suite might catch it; one that a test was then written for is tried again, and counts as caught.
 
 Written by `make mutants` on {day}, of the {size} faults tried so far (it goes on where it stopped): Python
 {python}, {processor}; commits {commits}. In the mean a fault took {mean:.0f} seconds of processor time.

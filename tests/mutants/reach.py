@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import json
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Set
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,9 @@ PACKAGES = ("lumped", "fem_reference")
 class Reach:
     """A book, and who calls whom: compiled functions are not seen, and are run by what runs their callers."""
 
-    def __init__(self, tree: Path, book: Path):
+    def __init__(self, tree: Path, book: Path, imports: Mapping[str, Set[str]]):
+        """imports: of files as Python names them, what they import."""
+        self._imports = imports
         self.seconds: dict[str, float] = {}
         self._tests: dict[str, set[str]] = defaultdict(set)
         for row in rows(book):
@@ -42,10 +44,17 @@ class Reach:
             if name in self._tests:
                 found |= self._tests[name]
             else:
-                callers = self._callers[name.split(" ")[1].rpartition(".")[2]] - met
+                of, function = name.split(" ")
+                callers = self._callers[function.rpartition(".")[2]] - met
+                callers = {caller for caller in callers if self._may_call(caller.split(" ")[0], of)}
                 met |= callers
                 ahead.extend(callers)
         return found
+
+    def _may_call(self, caller: str, module: str) -> bool:
+        """Whether a file is another, or imports it."""
+        named, wanted = (name.removesuffix(".py").replace("/", ".") for name in (caller, module))
+        return named == wanted or wanted in self._imports.get(named, ())
 
 
 def functions(node: ast.AST, where: str) -> Iterator[tuple[str, set[str]]]:

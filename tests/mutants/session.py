@@ -20,10 +20,11 @@ import shutil
 import signal
 import subprocess
 import sys
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from itertools import zip_longest
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from faults import Fault, faults
 from nearest import Nearest, words_of
@@ -31,6 +32,9 @@ from reach import PACKAGES, Reach
 
 JUDGE, RECORD = (Path(__file__).with_name(name).resolve() for name in ("judge.py", "record.py"))
 KERNELS = "tests/kernels.py"
+AS_PYTHON = (
+    20.0  # seconds that kernels are tried for as they stand, before they are compiled: some take minutes
+)
 ENOUGH = 40.0  # seconds of processor time after which a fault has survived
 COMPILING = 30.0  # seconds more where kernels are compiled anew
 HUNG = 1800  # seconds on the clock
@@ -39,6 +43,13 @@ FIRST, ALL = 6, 30  # files of tests that are read first, and at most
 NEW = 3  # files that are read for the tests that came after the record
 COMPILED = ("njit", "NamedTuple")  # of a file that sheetbench.kernels makes kernels' stamps of
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
+
+
+class Asked(NamedTuple):
+    """What of the tests: words of promising ones, and those that do not run the fault."""
+
+    words: list[str]
+    skipped: list[str]
 
 
 class Session:
@@ -53,14 +64,14 @@ class Session:
         self.git("fetch", "--quiet", str(Path.cwd()), "HEAD")
         self.git("checkout", "--quiet", "--force", "--detach", "FETCH_HEAD")  # also of a killed run's fault
         self.commit = self.git("rev-parse", "--short", "HEAD").strip()
-        self._sound: dict[str, bool] = {}
+        self._sound: dict[tuple[str, bool], bool] = {}
         self._nearest, self._usual = Nearest(self.tree), usual
         self.run(KERNELS)  # or else they would be compiled for each fault, and thrown away with it
         whole, part = (self.folder / name for name in ("reach.jsonl", "reach-so-far.jsonl"))
         if not whole.exists():
             self.run(RECORD, str(part), "tests")
             part.rename(whole)
-        self._reach = Reach(self.tree, whole)
+        self._reach = Reach(self.tree, whole, self._nearest.imports)
 
     def run(self, *program: str | Path) -> None:
         """A program in the tree as it is."""
@@ -83,72 +94,95 @@ class Session:
         return {row["fault"]: row for row in map(json.loads, lines)}
 
     def try_fault(self, fault: Fault) -> dict[str, Any]:
-        """One line of the book; the file is put back whatever happens."""
-        path = self.tree / fault.module
-        source, written = path.read_bytes(), path.stat().st_mtime
+        """One line of the book."""
+        source = (self.tree / fault.module).read_text()
         words = words_of(fault.module, fault.function)
         nearest = self._nearest.tests(fault.module, words, self._usual)
         reaching = self._reach.tests(fault.module, fault.function)
         met = {name.partition("::")[0] for name in reaching}
         files = [name for name in nearest if name in met] or nearest
-        # what came after the book is in files that are near
-        files = list(dict.fromkeys([*files[:FIRST], *nearest[:NEW], *files[FIRST:ALL]]))
+        # what came after the record is in files that are near
+        first, others = list(dict.fromkeys([*files[:FIRST], *nearest[:NEW]])), files[FIRST:ALL]
         skipped = [name for name in self._reach.seconds if name not in reaching] if reaching else []
-        kernels = any(word in source.decode() for word in COMPILED)
-        cache = self.cache
-        try:
-            path.write_bytes(fault.put_into(source))
-            os.utime(path, (fault.digest, fault.digest))  # byte code goes by a file's time, to the second
-            if kernels:  # this and its callers' are compiled anew
-                cache = self.folder / "cache-of-the-fault"
-                shutil.rmtree(cache, ignore_errors=True)
-                shutil.copytree(self.cache, cache, copy_function=os.link)
-            enough, first = ENOUGH + COMPILING * kernels, FIRST + NEW
-            failed, seconds = self.judge(files[:first], words, cache, enough, skipped, learn=not kernels)
-            if not failed and seconds < enough and files[first:]:
-                left = enough - seconds
-                failed, more = self.judge(files[first:], words, cache, left, skipped, learn=not kernels)
-                seconds += more
-        finally:
-            path.write_bytes(source)
-            os.utime(path, (written, written))
-            if kernels:
-                shutil.rmtree(cache, ignore_errors=True)
-        if failed and failed != NO_END and not self.is_sound(failed):
-            raise SystemExit(f"{failed} fails on the code as it is")
-        code = source.decode().splitlines()[fault.line - 1].strip()
+        kernels = any(word in source for word in COMPILED)
+        failed, seconds = None, 0.0
+        if kernels:
+            unfit = [test for (test, compiled), sound in self._sound.items() if not (sound or compiled)]
+            with self.faulty(fault):
+                asked = Asked(words, skipped + unfit)
+                failed, seconds = self.judge(first, asked, AS_PYTHON, compiled=False)
+            if failed == NO_END or (failed and not self.is_sound(failed, compiled=False)):
+                failed = None
+        if not failed:
+            asked = Asked(words, skipped)
+            with self.faulty(fault), self.cache_of_the_fault(kernels) as cache:
+                enough = ENOUGH + COMPILING * kernels
+                failed, more = self.judge(first, asked, enough, cache, learn=not kernels)
+                if not failed and others and more < enough:
+                    failed, yet = self.judge(others, asked, enough - more, cache, learn=not kernels)
+                    more += yet
+            seconds += more
+            if failed and failed != NO_END and not self.is_sound(failed):
+                raise SystemExit(f"{failed} fails on the code as it is")
+        code = source.splitlines()[fault.line - 1].strip()
         row = {"fault": fault.name, "code": code, "commit": self.commit, "failed": failed, "seconds": seconds}
         with self.book.open("a") as book:
             book.write(json.dumps(row) + "\n")
         return row
 
-    def is_sound(self, test: str) -> bool:
+    @contextmanager
+    def faulty(self, fault: Fault) -> Iterator[None]:
+        """The tree with the fault; the file is put back whatever happens."""
+        path = self.tree / fault.module
+        source, written = path.read_bytes(), path.stat().st_mtime
+        try:
+            path.write_bytes(fault.put_into(source))
+            os.utime(path, (fault.digest, fault.digest))  # byte code goes by a file's time, to the second
+            yield
+        finally:
+            path.write_bytes(source)
+            os.utime(path, (written, written))
+
+    @contextmanager
+    def cache_of_the_fault(self, kernels: bool) -> Iterator[Path]:
+        """Of kernels that are compiled, with the faulty one and its callers, anew; or else the tree's."""
+        cache = self.folder / "cache-of-the-fault" if kernels else self.cache
+        if kernels:
+            shutil.rmtree(cache, ignore_errors=True)
+            shutil.copytree(self.cache, cache, copy_function=os.link)
+        try:
+            yield cache
+        finally:
+            if kernels:
+                shutil.rmtree(cache, ignore_errors=True)
+
+    def is_sound(self, test: str, compiled: bool = True) -> bool:
         """Whether a test passes on the code as it is."""
-        if test not in self._sound:
-            self._sound[test] = self.judge([test], [], self.cache, ENOUGH + COMPILING, [])[0] is None
-        return self._sound[test]
+        if (test, compiled) not in self._sound:
+            failed, _ = self.judge([test], Asked([], []), ENOUGH + COMPILING, compiled=compiled)
+            self._sound[test, compiled] = failed is None
+        return self._sound[test, compiled]
 
     def judge(
         self,
-        tests: list[str],
-        words: list[str],
-        cache: Path,
+        files: list[str],
+        asked: Asked,
         most: float,
-        skipped: list[str],
+        cache: Path | None = None,
+        compiled: bool = True,
         learn: bool = False,
     ) -> tuple[str | None, float]:
         """The test that noticed and the seconds spent; a run without an end, or a verdict, has noticed."""
-        asked, verdict, book = (self.folder / name for name in ("asked.json", "verdict.json", "took.json"))
+        question, verdict, book = (self.folder / name for name in ("asked.json", "verdict.json", "took.json"))
         learnt = json.loads(book.read_text()) if book.exists() else {}
         took = {**self._reach.seconds, **learnt}
-        asked.write_text(
-            json.dumps({"files": tests, "words": words, "seconds": most, "took": took, "skipped": skipped})
-        )
+        about = {"files": files, **asked._asdict(), "seconds": most, "took": took}
+        question.write_text(json.dumps(about))
         verdict.unlink(missing_ok=True)
         run = subprocess.Popen(
-            [sys.executable, str(JUDGE), str(asked), str(verdict)],
+            [sys.executable, str(JUDGE), str(question), str(verdict)],
             cwd=self.tree,
-            env=self.environment(cache),
+            env=self.environment(cache or self.cache) | ({} if compiled else {"NUMBA_DISABLE_JIT": "1"}),
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
             start_new_session=True,

@@ -53,6 +53,7 @@ def test_intrinsic_curvature_bends_a_free_rod_into_an_arc(plane: str, curvature:
     far, near = solution.displacement([[0.0, 1.0], [0.0, 0.0]])
     np.testing.assert_allclose(far, expected, atol=2e-4)
     np.testing.assert_allclose(near, np.array(expected) * [1.0, -1.0, 1.0], atol=2e-4)
+    assert solution.energies["rod"] < 1e-3 * curvature**2 / 2.0  # of the straight rod, EI and length being 1
 
 
 def test_one_curvature_a_joint_and_a_table() -> None:

@@ -14,8 +14,8 @@ from fem_reference.shell.state import State
 from fem_reference.shell.structure import ShellStructure
 from fem_reference.solving import pseudo_transient
 from fem_reference.solving.equilibrium import trace
-from fem_reference.solving.linear import DirectSolver
-from fem_reference.solving.path import Path
+from fem_reference.solving.linear import DirectSolver, SingularMatrix
+from fem_reference.solving.path import Path, StepFailed
 from fem_reference.solving.pseudo_transient import relax, settler
 from fem_reference.surface.loads import point_force
 from fem_reference.surface.mesh import rectangle
@@ -137,6 +137,16 @@ def left_at(path: Path) -> float:
 
 def test_the_arch_is_the_elastica(arch):
     assert arch.change[0, :, 2].max() == pytest.approx(height(SHORTER), rel=2e-3)
+
+
+def test_a_matrix_that_is_singular_ends_the_creep_with_that_status(arch, monkeypatch):
+    def factor(self: DirectSolver, matrix: object) -> None:
+        raise SingularMatrix("the matrix is singular")
+
+    monkeypatch.setattr(DirectSolver, "factor", factor)
+    with pytest.raises(StepFailed) as caught:
+        relax(replace(strip(), start=arch), DirectSolver(), Path(arch), 0.5)
+    assert caught.value.status is Status.SINGULAR
 
 
 def test_a_compressed_strip_leaves_the_saddle_for_the_buckled_state():

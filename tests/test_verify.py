@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from functools import cache
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -13,7 +14,17 @@ from scipy.integrate import solve_bvp
 from comparisons.cli import main
 from comparisons.report.layout import blocks
 from comparisons.verification import tables as verification
-from fem_reference.verification import CASES, Case, Row, heavy_elastica, mindlin_plates, run
+from fem_reference.verification import (
+    CASES,
+    Case,
+    Row,
+    elliptic_plate,
+    heavy_elastica,
+    manufactured_solid,
+    mindlin_plates,
+    run,
+    slit_annulus,
+)
 from fem_reference.verification.rows import absolutely, relatively
 
 QUICK = [name for name, case in CASES.items() if case.quick and "locking" not in name]  # see test_locking
@@ -22,6 +33,9 @@ VALUES = {  # case → how many values, beside the changes from half the mesh
     "mindlin-clamped": 6, "nafems-fv16": 36, "nafems-fv12": 16, "leissa-one-edge": 24,
     "leissa-two-edges": 24, "nafems-le10": 1,
 }  # fmt: skip
+
+
+LIFTED = {load: slit_annulus.PUBLISHED[load] for load in (0.1, 0.25)}
 
 
 @cache
@@ -45,6 +59,23 @@ def test_quick_cases_pass(name: str) -> None:
     rows = rows_of(name)
     held(rows)
     assert {row.case for row in rows} == {name}
+
+
+@pytest.mark.parametrize(
+    ("case", "coarse"),
+    [
+        (manufactured_solid, {"ELEMENTS": (2, 4)}),
+        (elliptic_plate, {"RADIAL": 4, "AROUND": 6, "LAYERS": 2, "TOLERANCE": 0.07}),
+        (slit_annulus, {"RADIAL": 2, "AROUND": 16, "TOLERANCE": 0.013, "PUBLISHED": LIFTED}),
+    ],
+    ids=["manufactured-solid", "nafems-le10", "slit-annulus"],
+)
+def test_slow_cases_come_near_on_coarse_meshes(
+    monkeypatch: pytest.MonkeyPatch, case: ModuleType, coarse: dict[str, object]
+) -> None:
+    for name, value in coarse.items():
+        monkeypatch.setattr(case, name, value)
+    held(list(case.rows("coarse")))
 
 
 @pytest.mark.slow

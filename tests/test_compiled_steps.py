@@ -5,7 +5,7 @@ import pytest
 from dynamic_cases import ROD, run, scene, system
 
 from lumped.dynamics import INTEGRATORS, State
-from lumped.dynamics.compiled_newton import CompiledNewton
+from lumped.dynamics.compiled_newton import CONVERGED, STALE, CompiledNewton
 from lumped.dynamics.sampling import Sampling
 from lumped.linear import banded
 from sheetbench import scenes
@@ -41,6 +41,17 @@ def test_the_compiled_iteration_takes_the_steps_of_the_general_one(asked, name):
     np.testing.assert_allclose(one.u, other.u, rtol=0.0, atol=1e-9 * size)
     np.testing.assert_allclose(lost, spent, rtol=1e-5, atol=1e-15)
     assert np.abs(one.u).max() > 1e-4 * size
+
+
+def test_the_compiled_iteration_tells_how_many_corrections_it_made():
+    equations, _ = system(CASES["dampers in proportion"], 4)
+    compiled, by = CompiledNewton(equations), (1e6, 1e3)
+    u, still, pulled = np.zeros((3, *equations.lattice_mass.shape, 3))
+    assert compiled.factorise(u, still, 0.0, *by)
+    assert compiled.iterate(u, (still, still), by, still, 1e-12, 0.5, 8) == (CONVERGED, 1)
+    pulled[:, 2] = 1e-3
+    assert compiled.iterate(u, (still, still), by, pulled, 0.0, 0.5, 1) == (STALE, 1)
+    assert u.any()
 
 
 @pytest.mark.parametrize("asked", CASES.values(), ids=CASES)

@@ -109,3 +109,9 @@ def test_motion_that_the_model_does_not_know_ends_the_run():
 def test_what_it_cannot_be_made_of_is_refused(asked):
     with pytest.raises(BadInput, match="'reduced'"):
         lumped.simulate(asked, springs(asked, 4), 0.01, integrator="reduced")
+
+
+@pytest.mark.parametrize("modes", [0, 1000])
+def test_no_modes_or_nearly_all_of_them_are_refused(modes):
+    with pytest.raises(BadInput, match="at least 1, and at most a third of the unknowns"):
+        Reduced(system(scene(), 3)[0], 1e-3, modes)

@@ -36,6 +36,12 @@ def test_solves_and_tells_the_inertia(use_rslab, symmetric):
 
 
 @pytest.mark.parametrize("use_rslab", [True, False], ids=["rslab", "superlu"])
+def test_the_inertia_is_told_where_a_diagonal_is_small(use_rslab):
+    factor = DirectSolver(True, use_rslab).factor(csr_matrix(np.array([[1.0, 2.0], [2.0, 1.0]])))
+    assert factor.inertia == (1, 1, 0)  # eigenvalues 3 and −1
+
+
+@pytest.mark.parametrize("use_rslab", [True, False], ids=["rslab", "superlu"])
 @pytest.mark.parametrize("entry", [1.0, np.nan], ids=["singular", "not finite"])
 def test_refuses_what_it_cannot_solve(use_rslab, entry):
     matrix = csr_matrix(np.array([[1.0, entry, 0.0], [entry, 1.0, 0.0], [0.0, 0.0, 2.0]]))

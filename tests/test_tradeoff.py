@@ -188,7 +188,7 @@ def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path: Path
             grid=(3, 3, 2),
             integrators=("generalised-alpha", "midpoint"),
             divisions=(40, 80, 160),
-            reference=1600,
+            reference=800,
             pool=Here,
         )
     assert len(found.rows) == 6 and all(row.status == "converged" for row in found.rows)

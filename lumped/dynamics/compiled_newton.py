@@ -99,11 +99,11 @@ class CompiledNewton:
         corrections: int,
     ) -> tuple[int, int]:
         """Correct u (n, 3) in place with the factors kept; how that ended, and after how many corrections."""
-        found: tuple[int, int] = iterate(
+        status, done, _ = iterate(
             u, *base, *by, external, tolerance, self._system.problem.size, stale, corrections,
             self.arrays, self.factors, self.room,
         )  # fmt: skip
-        return found
+        return status, done
 
 
 @njit(cache=True)
@@ -121,9 +121,10 @@ def iterate(
     arrays: Arrays,
     factors: np.ndarray,
     room: Room,
-) -> tuple[int, int]:
-    """Correct u in place; how that ended, and after how many corrections."""
-    last, n = np.inf, len(arrays.place)
+) -> tuple[int, int, float]:
+    """Correct u in place; how that ended, after how many corrections, and the power [W] that the lattice's
+    dampers and the masses' own damping took where the last one was found."""
+    last, n, power = np.inf, len(arrays.place), 0.0
     force, velocity, right = room.force, room.velocity, room.right
     mass, free = arrays.mass, arrays.free
     moved, held, began = u.reshape(-1), base_u.reshape(-1), base_v.reshape(-1)
@@ -135,10 +136,14 @@ def iterate(
             for e in range(mass.pointers[row], mass.pointers[row + 1]):
                 inertia += mass.values[e] * (moved[mass.columns[e]] - held[mass.columns[e]])
             pull[row] = by_u * inertia - acting[row]
+        by_masses = 0.0
         for i in range(len(arrays.rate)):
             for q in range(3):
-                force[i, q] += arrays.rate[i] * velocity[i, q]
-        add_forces(u, velocity, YES, arrays.packing.damped, arrays.packing, arrays.scratch, force)
+                resisted = arrays.rate[i] * velocity[i, q]
+                force[i, q] += resisted
+                by_masses += resisted * velocity[i, q]
+        _, power = add_forces(u, velocity, YES, arrays.packing.damped, arrays.packing, arrays.scratch, force)
+        power += by_masses
         right[:] = 0.0
         for row in range(len(moved)):
             for e in range(free.pointers[row], free.pointers[row + 1]):
@@ -152,10 +157,10 @@ def iterate(
             moved[row] += change
             length = max(length, abs(change)) if np.isfinite(change) else np.inf
         if length < tolerance:
-            return CONVERGED, done
+            return CONVERGED, done, power
         if not length <= largest:
-            return LOST, done
+            return LOST, done, power
         if length > stale * last:
-            return STALE, done
+            return STALE, done, power
         last = length
-    return STALE, corrections
+    return STALE, corrections, power

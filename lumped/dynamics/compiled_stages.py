@@ -1,8 +1,9 @@
 """The stages of a Runge–Kutta step in one compiled call, on what `lumped.dynamics.compiled_newton` serves.
 
 Every stage begins from the ones before it, is corrected with the factors kept, and leaves its velocity,
-acceleration and the power that its dampers take, in tables whose first row is the step's start. The call
-comes back early where a stage needs other factors, which Python makes, and goes on there.
+acceleration and the power that its dampers take, in tables whose first row is the step's start. The power is
+that before the last correction, which is small beside the error that the step may have: no more force for it.
+The call comes back early where a stage needs other factors, which Python makes, and goes on there.
 """
 
 from __future__ import annotations
@@ -13,8 +14,6 @@ import numpy as np
 from numba import njit
 
 from lumped.dynamics.compiled_newton import CONVERGED, Arrays, Room, iterate
-from lumped.springs.all_forces import add_forces
-from lumped.springs.tiles import NO, YES
 
 
 class Stages(NamedTuple):
@@ -68,7 +67,7 @@ def solve_stages(
             left = corrections
             _guess(i, step, stages, base_u, u)
         load = step.loads[min(i, len(step.loads) - 1)]
-        status, done = iterate(
+        status, done, power = iterate(
             stages.u[i], room.base_u, room.base_v, step.by_u, step.by_v, load, tolerance, largest, stale,
             left, arrays, factors, room,
         )  # fmt: skip
@@ -80,7 +79,7 @@ def solve_stages(
             change = u[row] - base_u[row]
             v[row] = base_v[row] + step.by_v * change
             a[row] = step.by_u * change
-        stages.power[i, 0] = power_taken(stages.u[i], stages.v[i], arrays, room)
+        stages.power[i, 0] = power
     return CONVERGED, len(stages.u), 0, made
 
 
@@ -116,15 +115,3 @@ def _guess(i: int, step: Step, stages: Stages, base_u: np.ndarray, u: np.ndarray
             a = stages.a[j].reshape(-1)
             for row in range(len(u)):
                 u[row] += weight * a[row]
-
-
-@njit(cache=True)
-def power_taken(u: np.ndarray, v: np.ndarray, arrays: Arrays, room: Room) -> float:
-    """Power [W] of the lattice's dampers and of the masses' own damping."""
-    power = 0.0
-    if arrays.packing.damped:
-        _, power = add_forces(u, v, NO, YES, arrays.packing, arrays.scratch, room.force)
-    for i in range(len(arrays.rate)):
-        for q in range(3):
-            power += arrays.rate[i] * v[i, q] * v[i, q]
-    return power

@@ -27,31 +27,27 @@ def state(system, size=1e-3, seed=0):
     return (size * rng.standard_normal((system.assembly.pattern.size, 3)) for _ in range(2))
 
 
-def cases():
-    sheet = scene(damping_time=1e-3)
-    yield "equal", sheet, lumped.calibrate(sheet.sheet, sheet.material, grid=(9, 9))
-    yield "oblong", sheet, lumped.calibrate(sheet.sheet, sheet.material, grid=(4, 7))
-    yield "long lines", sheet, lumped.calibrate(sheet.sheet, sheet.material, grid=(140, 3))
-    edges = lumped.calibrate(sheet.sheet, sheet.material, grid=(6, 5), method="consistent", grading=0.5)
-    yield "graded, with strain springs", sheet, edges
-    yield (
-        "three layers",
-        sheet,
-        lumped.calibrate(sheet.sheet, sheet.material, grid=(5, 5, 3), method="moduli"),
-    )
-    table = {"axial": 0.3, "diagonal": 0.0, "vertical": 1.0, "cross": {"x": 0.2, "y": 0.1}}
-    of_table = scene().replace(dampers=scenes.DamperSet.model_validate(table))
-    yield "dampers of a table", of_table, lumped.calibrate(sheet.sheet, sheet.material, grid=(5, 6))
-    chained = scene("one-edge-clamped", actuators=[ROD], damping_time=1e-3)
-    yield "with rows of a chain", chained, lumped.calibrate(chained.sheet, chained.material, grid=(5, 5))
+SHEET = scene(damping_time=1e-3)
+TABLE = scenes.DamperSet.model_validate(
+    {"axial": 0.3, "diagonal": 0.0, "vertical": 1.0, "cross": {"x": 0.2, "y": 0.1}}
+)
+CASES = {
+    "equal": (SHEET, {"grid": (9, 9)}),
+    "oblong": (SHEET, {"grid": (4, 7)}),
+    "long lines": (SHEET, {"grid": (140, 3)}),
+    "graded, with strain springs": (SHEET, {"grid": (6, 5), "method": "consistent", "grading": 0.5}),
+    "three layers": (SHEET, {"grid": (5, 5, 3), "method": "moduli"}),
+    "dampers of a table": (scene().replace(dampers=TABLE), {"grid": (5, 6)}),
+    "with rows of a chain": (
+        scene("one-edge-clamped", actuators=[ROD], damping_time=1e-3),
+        {"grid": (5, 5)},
+    ),
+}
 
 
-CASES = [pytest.param(asked, springs, id=name) for name, asked, springs in cases()]
-
-
-@pytest.mark.parametrize(("asked", "springs"), CASES)
-def test_forces_energy_and_power_are_the_families(asked, springs):
-    system = System(asked, pose(asked, springs))
+@pytest.mark.parametrize(("asked", "options"), CASES.values(), ids=CASES)
+def test_forces_energy_and_power_are_the_families(asked, options):
+    system = System(asked, pose(asked, lumped.calibrate(asked.sheet, asked.material, **options)))
     u, v = state(system)
     packing = packed(system)
     room = scratch(packing)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +19,6 @@ from sheetbench import scenes
 from sheetbench.scenes.history import ENERGIES
 
 SCENE = scenes.load("two-edges-clamped")
-SPRINGS = lumped.calibrate(SCENE.sheet, SCENE.material, grid=(5, 7))
-LATTICE = lumped.solve(SCENE, SPRINGS)
-SHELL = fem_reference.solve(SCENE, elements=2)
-BOTH = Comparison(SCENE, (LATTICE, SHELL))
 HISTORY = scenes.History(
     "lumped 5×5×2", "verlet", {}, scenes.Status.CONVERGED, "", np.linspace(0.0, 1.0, 500),
     {f"P{i}": np.full((500, 3), -1e-3) for i in range(40)}, {name: np.ones(500) for name in ENERGIES},
@@ -31,23 +29,48 @@ SPECTRA = Spectra(
     SCENE,
     (Spectrum("lumped", "lumped 5×5×2", {}, FREQUENCIES, 0, 96, 0.1, lambda at: np.zeros((59, len(at), 3))),),
 )
-SAID: dict[str, tuple[Any, list[str]]] = {
-    "solution": (LATTICE, ["lumped 5×7×2 consistent: converged", "factorisations", "|u| = 13", "mm", "x0 ("]),
-    "calibration": (SPRINGS, ["Calibration consistent of 5 × 7 × 2 masses", "[N/m]", "mm apart", "all met"]),
-    "history": (HISTORY, ["verlet: converged", "500 samples to 1 s", "P0 uz = -1 mm", "elastic 1 J"]),
-    "comparison": (BOTH, ["two-edges-clamped", "error ", "the reference", ".report()"]),
-    "modes": (lumped.modes(SCENE, SPRINGS, 3), ["3 modes of the lattice", " Hz"]),
-    "modes of the shell": (fem_reference.modes(SCENE, elements=2, count=3), ["3 modes of shell", " Hz"]),
-    "spectra": (SPECTRA, ["two-edges-clamped", "1, 2, 3, 4, 5, … Hz"]),
-    "mesh": (LATTICE.mesh, ["70 points", "quad", "displacement"]),
-    "report": (BOTH.report(), ["Displacement of the mid-surface", "| P4 |", "converged"]),
+
+
+@cache
+def springs() -> lumped.Calibration:
+    return lumped.calibrate(SCENE.sheet, SCENE.material, grid=(5, 7))
+
+
+@cache
+def lattice() -> scenes.Solution:
+    return lumped.solve(SCENE, springs())
+
+
+@cache
+def shell() -> scenes.Solution:
+    return fem_reference.solve(SCENE, elements=2)
+
+
+@cache
+def both() -> Comparison:
+    return Comparison(SCENE, (lattice(), shell()))
+
+
+SAID: dict[str, tuple[Callable[[], Any], list[str]]] = {
+    "solution": (lattice, ["lumped 5×7×2 consistent: converged", "factorisations", "|u| = 13", "mm", "x0 ("]),
+    "calibration": (springs, ["Calibration consistent of 5 × 7 × 2 masses", "[N/m]", "mm apart", "all met"]),
+    "history": (lambda: HISTORY, ["verlet: converged", "500 samples to 1 s", "P0 uz = -1 mm", "elastic 1 J"]),
+    "comparison": (both, ["two-edges-clamped", "error ", "the reference", ".report()"]),
+    "modes": (lambda: lumped.modes(SCENE, springs(), 3), ["3 modes of the lattice", " Hz"]),
+    "modes of the shell": (
+        lambda: fem_reference.modes(SCENE, elements=2, count=3),
+        ["3 modes of shell", " Hz"],
+    ),
+    "spectra": (lambda: SPECTRA, ["two-edges-clamped", "1, 2, 3, 4, 5, … Hz"]),
+    "mesh": (lambda: lattice().mesh, ["70 points", "quad", "displacement"]),
+    "report": (lambda: both().report(), ["Displacement of the mid-surface", "| P4 |", "converged"]),
 }
 
 
 @pytest.mark.parametrize("what", SAID)
 def test_answers_say_what_matters_in_a_few_lines(what: str) -> None:
     answer, parts = SAID[what]
-    text = repr(answer)
+    text = repr(answer())
     assert all(part in text for part in parts), text
     if what != "report":
         assert len(text.splitlines()) <= 8 and len(text) < 1000
@@ -55,21 +78,24 @@ def test_answers_say_what_matters_in_a_few_lines(what: str) -> None:
 
 @pytest.mark.parametrize("what", [what for what in SAID if what != "mesh"])
 def test_notebooks_show_a_table(what: str) -> None:
-    html = SAID[what][0]._repr_html_()
+    html = SAID[what][0]()._repr_html_()
     assert html.count("<table>") == html.count("</table>") >= 1
     assert "Traceback" not in html and "[0.0, 0.0" not in html
 
 
 def test_names_cannot_bring_markup_into_a_notebook() -> None:
     scene = SCENE.model_copy(update={"name": "<script>alert(1)</script>", "title": "\x1b[31m"})
-    both = Comparison(scene, (LATTICE, SHELL))
-    for html in (both._repr_html_(), both.report()._repr_html_()):
+    named = Comparison(scene, (lattice(), shell()))
+    for html in (named._repr_html_(), named.report()._repr_html_()):
         assert "<script>" not in html
-    assert "\x1b" not in repr(both) + repr(both.report())
+    assert "\x1b" not in repr(named) + repr(named.report())
 
 
-@pytest.mark.parametrize("solution", [LATTICE, SHELL], ids=["lattice", "shell"])
-def test_a_solution_goes_on_to_pyvista_and_to_files(tmp_path: Path, solution: scenes.Solution) -> None:
+@pytest.mark.parametrize("solved", [lattice, shell])
+def test_a_solution_goes_on_to_pyvista_and_to_files(
+    tmp_path: Path, solved: Callable[[], scenes.Solution]
+) -> None:
+    solution = solved()
     grid = solution.to_pyvista()
     assert np.array_equal(grid.points, solution.mesh.points)
     assert np.array_equal(grid["displacement"], solution.mesh.point_data["displacement"])
@@ -80,17 +106,17 @@ def test_a_solution_goes_on_to_pyvista_and_to_files(tmp_path: Path, solution: sc
 
 
 def test_tables_go_on_to_pandas_in_si_units() -> None:
-    (table, *_) = BOTH.report().tables
+    (table, *_) = both().report().tables
     frame = table.to_pandas()
     assert list(frame["probe"])[::2] == list(SCENE.probes)
     at_p4 = frame[(frame["probe"] == "P4") & (frame["model"] == "lumped")]
-    expected = LATTICE.displacement(np.array([SCENE.probes["P4"]]))[0, 2]
+    expected = lattice().displacement(np.array([SCENE.probes["P4"]]))[0, 2]
     assert float(at_p4["uz [m]"].iloc[0]) == pytest.approx(expected, rel=1e-15)
 
 
 @pytest.mark.usefixtures("undrawn")
 def test_a_report_is_saved_as_the_command_line_leaves_it(tmp_path: Path) -> None:
-    missing = BOTH.report().save(tmp_path / "here")
+    missing = both().report().save(tmp_path / "here")
     names = {path.name for path in (tmp_path / "here").iterdir()}
     assert names >= {"comparison.json", "table.csv", "table.md", "lumped.vtu", "shell.vtu"}
     assert missing == ("not drawn",) or "comparison.png" in names

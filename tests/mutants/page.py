@@ -18,11 +18,10 @@ from pathlib import Path
 from typing import Any
 
 from reach import PACKAGES
-from session import COMPILING, ENOUGH
+from session import COMPILING, ENOUGH, EQUIVALENT
 
 from comparisons.runs.manifest import processor
 
-REASONS = Path(__file__).with_name("equivalent.toml")
 HEAD = """\
 # What the tests notice
 
@@ -90,7 +89,7 @@ def main() -> None:
     asked.add_argument("page", type=Path)
     options = asked.parse_args()
     rows = {row["fault"]: row for row in map(json.loads, options.tried.read_text().splitlines())}
-    reasons = tomllib.loads(REASONS.read_text())["equivalent"]
+    reasons = tomllib.loads(EQUIVALENT.read_text())["equivalent"]
     options.page.write_text(page(list(rows.values()), reasons))
     print(options.page)
 

@@ -2,8 +2,9 @@
 
 The same faults are drawn from code that has not changed: each has a place by a digest of its name, and the
 first of each package are taken. What was tried is kept line by line in FOLDER/tried.jsonl and not tried again
-but for the survivors of an older commit, with ``--survivors``. A test that notices a fault is itself run once
-on the code as it is: what fails there too proves nothing, and ends the session.
+but for the survivors of an older commit, with ``--survivors``, where equivalent.toml does not say why no test
+can tell. A test that notices a fault is itself run once on the code as it is: what fails there too proves
+nothing, and ends the session.
 
 Which tests run which function is recorded first, by one run of the tests (record.py), and kept as
 FOLDER/reach.jsonl: a fault is tried on those that run it, and on tests that came later.
@@ -20,6 +21,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from itertools import zip_longest
@@ -31,6 +33,7 @@ from nearest import Nearest, words_of
 from reach import PACKAGES, Reach
 
 JUDGE, RECORD = (Path(__file__).with_name(name).resolve() for name in ("judge.py", "record.py"))
+EQUIVALENT = Path(__file__).with_name("equivalent.toml")
 KERNELS = "tests/kernels.py"
 AS_PYTHON = (
     20.0  # seconds that kernels are tried for as they stand, before they are compiled: some take minutes
@@ -224,10 +227,11 @@ def main() -> None:
     options = asked.parse_args()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended; to be gone on with"))
     session = Session(options.folder, options.usual)
-    tried = session.tried()
+    tried, reasons = session.tried(), tomllib.loads(EQUIVALENT.read_text())["equivalent"]
     for number, fault in enumerate(drawn(session.tree, options.size), 1):
         row = tried.get(fault.name)
-        again = options.survivors and row and row["failed"] is None and row["commit"] != session.commit
+        survived = row and row["failed"] is None and row["commit"] != session.commit
+        again = options.survivors and survived and fault.name not in reasons
         if row is None or again:
             row = session.try_fault(fault)
             print(number, row["failed"] or "SURVIVED", row["seconds"], fault.name, sep="  ", flush=True)

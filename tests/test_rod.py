@@ -13,6 +13,7 @@ from fem_reference.shell.state import State
 from fem_reference.shell.statics import discretise
 from fem_reference.shell.structure import UP
 from fem_reference.surface import rod
+from fem_reference.surface.actuator_forces import by_segment
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification import heavy_elastica
 from sheetbench import scenes
@@ -182,3 +183,17 @@ def test_modes_are_those_of_the_sheet_alone(model: str) -> None:
     with_rod = fem_reference.modes(driven(chain()), model, 3, count=3)
     without = fem_reference.modes(driven(), model, 3, count=3)
     np.testing.assert_allclose(with_rod.frequencies, without.frequencies, rtol=1e-12)
+
+
+def test_segments_share_the_force_and_the_moment_about_their_middles() -> None:
+    """On a straight edge, where products with the position are integrated exactly."""
+    structure, nodes = discretise(rectangle(STRIP, (1, 4), graded=False), alone(segments=5))
+    (only,) = structure.rods.rods
+    position = np.column_stack([nodes[only.line], np.zeros(len(only.line))])
+    nodal = np.random.default_rng(0).standard_normal((len(position), 6))
+    found = by_segment(only, nodal, position, np.tile(UP, (len(position), 1)))
+    middles = np.column_stack([np.zeros(5), 0.1 + 0.2 * np.arange(5), np.full(5, only.offset)])
+    on_nodes = nodal[:, 3:] + np.cross(position, nodal[:, :3])
+    on_segments = found[:, 3:] + np.cross(middles, found[:, :3])
+    np.testing.assert_allclose(found[:, :3].sum(axis=0), nodal[:, :3].sum(axis=0), atol=1e-12)
+    np.testing.assert_allclose(on_segments.sum(axis=0), on_nodes.sum(axis=0), atol=1e-12)

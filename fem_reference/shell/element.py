@@ -70,12 +70,12 @@ def _tables() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return np.concatenate(first), np.concatenate(second), np.concatenate(values)
 
 
-TABLES = _tables()
+TABLES = np.ascontiguousarray(np.concatenate(_tables()).T)
 
 
 def _strain_forms() -> np.ndarray:
     """H (54, 18, 18) with e = ½ Qᵀ H Q; Q holds nine positions, then nine directors."""
-    a, b, v = TABLES
+    a, b, v = _tables()
     forms = np.zeros((STRAINS, 18, 18))
     phi, director = slice(0, 9), slice(9, 18)
     product, slant = a[:, :, None] * b[:, None, :], a[: len(v), :, None] * v[:, None, :]
@@ -165,19 +165,19 @@ def weighed(moduli: np.ndarray, strain: np.ndarray) -> np.ndarray:
 
 def strain_of(vectors: np.ndarray, step: np.ndarray) -> np.ndarray:
     """B δQ (m, 54) of a step from nodal vectors Q, both (m, 18, 3)."""
-    found: np.ndarray = sampling.strain_of(vectors, np.ascontiguousarray(step), *TABLES)
+    found: np.ndarray = sampling.strain_of(vectors, np.ascontiguousarray(step), TABLES)
     return found
 
 
 def forces_of(vectors: np.ndarray, stress: np.ndarray) -> np.ndarray:
     """Bᵀ s (m, 18, 3) at nodal vectors (m, 18, 3); of a step in their place, Σ s_k H_k times it."""
-    found: np.ndarray = sampling.forces_of(np.ascontiguousarray(vectors), stress, *TABLES)
+    found: np.ndarray = sampling.forces_of(np.ascontiguousarray(vectors), stress, TABLES)
     return found
 
 
 def magnitudes(vectors: np.ndarray, stress: np.ndarray) -> np.ndarray:
     """Σ |B| |s| (18,) by nodal vector, of vectors (m, 18, 3) and stresses (m, 54)."""
-    found: np.ndarray = sampling.magnitudes(vectors, stress, *TABLES)
+    found: np.ndarray = sampling.magnitudes(vectors, stress, TABLES)
     return found
 
 

@@ -1,13 +1,14 @@
 """The sampled strains of the shell's elements and their derivatives, as compiled loops.
 
-At every in-plane point k, with a and b slopes of the shape functions there (21, 9), φ the nine positions and
-d the nine directors of an element,
+At every in-plane point k, with a and b slopes of the shape functions there, φ the nine positions and d the
+nine directors of an element,
 
     membrane  ½ (aᵀφ · bᵀφ − aᵀX · bᵀX),     bending   ½ (aᵀφ · bᵀd + bᵀφ · aᵀd),
 
-and at the first points, where a is b, also shear aᵀφ · vᵀd with v the shape functions' values (12, 9).
-Strains are numbered membrane, bending, shear; vectors Q are (m, 18, 3), positions first, and the strains'
-derivatives B = H Q (54, 18, 3) linear in them.
+and at the first points, where a is b, also shear aᵀφ · vᵀd with v the shape functions' values. Strains are
+numbered membrane, bending, shear; vectors Q are (m, 18, 3), positions first, and the strains' derivatives
+B = H Q (54, 18, 3) linear in them. tables: a, b and v one after the other (9, 54), so that loops go along all
+points at once, in vector instructions.
 """
 
 from __future__ import annotations
@@ -16,123 +17,126 @@ import numpy as np
 from numba import njit
 
 REORDERED = {"reassoc", "contract", "nsz"}  # sums in any order, for vector instructions; infinities count
+PLANE, SHEARED = 21, 12  # in-plane points, and those of them that have shear
 
 
 @njit(cache=True)
-def magnitudes(
-    vectors: np.ndarray, stress: np.ndarray, a: np.ndarray, b: np.ndarray, v: np.ndarray
-) -> np.ndarray:
+def magnitudes(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> np.ndarray:
     """Σ |B| |s| over elements, strains and components (18,)."""
-    out, gradient = np.zeros(18), np.zeros((stress.shape[1], 18, 3))
+    strains = tables.shape[1]
+    out, gradient, at = np.zeros(18), np.zeros((strains, 18, 3)), np.empty((6, strains))
     for e in range(len(vectors)):
-        sampled(vectors[e], a, b, v, gradient)
-        for k in range(len(gradient)):
+        sampled(vectors[e], tables, at, gradient)
+        for k in range(strains):
             for i in range(18):
                 size = abs(gradient[k, i, 0]) + abs(gradient[k, i, 1]) + abs(gradient[k, i, 2])
                 out[i] += size * abs(stress[e, k])
     return out
 
 
-@njit(cache=True, inline="always")
-def sampled(vectors: np.ndarray, a: np.ndarray, b: np.ndarray, v: np.ndarray, out: np.ndarray) -> None:
-    """B (54, 18, 3) of one element into zeros, whose membrane strains leave the directors' part alone."""
-    plane, sheared = len(a), len(v)
-    at, slant = np.empty((4, 3)), np.empty(3)
-    for k in range(plane):
-        _slopes(vectors, a[k], b[k], k < sheared, at)
-        membrane, bending = out[k], out[plane + k]
+@njit(cache=True, inline="always", fastmath=REORDERED)
+def sampled(vectors: np.ndarray, tables: np.ndarray, at: np.ndarray, out: np.ndarray) -> None:
+    """B (54, 18, 3) of one element into zeros, whose membrane strains leave the directors' part alone; at:
+    room (6, 54)."""
+    _weighed(vectors, tables, at)
+    for k in range(PLANE):
+        b = PLANE + k
+        membrane, bending = out[k], out[b]
         for i in range(9):
-            half_a, half_b = 0.5 * a[k, i], 0.5 * b[k, i]
+            half_a, half_b = 0.5 * tables[i, k], 0.5 * tables[i, b]
             for c in range(3):
-                stretched = half_a * at[1, c] + half_b * at[0, c]
+                stretched = half_a * at[c, b] + half_b * at[c, k]
                 membrane[i, c] = stretched
-                bending[i, c] = half_a * at[3, c] + half_b * at[2, c]
+                bending[i, c] = half_a * at[3 + c, b] + half_b * at[3 + c, k]
                 bending[i + 9, c] = stretched
-        if k < sheared:
-            _weighed(vectors[9:], v[k], slant)
-            shear = out[2 * plane + k]
+        if k < SHEARED:
+            s = 2 * PLANE + k
+            shear = out[s]
             for i in range(9):
                 for c in range(3):
-                    shear[i, c] = a[k, i] * slant[c]
-                    shear[i + 9, c] = v[k, i] * at[0, c]
+                    shear[i, c] = tables[i, k] * at[3 + c, s]
+                    shear[i + 9, c] = tables[i, s] * at[c, k]
 
 
 @njit(cache=True, fastmath=REORDERED)
-def strain_of(
-    vectors: np.ndarray, step: np.ndarray, a: np.ndarray, b: np.ndarray, v: np.ndarray
-) -> np.ndarray:
+def strain_of(vectors: np.ndarray, step: np.ndarray, tables: np.ndarray) -> np.ndarray:
     """B δQ (m, 54) of a step (m, 18, 3) from the vectors."""
-    plane, sheared = len(a), len(v)
-    out = np.empty((len(step), 2 * plane + sheared))
-    at, by = np.empty((4, 3)), np.empty((4, 3))
-    slant, slanting = np.empty(3), np.empty(3)
+    strains = tables.shape[1]
+    out = np.zeros((len(step), strains))
+    at, by = np.empty((6, strains)), np.empty((6, strains))
     for e in range(len(step)):
-        for k in range(plane):
-            _slopes(vectors[e], a[k], b[k], k < sheared, at)
-            _slopes(step[e], a[k], b[k], k < sheared, by)
-            stretched = bent = 0.0
-            for c in range(3):
-                stretched += at[0, c] * by[1, c] + at[1, c] * by[0, c]
-                bent += at[0, c] * by[3, c] + at[1, c] * by[2, c] + at[2, c] * by[1, c] + at[3, c] * by[0, c]
-            out[e, k], out[e, plane + k] = 0.5 * stretched, 0.5 * bent
-            if k < sheared:
-                _weighed(vectors[e, 9:], v[k], slant)
-                _weighed(step[e, 9:], v[k], slanting)
-                sheared_by = 0.0
-                for c in range(3):
-                    sheared_by += at[0, c] * slanting[c] + slant[c] * by[0, c]
-                out[e, 2 * plane + k] = sheared_by
+        _weighed(vectors[e], tables, at)
+        _weighed(step[e], tables, by)
+        strain = out[e]
+        for c in range(3):
+            place, turn, place_by, turn_by = at[c], at[3 + c], by[c], by[3 + c]
+            for k in range(PLANE):
+                b = PLANE + k
+                strain[k] += 0.5 * (place[k] * place_by[b] + place[b] * place_by[k])
+                bent = place[k] * turn_by[b] + place[b] * turn_by[k]
+                strain[b] += 0.5 * (bent + turn[k] * place_by[b] + turn[b] * place_by[k])
+            for k in range(SHEARED):
+                s = 2 * PLANE + k
+                strain[s] += place[k] * turn_by[s] + turn[s] * place_by[k]
     return out
 
 
 @njit(cache=True, fastmath=REORDERED)
-def forces_of(
-    vectors: np.ndarray, stress: np.ndarray, a: np.ndarray, b: np.ndarray, v: np.ndarray
-) -> np.ndarray:
+def forces_of(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> np.ndarray:
     """Bᵀ s (m, 18, 3) of stresses (m, 54); of a step in place of the vectors, what it adds to Bᵀ s."""
-    plane, sheared = len(a), len(v)
-    out = np.zeros((len(vectors), 18, 3))
-    at, slant = np.empty((4, 3)), np.empty(3)
-    by_a, by_b = np.empty((2, 3)), np.empty((2, 3))  # what slopes a and b are multiplied by, of φ and of d
+    strains = tables.shape[1]
+    out, at = np.empty((len(vectors), 18, 3)), np.empty((6, strains))
+    on_places, on_turns = np.zeros(strains), np.zeros(strains)  # what multiplies the tables, of φ and of d
     for e in range(len(vectors)):
-        for k in range(plane):
-            _slopes(vectors[e], a[k], b[k], k < sheared, at)
-            pull, turn = 0.5 * stress[e, k], 0.5 * stress[e, plane + k]
-            for c in range(3):
-                by_a[0, c], by_a[1, c] = pull * at[1, c] + turn * at[3, c], turn * at[1, c]
-                by_b[0, c], by_b[1, c] = pull * at[0, c] + turn * at[2, c], turn * at[0, c]
-            by_value = 0.0
-            if k < sheared:
-                by_value = stress[e, 2 * plane + k]
-                _weighed(vectors[e, 9:], v[k], slant)
-                for c in range(3):
-                    by_a[0, c] += by_value * slant[c]
-            for i in range(9):
-                for c in range(3):
-                    out[e, i, c] += a[k, i] * by_a[0, c] + b[k, i] * by_b[0, c]
-                    out[e, i + 9, c] += a[k, i] * by_a[1, c] + b[k, i] * by_b[1, c]
-                    if k < sheared:
-                        out[e, i + 9, c] += v[k, i] * by_value * at[0, c]
+        _weighed(vectors[e], tables, at)
+        pull = stress[e]
+        for c in range(3):
+            place, turn = at[c], at[3 + c]
+            for k in range(PLANE):
+                b = PLANE + k
+                on_places[k] = 0.5 * (pull[k] * place[b] + pull[b] * turn[b])
+                on_places[b] = 0.5 * (pull[k] * place[k] + pull[b] * turn[k])
+                on_turns[k] = 0.5 * pull[b] * place[b]
+                on_turns[b] = 0.5 * pull[b] * place[k]
+            for k in range(SHEARED):
+                s = 2 * PLANE + k
+                on_places[k] += pull[s] * turn[s]
+                on_turns[s] = pull[s] * place[k]
+            _gathered(tables, on_places, out[e, :9, c])
+            _gathered(tables, on_turns, out[e, 9:, c])
     return out
 
 
-@njit(cache=True, inline="always")
-def _slopes(vectors: np.ndarray, a: np.ndarray, b: np.ndarray, same: bool, out: np.ndarray) -> None:
-    """aᵀφ, bᵀφ, aᵀd and bᵀd of one element's vectors (18, 3) into (4, 3); same: b is a."""
-    _weighed(vectors[:9], a, out[0])
-    _weighed(vectors[9:], a, out[2])
-    if same:
-        out[1], out[3] = out[0], out[2]
-    else:
-        _weighed(vectors[:9], b, out[1])
-        _weighed(vectors[9:], b, out[3])
+@njit(cache=True, inline="always", fastmath=REORDERED)
+def _weighed(vectors: np.ndarray, tables: np.ndarray, out: np.ndarray) -> None:
+    """Sums of one element's vectors (18, 3) with the tables, of positions and then of directors, (6, 54)."""
+    t0, t1, t2, t3, t4 = tables[0], tables[1], tables[2], tables[3], tables[4]
+    t5, t6, t7, t8 = tables[5], tables[6], tables[7], tables[8]
+    for row in range(6):
+        v, total = vectors[9 * (row // 3) : 9 * (row // 3) + 9, row % 3], out[row]
+        v0, v1, v2, v3, v4, v5, v6, v7, v8 = v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]
+        for k in range(len(total)):
+            first = t0[k] * v0 + t1[k] * v1 + t2[k] * v2
+            second = t3[k] * v3 + t4[k] * v4 + t5[k] * v5
+            total[k] = first + second + (t6[k] * v6 + t7[k] * v7 + t8[k] * v8)
 
 
-@njit(cache=True, inline="always")
-def _weighed(vectors: np.ndarray, weights: np.ndarray, out: np.ndarray) -> None:
-    x = y = z = 0.0
-    for i in range(9):
-        x += weights[i] * vectors[i, 0]
-        y += weights[i] * vectors[i, 1]
-        z += weights[i] * vectors[i, 2]
-    out[0], out[1], out[2] = x, y, z
+@njit(cache=True, inline="always", fastmath=REORDERED)
+def _gathered(tables: np.ndarray, by: np.ndarray, out: np.ndarray) -> None:
+    """Sums (9,) over the points of the tables with what multiplies them (54,)."""
+    t0, t1, t2, t3, t4 = tables[0], tables[1], tables[2], tables[3], tables[4]
+    t5, t6, t7, t8 = tables[5], tables[6], tables[7], tables[8]
+    s0 = s1 = s2 = s3 = s4 = s5 = s6 = s7 = s8 = 0.0
+    for k in range(len(by)):
+        factor = by[k]
+        s0 += t0[k] * factor
+        s1 += t1[k] * factor
+        s2 += t2[k] * factor
+        s3 += t3[k] * factor
+        s4 += t4[k] * factor
+        s5 += t5[k] * factor
+        s6 += t6[k] * factor
+        s7 += t7[k] * factor
+        s8 += t8[k] * factor
+    out[0], out[1], out[2], out[3], out[4] = s0, s1, s2, s3, s4
+    out[5], out[6], out[7], out[8] = s5, s6, s7, s8

@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from fem_reference.shell.sampling import REORDERED, sampled
+from fem_reference.shell.sampling import PLANE, REORDERED, sampled
 
 MOVES, UNKNOWNS = 27, 45  # of an element: displacements, and with them rotations
 AT_ONCE = 3  # strains and unknowns that are gone through together, whose numbers by part it divides
@@ -28,17 +28,16 @@ def tangents(
     forms: np.ndarray,
     frames: np.ndarray,
     nodes: np.ndarray,
-    tables: tuple[np.ndarray, np.ndarray, np.ndarray],
+    tables: np.ndarray,
 ) -> np.ndarray:
     """K (m, 45, 45) of elements with vectors (m, 18, 3), D (m, 54, 54) and Σ s_k H_k (m, 9, 18), rows of
-    positions; frames: T (n, 3, 2) of all nodes; nodes: (m, 9); tables: a, b and v of `sampling`."""
-    a, b, v = tables
-    plane, strains = len(a), 2 * len(a) + len(v)
+    positions; frames: T (n, 3, 2) of all nodes; nodes: (m, 9); tables: of `sampling`."""
+    plane, strains = PLANE, tables.shape[1]
     out = np.zeros((len(vectors), UNKNOWNS, UNKNOWNS))
-    full = np.zeros((strains, 18, 3))
+    full, at = np.zeros((strains, 18, 3)), np.empty((6, strains))
     gradient, weighed = np.zeros((strains, UNKNOWNS)), np.empty((strains, UNKNOWNS))
     for e in range(len(vectors)):
-        sampled(vectors[e], a, b, v, full)
+        sampled(vectors[e], tables, at, full)
         for k in range(strains):
             for i in range(9):
                 for c in range(3):

@@ -250,7 +250,7 @@ def newton(
         if not np.isfinite(relative):
             raise StepFailed(Status.NON_FINITE, "a number overflowed", first.length)
         rounded = works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before
-        if structure.gap(state, target) <= TOLERANCE and (relative <= TOLERANCE or rounded):
+        if (relative <= TOLERANCE or rounded) and structure.gap(state, target) <= TOLERANCE:
             # the extrapolated stress, too, is off by the square of the correction before
             alike = factor is not None and max(lengths[-1], lengths[-2] ** 2) <= path.alike
             return state, factor if alike else None

@@ -100,13 +100,13 @@ class DirectSolver:
 
         Raises SingularMatrix on a zero pivot or an entry that is not finite.
         """
-        if not np.isfinite(_largest(matrix)):
-            raise SingularMatrix("an entry of the matrix is not finite")
         if self._fronts is not None:
             try:
                 return Factor(matrix, Cholesky(matrix.data, self._fronts()), Inertia(matrix.shape[0], 0, 0))
             except NotPositiveDefinite:
-                pass  # its inertia is to be told
+                pass  # its inertia is to be told, or an entry is not finite
+        if not np.isfinite(_largest(matrix)):
+            raise SingularMatrix("an entry of the matrix is not finite")
         columns = _columns(matrix, self.symmetric)
         try:
             if self._use_rslab:

@@ -85,7 +85,7 @@ def _nodes(kind: type[MeshQuad], places: np.ndarray, elements: np.ndarray) -> tu
     nodes = np.empty((numbers.N, 2))
     for of_elements, at in zip(numbers.element_dofs, mesh.mapping().F(element.doflocs.T).T, strict=True):
         nodes[of_elements] = at
-    return nodes, numbers.element_dofs.T
+    return nodes, np.ascontiguousarray(numbers.element_dofs.T)  # of one layout: kernels are compiled for it
 
 
 def on_boundary(mesh: MeshQuad, name: str) -> np.ndarray:

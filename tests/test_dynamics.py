@@ -304,3 +304,8 @@ def test_the_seeds_run_settles_and_without_dampers_keeps_its_energy():
     history = lumped.simulate(asked, springs(asked, 9), 10.0, integrator="midpoint", step=1e-3, every=0.02)
     drift = largest(history.balance - history.balance[0])
     assert drift < 1e-6 * largest(history.energies["potential"])
+
+
+def test_no_frame_is_kept_that_is_not_asked_for():
+    asked = scene()
+    assert len(lumped.simulate(asked, springs(asked, 3), 0.002, every=0.001).extra["frames"]) == 0

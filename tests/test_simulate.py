@@ -128,12 +128,6 @@ def test_chains_are_in_the_files_of_a_run(tmp_path):
     assert np.linalg.norm(np.diff(places, axis=1)[:, 0], axis=1) == pytest.approx(8 * [0.188 / 8], rel=1e-6)
 
 
-def test_no_frame_is_kept_that_is_not_asked_for():
-    asked = load("two-edges-settling")
-    springs = lumped.calibrate(asked.sheet, asked.material, 3)
-    assert len(lumped.simulate(asked, springs, 0.002, every=0.001).extra["frames"]) == 0
-
-
 @pytest.mark.parametrize("grading", [0.0, 0.8])
 def test_a_frames_mid_surface_is_that_of_the_runs_lattice(grading):
     asked = load("two-edges-settling")

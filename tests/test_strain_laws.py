@@ -20,6 +20,7 @@ from fem_reference.shell.laws import LAWS
 from fem_reference.solid.materials import LAWS as SOLID_LAWS
 from fem_reference.surface.materials import plane_stress, section_of
 from fem_reference.verification import run
+from fem_reference.verification.rows import EXACT
 from fem_reference.verification.strain_laws import STRAINS, WAYS, stress
 from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
 from sheetbench.scenes import Material, Scene, Sheet, Status
@@ -92,7 +93,8 @@ def test_the_same_integrals_with_st_venants_law_are_the_linear_element(rng: np.r
 def test_strips_stretch_as_closed_forms_say_one_way_and_both_ways() -> None:
     rows = list(run(["strain-laws"]))
     assert len(rows) == 2 * len(STRAIN_LAWS) * len(WAYS) * len(STRAINS)
-    assert all(row.passed for row in rows)
+    assert all(row.passed and row.source == EXACT for row in rows)
+    assert {row.case for row in rows} == {"strain-laws"}
 
 
 @pytest.mark.parametrize("law", LAWS)

@@ -21,7 +21,7 @@ import pytest
 from nearest import SPOKEN_OF, has
 
 HUNG = 2  # times the time that may be spent: no test that is begun takes as long
-UNKNOWN = 1.0  # second, of a test that was not run yet
+NEW = 100.0  # in favour of a test that was not run yet: such are written for what has survived
 
 
 def spent() -> float:
@@ -46,8 +46,9 @@ class Watch:
         place = self.files.index(item.nodeid.partition("::")[0])
         text = item.nodeid + inspect.getsource(item.function)  # type: ignore[attr-defined]
         spoken = sum(has(text, word) for word in self.asked["words"])
-        seconds = self.asked["took"].get(item.nodeid, UNKNOWN)
-        return math.log2(max(seconds, 0.1)) + math.log2(1 + place) - SPOKEN_OF * spoken
+        seconds = self.asked["took"].get(item.nodeid)
+        new = NEW if seconds is None else 0.0
+        return math.log2(max(seconds or 0.0, 0.1)) + math.log2(1 + place) - SPOKEN_OF * spoken - new
 
     @pytest.hookimpl(trylast=True)
     def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:

@@ -16,10 +16,10 @@ import scipy.sparse as sp
 
 SYMMETRIC_INDEFINITE = -2
 ANALYSE, FACTORISE, SOLVE = 11, 22, 33
-# of PARDISO's `iparm`, counted from 1: no defaults; nested dissection; pivots below 1e-8 of the matrix are
+# of PARDISO's `iparm`, counted from 1: no defaults; nested dissection; pivots below 1e-13 of the matrix are
 # raised to that; pivots of one row and of two
-SETTINGS = {1: 1, 2: 2, 10: 8, 21: 1}
-POSITIVE, NEGATIVE = 22, 23  # where `iparm` tells the inertia
+SETTINGS = {1: 1, 2: 2, 10: 13, 21: 1}
+RAISED, POSITIVE, NEGATIVE = 14, 22, 23  # where `iparm` tells of pivots: how many were raised; the inertia
 
 
 @cache
@@ -45,7 +45,7 @@ class Analysis:
         self._factors: weakref.ref[Factors] | None = None
 
     def factor(self, matrix: sp.csc_array) -> Factors:
-        """Factors of a matrix that has the pattern. Raises RuntimeError where PARDISO gives up."""
+        """Factors of a matrix that has the pattern. Raises RuntimeError where it has none."""
         if self._factors is not None and self._factors() is not None:
             self._handle = self._analysed(matrix)
         factors = Factors(self._handle, self._triangle(matrix))
@@ -67,6 +67,8 @@ class Factors:
     def __init__(self, handle: _Handle, triangle: sp.csr_matrix):
         self._handle, self._triangle = handle, triangle
         handle.call(FACTORISE, triangle)
+        if raised := handle.told(RAISED):
+            raise RuntimeError(f"{raised} pivots vanish")
         positive, negative = handle.told(POSITIVE), handle.told(NEGATIVE)
         self.inertia = (positive, negative, triangle.shape[0] - positive - negative)
 

@@ -5,6 +5,7 @@ import pytest
 import scipy.sparse as sp
 
 from lumped import INTEGRATORS, StepFailed, System, pose, simulate, step_limit
+from lumped.dynamics import flat_system
 from lumped.dynamics.initial import initial_state
 from lumped.springs import packing
 from tests.dynamic_cases import scene, springs
@@ -52,6 +53,14 @@ def start_of(asked, precision="double", n=5):
     calibration = springs(asked, n)
     system = System(asked, pose(asked, calibration, precision=precision))
     return system, initial_state(system, calibration, "tributary")
+
+
+def test_a_call_takes_several_steps_of_the_largest_lattice(monkeypatch):
+    """To lay it out for a call and back takes as long as two."""
+    monkeypatch.setattr(flat_system, "PER_SPRING", 1.0)
+    system, state = start_of(CASES["dampers"])
+    _, taken = INTEGRATORS["verlet"](system, 1e-7).march(state, 1e-7, 100)
+    assert taken == flat_system.LEAST
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -18,6 +18,7 @@ from lumped.springs.packing import pack, scratch
 
 Steps = Callable[..., tuple[bool, int, float, float]]  # as `lumped.dynamics.explicit_steps.march`
 CALL, PER_SPRING = 0.03, 1e-8  # s that a call takes, about, and a step of a spring
+LEAST = 8  # steps of a call: to lay a large lattice out for it and back takes as long as two of them
 
 
 class FlatSystem:
@@ -43,7 +44,7 @@ class FlatSystem:
         rate = self.flat(self._of_masses(system.damping.rate))
         self._driven = np.argwhere(system.driven)
         springs = sum(map(len, assembly.springs))
-        self.at_once = max(1, round(CALL / (springs * PER_SPRING)))
+        self.at_once = max(LEAST, round(CALL / (springs * PER_SPRING)))
         self.size = 3 * self._stride
         self.motion = Motion(
             packing,
@@ -60,8 +61,8 @@ class FlatSystem:
         )
 
     def march(self, state: State, step: float, most: int, steps_of: Steps) -> tuple[Advance, int]:
-        """At most so many steps, as many as take some hundredths of a second; fewer before one that fails, or
-        where `steps_of` ends. Raises StepFailed where the first one fails."""
+        """At most so many steps, as many as take some hundredths of a second, or `LEAST`; fewer before one
+        that fails, or where `steps_of` ends. Raises StepFailed where the first one fails."""
         count = min(most, self.at_once)
         while True:
             u, v, a = (self.flat(vector) for vector in (state.u, state.v, state.a))

@@ -263,4 +263,4 @@ def test_ctrl_c_is_obeyed_and_leaves_no_process(store: Store, tmp_path: Path) ->
     interrupting.join()
     assert len(rows_in(store.path)) == 1
     process = int((tmp_path / "1.started").read_text() or 0)
-    wait_for(lambda: not alive(process), 10.0)
+    wait_for(lambda: not alive(process), 120.0)

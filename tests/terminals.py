@@ -14,6 +14,8 @@ import sys
 import termios
 from contextlib import suppress
 
+from campaigns import wait_for
+
 CONTROL = re.compile(r"\x1b\[[0-?]*[ -/]*[@-~]|\r")
 COMMAND = "from comparisons.cli import main; main()"
 
@@ -66,10 +68,11 @@ class Terminal:
             pass
         os.close(self._terminal)
         _, status = os.waitpid(self.process, 0)
-        alive = self._alive()
-        with suppress(ProcessLookupError):
-            os.killpg(self.process, signal.SIGKILL)
-        assert not alive, f"processes are left behind: {self.shown}"
+        try:  # those it has ended may take a moment on a busy machine
+            wait_for(lambda: not self._alive(), 120.0)
+        finally:
+            with suppress(ProcessLookupError):
+                os.killpg(self.process, signal.SIGKILL)
         return os.waitstatus_to_exitcode(status)
 
     def _alive(self) -> bool:

@@ -40,6 +40,14 @@ def test_extrapolated_stresses_are_the_linearisation():
     assert np.allclose(change, slope, atol=1e-6 * np.abs(slope).max())
 
 
+def test_energies_by_name_add_up_to_the_energy():
+    assembly = assembly_of(**ALL)
+    u = state(assembly)
+    energies = assembly.energies(u)
+    assert energies.keys() >= {"axial", "cross", "diagonal", "area"}
+    assert sum(energies.values()) == pytest.approx(assembly.force(u)[0], rel=1e-12)
+
+
 def test_per_direction_springs_follow_the_seeds_law_and_their_tangent_is_unsymmetric():
     k = PerDirection(x=100.0, y=50.0, z=200.0)
     assembly = assembly_of(axial=k, cross=k)

@@ -12,6 +12,7 @@ from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
 from fem_reference.shell.element import Element, strain_of
 from fem_reference.shell.state import State
 from fem_reference.shell.statics import discretise
+from fem_reference.shell.validity import membrane_strain
 from fem_reference.solid import statics as solid
 from fem_reference.solving.equilibrium import TOLERANCE
 from fem_reference.surface.loads import FollowerMoment, FollowerPressure, Line, area_force, orientation
@@ -199,6 +200,14 @@ def test_patch_equilibrium_of_constant_stress():
     residual = structure.forces(State(change), 0.0).residual
     inner = np.all((nodes > 1e-9) & (nodes < 0.188 - 1e-9), axis=1)
     assert np.abs(residual[0][inner]).max() < 1e-11 * np.abs(residual[0]).max()
+
+
+@pytest.mark.parametrize("stretched", [(0.02, -0.01), (-0.01, 0.02)])
+def test_how_far_a_patch_is_stretched(stretched):
+    structure, nodes = discretise(rectangle(SHEET, (2, 3)), scene())
+    change = np.zeros((2, structure.count, 3))
+    change[0, :, :2] = nodes * stretched
+    assert membrane_strain(structure, State(change)) == pytest.approx(0.02, rel=1e-10)
 
 
 def test_patch_of_constant_bending():

@@ -92,7 +92,7 @@ def test_a_loose_tolerance_costs_no_more_than_a_tight_one() -> None:
 def test_lattices_are_tried_with_what_auto_chooses() -> None:
     """The curved edge: the springs that `--grading auto` takes with no calibration named, even and graded,
     nearer than the usual ones on the same grid, and the advice says why, or why not."""
-    curved = advise(scenes.load("curved-edge"), 0.03, grading="auto")
+    curved = advise(scenes.load("curved-edge"), 0.01, grading="auto")
     errors = {
         (tuple(row["settings"]["grid"]), row["settings"].get("grading", 0.0)): row["error"]
         for row in curved.tried

@@ -43,6 +43,13 @@ def test_solutions_and_inertia_of_factors_that_live_side_by_side() -> None:
         np.testing.assert_allclose(matrix @ factors.solve(b), b, atol=1e-10)
 
 
+def test_a_matrix_without_pivots_has_no_factors() -> None:
+    matrix = laplacian(9, 0.0)
+    analysis = pardiso.Analysis(matrix)
+    with pytest.raises(RuntimeError, match="pivots vanish"):
+        analysis.factor(0.0 * matrix)
+
+
 def test_a_handle_is_used_again_and_let_go() -> None:
     matrix = laplacian(9, 0.0)
     analysis = pardiso.Analysis(matrix)

@@ -17,6 +17,8 @@ import hashlib
 import logging
 import os
 import re
+import shutil
+import time
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -37,17 +39,28 @@ SAID = "compiling for this machine, once: a minute or two …"
 
 
 class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]  # numba is not typed
-    """Of our own kernels: numba's locator with another stamp."""
+    """Of our own kernels: numba's locator with another stamp and another folder.
+
+    The folder is named by the file's path inside its checkout and by the stamp, where numba takes the
+    absolute path: checkouts beside each other, and a copy of one, share what is compiled of the same sources.
+    """
+
+    @classmethod
+    def get_suitable_cache_subpath(cls, py_file: str) -> str:
+        """Return the folder of a file's kernels, relative to the cache's: `lumped.springs-1f2e3d4c5b6a`."""
+        path = _resolved(py_file)
+        return f"{'.'.join(path.relative_to(ROOT).with_suffix('').parts)}-{stamp(path)[:12]}"
 
     def get_source_stamp(self) -> str:
         """A digest of all that the kernel may be compiled from."""
         return stamp(_resolved(self._py_file))
 
     def ensure_cache_path(self) -> None:
-        """Once a folder, not once a kernel."""
+        """Once a folder, not once a kernel; what nobody compiled for a month of the same file goes."""
         if self.get_cache_path() not in _writable:
             super().ensure_cache_path()
             _writable.add(self.get_cache_path())
+            _remove_old(Path(self.get_cache_path()))
 
     @classmethod
     def from_function(cls, function: Callable[..., Any], file: str) -> Locator | None:
@@ -59,6 +72,14 @@ class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]  # numba 
 
 
 _writable: set[str] = set()
+MONTH = 30 * 86400.0  # s
+
+
+def _remove_old(folder: Path) -> None:
+    """Remove the folders of a file's former kernels that nothing was compiled into for a month."""
+    for other in folder.parent.glob(f"{folder.name.rpartition('-')[0]}-*"):
+        if other != folder and time.time() - other.stat().st_mtime > MONTH:
+            shutil.rmtree(other, ignore_errors=True)
 
 
 @cache

@@ -1,8 +1,10 @@
 """Compiled kernels: kept, compiled anew with what they are made of, and announced."""
 
 import os
+import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +17,7 @@ from numba.core import event
 import lumped
 from lumped.dynamics.explicit_steps import march
 from lumped.linear.maps import rows
-from sheetbench.kernels import ROOT, SAID, made_of
+from sheetbench.kernels import MONTH, ROOT, SAID, _remove_old, made_of
 
 ASK = """
 import logging, sys
@@ -64,6 +66,37 @@ def test_the_first_compilation_is_announced_and_the_second_run_compiles_nothing(
         for _ in range(2)
     ]
     assert said == [SAID + "\n", ""]
+
+
+def test_a_copy_of_the_checkout_finds_what_the_checkout_compiled(tmp_path: Path):
+    unneeded = shutil.ignore_patterns("__pycache__")
+    for package in ("sheetbench", "lumped"):
+        shutil.copytree(ROOT / package, tmp_path / "copy" / package, ignore=unneeded)
+    said = [
+        subprocess.run(
+            [sys.executable, "-c", ASK],
+            env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache"), "PYTHONPATH": str(place)},
+            cwd=place,
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stderr
+        for place in (ROOT, tmp_path / "copy")
+    ]
+    assert said == [SAID + "\n", ""]
+
+
+def test_kernels_of_former_sources_go_after_a_month(tmp_path: Path):
+    folders = [tmp_path / f"lumped.linear.maps-{digest}" for digest in ("new", "old", "young")]
+    for folder in folders:
+        folder.mkdir()
+    (tmp_path / "lumped.linear.banded-old").mkdir()
+    for name in ("lumped.linear.maps-old", "lumped.linear.banded-old"):
+        os.utime(tmp_path / name, (0.0, time.time() - 1.01 * MONTH))
+    _remove_old(folders[0])
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "lumped.linear.maps-new", "lumped.linear.maps-young", "lumped.linear.banded-old",
+    }  # fmt: skip
 
 
 def test_a_part_of_an_array_is_set_without_making_text_of_its_shape():

@@ -8,11 +8,13 @@ from dataclasses import replace
 import fake_solutions
 import numpy as np
 import pytest
+from commands import run
 
 from comparisons.comparison import comparison as displacement
 from comparisons.comparison import tables as summary
 from comparisons.comparison.comparison import Comparison, compare
 from comparisons.comparison.error_bar import ErrorBar
+from comparisons.models.grading import told
 from comparisons.report.files import to_json
 from fem_reference.uncertainty import estimate
 from sheetbench import scenes
@@ -177,3 +179,20 @@ def test_settings_that_do_not_exist_are_refused_before_any_solve(
 ) -> None:
     with pytest.raises(BadInput, match=said):
         compare(scene, starting=pytest.fail, **settings)
+
+
+@pytest.mark.parametrize(
+    "options", [("--reference", "solid"), ("--model", "solid:elements=2"), ("--reference", "plate")]
+)
+def test_a_comparison_prints_with_every_reference(
+    options: tuple[str, ...], capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The solid's setting `grading` is a word, the lattice's a number."""
+    assert run("compare", "two-edges-clamped", "--lumped", "3", "--elements", "2", *options) == 0
+    printed = capsys.readouterr().out
+    assert options[1].partition(":")[0] in printed and "converged" in printed
+
+
+def test_reasons_are_read_from_the_settings_of_any_model() -> None:
+    assert told({"elements": [2, 2], "grading": "edges"}) == ()
+    assert told({"grading": 0.3, "grading_reason": "why"}) == ("grading 0.3: why",)

@@ -95,10 +95,14 @@ def graded(
 
 def told(settings: Mapping[str, Any]) -> tuple[str, ...]:
     """The sentences of the settings of an answer whose grading or calibration was chosen, none where both
-    were asked for."""
-    chosen = {"grading": f"grading {of_settings(settings):g}", "calibration": settings.get("calibration")}
-    reasons = {name: settings.get(f"{name}_reason") for name in chosen}
-    return tuple(f"{chosen[name]}: {why}" for name, why in reasons.items() if why)
+    were asked for. Settings are of any model: `grading` is a lattice's, with a reason, only where a reason
+    stands beside it; the solid's is a word, a plug-in's may be anything."""
+    found = []
+    if why := settings.get("grading_reason"):
+        found.append(f"grading {of_settings(settings):g}: {why}")
+    if why := settings.get("calibration_reason"):
+        found.append(f"{settings['calibration']}: {why}")
+    return tuple(found)
 
 
 def _impossible(grid: Sequence[int], settings: Mapping[str, Any]) -> str:

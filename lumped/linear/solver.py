@@ -21,7 +21,7 @@ from scipy.sparse.linalg import LinearOperator, eigs, onenormest, splu
 from lumped.linear import banded, pardiso
 from lumped.linear.banded import BACKWARD_ERROR
 from lumped.linear.reduction import Reduction, reduction
-from lumped.linear.saddle_point import Saddle
+from lumped.linear.saddle_point import Saddle, minimal_residual
 from lumped.pattern import KEPT, Pattern
 
 rslab: Any
@@ -33,7 +33,7 @@ except ImportError:  # SciPy always works
 BANDED_LIMIT = 2.0e7  # n × bandwidth² below which the banded Cholesky is quicker than the sparse one
 NEAREST = 12  # eigenvalues sought when the tangent is unsymmetric
 
-REFINEMENTS, SADDLE_REFINEMENTS = 1, 4
+REFINEMENTS = 1
 
 
 class SingularMatrixError(ArithmeticError):
@@ -41,25 +41,15 @@ class SingularMatrixError(ArithmeticError):
 
 
 class Factor:
-    """One factorisation: solve(b) and the number of negative eigenvalues (None when it is not known).
+    """One factorisation: solve(b) and the number of negative eigenvalues (None when it is not known)."""
 
-    solve: of the matrix or of one close by; then with as many refinements as that takes.
-    """
-
-    def __init__(
-        self,
-        matrix: sp.csc_array,
-        solve: Callable[[np.ndarray], np.ndarray],
-        negative: int | None,
-        refinements: int = REFINEMENTS,
-    ):
+    def __init__(self, matrix: sp.csc_array, solve: Callable[[np.ndarray], np.ndarray], negative: int | None):
         self._matrix, self._solve, self.negative = matrix, solve, negative
-        self._refinements = refinements
 
     def solve(self, b: np.ndarray) -> np.ndarray:
         """x with A x = b, refined. Raises SingularMatrixError when the residual stays large."""
         x = self._solve(b)
-        for _ in range(self._refinements):
+        for _ in range(REFINEMENTS):
             x = x + self._solve(b - self._matrix @ x)
         size = np.abs(self._matrix.data).max() * np.abs(x).max(initial=0.0) + np.abs(b).max(initial=0.0)
         miss = np.abs(b - self._matrix @ x).max(initial=0.0)
@@ -133,13 +123,21 @@ class BandedFactor(Factor):
         return banded.solve(self._stored, self._factors, width, order, b, refinements)
 
 
+class SaddleFactor(Factor):
+    """Factors of a matrix close by one with constraints' multipliers (`lumped.linear.saddle_point`)."""
+
+    def solve(self, b: np.ndarray) -> np.ndarray:
+        """x with A x = b to rounding. Raises SingularMatrixError when the residual stays large."""
+        return checked(*minimal_residual(self._matrix, self._solve, b))
+
+
 class SparseFactor(Factor):
     """Sparse factors of a matrix that is made of its blocks (b, 3, 3) only once it is asked for: while large
     factors are made there is no memory to spare."""
 
     def __init__(self, reduction: Reduction, blocks: np.ndarray, factors: Any):
         self._reduction, self._blocks, self._solve = reduction, blocks, factors.solve
-        self.negative, self._refinements = factors.inertia[1], REFINEMENTS
+        self.negative = factors.inertia[1]
 
     @cached_property
     def _matrix(self) -> sp.csc_array:
@@ -244,8 +242,7 @@ class ReducedSystem:
             factors = self._analysis.factor(close_by)
         except RuntimeError as error:
             raise SingularMatrixError(str(error)) from None
-        negative = factors.inertia[1]
-        return Factor(matrix, lambda b: factors.solve(augmented(b)), negative, SADDLE_REFINEMENTS)
+        return SaddleFactor(matrix, lambda b: factors.solve(augmented(b)), factors.inertia[1])
 
 
 def _finite(matrix: sp.csc_array) -> sp.csc_array:

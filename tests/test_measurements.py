@@ -28,6 +28,7 @@ AS_PEOPLE_WRITE_THEM = {
         "\ufeffnote, x, y, uz\r\na, 0.1, 0.15, -0.004\r\n,,,\r\nb, 0.188, 0.188, -0.013\r\n"
     ),
     "probes": "probe,uz,x9\nmark,-0.004,1\nP4,-0.013,2\n",
+    "units in the header": "x [mm],y [cm],uz [ µm ]\n100,15,-4e3\n188,18.8,-13e3\n",
 }
 
 
@@ -69,7 +70,7 @@ BAD = {
     "underscore": ("x,y,uz\n0.1,0.1,1_0\n", ["line 2", "uz = '1_0'"]),
     "both marks": ("x;y;uz\n0,1;0,1;-0.001\n", ["decimal commas (line 2)", "points (line 2)"]),
     "twice": ("x,y,uz,uz\n0.1,0.1,1e-3,1e-3\n", ["column uz is there twice"]),
-    "millimetres in the header": ("x,y,uz [mm]\n0.1,0.1,1\n", ["uz [mm]", "in m"]),
+    "inches in the header": ("x,y,uz [in]\n0.1,0.1,1\n", ["uz [in]", "unknown unit", "mm"]),
     "a moving surface": ("time,x,y,z\n0.1,0.1,0.1,1e-3\n", ["column time"]),
     "no heights": ("x,y,z\n0.1,0.1,nan\n", ["no points"]),
     "flat": ("x,y,z\n0.1,0.1,0\n", ["nothing moved"]),

@@ -32,8 +32,8 @@ _MEANINGS = {
     "shear": "strain spring of a cell in a layer, in-plane shear",
     "stretch": "strain spring of a cell in a layer, stretching",
     "mid_shear": "strain spring of a mid-surface cell, in-plane shear",
-    "edge_shear": "added to the shear of a layer's cells along a free, hinged or held edge",
-    "strip_shear": "the same where the opposite edge is free, hinged or held too",
+    "edge_shear": "correction to the shear spring of a layer's cells along a free, hinged or held edge",
+    "strip_shear": "the same where the opposite edge is free, hinged or held too; by the width between them",
     "far_edge_shear": "edge_shear of the edges x1 and y1",
     "far_strip_shear": "strip_shear of the edges x1 and y1",
     "mid_stretch": "strain spring of a mid-surface cell, stretching",
@@ -108,17 +108,17 @@ def springs(calibration: dict[str, Any]) -> Table:
     columns = (
         Column("spring"),
         Column("what it is", prose=True),
-        *(Column(heading, "N/m", "N/m", 1.0, ".6g") for heading in headings),
+        *(Column(heading, "N/m", "N/m", 1.0, "#.6g") for heading in headings),
     )
     said = f"layer distance {1e3 * calibration['layer_distance']:.6g} mm"
     return Table("Spring constants", columns, tuple(rows), "springs", text=said)
 
 
 def moduli(calibration: dict[str, Any]) -> Table:
-    """A row per modulus: the sheet's, what the grid asks of its springs, what the lattice has.
+    """A row per modulus: the sheet's, the target of the springs on this grid, the lattice's.
 
-    Those asked for are the sheet's, but for the transverse shear: the sheet has κGh, and the grid asks for
-    MacNeal's S* (`lumped.moduli`), with which its cells bend as the sheet does.
+    Targets are the sheet's moduli, but for the transverse shear: the sheet has κGh, the target is MacNeal's
+    S* (`lumped.moduli`), with which cells bend as the sheet does.
     """
     rows = []
     for row in calibration["moduli"]:
@@ -129,14 +129,14 @@ def moduli(calibration: dict[str, Any]) -> Table:
     columns = (
         Column("modulus"),
         Column("unit"),
-        Column("sheet", form=".6g"),
-        Column("asked", form=".6g"),
-        Column("got", form=".6g"),
-        Column("off by", "", "%", 100.0, "z.2f"),
+        Column("sheet", form="#.6g"),
+        Column("target", form="#.6g"),
+        Column("lattice", form="#.6g"),
+        Column("off target by", "", "%", 100.0, "z.2f"),
     )
     said = (
-        "S: the sheet has κGh; cells of length l bend as it does with S*, 1/S* = 1/κGh + l²/12D11, "
-        "which is what is asked of the springs"
+        "S: the target is S*, 1/S* = 1/κGh + l²/12D11, smaller than the sheet's κGh on purpose: it cancels "
+        "the shear error of cells of length l"
     )
     return Table(
         "Moduli of the sheet and of the lattice",
@@ -157,7 +157,7 @@ def _edges(calibration: dict[str, Any]) -> str:
     cells = np.hstack([*shear.values()]) if isinstance(shear, dict) else shear
     shares = sorted({f"{1.0 + k * square / twisting:.3f}" for k in (np.min(cells), np.max(cells))})
     share = " to ".join(shares)
-    return f"; D66: cells along a free, hinged or held edge have {share} of it, as a strip's torsion asks"
+    return f". D66: times {share} in cells along free, hinged and held edges, to match the torsion of a strip"
 
 
 def to_toml(calibration: dict[str, Any]) -> str:

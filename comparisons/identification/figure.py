@@ -46,12 +46,12 @@ def compose(found: Identification, look: Look = PLAIN) -> Figure:
         for name, column in zip(COMPONENTS, 1e3 * found.residuals.T, strict=True):
             right.plot(measured.time, column, ".", color=COMPONENTS[name], markersize=3, label=name)
         right.axhline(0.0, color=GREY, linewidth=0.6)
-        right.set(xlabel="time [s]", ylabel="model less measurement [mm]")
+        right.set(xlabel="time [s]", ylabel="model − measurement [mm]")
         right.legend(frameon=False, ncols=3)
     else:
         _map(figure, right, found)
-    said = ", ".join(f"{name} = {quantity(u.value, u.unit, '.5g')}" for name, u in found.unknowns.items())
-    for axis, title in ((left, f"Fit: {said}"), (right, "What is left")):
+    values = [f"{name} = {quantity(u.value, u.unit, '.4g')}" for name, u in found.unknowns.items()]
+    for axis, title in ((left, "\n".join(["Fit", *values])), (right, "Residuals")):
         axis.set_title(title, loc="left", fontsize=7.5, fontweight="bold")
         axis.spines[["top", "right"]].set_visible(False)
     if look.titled:
@@ -70,7 +70,7 @@ def _fit(axis: Axes, measured: np.ndarray, residuals: np.ndarray) -> None:
 
 
 def _map(figure: Figure, axis: Axes, found: Identification) -> None:
-    """The length of every residual on the plan."""
+    """Draw the length of every residual on the plan."""
     sheet, at = found.scene.sheet, 1e3 * found.measured.points[:, :2]
     residuals = np.nan_to_num(1e3 * found.residuals).reshape(len(at), -1)
     size = np.linalg.norm(residuals, axis=1)

@@ -27,7 +27,7 @@ class Found:
 
 @dataclass(frozen=True, repr=False)
 class Identification(summary.Summarised):
-    """unknowns: name → Found; residuals [m], model less measured: (n, 3) of displacements, nan where nothing
+    """unknowns: name → Found; residuals [m], model − measured: (n, 3) of displacements, nan where nothing
     was measured, or (n,) along the normals at cloud points; noise: s [m]; relative: the largest residual over
     the largest measurement; converged: whether the search ended at a minimum."""
 

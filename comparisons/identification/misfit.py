@@ -1,4 +1,4 @@
-"""Model less measurement, as shares of the largest measurement: residuals, slopes, and which way they point.
+"""Model − measurement, as shares of the largest measurement: residuals, slopes, and which way they point.
 
 Residuals are u_model − u_measured at every measured component, or the distances of a cloud's points from the
 model's surface, along its normals (`comparisons.identification.surface`).

@@ -61,8 +61,8 @@ def unknowns(found: Identification) -> Table:
 
 
 def residuals(found: Identification) -> Table:
-    """A row per measured point: model less measurement, or distance of the point from the surface."""
-    return _residuals(found, np.arange(len(found.residuals)), "Model less measurement")
+    """A row per measured point: model − measurement, or distance of the point from the surface."""
+    return _residuals(found, np.arange(len(found.residuals)), "Residuals: model − measurement")
 
 
 def worst(found: Identification) -> Table:
@@ -72,7 +72,7 @@ def worst(found: Identification) -> Table:
     size = np.nan_to_num(np.abs(found.residuals)).reshape(len(found.residuals), -1).max(axis=1)
     rows = np.sort(np.argsort(size)[-SHOWN:])
     return _residuals(
-        found, rows, f"Model less measurement: the {SHOWN} points of {len(size)} that fit least"
+        found, rows, f"Residuals (model − measurement): the {SHOWN} points of {len(size)} that fit least"
     )
 
 

@@ -1,9 +1,10 @@
 """Columns of numbers from a CSV file as spreadsheets, cameras and numpy write them.
 
-The first line that is no comment names the columns, in any order and case; "[m]" or "[s]" after a name is
-passed over. Lines that begin with # are comments. Cells are separated by commas, semicolons or tabs,
-whichever the header has; where commas do not separate they may be decimal commas, as long as no number has a
-point. An empty cell, or NaN, is a number that was not measured.
+The first line that is no comment names the columns, in any order and case. A unit may follow a name, as in
+"uz [mm]": numbers are converted to metres and seconds, which they are in where no unit is given. Lines that
+begin with # are comments. Cells are separated by commas, semicolons or tabs, whichever the header has;
+where commas do not separate they may be decimal commas, as long as no number has a point. An empty cell, or
+NaN, is a number that was not measured.
 """
 
 from __future__ import annotations
@@ -19,17 +20,19 @@ from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.quantities import LARGEST
 
 SEPARATORS = ";\t,"
-SI = ("[m]", "[s]")
+UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "um": 1e-6, "s": 1.0, "ms": 1e-3}  # in m or s
 _COMMA, _POINT = (re.compile(rf"[+-]?(\d+{mark}\d*|{mark}\d+)([eE][+-]?\d+)?") for mark in (",", r"\."))
 _SHOWN = 40  # characters of a cell that a refusal repeats
 
 
 @dataclass(frozen=True)
 class Row:
-    """A line of a file: `where` names it, `cells` holds its text by column."""
+    """A line of a file: `where` names it, `cells` holds its text by column; scales: name of a column → SI
+    units per unit of its numbers."""
 
     where: str
     cells: dict[str, str]
+    scales: dict[str, float]
     decimal_comma: bool = False
 
     def number(self, name: str) -> float:
@@ -46,7 +49,7 @@ class Row:
             return nan
         plain = text.replace(",", ".") if self.decimal_comma else text
         try:
-            value = float(plain) if "_" not in plain else nan
+            value = float(plain) * self.scales[name] if "_" not in plain else nan
         except ValueError:
             value = nan
         if not isfinite(value):
@@ -85,7 +88,8 @@ def read_columns(path: Path) -> Columns:
         return Columns((), ())
     separator = next((mark for mark in SEPARATORS if mark in kept[0][1]), ",")
     (_, header), *parsed = _parsed(path, kept, separator)
-    names = tuple(_name(path, cell) for cell in header)
+    named = [_name(path, cell) for cell in header]
+    names, scales = tuple(name for name, _ in named), dict(named)
     repeated = [name for name in names if name and names.count(name) > 1]
     if repeated:
         raise BadInput(f"{path}: column {repeated[0]} is there twice")
@@ -94,7 +98,7 @@ def read_columns(path: Path) -> Columns:
     for i, cells in parsed:
         padded = [cell.strip() for cell in cells] + [""] * (len(names) - len(cells))
         if any(padded):
-            rows.append(Row(f"{path}, line {i}", dict(zip(names, padded, strict=False)), comma))
+            rows.append(Row(f"{path}, line {i}", dict(zip(names, padded, strict=False)), scales, comma))
     return Columns(names, tuple(rows))
 
 
@@ -111,12 +115,13 @@ def _parsed(path: Path, kept: list[tuple[int, str]], separator: str) -> Iterator
         yield kept[reader.line_num - 1][0], cells
 
 
-def _name(path: Path, cell: str) -> str:
-    """A column's name without its unit, which has to be the metre or the second."""
-    name, bracket, unit = cell.strip().lower().partition("[")
-    if bracket and bracket + unit not in SI:
-        raise BadInput(f"{path}: column {cell.strip()}: lengths are in m, times in s")
-    return name.strip()
+def _name(path: Path, cell: str) -> tuple[str, float]:
+    """A column's name without its unit, and the SI units per unit of its numbers."""
+    name, bracket, rest = cell.strip().lower().partition("[")
+    unit = rest.removesuffix("]").strip().replace("μ", "µ")  # the Greek letter for the micro sign
+    if bracket and unit not in UNITS:
+        raise BadInput(f"{path}: column {cell.strip()}: unknown unit; write one of {', '.join(UNITS)}")
+    return name.strip(), UNITS[unit] if bracket else 1.0
 
 
 def _decimal_comma(path: Path, parsed: list[tuple[int, list[str]]]) -> bool:

@@ -10,8 +10,18 @@ import numpy as np
 import pytest
 
 from comparisons.cli import main
+from comparisons.modes.kinds import kinds
+from comparisons.modes.pairing import CELLS, assurance, cell_centres, matched
 from comparisons.modes.spectra import spectra
 from sheetbench import scenes
+from sheetbench.scenes import Clamped, Material, Scene, Sheet
+
+STRIP = Scene(
+    name="strip",
+    sheet=Sheet(length_x=0.12, length_y=0.04, thickness=0.002),
+    material=Material(young=0.6e6, poisson=0.48, density=1070.0),
+    support=(Clamped(edge="x0"),),
+)
 
 
 def run(*arguments: str) -> int:
@@ -54,6 +64,70 @@ def test_a_free_sheet_has_its_rigid_motions_left_out() -> None:
     assert [spectrum.rigid for spectrum in found] == [6, 6]
     assert found[0].frequencies[0] == pytest.approx(found[1].frequencies[0], rel=0.1)
     assert any("rigid motions" in said for said in found.report().notes)
+
+
+def test_modes_of_a_strip_are_paired_by_shape_where_their_order_differs() -> None:
+    found = spectra(STRIP, count=6, elements=8)
+    lattice, shell = (spectrum.frequencies for spectrum in found)
+    assert [pair.kind for pair in found.pairs] == [
+        "bending 1", "twist", "bending 2", "bending 3", "twist 2", "in plane",
+    ]  # fmt: skip
+    assert [pair.is_ for pair in found.pairs] == [1, 2, 3, 4, 6, 5]
+    assert min(pair.mac for pair in found.pairs) > 0.99
+    twist, in_plane = found.pairs[4:]
+    assert twist.relative == pytest.approx(lattice[4] / shell[5] - 1.0)
+    assert in_plane.relative == pytest.approx(lattice[5] / shell[4] - 1.0)
+    assert abs(twist.relative) < 0.004 < 0.01 < in_plane.relative < 0.015  # by rank both are between
+    document = found.as_dict()["pairs"][4]
+    assert list(document) == ["of", "number", "against", "is", "mac", "relative", "kind"]
+    assert (document["of"], document["number"], document["against"], document["is"]) == (
+        "lumped",
+        5,
+        "shell",
+        6,
+    )
+    report = found.report()
+    assert any("swapped" in said and "5 (twist 2) is 6" in said for said in report.notes)
+    assert [row[3] for row in report.tables[0].rows] == [1, 2, 3, 4, 6, 5]
+
+
+def test_a_mode_without_counterpart_among_the_first_says_so() -> None:
+    found = spectra(STRIP, count=5, elements=8)  # the lattice's fifth is the shell's sixth
+    assert (found.pairs[4].is_, found.pairs[4].relative) == (None, None)
+    assert found.report().tables[0].rows[4][-2] is None
+    assert any("none of the shell's first 5" in said for said in found.report().notes)
+
+
+def test_repeated_frequencies_pair_whatever_their_rotation() -> None:
+    scene = scenes.load("one-edge-clamped").model_copy(update={"supports": ()})
+    x, y = (cell_centres(scene.sheet) / scene.sheet.length_x).T
+    zero = np.zeros_like(x)
+    shapes = np.stack([np.stack([zero, zero, w], axis=-1) for w in (np.sin(9 * x), np.sin(9 * y), x * y)])
+    turned = np.einsum("ij,jnk->ink", [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0]], shapes)
+    apart, same = (assurance(shapes, turned, np.array(f)) for f in ([1.0, 1.1, 2.0], [1.0, 1.0, 2.0]))
+    assert apart[0, 0] < 0.7
+    assert matched(same) == [0, 1, 2]
+    # not exactly 1: sin 9x and sin 9y are not orthogonal, so that the turn is not one in their mass
+    assert np.diag(same).min() > 0.95
+
+
+def test_kinds_of_known_deflections() -> None:
+    x, y = cell_centres(STRIP.sheet).T / np.array([[0.12], [0.04]])
+    zero = np.zeros_like(x)
+    deflections = [
+        x**2,
+        (y - 0.5) * x,
+        x**2 * (1 - 2 * x),
+        x * ((y - 0.5) ** 2 - 1 / 12),
+        (y - 0.5) * np.sin(5 * x),
+    ]
+    shapes = [np.stack([zero, zero, w], axis=-1) for w in deflections] + [
+        np.stack([zero, x**2, zero], axis=-1)
+    ]
+    expected = ["bending 1", "twist", "bending 2", "bending across", "twist 2", "in plane"]
+    assert kinds(STRIP, np.stack(shapes), CELLS) == expected
+    adjacent = STRIP.model_copy(update={"supports": (Clamped(edge="x0"), Clamped(edge="y0"))})
+    assert kinds(adjacent, np.stack(shapes[:2]), CELLS) == ["bending 1", "bending 2"]
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,5 @@
-"""The picture of natural modes: shapes on the plan, a row a model, a column a mode."""
+"""The picture of natural modes: shapes on the plan, a row a model, a column a mode of the lattice and the
+modes of the same shape of the references."""
 
 from __future__ import annotations
 
@@ -44,13 +45,15 @@ def compose(found: Spectra, look: Look = PLAIN) -> Figure:
     size = (look.width, len(found) * rows * panel + (0.3 if look.titled else 0.05))
     figure = Figure(figsize=size, layout="constrained")
     panels = figure.subplots(len(found) * rows, across, squeeze=False).reshape(len(found), rows * across)
-    shapes = [spectrum.shapes(plan)[:count] for spectrum in found]
+    shapes = [spectrum.shapes(plan) for spectrum in found]
     for row, (spectrum, own) in enumerate(zip(found, shapes, strict=True)):
-        for number, axis in enumerate(panels[row]):
+        matches = [pair.is_ for pair in found.against(spectrum.model)] if row else range(1, count + 1)
+        for column, axis in enumerate(panels[row]):
             axis.set_axis_off()
-            if number >= count:
+            if column >= count or (match := matches[column]) is None:
                 continue
-            shape = own[number] * (1.0 if np.sum(own[number] * shapes[0][number]) >= 0.0 else -1.0)
+            number = match - 1
+            shape = own[number] * (1.0 if np.sum(own[number] * shapes[0][column]) >= 0.0 else -1.0)
             flat = np.abs(shape[:, 2]).max() < 0.5 * np.abs(shape).max()
             value = np.linalg.norm(shape, axis=1) if flat else shape[:, 2]
             value = (value / (np.abs(value).max() or 1.0)).reshape(len(y), len(x))
@@ -61,8 +64,9 @@ def compose(found: Spectra, look: Look = PLAIN) -> Figure:
                 axis.contour(x, y, nodal, levels=[0.0], colors=DARK, linewidths=0.6)
             axis.plot(x[[0, -1, -1, 0, 0]], y[[0, 0, -1, -1, 0]], color=GREY, linewidth=0.6)
             axis.set_aspect("equal")
-            said = f"{number + 1}: {spectrum.frequencies[number]:.4g} Hz{' (in plane)' if flat else ''}"
-            axis.set_title(said, fontsize=6.5, pad=2)
+            kind = found.kinds[column]
+            said = f"{number + 1}: {spectrum.frequencies[number]:.4g} Hz"
+            axis.set_title(f"{kind}\n{said}" if kind and row == 0 else said, fontsize=6.5, pad=2)
         panels[row, 0].text(
             -0.06, 0.5, spectrum.model, rotation=90, ha="right", va="center", fontsize=7.5,
             transform=panels[row, 0].transAxes,

@@ -3,13 +3,14 @@
 About the undeformed, stress-free sheet, where loads, weight and actuators have no part in them, or about its
 equilibrium under its loads. A sheet that supports leave free to move has rigid motions, whose frequency is
 zero; they are counted and left out.
-Modes are told apart by their place in the list, lowest first.
+Modes are listed lowest first; those of two models are paired by shape (`comparisons.modes.pairing`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, cast, get_args, overload
@@ -23,6 +24,8 @@ from comparisons.models.registry import check, check_reference
 from comparisons.models.sizes import size
 from comparisons.models.springs import scene_springs
 from comparisons.modes import tables
+from comparisons.modes.kinds import kinds
+from comparisons.modes.pairing import CELLS, Pair, assurance, cell_centres, matched
 from comparisons.report.report import Report
 from comparisons.report.work import Progress, Work, silent
 from sheetbench.choices import ELEMENTS, MASSES, REFERENCE
@@ -86,6 +89,38 @@ class Spectra(summary.Summarised, Sequence[Spectrum]):
     def __len__(self) -> int:
         return len(self.found)
 
+    @cached_property
+    def _sampled(self) -> tuple[np.ndarray, ...]:
+        """Shapes (count, n, 3) of every model on equal plan cells."""
+        plan = cell_centres(self.scene.sheet)
+        return tuple(spectrum.shapes(plan) for spectrum in self)
+
+    @cached_property
+    def kinds(self) -> tuple[str | None, ...]:
+        """What kind of mode every one of the lattice is; None about a deformed sheet."""
+        if self.about == "deformed":
+            return (None,) * len(self[0].frequencies)
+        return tuple(kinds(self.scene, self._sampled[0], CELLS))
+
+    @cached_property
+    def pairs(self) -> tuple[Pair, ...]:
+        """Every mode of the lattice with the mode of the same shape of each reference."""
+        of, found = self[0], []
+        for spectrum, shapes in zip(self[1:], self._sampled[1:], strict=True):
+            mac = assurance(self._sampled[0], shapes, spectrum.frequencies)
+            for i, match in enumerate(matched(mac)):
+                at = int(np.argmax(mac[i])) if match is None else match
+                off = None if match is None else float(of.frequencies[i] / spectrum.frequencies[at] - 1.0)
+                is_ = None if match is None else match + 1
+                found.append(
+                    Pair(of.model, i + 1, spectrum.model, is_, float(mac[i, at]), off, self.kinds[i])
+                )
+        return tuple(found)
+
+    def against(self, model: str) -> tuple[Pair, ...]:
+        """The pairs with one reference, in the order of the lattice's modes."""
+        return tuple(pair for pair in self.pairs if pair.against == model)
+
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench modes`."""
         return {
@@ -93,6 +128,7 @@ class Spectra(summary.Summarised, Sequence[Spectrum]):
             "about": self.about,
             "sag": self.sag,
             "solutions": [spectrum.as_dict() for spectrum in self],
+            "pairs": [pair.as_dict() for pair in self.pairs],
         }
 
     def _summary(self) -> tuple[str, summary.Facts]:

@@ -13,6 +13,7 @@ from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 
 if TYPE_CHECKING:
+    from comparisons.modes.pairing import Pair
     from comparisons.modes.spectra import Spectra
 
 FLAT = 0.3  # displacement, in thicknesses, from which on stretching stiffens a plate by percents
@@ -36,17 +37,26 @@ def report(found: Spectra) -> Report:
 
 
 def table(found: Spectra) -> Table:
-    """A row per mode: the frequency of every model, and how far the lattice is from the first reference."""
-    first = found[1].frequencies if len(found) > 1 else None
+    """A row per mode of the lattice: its frequency, that of the mode of the same shape of every reference,
+    and how far the lattice is from the first of them."""
+    references = [(spectrum, found.against(spectrum.model)) for spectrum in found[1:]]
     rows = []
-    for i in range(len(found[0].frequencies)):
-        row: list[Any] = [i + 1, *(float(spectrum.frequencies[i]) for spectrum in found)]
-        if first is not None:
-            row.append(float(found[0].frequencies[i] / first[i] - 1.0))
+    for i, (kind, frequency) in enumerate(zip(found.kinds, found[0].frequencies, strict=True)):
+        row: list[Any] = [i + 1, *([kind] if kind else []), float(frequency)]
+        for spectrum, pairs in references:
+            match = pairs[i].is_
+            row += [None, None] if match is None else [match, float(spectrum.frequencies[match - 1])]
+        if references:
+            first = references[0][1][i]
+            row += [first.relative, first.mac]
         rows.append(tuple(row))
-    columns = [Column("mode", form="d"), *(Column(s.model, "Hz", "Hz", 1.0, ".4g") for s in found)]
-    if first is not None:
-        columns.append(Column("off by", "", "%", 100.0, "+.2f"))
+    hertz: dict[str, Any] = {"unit": "Hz", "shown_unit": "Hz", "scale": 1.0, "form": ".4g"}
+    columns = [Column("mode", form="d"), *([Column("kind")] if found.kinds[0] else [])]
+    columns.append(Column(found[0].model, **hertz))
+    for spectrum, _ in references:
+        columns += [Column(f"{spectrum.model}'s mode", form="d"), Column(spectrum.model, **hertz)]
+    if references:
+        columns += [Column("off by", "", "%", 100.0, "+.2f"), Column("MAC", form=".3f")]
     return Table(f"Natural frequencies about the {found.about} sheet", tuple(columns), tuple(rows), "modes")
 
 
@@ -86,8 +96,37 @@ def complaints(found: Spectra) -> list[str]:
 def notes(found: Spectra) -> list[str]:
     """What the table does not say: labels, rigid motions left out, actuators left out."""
     said = [" · ".join(spectrum.label for spectrum in found), *told(found[0].settings)]
+    for spectrum in found[1:]:
+        said += _paired(found.against(spectrum.model))
     if found[0].rigid:
         said.append(f"{found[0].rigid} rigid motions, free of any frequency, are left out")
     if found.scene.actuators:
         said.append("actuators have no part in these modes: they are those of the sheet alone")
     return said
+
+
+def _paired(pairs: Sequence[Pair]) -> list[str]:
+    """That modes stand in another order with a reference, or have no counterpart there."""
+    of, against = pairs[0].of, pairs[0].against
+    swapped = [
+        f"{pair.number}{f' ({pair.kind})' if pair.kind else ''} is {pair.is_}"
+        for pair in pairs
+        if pair.swapped
+    ]
+    alone = [str(pair.number) for pair in pairs if pair.is_ is None]
+    said = []
+    if swapped:
+        said.append(
+            f"swapped: {of} mode {', '.join(swapped)} of the {against}, by their shapes; "
+            "the rows compare modes of the same shape"
+        )
+    if alone:
+        said.append(
+            f"{of} mode {', '.join(alone)}: none of the {against}'s first {len(pairs)} has its shape; "
+            "--count lists more"
+        )
+    return said
+
+
+def _named(pair: Pair) -> str:
+    return f"{pair.number} ({pair.kind})" if pair.kind else f"{pair.number}"

@@ -1,0 +1,95 @@
+"""Modes of two models paired by shape.
+
+The modal assurance criterion of shapes a and b is MAC = (a·Mb)² / ((a·Ma)(b·Mb)): 1 for equal shapes, 0 for
+shapes orthogonal in the mass M. Shapes are sampled at the centres of equal plan cells, so that M is the
+sheet's mass by the midpoint rule, and a factor that cancels. The pairing is the assignment with the largest
+sum of MAC (Kuhn and Munkres; Allemang, Sound and Vibration 37, 2003, for the criterion). Modes of one
+frequency are defined up to a rotation among themselves: those of the second model are turned to the first's
+by an orthogonal Procrustes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from sheetbench.scenes import Sheet
+from sheetbench.scenes.grid import near_square
+
+CELLS = 32  # plan cells along the shorter side; the tenth mode has some five half-waves
+SAME = 1e-6  # relative difference of frequencies that are one: above the eigensolvers' error
+LEAST = 0.5  # MAC from which on two shapes are taken for one mode
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Mode `number` of model `of`, from 1, and the mode of model `against` with the same shape.
+
+    is_: its number there, None where no shape of the first modes answers; mac: of the two shapes; relative:
+    the frequency's difference, of the reference's; kind: of the shape, None about a deformed sheet.
+    """
+
+    of: str
+    number: int
+    against: str
+    is_: int | None
+    mac: float
+    relative: float | None
+    kind: str | None
+
+    @property
+    def swapped(self) -> bool:
+        """Whether the mode stands at another place in the reference's list."""
+        return self.is_ not in (None, self.number)
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {key.rstrip("_"): value for key, value in asdict(self).items()}
+
+
+def cell_centres(sheet: Sheet) -> np.ndarray:
+    """Centres (n, 2) [m] of equal, near-square plan cells; y runs fastest."""
+    axes = [
+        (np.arange(count) + 0.5) * length / count
+        for count, length in zip(near_square(sheet, CELLS), sheet.lengths, strict=True)
+    ]
+    return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
+
+
+def assurance(shapes: np.ndarray, others: np.ndarray, frequencies: np.ndarray) -> np.ndarray:
+    """MAC (m, k) of shapes (m, n, 3) and others (k, n, 3) sampled on equal cells; frequencies (k,): of the
+    others."""
+    first, second = _normalised(shapes), _normalised(others)
+    for group in _repeated(frequencies):
+        projected = first @ second[group].T  # of every first shape onto the group's
+        nearest = np.argsort(-np.sum(projected**2, axis=1))[: len(group)]
+        left, _, right = np.linalg.svd(projected[nearest], full_matrices=False)
+        second[group[: len(nearest)]] = left @ right @ second[group]
+    return np.asarray((first @ second.T) ** 2)
+
+
+def matched(mac: np.ndarray) -> list[int | None]:
+    """The column of every row, None where its MAC is below `LEAST`."""
+    rows, columns = linear_sum_assignment(mac, maximize=True)
+    found: list[int | None] = [None] * len(mac)
+    for row, column in zip(rows, columns, strict=True):
+        if mac[row, column] >= LEAST:
+            found[row] = int(column)
+    return found
+
+
+def _normalised(shapes: np.ndarray) -> np.ndarray:
+    flat = shapes.reshape(len(shapes), -1)
+    return np.asarray(flat / np.linalg.norm(flat, axis=1, keepdims=True))
+
+
+def _repeated(frequencies: Sequence[float] | np.ndarray) -> Iterator[np.ndarray]:
+    """Indices of frequencies, ascending, that are one."""
+    breaks = np.flatnonzero(np.diff(frequencies) > SAME * np.asarray(frequencies)[1:]) + 1
+    for group in np.split(np.arange(len(frequencies)), breaks):
+        if len(group) > 1:
+            yield group

@@ -13,8 +13,8 @@ spectra = sb.modes("two-edges-clamped", count=6, grid=9, elements=8)
 print(spectra)
 
 # %%
-# Each mode of the lattice beside the shell's mode of the same shape, whatever its place in the list (MAC is 1 for
-# equal shapes):
+# Each mode of the lattice beside the shell's mode of the same shape, whatever its place in the list
+# (MAC is 1 for equal shapes):
 
 for pair in spectra.pairs:
     print(f"{pair.number} {pair.kind:12} {100 * pair.relative:+.2f} %   MAC {pair.mac:.3f}")

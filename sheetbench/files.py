@@ -1,8 +1,8 @@
 """Files of results: whole or absent, with one writer at a time, and a line that says so where they cannot be.
 
-A file is written beside its name and moved there when done. What stood there stays as it was until then, and
-a link that stands there is replaced, not followed. What a killed writer left beside a name is removed by the
-next that writes there.
+A file is written beside its name and moved there when done. What stood there stays as it was until then.
+Only a regular file is replaced: links, devices, pipes and folders are refused. What a killed writer left
+beside a name is removed by the next that writes there.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import errno
 import fcntl
 import os
 import re
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -19,6 +20,7 @@ from sheetbench.scenes.errors import BadInput
 
 LOCK = ".lock"
 PARTIAL = re.compile(r"\.(?P<stem>.+)\.(?P<process>\d+)\.partial(?P<suffix>\..*)?")
+KINDS = ((stat.S_ISLNK, "link"), (stat.S_ISDIR, "folder"))
 NOT_FOLLOWED = os.O_CLOEXEC | os.O_NOFOLLOW
 REMEDIES = {
     errno.ENOSPC: "free some and run the same command again",
@@ -28,6 +30,7 @@ REMEDIES = {
     errno.EPERM: "make it writable, or choose another folder",
     errno.EROFS: "choose another folder",
     errno.EISDIR: "a folder stands there: move it away",
+    errno.ENAMETOOLONG: "choose a shorter one",
     errno.EEXIST: "a file stands there: choose another folder",
     errno.ENOTDIR: "a part of the path is a file: choose another folder",
     errno.ELOOP: "a link stands there: remove it",
@@ -55,13 +58,28 @@ def whole(path: Path) -> Iterator[Path]:
     """A path with the same suffix to write to; what was written takes `path`'s place at the end."""
     partial = path.with_name(f".{path.stem}.{os.getpid()}.partial{path.suffix}")
     with writing(path):
+        require_file(path)
         _clear(path)
+        partial.unlink(missing_ok=True)  # of a killed writer that had this process's number
+        os.close(os.open(partial, os.O_CREAT | os.O_EXCL | NOT_FOLLOWED, 0o666))
         try:
             yield partial
             os.replace(partial, path)
         finally:
             with suppress(OSError):
                 partial.unlink(missing_ok=True)
+
+
+def require_file(path: Path) -> None:
+    """Raise BadInput where something stands that is not a regular file, and so must not be replaced."""
+    with writing(path):
+        try:
+            mode = os.lstat(path).st_mode
+        except FileNotFoundError:
+            return
+    if not stat.S_ISREG(mode):
+        kind = next((name for of, name in KINDS if of(mode)), "device, pipe or socket")
+        raise BadInput(f"{path}: cannot be written, a {kind} stands there: choose another name, or remove it")
 
 
 @contextmanager

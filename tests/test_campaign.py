@@ -189,7 +189,11 @@ DAMAGE: dict[str, tuple[Callable[[Path], object], str]] = {
     "half": (lambda path: path.write_bytes(path.read_bytes()[:6000]), "malformed|damaged"),
     "head": (lambda path: overwritten(path, 0), "not a database"),
     "middle": (lambda path: overwritten(path, 9000), "malformed|damaged"),
-    "folder": (lambda path: (path.unlink(), path.mkdir()), "unable to open database file"),
+    "folder": (lambda path: (path.unlink(), path.mkdir()), "cannot be written"),
+    "link": (
+        lambda path: (path.rename(path.with_name("other")), path.symlink_to("other")),
+        "cannot be written",
+    ),
     "schema": (foreign, "is of another program or version"),
     "broken row": (lambda path: replaced(path, "row", '{"square": '), "the row of a run of .* is damaged"),
     "empty row": (lambda path: replaced(path, "row", "{}"), "the row of a run of .* is damaged"),
@@ -209,7 +213,7 @@ def test_a_damaged_file_is_refused_in_a_line_with_the_remedy_and_left_alone(
     spoil, said = DAMAGE[damage]
     spoil(path)
     before = path.read_bytes() if path.is_file() else None
-    refused = pytest.raises(BadInput, match=f"{path}: .*({said}).*; (move it away|a folder stands there)")
+    refused = pytest.raises(BadInput, match=f"{path}: .*({said}).*[;,] (move it away|a (folder|link) stands there)")
     with refused, campaign(tmp_path) as store:
         carry_out(runs, store, pool=pytest.fail)
     assert (path.read_bytes() if path.is_file() else None) == before

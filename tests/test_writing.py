@@ -9,9 +9,10 @@ import sys
 from pathlib import Path
 
 import pytest
+from commands import one_line, run
 
 from comparisons.report.files import folder
-from sheetbench.files import only_writer, whole, writing
+from sheetbench.files import only_writer, require_file, whole, writing
 from sheetbench.scenes import BadInput
 
 
@@ -28,13 +29,57 @@ def test_a_file_is_whole_or_as_it_was(tmp_path: Path) -> None:
     assert [found.name for found in tmp_path.iterdir()] == ["file.txt"]
 
 
-def test_a_planted_link_is_replaced_and_not_followed(tmp_path: Path) -> None:
+def stand(path: Path, kind: str) -> None:
+    """Put something that is no regular file in a file's place."""
+    if kind == "link":
+        path.symlink_to(path.with_name("victim"))
+    elif kind == "folder":
+        path.mkdir()
+    else:
+        os.mkfifo(path)
+
+
+@pytest.mark.parametrize("kind", ["link", "folder", "pipe"])
+def test_what_is_no_regular_file_is_neither_replaced_nor_followed(tmp_path: Path, kind: str) -> None:
+    path, victim = tmp_path / "file.txt", tmp_path / "victim"
+    victim.write_text("mine")
+    stand(path, kind)
+    before = path.lstat()
+    with pytest.raises(BadInput, match=rf"file.txt: cannot be written, a .*{kind}.* stands there"), whole(path):
+        raise AssertionError
+    assert victim.read_text() == "mine" and path.lstat() == before
+    with pytest.raises(BadInput, match="a device, pipe or socket stands there: choose another name"):
+        require_file(Path(os.devnull))
+
+
+def test_a_link_planted_where_a_file_is_prepared_is_not_followed(tmp_path: Path) -> None:
     victim = tmp_path / "victim"
     victim.write_text("mine")
-    (tmp_path / "file.txt").symlink_to(victim)
+    (tmp_path / f".file.{os.getpid()}.partial.txt").symlink_to(victim)
     with whole(tmp_path / "file.txt") as partial:
         partial.write_text("ours")
-    assert victim.read_text() == "mine" and not (tmp_path / "file.txt").is_symlink()
+    assert victim.read_text() == "mine" and (tmp_path / "file.txt").read_text() == "ours"
+
+
+@pytest.mark.parametrize("kind", ["link", "folder", "pipe"])
+@pytest.mark.parametrize(
+    "asked",
+    [
+        ("report", "{folder}", "--out", "{file}"),
+        ("view", "one-edge-clamped", "--out", "{file}"),
+        ("new", "{file}", "--overwrite"),
+    ],
+    ids=lambda asked: asked[0],
+)
+def test_verbs_that_write_one_file_replace_no_other_kind(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], asked: tuple[str, ...], kind: str
+) -> None:
+    path = tmp_path / "page.toml"
+    stand(path, kind)
+    before = path.lstat()
+    assert run(*(word.format(folder=tmp_path, file=path) for word in asked)) == 2
+    assert f"{path}: cannot be written, a " in one_line(capsys)
+    assert path.lstat() == before and [found.name for found in tmp_path.iterdir()] == ["page.toml"]
 
 
 def test_what_killed_writers_left_is_cleared_and_what_living_ones_write_is_not(tmp_path: Path) -> None:
@@ -96,6 +141,9 @@ def test_a_folder_that_cannot_be_had_is_refused(tmp_path: Path, monkeypatch: pyt
     (tmp_path / "file").touch()
     with pytest.raises(BadInput, match="Not a directory"):
         folder(tmp_path / "file" / "under")
+    for root in ("/", "//", "/usr/.."):
+        with pytest.raises(BadInput, match="the root of the file system; name a folder in it"):
+            folder(root)
     monkeypatch.setattr(os, "access", lambda path, mode: False)
     with pytest.raises(BadInput, match="cannot be written to; make it writable"):
         folder(tmp_path)

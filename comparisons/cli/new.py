@@ -48,12 +48,14 @@ def command(
     from comparisons.cli import console
     from comparisons.models.quantities import sides
     from comparisons.report.files import to_json, write_text
+    from sheetbench.files import require_file
     from sheetbench.scenes import Scene, load
     from sheetbench.scenes.errors import BadInput, require_choice
     from sheetbench.scenes.schema import for_editors
     from sheetbench.scenes.sheet import EDGES
     from sheetbench.scenes.template import SCHEMA, template
 
+    require_file(file)
     if file.exists() and not overwrite:
         raise BadInput(f"{file}: exists already; --overwrite replaces it")
     if not file.parent.is_dir():

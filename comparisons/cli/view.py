@@ -53,10 +53,13 @@ def command(
     from comparisons.models.grids import parse_elements
     from comparisons.report.files import write_text
     from comparisons.view import staged
+    from sheetbench.files import require_file
     from sheetbench.scenes.errors import BadInput
 
     if window and out is not None:
         raise BadInput("--window and --out: a window leaves no page; choose one")
+    if out is not None:
+        require_file(out)
     size, troubles = parse_elements(elements), list[str]()
     if Path(scene).is_dir():
         shown, troubles = staged.of_folder(Path(scene))

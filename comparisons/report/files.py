@@ -25,6 +25,8 @@ def folder(path: Path | str, option: str = "--out") -> Path:
     if path == "":
         raise BadInput(f"{option} = '': name a folder; '.' is the current one")
     made = Path(path)
+    if os.path.realpath(path) == os.sep:
+        raise BadInput(f"{option} = '{path}': the root of the file system; name a folder in it")
     try:
         made.mkdir(parents=True, exist_ok=True)
     except OSError as error:

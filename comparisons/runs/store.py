@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.report.files import plain
+from sheetbench.files import require_file
 from sheetbench.scenes.errors import BadInput
 
 FILE = "campaign.sqlite"
@@ -67,6 +68,7 @@ class Store:
     def __init__(self, path: Path) -> None:
         """Open or make the file. Raises BadInput for one that is not a campaign's, damaged or read-only."""
         self.path = path
+        require_file(path)  # SQLite would follow a link
         with self._said():
             self._database = sqlite3.connect(path)
         try:

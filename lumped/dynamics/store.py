@@ -113,7 +113,7 @@ class FolderStore:
         """Replace the checkpoint; what was appended so far is on disk before it is."""
         sizes = {name: self._synced(name) for name in APPENDED}
         checksums = {CHECKSUM.format(name): self._checksums[name] for name in APPENDED}
-        with whole(self.folder / "checkpoint.npz") as partial, partial.open("xb") as file:
+        with whole(self.folder / "checkpoint.npz") as partial, partial.open("wb") as file:
             np.savez(file, **{**content, **sizes, **checksums})
             file.flush()
             os.fsync(file.fileno())

@@ -103,6 +103,23 @@ def test_what_is_wrong_with_a_plugin_is_said_in_a_line(
     assert "no setting 'grid'" in one_line(capsys)
 
 
+@pytest.mark.parametrize("where", ["when it is loaded", "when it solves"])
+def test_one_that_ends_the_program_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], where: str
+) -> None:
+    """The exit status was 0, and nothing was said."""
+    file, example = tmp_path / f"{where[-5:].strip()}.py", (DOCS / "plugin.py").read_text()
+    if where == "when it is loaded":
+        file.write_text("raise SystemExit(0)\n")
+    else:
+        file.write_text(
+            f"{example}\n\nclass Ends(Strip):\n    def solve(self, *_):\n        raise SystemExit(0)\n"
+        )
+    few = ("--lumped", "3", "--elements", "2", "--no-uncertainty")
+    assert run("compare", "one-edge-clamped", *few, "--model", f"{file}:Ends") == 2
+    assert "plug-in" in (said := capsys.readouterr().err) and "Traceback" not in said
+
+
 def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_path: Path) -> None:
     """Rows of an edited plug-in were read as if nothing had changed."""
     file, beside = tmp_path / "own.py", tmp_path / "constants.py"

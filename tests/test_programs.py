@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import signal
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -118,6 +119,9 @@ def test_what_ends_badly_is_a_row_of_its_own_in_the_tradeoff(
         ([says({**ANSWER, "probes": {**ANSWER["probes"], "P1": [0, None, 0]}})], "probes.P1 = "),
         ([says(ANSWER).replace("-0.04", "NaN", 1)], "three finite numbers"),
         ([says({**ANSWER, "unknowns": -3})], "unknowns = -3"),
+        ([says({**ANSWER, "unknowns": 10**400})], "unknowns = 1000"),
+        ([says({**ANSWER, "probes": {**ANSWER["probes"], "P1": [0, -(10**400), 0]}})], "at most 1e+15"),
+        ([says(ANSWER).replace("-0.04", "9" * 5000, 1)], "not one JSON document"),
         ([f"exec '{sys.executable}' -c 'x = bytearray(2**30)'"], "exit status 1: MemoryError"),
     ],
 )
@@ -154,6 +158,35 @@ def test_what_cannot_be_run_is_refused(
         assert said in one_line(capsys)
     with pytest.raises(BadInput, match="seconds = 0: a number above 0"):
         registry.solve(SCENE, program("mine", says(ANSWER)), seconds=0)
+
+
+@pytest.mark.parametrize("leaves", ["", " >/dev/null"], ids=["holding its output", "holding its errors"])
+def test_a_child_that_is_left_behind_holds_nothing_up(program: Make, tmp_path: Path, leaves: str) -> None:
+    """It was waited for, beyond the time limit and at any length, and the answer lost."""
+    left = f"setsid sh -c 'echo $$ > {tmp_path / 'left'}; exec sleep 60'{leaves} &"
+    ready = f"while [ ! -s {tmp_path / 'left'} ]; do sleep 0.01; done"
+    solution = registry.solve(SCENE, program("mine", left, ready, says(ANSWER)), seconds=30)
+    child = int((tmp_path / "left").read_text())
+    assert alive(child)  # nothing but its end could have ended a wait for it
+    os.kill(child, signal.SIGKILL)
+    assert solution.comparable
+
+
+def test_a_child_that_goes_on_to_talk_is_not_listened_to(program: Make, tmp_path: Path) -> None:
+    talking = f"setsid sh -c 'echo $$ > {tmp_path / 'left'}; exec yes >&2' 2>&2 &"
+    ready = f"while [ ! -s {tmp_path / 'left'} ]; do sleep 0.01; done"
+    solution = registry.solve(SCENE, program("mine", talking, ready, says(ANSWER)), seconds=1e15)
+    assert solution.status is Status.CONVERGED
+    wait_for(lambda: not alive(int((tmp_path / "left").read_text())), 10.0)  # its pipe is closed
+
+
+@pytest.mark.parametrize("limits", ["seconds=1e20", "seconds=1" + 400 * "0", "memory_mb=1e999"])
+def test_limits_without_end_are_refused(
+    program: Make, capsys: pytest.CaptureFixture[str], limits: str
+) -> None:
+    assert run("tradeoff", "one-edge-clamped", "--model", f"{program('mine', says(ANSWER))}:{limits}") == 2
+    assert "a number of at most 1e+15 is needed" in one_line(capsys)
+    assert registry.solve(SCENE, program("mine", says(ANSWER)), seconds=1e15, memory_mb=1e15).comparable
 
 
 def test_another_program_under_the_same_name_is_another_model(program: Make) -> None:

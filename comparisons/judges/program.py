@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
 from collections.abc import Collection, Sequence
 from pathlib import Path
+
+from comparisons.models import running
 
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 
@@ -18,25 +18,16 @@ def run(command: Sequence[str], folder: Path, limit: float, fine: Collection[int
     """What the program printed, on one thread. Raises Failed where it takes longer than `limit` [s], cannot
     be started, or ends with an exit status that is not `fine`, with the last line that speaks of an error."""
     try:
-        done = subprocess.run(
-            command,
-            cwd=folder,
-            env={**os.environ, **ONE_THREAD},
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            timeout=limit,
-            check=False,
-        )
-    except subprocess.TimeoutExpired:
-        raise Failed(f"stopped after {limit:g} s, its time limit") from None
+        ended = running.run(command, b"", limit, folder=folder, variables=ONE_THREAD)
     except OSError as error:
         raise Failed(f"cannot be started: {error.strerror}") from None
-    said = done.stdout.decode("utf-8", errors="replace")
-    if done.returncode < 0:
-        raise Failed(f"ended by signal {-done.returncode}{_error_in(said)}")
-    if done.returncode not in fine:
-        raise Failed(f"left with exit status {done.returncode}{_error_in(said)}")
+    said = f"{ended.answer.decode('utf-8', errors='replace')}\n{ended.complaint}"
+    if ended.stopped:
+        raise Failed(f"stopped: {ended.stopped}{_error_in(said)}")
+    if ended.code < 0:
+        raise Failed(f"ended by signal {-ended.code}{_error_in(said)}")
+    if ended.code not in fine:
+        raise Failed(f"left with exit status {ended.code}{_error_in(said)}")
     return said
 
 

@@ -19,6 +19,7 @@ from sheetbench.choices import AUTO, EXTRAPOLATED
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import LAYERS
+from sheetbench.scenes.quantities import LARGEST
 
 SIZES = ("grid", "coarser", "elements")
 _PROGRAM = re.compile(rf"(?P<file>{PREFIX}[^:]+)(:(?P<rest>.*))?")
@@ -123,9 +124,12 @@ def _value(text: str) -> Any:
     if _COUNTS.fullmatch(text):
         return [int(part) for part in text.split("x")]
     try:
-        return json.loads(text)
-    except (json.JSONDecodeError, RecursionError):
+        value = json.loads(text)
+    except (ValueError, RecursionError):  # the former of an integer of thousands of digits too
         return text
+    if isinstance(value, int | float) and not abs(value) <= LARGEST:
+        raise BadInput(f"--model: {text[:40]}: a number of at most {LARGEST:g} is needed")
+    return value
 
 
 def _plain(value: Any) -> str:

@@ -66,7 +66,7 @@ def plugin(name: str) -> Model:
     """
     try:
         model = _loaded(name)
-    except Exception as error:  # whatever a plug-in does on import, the user is told whose fault it is
+    except (Exception, SystemExit) as error:  # whatever it does on import, the user is told whose it is
         said = str(error) or type(error).__name__
         raise BadInput(f"model = '{name}': the plug-in cannot be loaded: {said}") from None
     if not isinstance(model, Model):
@@ -108,6 +108,14 @@ def digest(name: str) -> str | None:
         return None
     said = [entry.dist.name, entry.dist.version] if entry.dist is not None else []
     return plugin_sources.digest(plugin_sources.of_module(entry.module), *said)
+
+
+def answer(model: Model, scene: Scene, settings: Mapping[str, Any]) -> Solution:
+    """The plug-in's answer. Raises BadInput where it does instead, or would end this process."""
+    try:
+        return model.solve(scene, settings)
+    except SystemExit as leaving:
+        raise BadInput(f"{model.name}: the plug-in ends the program, SystemExit({leaving.code})") from None
 
 
 def _loaded(name: str) -> Any:

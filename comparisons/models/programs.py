@@ -30,9 +30,12 @@ from comparisons.models import memory
 from comparisons.models.running import run
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.quantities import LARGEST
 
 PREFIX = "exec:"
 SETTINGS = {"seconds": 60.0, "memory_mb": None}  # the limits; all others are the program's own
+UNLIMITED = 2**40  # MB
+SHOWN = 60  # characters of what an answer has in a number's place
 REFUSED = 2  # exit status
 NUMBERS = ("solve_seconds", "unknowns", "iterations", "load_factor")
 
@@ -85,12 +88,12 @@ def _limits(settings: Mapping[str, Any]) -> tuple[float, int | None]:
     seconds, most = settings["seconds"], settings["memory_mb"]
     for name, value in (("seconds", seconds), ("memory_mb", most)):
         usual = value is None and name == "memory_mb"
-        if not usual and (isinstance(value, bool) or not isinstance(value, int | float) or not value > 0):
-            raise BadInput(f"exec: {name} = {value}: a number above 0")
+        if not usual and not (type(value) in (int, float) and 0 < value <= LARGEST):
+            raise BadInput(f"exec: {name} = {value}: a number above 0, and at most {LARGEST:g}")
     if most is None:
         free = memory.available()
         return float(seconds), None if free is None else max(1, free // 2**20)
-    return float(seconds), int(most)
+    return float(seconds), min(max(1, int(most)), UNLIMITED)
 
 
 def _read(scene: Scene, answer: bytes) -> dict[str, Any]:
@@ -119,14 +122,14 @@ def _read(scene: Scene, answer: bytes) -> dict[str, Any]:
 
 def _vector(value: Any, name: str) -> np.ndarray:
     numbers = isinstance(value, list) and all(type(part) in (int, float) for part in value)
-    if not numbers or len(value) != 3 or not np.all(np.isfinite(value)):
-        raise BadInput(f"{name} = {value}: three finite numbers")
+    if not numbers or len(value) != 3 or not all(abs(part) <= LARGEST for part in value):
+        raise BadInput(f"{name} = {str(value)[:SHOWN]}: three finite numbers, at most {LARGEST:g}")
     return np.array(value, dtype=float)
 
 
 def _number(value: Any, name: str) -> float:
-    if type(value) not in (int, float) or not 0.0 <= value < np.inf:
-        raise BadInput(f"{name} = {value}: a number, not below 0")
+    if type(value) not in (int, float) or not 0.0 <= value <= LARGEST:
+        raise BadInput(f"{name} = {str(value)[:SHOWN]}: a number, not below 0, and at most {LARGEST:g}")
     return float(value)
 
 

@@ -170,7 +170,7 @@ def _ready(scene: Scene, candidate: Candidate) -> Solve:
         return MODELS[candidate.model](scene, **candidate.settings)
     outside = plugins.plugin(candidate.model)
     settings = plugins.settings_of(outside, candidate.settings)
-    return lambda watch: outside.solve(scene, settings)
+    return lambda watch: plugins.answer(outside, scene, settings)
 
 
 def check(scene: Scene, candidate: Candidate, large: bool = False, option: str = "") -> None:

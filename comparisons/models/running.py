@@ -1,18 +1,28 @@
-"""Running a program within limits of time, memory and output; at the end nothing that it started is left."""
+"""Running a program within limits of time, memory and output.
+
+The program leads a process group of its own, which is killed at the end. What has left that group lives on,
+and may hold the ends of the pipes: so pipes are read until the program has ended, and not to their own end.
+"""
 
 from __future__ import annotations
 
 import os
+import selectors
 import signal
 import subprocess
 import tempfile
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
-from threading import Thread, Timer
+from pathlib import Path
 from time import perf_counter
-from typing import IO
 
 MOST = 2**24  # bytes of what it says on standard output
 TAIL = 2000  # of what is kept of standard error
+LATE = "late"
+DRAIN = 1.0  # s for reading what is in the pipes at its end; others may go on to fill them
+LOOK = 0.05  # s between looks whether it has ended, where nothing is said
+BLOCK = 2**16  # bytes read at once
 
 
 @dataclass(frozen=True)
@@ -34,45 +44,76 @@ class Ended:
         return f"{said}: {self.complaint}" if said and self.complaint else said
 
 
-def run(command: list[str], question: bytes, seconds: float, memory_mb: int | None) -> Ended:
+def run(
+    command: Sequence[str],
+    question: bytes,
+    seconds: float,
+    memory_mb: int | None = None,
+    *,
+    folder: Path | None = None,
+    variables: Mapping[str, str] | None = None,
+) -> Ended:
     """Run a program on a question for standard input.
 
-    seconds: after which it is stopped; memory_mb: of address space, None for no limit (the shell's ulimit).
+    seconds: after which it is stopped; memory_mb: of address space, None for no limit (the shell's ulimit);
+    folder: to run it in; variables: of its environment, beside ours.
     """
     if memory_mb is not None:
         command = ["sh", "-c", 'ulimit -v "$0" && exec "$@"', str(1024 * memory_mb), *command]
-    stopped: list[str] = []
-    tail: list[str] = []
     with tempfile.TemporaryFile() as source:
         source.write(question)
         source.seek(0)
-        started = perf_counter()
-        pipe = subprocess.PIPE
+        started, pipe = perf_counter(), subprocess.PIPE
         with subprocess.Popen(
-            command, stdin=source, stdout=pipe, stderr=pipe, start_new_session=True
+            command,
+            stdin=source,
+            stdout=pipe,
+            stderr=pipe,
+            start_new_session=True,
+            cwd=folder,
+            env={**os.environ, **(variables or {})},
         ) as process:
-            assert process.stdout is not None and process.stderr is not None
-
-            def stop(why: str) -> None:
-                stopped.append(why)
-                _end(process.pid)
-
-            listening = Thread(target=_listen, args=(process.stderr, tail), daemon=True)
-            clock = Timer(seconds, stop, [f"no answer within {seconds:g} s"])
-            listening.start()
-            clock.start()
             try:
-                answer = process.stdout.read(MOST + 1)
-                if len(answer) > MOST:
-                    stop(f"more than {MOST // 2**20} MB of answer")
-                process.wait()
+                answer, complaint, stopped = _hear(process, started + seconds)
                 took = perf_counter() - started
             finally:
-                clock.cancel()
                 _end(process.pid)
-            listening.join()
-    lines = "".join(tail).strip().splitlines()
-    return Ended(process.returncode, answer, lines[-1] if lines else "", "".join(stopped[:1]), took)
+    if stopped == LATE:
+        stopped = f"no answer within {seconds:g} s"
+    lines = complaint.decode("utf-8", "replace").strip().splitlines()
+    return Ended(process.returncode, answer, lines[-1] if lines else "", stopped, took)
+
+
+def _hear(process: subprocess.Popen[bytes], until: float) -> tuple[bytes, bytes, str]:
+    """Standard output, the end of standard error, and why to stop the program; "" where it has ended."""
+    assert process.stdout is not None and process.stderr is not None
+    answer, complaint = bytearray(), bytearray()
+    with selectors.DefaultSelector() as waiting:
+        waiting.register(process.stdout, selectors.EVENT_READ, answer)
+        waiting.register(process.stderr, selectors.EVENT_READ, complaint)
+        stopped = ""
+        while not stopped:
+            ended = process.poll() is not None  # before reading: what it has said by its end is in the pipes
+            if ended:
+                until = min(until, perf_counter() + DRAIN)
+            left = max(0.0, until - perf_counter())
+            ready = waiting.select(0.0 if ended else min(LOOK, left))
+            for key, _ in ready:
+                if block := os.read(key.fd, BLOCK):
+                    key.data.extend(block)
+                else:
+                    waiting.unregister(key.fileobj)
+            del complaint[:-TAIL]
+            if len(answer) > MOST:
+                stopped = f"more than {MOST // 2**20} MB of answer"
+            elif ended and not (ready and left):
+                break
+            elif not left:
+                stopped = LATE
+            elif not waiting.get_map():
+                with suppress(subprocess.TimeoutExpired):
+                    process.wait(left)
+    return bytes(answer), bytes(complaint), stopped
 
 
 def _end(group: int) -> None:
@@ -81,11 +122,3 @@ def _end(group: int) -> None:
         os.killpg(group, signal.SIGKILL)
     except (ProcessLookupError, PermissionError):  # all gone; macOS says the latter of what is dying
         return
-
-
-def _listen(stream: IO[bytes], tail: list[str]) -> None:
-    """Read a stream to its end, and keep the end."""
-    kept = b""
-    while block := stream.read1(4096):  # type: ignore[attr-defined]
-        kept = (kept + block)[-TAIL:]
-    tail.append(kept.decode("utf-8", "replace"))

@@ -247,7 +247,7 @@ def _left_out(scene: Scene) -> tuple[str, ...]:
     """What of the scene these arrays do not say."""
     moving = [support.edge for support in scene.supports if support.motion is not None]
     courses = [*scene.loads, *([scene.gravity] if scene.gravity is not None else [])]
-    said = [f"the motion of the support on edge {edge} over time is left out" for edge in moving]
+    said = [f"the support on edge {edge} moves over time; here it is where it ends" for edge in moving]
     if any(load.history is not None for load in courses):
         said.append("loads change over time in this scene; here they have their last values")
     return tuple(said)

@@ -25,21 +25,27 @@ from lumped.linear.solver import ReducedSystem, reduced
 from lumped.pattern import KEPT, Pattern
 from lumped.springs.rest import Itself
 from sheetbench.scenes import Scene, Sheet, Support, held_axes, holds_tilt
-from sheetbench.scenes.kinematics import bent_or_tilted
+from sheetbench.scenes.kinematics import bent_or_tilted, shifts
 
 
 @dataclass(frozen=True, eq=False)
 class Constraints:
-    """transform: (3n, m) sparse, q → u; prescribed: λ → g (n, 3) [m]; holders: edge → (mass rows of the
-    edge (m, layers), axes held); held: (n, 3) bool, components that some support acts on; fixed: (n, 3)
-    bool, those of them that are in place whatever q is."""
+    """transform: (3n, m) sparse, q → u; turned: λ → g (n, 3) [m] of bent rods and tilted clamps; shift:
+    (n, 3) [m] in the end of supports that move; holders: edge → (mass rows of the edge (m, layers), axes
+    held); held: (n, 3) bool, components that some support acts on; fixed: (n, 3) bool, those of them that are
+    in place whatever q is."""
 
     transform: sp.csr_array
-    prescribed: Callable[[float], np.ndarray]
+    turned: Callable[[float], np.ndarray]
+    shift: np.ndarray
     holders: dict[str, tuple[np.ndarray, tuple[int, ...]]]
     held: np.ndarray
     fixed: np.ndarray
     coupling: Coupling | None = None
+
+    def prescribed(self, load_factor: float) -> np.ndarray:
+        """g (n, 3) [m] in statics, which take the end of supports' motions."""
+        return self.turned(load_factor) + load_factor * self.shift
 
     @cached_property
     def rows(self) -> Rows:
@@ -150,7 +156,7 @@ def _constrain(
         transform = _with_dependent(free, mean_held, bindings)
     driven = bent_or_tilted(supports, sheet)
 
-    def prescribed(load_factor: float) -> np.ndarray:
+    def turned(load_factor: float) -> np.ndarray:
         g = np.zeros((n, 3))
         for edge in driven:
             masses = holders[edge.edge][0].ravel()
@@ -160,7 +166,12 @@ def _constrain(
             coupling.follow(g)
         return g
 
-    return Constraints(transform, prescribed, holders, held, fixed, coupling)
+    shift = np.zeros((n, 3))
+    for moved_support in shifts(supports):
+        masses = holders[moved_support.edge][0]
+        for axis, distance in zip(moved_support.axes, moved_support.displacement, strict=True):
+            shift[masses, axis] = distance
+    return Constraints(transform, turned, shift, holders, held, fixed, coupling)
 
 
 def _selection(free: np.ndarray) -> sp.csr_array:

@@ -190,7 +190,7 @@ def test_a_turn_about_the_corner_itself() -> None:
         scene((Hinged(edge="y0"),), EdgeMotion(kind="motion", edge="x1", **table))
 
 
-def test_a_support_that_moves_counts_in_dynamics_and_rests_in_statics() -> None:
+def test_a_support_that_moves_counts_at_all_times_and_in_statics_where_it_ends() -> None:
     table = {"time": (0.0, 1.0, 2.0), "displacement": ((0, 0, 0), LIFT, (0, 0, 0))}
     moving = Clamped(edge="y0", motion=Motion(**table))
     asked = scene((moving,), EdgeMotion(kind="motion", edge="x1", **table), gravity=None)
@@ -198,8 +198,24 @@ def test_a_support_that_moves_counts_in_dynamics_and_rests_in_statics() -> None:
     with pytest.raises(ValueError, match=r"z by 0.01 m at t = 1 s"):
         scene((CLAMP, Clamped(edge="y0")), *asked.actuators)
     stays = {"time": (0.0, 1.0), "displacement": ((0, 0, 0), LIFT)}
-    with pytest.raises(ValueError, match=r"z by 0.01 m in statics, where supports rest"):
-        scene((Clamped(edge="y0", motion=Motion(**stays)),), EdgeMotion(kind="motion", edge="x1", **stays))
+    lifted = scene(
+        (Clamped(edge="y0", motion=Motion(**stays)),),
+        EdgeMotion(kind="motion", edge="x1", **stays),
+        gravity=None,
+    )
+    u = lumped.solve(lifted, lumped.calibrate(OBLONG, SILICONE, (5, 3))).displacement([CORNER, (0.05, 0.05)])
+    assert_allclose(u, [LIFT, LIFT], atol=1e-12)
+
+
+def test_supports_that_move_their_corner_apart_are_refused() -> None:
+    table = Motion(time=(0.0, 1.0), displacement=((0, 0, 0), LIFT))
+    with pytest.raises(
+        ValueError, match=r"edge x0 and the clamped support on edge y0 .* z by 0.01 m at t = 1"
+    ):
+        scene((CLAMP, Clamped(edge="y0", motion=table)))
+    scene((CLAMP.replace(motion=table), Clamped(edge="y0", motion=table)))
+    sideways = Motion(time=(0.0, 1.0), displacement=((0, 0, 0), (0.01, 0, 0)))
+    scene((CLAMP, Held(edge="y0", components=("z",), motion=sideways)))  # along x it holds nothing
 
 
 def test_in_dynamics_too_the_corner_follows_the_motion() -> None:

@@ -46,6 +46,15 @@ def require(elements: Any, layers: Any, grading: str, gradings: Collection[str])
     require_choice("grading", grading, gradings)
 
 
+def moving_supports(scene: Scene) -> str:
+    """A sentence where supports move, which bricks and other programs' meshes are not told."""
+    if any(support.motion is not None for support in scene.supports):
+        return (
+            'supports that move are not handed over: a clamp may be written as an actuator, kind = "motion"'
+        )
+    return ""
+
+
 def answered(
     judge: Judge,
     scene: Scene,

@@ -20,7 +20,7 @@ import numpy as np
 from scipy.sparse import csr_matrix, lil_matrix
 from scipy.sparse.linalg import splu
 
-from comparisons.judges.answer import answered, require
+from comparisons.judges.answer import answered, moving_supports, require
 from comparisons.judges.bricks import GRADINGS, Bricks, Held, forces, held
 from sheetbench.scenes import Chain, EdgeLoad, Material, Pressure, Scene, Solution, Status
 from sheetbench.scenes.errors import BadInput
@@ -212,7 +212,7 @@ def refusal(scene: Scene) -> str:
         return "FElupe is given no chains: its points do not turn, so that no joint could want an angle"
     if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):
         return "loads on bricks do not follow the edge as a moment does"
-    return ""
+    return moving_supports(scene)
 
 
 MODEL = FElupe()

@@ -179,8 +179,8 @@ def _to_rest(mujoco: Any, model: Any, data: Any, size: float) -> tuple[int, bool
 def _refusal(scene: Scene) -> str:
     if any(not isinstance(s, Clamped | Hinged) for s in scene.supports) or scene.actuators:
         return "MuJoCo's sheet is held by clamped and hinged edges only"
-    if any(isinstance(s, Clamped) and s.tilt for s in scene.supports):
-        return "MuJoCo's clamps stand upright"
+    if any(s.motion is not None or (isinstance(s, Clamped) and s.tilt) for s in scene.supports):
+        return "MuJoCo's clamps stand upright, and its supports stay where they are"
     if any(not isinstance(load, PointLoad) for load in scene.loads):
         return "gravity and point loads only"
     return ""

@@ -247,6 +247,7 @@ def constrain(
     for driven in supports.driven:
         displacement, director = driven.edge.linear(driven.points)
         values[driven.nodes, : W + 1], values[driven.nodes, TILT_X:] = displacement, director[..., :2]
+    values[:, : W + 1] += supports.shift
     return supports, held, values
 
 

@@ -1,9 +1,10 @@
 """What supports and moved edges hold in the sheet, as a function of the load factor.
 
 Of every node the position φ = X + u and the director d may be held. Where a bent rod, a tilted clamp or a
-motion puts them is the scene's to say (`sheetbench.scenes.kinematics`); statics take a motion's last pose.
-Where two supports share a corner both hold what they hold. A corner of a moved edge belongs to the motion and
-not to a support beside it, which scenes refuse if it contradicts; two motions share its force.
+motion puts them is the scene's to say (`sheetbench.scenes.kinematics`); statics take the last pose of a
+motion and the last sample of a support that moves. Where two supports share a corner both hold what they
+hold. A corner of a moved edge belongs to the motion and not to a support beside it, which scenes refuse if
+it contradicts; two motions share its force.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sheetbench.scenes import EDGES, Scene, Symmetric, held_axes, holds_director
-from sheetbench.scenes.kinematics import DrivenEdge, MovedEdge, Placed, bent_or_tilted
+from sheetbench.scenes.kinematics import DrivenEdge, MovedEdge, Placed, bent_or_tilted, shifts
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,8 @@ class Supports:
     """What is held: position (n, 3) by component, director (n,); edges: name → nodes and held axes.
 
     tilt: (n, 2), whether the director's component along x or y is held at 0, as on a plane of symmetry;
-    turning: what bends or tilts edges that are held; moved: what moves edges, by the actuators' names.
+    turning: what bends or tilts edges that are held; moved: what moves edges, by the actuators' names; shift:
+    (n, 3) [m] in the end of supports that move.
     """
 
     position: np.ndarray
@@ -45,6 +47,7 @@ class Supports:
     edges: dict[str, tuple[np.ndarray, np.ndarray]]
     turning: tuple[Driven, ...]
     moved: dict[str, Driven]
+    shift: np.ndarray
 
     @property
     def driven(self) -> tuple[Driven, ...]:
@@ -57,6 +60,7 @@ class Supports:
         for driven in self.driven:
             placed = driven.placed(load_factor)
             out[0, driven.nodes], out[1, driven.nodes] = placed.displacement, placed.director
+        out[0] += load_factor * self.shift
         return out
 
     def reactions(self, nodal: np.ndarray) -> dict[str, np.ndarray]:
@@ -100,4 +104,7 @@ def of_scene(scene: Scene, nodes: np.ndarray, on_edge: dict[str, np.ndarray]) ->
     turning = tuple(driven(edge) for edge in bent_or_tilted(scene.supports, scene.sheet))
     moved = {name: driven(MovedEdge(motion, scene.sheet)) for name, motion in motions.items()}
     director |= tilt.all(axis=1)
-    return Supports(position, director, tilt, edges, turning, moved)
+    shift = np.zeros((len(nodes), 3))
+    for end in shifts(scene.supports):
+        shift[np.ix_(edges[end.edge][0], np.array(end.axes))] = end.displacement
+    return Supports(position, director, tilt, edges, turning, moved, shift)

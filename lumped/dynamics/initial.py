@@ -11,6 +11,17 @@ from lumped.lattice import Weights
 from lumped.statics.solver import pose, settle
 from sheetbench.scenes import Chain
 from sheetbench.scenes.kinematics import bent_or_tilted
+from sheetbench.scenes.supports import AnySupport, Motion
+from sheetbench.scenes.tables import PiecewiseLinear
+
+
+def _at_the_start(support: AnySupport) -> AnySupport:
+    """The support where it is at t = 0."""
+    if support.motion is None:
+        return support
+    place = PiecewiseLinear(support.motion.time, support.motion.displacement).at(0.0)
+    motion = Motion(time=(0.0,), displacement=(tuple(place.tolist()),))
+    return support.replace(motion=motion)
 
 
 def initial_state(system: System, calibration: Calibration, weights: Weights) -> State:
@@ -20,7 +31,8 @@ def initial_state(system: System, calibration: Calibration, weights: Weights) ->
     scene = system.scene
     if bent_or_tilted(scene.supports, scene.sheet):
         slack = tuple(a.replace(curvature=0.0) if isinstance(a, Chain) else a for a in scene.actuators)
-        unloaded = scene.replace(gravity=None, loads=(), actuators=slack)
+        held = tuple(_at_the_start(support) for support in scene.supports)
+        unloaded = scene.replace(gravity=None, loads=(), actuators=slack, supports=held)
         u = settle(unloaded, pose(unloaded, calibration, weights), "path").state.u
     v = system.place_rate(0.0)
     v = v if system.moving else np.zeros_like(u)

@@ -75,7 +75,7 @@ class System:
         self.place, self.place_rate = lru_cache(4)(self._place), lru_cache(4)(self._place_rate)
         self.motions = self._support_motions()
         self.moving = bool(self.motions or (self.coupling is not None and self.coupling.moved.any()))
-        self._still = problem.constraints.prescribed(1.0)
+        self._still = problem.constraints.turned(1.0)
 
     @property
     def working(self) -> bool:
@@ -107,7 +107,7 @@ class System:
             return self._still
         g = self._still.copy()
         for moved, axis, course in self.motions:
-            g[moved, axis] += course.at(time)[axis]
+            g[moved, axis] = self._still[moved, axis] + course.at(time)[axis]
         if self.coupling is not None:
             g += self.coupling.driven(self.drive(time))
         return g
@@ -118,7 +118,7 @@ class System:
         if not self.moving:
             return g
         for moved, axis, course in self.motions:
-            g[moved, axis] += course.slope(time)[axis]
+            g[moved, axis] = course.slope(time)[axis]
         if self.coupling is not None:
             g += self.coupling.driven_velocity(time)
         return g

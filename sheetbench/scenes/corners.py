@@ -4,8 +4,7 @@ A motion holds position and director of its whole edge, corners included (`sheet
 A support beside it holds what its kind says, another motion all of it; a chain goes where the corner goes,
 unless its base stands there. Where they agree the corner belongs to the motion. They must agree at every
 moment, for what is left out is not the same in every model: at the samples of both tables, and between them
-at two points that no periodic motion takes for samples. Supports move in dynamics only; so the last pose,
-which statics take, must suit them at rest too.
+at two points that no periodic motion takes for samples. Statics take the last pose of both.
 """
 
 from __future__ import annotations
@@ -58,14 +57,11 @@ def _between(motion: EdgeMotion, other: Neighbour | Chain, sheet: Sheet) -> str 
             f"motion on edge {motion.edge} holds"
         )
     axes, turns = _held(other)
-    resting = other.replace(motion=None) if getattr(other, "motion", None) else None
-    cases = [(other, time, f"at t = {time:.3g} s") for time in _moments(motion, other)]
-    if resting is not None:
-        cases.append((resting, motion.time[-1], "in statics, where supports rest"))
     apart, turned = [], ""
-    for held, time, when in cases:
+    for time in _moments(motion, other):
+        when = f"at t = {time:.3g} s"
         u, director = _pose(motion, corner, sheet, time)
-        place, normal = _place(held, corner, sheet, time)
+        place, normal = _place(other, corner, sheet, time)
         gaps = [(abs(u[axis] - place[axis]), axis, when) for axis in axes]
         apart.append(max(gaps))
         if any(abs(director[axis] - normal[axis]) > EXACT for axis in turns):

@@ -6,6 +6,7 @@ lies at the height ζ on the director moves by u + ζ (R − I) e_z. At load fac
     curved   θ = λκs e × e_z,   u = (sin λκs/λκ − s) e + (1 − cos λκs)/λκ e_z,   s along e
     tilt     θ = λτ n × e_z,    u = 0,                                           n out of the sheet
     motion   θ = λϑ(t),         u = λd(t) + (R − I)(X − X_m),                    X_m the edge's middle
+    support that moves  adds λd to u, in the components it holds, and turns nothing
 
 with s measured from the rod's middle, and d and ϑ at a time t, or their last, as statics take them. To first
 order in λ the director changes by θ × e_z, and u is ½ λκs² e_z, 0 and λd + θ × (X − X_m). A motion's velocity
@@ -23,7 +24,7 @@ import numpy as np
 
 from sheetbench.scenes.actuators import EdgeMotion
 from sheetbench.scenes.sheet import EDGES, Sheet
-from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Symmetric
+from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Symmetric, held_axes
 from sheetbench.scenes.tables import PiecewiseLinear
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -132,6 +133,26 @@ def bent_or_tilted(supports: tuple[AnySupport, ...], sheet: Sheet) -> list[BentE
             found.append(BentEdge(support, supports, sheet))
         elif isinstance(support, Clamped) and support.tilt != 0.0:
             found.append(TiltedEdge(support))
+    return found
+
+
+@dataclass(frozen=True)
+class Shift:
+    """Where a support that moves ends: the axes that it holds and its displacement along them [m]."""
+
+    edge: str
+    axes: tuple[int, ...]
+    displacement: np.ndarray
+
+
+def shifts(supports: tuple[AnySupport, ...]) -> list[Shift]:
+    """The supports' displacements at the last sample of their motion, as statics take it."""
+    found = []
+    for support in supports:
+        if support.motion is not None:
+            axes = held_axes(support)
+            last = np.array(support.motion.displacement[-1])[list(axes)]
+            found.append(Shift(support.edge, axes, last))
     return found
 
 

@@ -30,7 +30,7 @@ OVER_TIME = """## Tables over time
 
 Written as inline tables: `history = {time = [0.0, 0.5], factor = [0.0, 1.0]}`. Between samples they are
 linear, before the first and after the last one constant. `simulate` follows them; statics take the last
-sample, but for the `motion` of a support, which they leave out.
+sample.
 """
 
 

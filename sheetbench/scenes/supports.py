@@ -23,14 +23,14 @@ from pydantic import Field, field_validator
 
 from sheetbench.scenes.quantities import Frozen, Number, Unit, Vector3
 from sheetbench.scenes.sheet import EDGES, EdgeName
-from sheetbench.scenes.tables import OverTime
+from sheetbench.scenes.tables import OverTime, PiecewiseLinear
 
 Component = Literal["x", "y", "z"]
 LARGEST_TILT = pi / 2.0  # rad, of a clamp
 
 
 class Motion(OverTime):
-    """Prescribed displacement of a support over time (dynamics only), linear between samples.
+    """Prescribed displacement of a support over time, linear between samples; statics take the last.
 
     time: (n,) [s], increasing; displacement: (n, 3) [m].
     """
@@ -43,7 +43,7 @@ class _EdgeSupport(Frozen):
     edge: EdgeName
     """The edge that is supported."""
     motion: Motion | None = None
-    """How the support moves over time, in `simulate` only: statics leave it where it is."""
+    """How the support moves over time, in the components that it holds; statics take the last sample."""
 
 
 class Clamped(_EdgeSupport):
@@ -139,7 +139,8 @@ def contradiction(supports: tuple[AnySupport, ...]) -> str | None:
     A bent rod moves its ends along the edge and along z and turns the director there, so nothing else may
     hold those at a shared corner, but for one plane of symmetry, which its middle lies on. A tilted clamp
     turns the director across its edge, so nothing else may hold that there; an adjacent plane of symmetry
-    holds it along the edge only. And one edge can be held in one way only.
+    holds it along the edge only. Supports that move must move their corner alike in what both hold. And one
+    edge can be held in one way only.
     """
     cuts = [support for support in supports if isinstance(support, Symmetric)]
     for i, first in enumerate(supports):
@@ -148,6 +149,8 @@ def contradiction(supports: tuple[AnySupport, ...]) -> str | None:
                 return f"edge {first.edge} has two supports, {first.kind} and {second.kind}"
             if EDGES[first.edge].normal_axis == EDGES[second.edge].normal_axis:
                 continue
+            if (apart := _moved_apart(first, second)) is not None:
+                return apart
             for turned, other in ((first, second), (second, first)):
                 if isinstance(turned, Clamped) and turned.tilt != 0.0 and holds_director(other):
                     return (
@@ -166,6 +169,23 @@ def contradiction(supports: tuple[AnySupport, ...]) -> str | None:
                         f"the rod on edge {bent.edge} (curvature {bent.curvature:g} 1/m) moves the corner "
                         f"that the {other.kind} support on edge {other.edge} holds"
                     )
+    return None
+
+
+def _moved_apart(first: AnySupport, second: AnySupport) -> str | None:
+    """A sentence where two supports move their common corner differently along an axis that both hold."""
+    motions = [support.motion for support in (first, second)]
+    times = sorted({time for motion in motions if motion is not None for time in motion.time})
+    still = PiecewiseLinear([0.0], [[0.0] * 3])
+    one, other = (PiecewiseLinear(m.time, m.displacement) if m is not None else still for m in motions)
+    for axis in sorted({*held_axes(first)} & {*held_axes(second)}):
+        for time in times:
+            gap = abs(float(one.at(time)[axis] - other.at(time)[axis]))
+            if gap > 1e-12:  # m: rounding between samples
+                return (
+                    f"the {first.kind} support on edge {first.edge} and the {second.kind} support on edge "
+                    f"{second.edge} move their corner apart: {'xyz'[axis]} by {gap:.3g} m at t = {time:.3g} s"
+                )
     return None
 
 

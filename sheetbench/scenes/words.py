@@ -57,7 +57,10 @@ def _weight(scene: Scene, mass: float) -> str:
 
 
 def _support(support: AnySupport, sheet: Sheet) -> str:
-    moved = f", moved over {support.motion.time[-1]:g} s in `simulate`" if support.motion is not None else ""
+    moved = ""
+    if support.motion is not None:
+        last = _vector(support.motion.displacement[-1], "m")
+        moved = f", moved over {support.motion.time[-1]:g} s, in the end by {last}"
     if isinstance(support, Clamped):
         if support.tilt == 0.0:
             return f"clamped: the mid-surface and its normal held{moved}"

@@ -18,7 +18,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from comparisons.judges.answer import answered, require
+from comparisons.judges.answer import answered, moving_supports, require
 from comparisons.judges.bricks import GRADINGS, Bricks
 from comparisons.judges.calculix import results
 from comparisons.judges.calculix.deck import deck
@@ -111,7 +111,7 @@ def refusal(scene: Scene) -> str:
         return "the deck has no chains: it could have rigid bodies, but no joint between them with an angle"
     if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):
         return "loads on bricks do not follow the edge as a moment does"
-    return ""
+    return moving_supports(scene)
 
 
 MODEL = CalculiX()

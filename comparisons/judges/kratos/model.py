@@ -20,6 +20,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from comparisons.judges.answer import moving_supports
 from comparisons.judges.kratos.problem import Triangles, problem
 from comparisons.judges.program import Failed, run
 from sheetbench.scenes import Chain, EdgeLoad, FieldMesh, Scene, Solution, Status
@@ -119,7 +120,7 @@ def refusal(scene: Scene) -> str:
         return "Kratos is given no chains: its shell has no joint between rigid edges with an angle at rest"
     if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):
         return "moments on Kratos' nodes do not follow the edge"
-    return ""
+    return moving_supports(scene)
 
 
 MODEL = Kratos()

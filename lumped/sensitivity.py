@@ -17,7 +17,7 @@ curvature_EDGE, of the curved support or the actuator on that edge; tilt_EDGE, o
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,10 +49,19 @@ class Sensitivity:
     values: dict[str, float]
 
 
+Calibrate = Callable[[Scene], Calibration]
+
+
 def sensitivity(
-    scene: Scene, calibration: Calibration, parameters: Sequence[str], points: np.ndarray | None = None
+    scene: Scene,
+    calibration: Calibration,
+    parameters: Sequence[str],
+    points: np.ndarray | None = None,
+    calibrate: Calibrate | None = None,
 ) -> Sensitivity:
     """d(displacement at plan points (n, 2) [m])/d(parameter); the scene's probes unless points are given.
+
+    calibrate: how springs of a changed scene are found; by the same method without options unless given.
 
     Raises BadInput for an unknown parameter and where the scene has no stable equilibrium on these springs.
     """
@@ -61,7 +70,7 @@ def sensitivity(
         at = MidSurface(problem.assembly.lattice, scene.probe_points() if points is None else points)
         derivatives, values = {}, {}
         for name in parameters:
-            values[name], rate, moved = rates(scene, calibration, problem, state.u, name)
+            values[name], rate, moved = rates(scene, calibration, problem, state.u, name, calibrate)
             step = problem.expand(factor.solve(problem.reduce(rate))) + moved
             derivatives[name] = at.of(step)
         return Sensitivity(at.of(state.u), derivatives, values)
@@ -99,7 +108,12 @@ def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, State
 
 
 def rates(
-    scene: Scene, calibration: Calibration, problem: Problem, u: np.ndarray, name: str
+    scene: Scene,
+    calibration: Calibration,
+    problem: Problem,
+    u: np.ndarray,
+    name: str,
+    calibrate: Calibrate | None = None,
 ) -> tuple[float, np.ndarray, np.ndarray]:
     """Value of a parameter, the derivative of the unbalanced force by it at free unknowns that stay as at u
     (n, 3), supports' movement included, and dg/dθ (n, 3)."""
@@ -110,7 +124,7 @@ def rates(
     sides = []
     placed, ends = problem.prescribed(1.0), np.clip([value + step, value - step], low, high)
     for end in ends:
-        changed_scene, recalibrated = _changed(scene, calibration, name, float(end))
+        changed_scene, recalibrated = _changed(scene, calibration, name, float(end), calibrate)
         changed = pose(changed_scene, recalibrated, same=problem if changed_scene is scene else None)
         moved = changed.prescribed(1.0) - placed
         sides.append((changed.residual(u + moved, 1.0)[0], moved))
@@ -128,11 +142,15 @@ def _value(scene: Scene, calibration: Calibration, name: str) -> tuple[float, fl
     return constants.value_of(calibration.springs, name), -np.inf, np.inf
 
 
-def _changed(scene: Scene, calibration: Calibration, name: str, value: float) -> tuple[Scene, Calibration]:
+def _changed(
+    scene: Scene, calibration: Calibration, name: str, value: float, calibrate: Calibrate | None
+) -> tuple[Scene, Calibration]:
     if not _of_scene(name):
         return scene, calibration.with_constant(name, value)
     changed = put(scene, name, value)
-    return _recalibrated(changed, calibration) if name in CALIBRATED_FROM else (changed, calibration)
+    if name not in CALIBRATED_FROM:
+        return changed, calibration
+    return (changed, calibrate(changed)) if calibrate is not None else _recalibrated(changed, calibration)
 
 
 def _of_scene(name: str) -> bool:

@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from comparisons.models import registry, springs
 from comparisons.models.candidate import Candidate
-from comparisons.models.grading import Grading, grading_of
+from comparisons.models.grading import Grading
 from comparisons.models.grids import Asked, scene_grid
-from comparisons.models.method import chosen
 from sheetbench.choices import CALIBRATION, REFERENCES
 from sheetbench.scenes import AnyScene, History, Solution, scene_of
 
@@ -45,21 +44,12 @@ def calibrate(
     a fit that takes more memory than there is.
     """
     asked = scene_of(scene)
-    masses = scene_grid(asked, grid)
-    method, _ = chosen(asked, masses, method, grading, k=k, layer_distance=layer_distance)
-    method = method or CALIBRATION
-    graded, _ = grading_of(asked, masses, grading, calibration=method, k=k, layer_distance=layer_distance)
-    return springs.calibrate(
-        asked.sheet,
-        asked.material,
-        grid=masses,
-        grading=graded or 0.0,
-        calibration=method,
-        k=k,
-        layer_distance=layer_distance,
-        training=[asked],
-        large=large,
-    )
+    spec = springs.LatticeSpec(grid, method, k, layer_distance, grading)
+    springs.check_lattice(method, k, layer_distance, grading)
+    found = springs.resolve(asked, spec, own=False)
+    if not large and springs.is_fitted(found.calibration):
+        springs.require_room_to_fit(asked, found.grid)
+    return found.springs(asked, training=[asked])
 
 
 def solve(scene: AnyScene, model: str = "lumped", **settings: Any) -> Solution:
@@ -78,16 +68,18 @@ def simulate(
     duration: float,
     *,
     grid: Asked = None,
-    grading: Grading = None,
     calibration: str | None = None,
+    k: float | None = None,
+    layer_distance: float | None = None,
+    grading: Grading = None,
     **settings: Any,
 ) -> History:
     """The lattice's motion from rest over `duration` [s], loads and weight on at t = 0.
 
     settings: those of `lumped.simulate`, as `integrator`, `step` [s], `every` [s].
     """
-    own: dict[str, Any] = {"grid": grid, "grading": grading, "calibration": calibration}
-    return registry.simulate(scene_of(scene), duration, **own, **settings)
+    lattice = vars(springs.LatticeSpec(grid, calibration, k, layer_distance, grading))
+    return registry.simulate(scene_of(scene), duration, **lattice, **settings)
 
 
 def tradeoff(

@@ -6,18 +6,14 @@ from typing import Annotated
 
 import typer
 
+from comparisons.cli.lattice_options import Lattice, given, with_lattice
 from comparisons.cli.options import (
-    Calibration,
     Elements,
     Export,
     Figure,
-    Grading,
-    Grid,
     Json,
-    K,
     Large,
     Law,
-    LayerDistance,
     Models,
     Out,
     Overwrite,
@@ -27,13 +23,10 @@ from comparisons.cli.options import (
 from sheetbench.choices import ELEMENTS, REFERENCE, REFERENCES, listed
 
 
+@with_lattice
 def command(
     scene: Scene,
-    lumped: Grid = None,
-    grading: Grading = None,
-    calibration: Calibration = None,
-    k: K = None,
-    layer_distance: LayerDistance = None,
+    lattice: Lattice,
     reference: Annotated[str, typer.Option(metavar="MODEL", help=f"{listed(REFERENCES)}.")] = REFERENCE,
     elements: Elements = str(ELEMENTS),
     law: Law = None,
@@ -77,12 +70,10 @@ def command(
 
     asked = load_static(scene)
     size, others = parse_elements(elements), [parse_model(text) for text in model or ()]
-    given = {"--lumped": lumped, "--calibration": calibration, "--k": k, "--layer-distance": layer_distance}
-    given |= {"--grading": grading}
-    check_auto(auto, tolerance, given)
+    check_auto(auto, tolerance, given(lattice))
     if auto and export is not None:
         raise BadInput("--export: the advisor may choose a model without springs; leave --auto out")
-    named = calibration is not None or k is not None
+    named = lattice["calibration"] is not None or lattice["k"] is not None
     models = {"--reference": reference, "--calibration": "named" if named else "open", "--auto": auto}
     models |= {"--model": " ".join(model)} if model else {}
     with finish("compare", json, out, overwrite, scene=asked, apart=models, figure=figure) as end:
@@ -94,11 +85,7 @@ def command(
                 end.stop(f"--auto: {advice.message}")
         found = compare(
             asked,
-            grid=lumped,
-            grading=grading,
-            calibration=calibration,
-            k=k,
-            layer_distance=layer_distance,
+            **lattice,
             reference=reference,
             elements=size,
             law=law,
@@ -112,7 +99,6 @@ def command(
         )
         report = found.report(advice)
         if export is not None:
-            own = {"grading": grading, "calibration": calibration, "k": k, "layer_distance": layer_distance}
-            springs, _ = scene_springs(asked, grid=lumped, **own)
+            springs, _ = scene_springs(asked, **lattice)
             report = end.export(export, asked, springs, report, overwrite)
         end(report)

@@ -7,12 +7,10 @@ from typing import Annotated
 
 import typer
 
+from comparisons.cli.lattice_options import Lattice, with_lattice
 from comparisons.cli.options import (
-    Calibration,
     Elements,
     Figure,
-    Grading,
-    Grid,
     Json,
     Large,
     Law,
@@ -23,8 +21,10 @@ from comparisons.cli.options import (
 from sheetbench.choices import ELEMENTS
 
 
+@with_lattice
 def command(
     scene: Scene,
+    lattice: Lattice,
     measured: Annotated[
         Path,
         typer.Option(
@@ -42,9 +42,6 @@ def command(
         ),
     ] = "young",
     model: Annotated[str, typer.Option(metavar="MODEL", help="lumped, shell or solid.")] = "lumped",
-    lumped: Grid = None,
-    grading: Grading = None,
-    calibration: Calibration = None,
     elements: Elements = str(ELEMENTS),
     law: Law = None,
     offset: Annotated[
@@ -81,9 +78,7 @@ def command(
                 data,
                 items(unknown),
                 model=model,
-                grid=lumped,
-                grading=grading,
-                calibration=calibration,
+                **lattice,
                 elements=parse_elements(elements),
                 law=law,
                 offset=offset,

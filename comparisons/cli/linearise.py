@@ -6,16 +6,16 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Calibration, Figure, Grading, Grid, Json, Large, Out, Overwrite, Scene
+from comparisons.cli.lattice_options import Lattice, with_lattice
+from comparisons.cli.options import Figure, Json, Large, Out, Overwrite, Scene
 
 MODES = 20
 
 
+@with_lattice
 def command(
     scene: Scene,
-    lumped: Grid = None,
-    grading: Grading = None,
-    calibration: Calibration = None,
+    lattice: Lattice,
     modes: Annotated[
         int, typer.Option(min=0, metavar="N", help="Modes of the state space; 0 for all.")
     ] = MODES,
@@ -50,9 +50,7 @@ def command(
     with finish("linearise", json, out, overwrite, scene=asked, figure=figure) as end:
         found = linearise(
             asked,
-            grid=lumped,
-            grading=grading,
-            calibration=calibration,
+            **lattice,
             modes=modes or None,
             reduce=reduce,
             about=about,

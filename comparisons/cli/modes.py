@@ -6,12 +6,10 @@ from typing import Annotated
 
 import typer
 
+from comparisons.cli.lattice_options import Lattice, with_lattice
 from comparisons.cli.options import (
-    Calibration,
     Elements,
     Figure,
-    Grading,
-    Grid,
     Json,
     Large,
     Out,
@@ -21,12 +19,11 @@ from comparisons.cli.options import (
 from sheetbench.choices import ELEMENTS, MASSES, REFERENCE, REFERENCES, listed
 
 
+@with_lattice
 def command(
     scene: Scene,
+    lattice: Lattice,
     count: Annotated[int, typer.Option(metavar="N", help="How many modes, lowest first.")] = 10,
-    lumped: Grid = None,
-    grading: Grading = None,
-    calibration: Calibration = None,
     masses: Annotated[
         str | None,
         typer.Option(
@@ -68,9 +65,7 @@ def command(
             found = spectra(
                 asked,
                 count=count,
-                grid=lumped,
-                grading=grading,
-                calibration=calibration,
+                **lattice,
                 masses=masses,
                 references=reference or [REFERENCE],
                 elements=parse_elements(elements),

@@ -7,12 +7,10 @@ from typing import Annotated
 
 import typer
 
+from comparisons.cli.lattice_options import Lattice, given, with_lattice
 from comparisons.cli.options import (
-    Calibration,
     Export,
     Figure,
-    Grading,
-    Grid,
     Json,
     Large,
     Out,
@@ -24,8 +22,10 @@ from sheetbench.choices import INTEGRATOR, INTEGRATORS
 FRAMES = 100
 
 
+@with_lattice
 def command(
     scene: Scene,
+    lattice: Lattice,
     duration: Annotated[float, typer.Option(metavar="S", help="How long to simulate.")] = 1.0,
     step: Annotated[
         float | None,
@@ -39,9 +39,6 @@ def command(
             metavar="NAME", help="; ".join(f"{name}: {said}" for name, said in INTEGRATORS.items()) + "."
         ),
     ] = INTEGRATOR,
-    lumped: Grid = None,
-    grading: Grading = None,
-    calibration: Calibration = None,
     every: Annotated[
         float | None,
         typer.Option(metavar="S", help="Time between samples; 1/100 of the lowest period unless given."),
@@ -78,16 +75,9 @@ def command(
     if measured is not None:
         truth = read_measured(measured, list(asked.probes))
         require_within(truth, duration, measured)
-    lattice = Candidate("lumped", {"grid": lumped, "grading": grading, "calibration": calibration})
-    check(asked, lattice, large)
-    run = {
-        "--integrator": integrator,
-        "--lumped": lumped,
-        "--grading": grading,
-        "--calibration": calibration,
-        "--step": step,
-        "--every": every,
-    }
+    model = Candidate("lumped", lattice)
+    check(asked, model, large)
+    run = {"--integrator": integrator, **given(lattice), "--step": step, "--every": every}
     with finish("simulate", json, out, overwrite, scene=asked, apart=run, alone=True, figure=figure) as end:
         pace = Pace(duration)
 
@@ -96,13 +86,11 @@ def command(
             soon = "" if left is None else f", {amounts.duration(left)} left"
             end.progress(f"simulated {time:.3g} of {duration:g} s ({100 * time / duration:.0f} %{soon})")
 
-        end.progress(Work("setting up", size(asked, lattice)))
+        end.progress(Work("setting up", size(asked, model)))
         history = simulate(
             asked,
             duration,
-            grid=lumped,
-            grading=grading,
-            calibration=calibration,
+            **lattice,
             large=large,
             step=step,
             integrator=integrator,
@@ -114,6 +102,6 @@ def command(
         end.place("frames/")
         shown = report(history, asked, truth, animate)
         if export is not None:
-            springs, _ = scene_springs(asked, grid=lumped, grading=grading, calibration=calibration)
+            springs, _ = scene_springs(asked, **lattice)
             shown = end.export(export, asked, springs, shown, overwrite)
         end(shown)

@@ -7,10 +7,12 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Calibration, Elements, Grading, Grid, Json
-from sheetbench.choices import AUTO, CALIBRATION, ELEMENTS, REFERENCE, REFERENCES, listed
+from comparisons.cli.lattice_options import Lattice, with_lattice
+from comparisons.cli.options import Elements, Json
+from sheetbench.choices import ELEMENTS, REFERENCE, REFERENCES, listed
 
 
+@with_lattice
 def command(
     scene: Annotated[
         str,
@@ -20,9 +22,7 @@ def command(
             show_default=False,
         ),
     ],
-    lumped: Grid = None,
-    grading: Grading = None,
-    calibration: Calibration = None,
+    lattice: Lattice,
     reference: Annotated[str, typer.Option(metavar="MODEL", help=f"{listed(REFERENCES)}.")] = REFERENCE,
     elements: Elements = str(ELEMENTS),
     window: Annotated[
@@ -68,9 +68,8 @@ def command(
         with console.progress() as say:
             both = compare(
                 asked,
-                grid=lumped,
-                grading=grading,
-                calibration=calibration or (AUTO if grading == AUTO else CALIBRATION),
+                **lattice,
+                companion=False,
                 reference=reference,
                 elements=size,
                 uncertainty=False,

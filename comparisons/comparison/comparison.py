@@ -27,7 +27,7 @@ from comparisons.models.grids import Asked, Elements
 from comparisons.models.plugins import shown_name
 from comparisons.models.registry import answer, check, check_reference
 from comparisons.models.sizes import has_room
-from comparisons.models.springs import has_own_springs
+from comparisons.models.springs import LatticeSpec, has_own_springs
 from comparisons.report.report import Report
 from comparisons.report.work import Progress, silent
 from sheetbench.choices import ELEMENTS, REFERENCE
@@ -239,6 +239,7 @@ def compare(
     law: str | None = None,
     uncertainty: bool | None = None,
     symmetry: bool = False,
+    companion: bool = True,
     choice: Candidate | None = None,
     others: Sequence[Candidate] = (),
     large: bool = False,
@@ -251,12 +252,13 @@ def compare(
     grid: masses, 9 by default: a number is along the shorter side, with near-square cells; (nx, ny) or "9x13"
     along x and y; (nx, ny, layers). calibration: by default `consistent`, and then the uniform calibration is
     solved too and shown alongside as `lumped-uniform`; where `k` [N/m] is given the default is `uniform`, and
-    where the scene brings its own [springs] they are used alone. layer_distance [m]. grading: 0, cells of one
-    size, to 1, finest at the edges, or "auto", as the scene's layers need (`comparisons.models.grading`); the
-    companion's cells are of one size. elements: along the shorter side, or (nx, ny). law: of strain, where
-    the reference is a shell or solid (`sheetbench.choices.STRAIN_LAWS`). uncertainty: find the
-    reference's error bar on coarser meshes too; for plate and shell it is unless False, for others if True.
-    symmetry: solve a half or a quarter where scene and grid mirror themselves; solids are solved whole.
+    where the scene brings its own [springs] they are used alone; companion = False leaves it out.
+    layer_distance [m]. grading: 0, cells of one size, to 1, finest at the edges, or "auto", as the scene's
+    layers need (`comparisons.models.grading`); the companion's cells are of one size. elements: along the
+    shorter side, or (nx, ny). law: of strain, where the reference is a shell or solid
+    (`sheetbench.choices.STRAIN_LAWS`). uncertainty: find the reference's error bar on coarser meshes too; for
+    plate and shell it is unless False, for others if True. symmetry: solve a half or a quarter where scene
+    and grid mirror themselves; solids are solved whole.
     choice: a model that takes the lattice's place (`comparisons.advice.advisor`); others: models that stand
     in the table too, plug-ins or our own. A name that is taken is changed. large: even where a model takes
     more memory than there is. progress: told what is being done, and of every iteration
@@ -274,14 +276,15 @@ def compare(
     mirrored = {"symmetry": True} if symmetry else {}
     cut = mirrored if reference != "solid" else {}
     judge = Candidate(reference, {"elements": elements, **own_law, **cut})
-    method = "uniform" if calibration is None and k is not None else calibration
-    springs = {"calibration": method, "k": k, "layer_distance": layer_distance}
-    own = {"grid": grid, "grading": grading, **springs, **mirrored}
-    first = Candidate("lumped", own) if choice is None else choice
+    lattice = LatticeSpec(grid, calibration, k, layer_distance, grading)
+    first = lattice.candidate.but(**mirrored) if choice is None else choice
     for candidate in (first, judge, *others):
         check(scene, candidate, large)
     named = {first.model if first.model != reference else f"{first.model}-advised": first, reference: judge}
-    if choice is None and method is None and not has_own_springs(scene, **springs):
+    left_open = (
+        calibration is None and k is None and not has_own_springs(scene, layer_distance=layer_distance)
+    )
+    if choice is None and companion and left_open:
         named[COMPANION] = first.but(calibration="uniform", grading=None)
     for other in others:
         named[_unlike(shown_name(other.model), named)] = other

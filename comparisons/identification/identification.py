@@ -18,6 +18,7 @@ Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from math import inf
 from pathlib import Path
 from typing import Any
@@ -41,20 +42,19 @@ from comparisons.identification.prediction import (
 from comparisons.identification.search import search
 from comparisons.identification.unknowns import DAMPING, Unknown, unknown
 from comparisons.models.candidate import Candidate
-from comparisons.models.grading import Grading, grading_of
-from comparisons.models.grids import Asked, Elements, scene_grid
-from comparisons.models.method import chosen
+from comparisons.models.grading import Grading
+from comparisons.models.grids import Asked, Elements
 from comparisons.models.registry import check, check_reference, solve_reference
 from comparisons.models.sizes import has_room
-from comparisons.models.springs import check_lattice
+from comparisons.models.springs import LatticeSpec, resolve
 from comparisons.report.table import quantity
 from comparisons.report.work import Progress, Work, silent
 from lumped import CALIBRATIONS, Identifiability, identifiability
-from sheetbench.choices import CALIBRATION, ELEMENTS, REFERENCES, method_of
+from sheetbench.choices import ELEMENTS, REFERENCES, method_of
 from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
 from sheetbench.scenes.errors import BadInput
-from sheetbench.scenes.grading import Graded, as_settings, of_settings
-from sheetbench.scenes.grid import Grid, near_square
+from sheetbench.scenes.grading import as_settings, of_settings
+from sheetbench.scenes.grid import near_square
 
 MODELS = ("lumped", *(name for name in REFERENCES if name != "plate"))  # whose large displacements hold
 POOR = 0.05  # standard deviation of the residuals, of the largest measurement: more than noise usually is
@@ -68,6 +68,8 @@ def identify(
     model: str = "lumped",
     grid: Asked = None,
     calibration: str | None = None,
+    k: float | None = None,
+    layer_distance: float | None = None,
     grading: Grading = None,
     elements: Elements = ELEMENTS,
     law: str | None = None,
@@ -93,16 +95,14 @@ def identify(
     measured = read(Path(measured), scene) if isinstance(measured, str | Path) else measured
     names = [names] if isinstance(names, str) else names
     unknowns = tuple(unknown(scene, name) for name in names)
-    _check(measured, unknowns, model, calibration, grading, elements, law)
-    size = {"grid": grid} if model == "lumped" else {"elements": elements}
-    check(scene, Candidate(model, size), large)
+    lattice = LatticeSpec(grid, calibration, k, layer_distance, grading)
+    _check(measured, unknowns, model, lattice, elements, law)
+    check(scene, lattice.candidate if model == "lumped" else Candidate(model, {"elements": elements}), large)
     if offset and not isinstance(measured, Surface):
         raise BadInput(
             f"offset = {offset:g} m: of the points of a cloud from the mid-surface; displacements are its own"
         )
-    predict, settings, axes = _predictor(
-        scene, measured, model, grid, calibration, grading, elements, law, progress
-    )
+    predict, settings, axes = _predictor(scene, measured, model, lattice, elements, law, progress)
     misfit = Misfit(measured, axes, offset)
 
     def first(predicted: Prediction) -> None:
@@ -122,8 +122,10 @@ def identify(
         finer = (2 * nx - 1, 2 * ny - 1, layers)
         if large or has_room(scene, Candidate(model, {"grid": finer})):
             progress("looking at cells half as large")
-            own = settings["calibration"], of_settings(settings)
-            steps = _refinement(scene, measured, unknowns, best.x, finer, *own, offset)
+            finer_lattice = replace(
+                lattice, grid=finer, calibration=settings["calibration"], grading=of_settings(settings)
+            )
+            steps = _refinement(scene, measured, unknowns, best.x, finer_lattice, offset)
         else:
             unseen = ["cells half as large take more memory than is free: the grid's error is not known"]
     found = {
@@ -187,14 +189,12 @@ def _refinement(
     measured: Measured,
     unknowns: tuple[Unknown, ...],
     x: np.ndarray,
-    finer: Grid,
-    calibration: str | None,
-    grading: Graded,
+    finer: LatticeSpec,
     offset: float,
 ) -> list[float | None]:
     """The Gauss–Newton step of x on a finer lattice, of what the data see; None where that lattice has no
     answer."""
-    predict, _, axes = _predictor(scene, measured, "lumped", finer, calibration, grading, 0)
+    predict, _, axes = _predictor(scene, measured, "lumped", finer, 0)
     misfit = Misfit(measured, axes, offset)
     try:
         residuals, slopes = misfit.of(predict(unknowns, x, misfit.asked))
@@ -212,8 +212,7 @@ def _check(
     measured: Measured,
     unknowns: tuple[Unknown, ...],
     model: str,
-    calibration: str | None,
-    grading: Grading,
+    lattice: LatticeSpec,
     elements: Elements,
     law: str | None,
 ) -> None:
@@ -224,11 +223,17 @@ def _check(
     if model not in MODELS:
         raise BadInput(f"model = '{model}': unknown, choose one of {', '.join(MODELS)}")
     if model == "lumped":
-        check_lattice(calibration, None, None, grading)
         if law is not None:
             raise BadInput(f"law = '{law}': of a shell or solid; the lattice's is that of its springs")
-        if CALIBRATIONS[method_of(calibration, None)].fitted:
-            raise BadInput(f"calibration = '{calibration}': its springs do not follow from what is sought")
+        if CALIBRATIONS[method_of(lattice.calibration, lattice.k)].fitted:
+            raise BadInput(
+                f"calibration = '{lattice.calibration}': its springs do not follow from what is sought"
+            )
+        if lattice.k is not None and (fixed := [name for name in names if name in ("young", "poisson")]):
+            raise BadInput(
+                f"unknown = '{fixed[0]}': with k = {lattice.k:g} N/m given the springs do not depend on it; "
+                "leave k out"
+            )
     else:
         check_reference(model, elements, _of_law(law))
     moving = _moving(measured)
@@ -246,26 +251,20 @@ def _predictor(
     scene: Scene,
     measured: Measured,
     model: str,
-    grid: Asked,
-    calibration: str | None,
-    grading: Grading,
+    asked: LatticeSpec,
     elements: Elements,
     law: str | None = None,
     progress: Progress = silent,
 ) -> tuple[Predictor, dict[str, Any], tuple[np.ndarray, np.ndarray]]:
     """The predictor, its settings, and the plan grid on which it gives a whole surface."""
     if model == "lumped":
-        masses = scene_grid(scene, grid)
-        calibration, because = chosen(scene, masses, calibration, grading)
-        number, why = grading_of(scene, masses, grading, calibration=calibration)
-        graded = number or 0.0
-        settings = {"grid": list(masses), "calibration": calibration or CALIBRATION, **as_settings(graded)}
-        settings |= {"grading_reason": why} if why else {}
-        settings |= {"calibration_reason": because} if because else {}
-        axes = surface.plan_grid(scene.sheet.lengths, masses[:2])
+        chosen = resolve(scene, asked, own=False)
+        settings = {"grid": list(chosen.grid), "calibration": chosen.calibration, **chosen.options}
+        settings |= {**as_settings(chosen.grading or 0.0), **chosen.reasons}
+        axes = surface.plan_grid(scene.sheet.lengths, chosen.grid[:2])
         if isinstance(measured, Displacements) and measured.time is not None:
-            return motion(scene, masses, calibration, measured.time, graded), settings, axes
-        return lattice(scene, masses, calibration, graded), settings, axes
+            return motion(scene, chosen.springs, measured.time), settings, axes
+        return lattice(scene, chosen.springs), settings, axes
     along_x, along_y = near_square(scene.sheet, elements) if isinstance(elements, int) else elements
     axes = surface.plan_grid(scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
     settings = {"elements": [along_x, along_y], **_of_law(law)}

@@ -14,18 +14,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from comparisons.identification.unknowns import Unknown, put
 from comparisons.models.grids import Elements
 from comparisons.models.registry import solve_reference
-from comparisons.models.springs import calibrate
 from comparisons.report.work import Progress, silent
 from sheetbench.scenes import BadInput, Scene, Status
-from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.grid import Grid
+
+if TYPE_CHECKING:
+    from lumped import Calibration
 
 STATIC_STEP = 1e-3  # in x, for differences of solutions that are accurate to about 1e-9
 MOTION_STEP = 1e-2  # in x, for differences of runs, accurate to about 1e-5
@@ -53,15 +53,15 @@ def set_in(scene: Scene, unknowns: Sequence[Unknown], x: np.ndarray) -> Scene:
     return scene
 
 
-def lattice(scene: Scene, grid: Grid, calibration: str | None, grading: Graded = 0.0) -> Predictor:
-    """Statics through the lattice."""
+def lattice(scene: Scene, springs_of: Callable[[Scene], Calibration]) -> Predictor:
+    """Statics through the lattice; springs_of: the springs of a scene with other values of the unknowns."""
     import lumped
 
     def predict(unknowns: Sequence[Unknown], x: np.ndarray, points: np.ndarray) -> Prediction:
         here = set_in(scene, unknowns, x)
-        springs = calibrate(here.sheet, here.material, grid=grid, calibration=calibration, grading=grading)
+        springs = springs_of(here)
         try:
-            found = lumped.sensitivity(here, springs, [u.name for u in unknowns], points)
+            found = lumped.sensitivity(here, springs, [u.name for u in unknowns], points, springs_of)
         except BadInput as error:
             raise NotReached(str(error)) from None
         slopes = [found.derivatives[u.name] * u.slope(at) for u, at in zip(unknowns, x, strict=True)]
@@ -86,9 +86,7 @@ def reference(
     return _by_differences(scene, displacement, STATIC_STEP)
 
 
-def motion(
-    scene: Scene, grid: Grid, calibration: str | None, time: np.ndarray, grading: Graded = 0.0
-) -> Predictor:
+def motion(scene: Scene, springs_of: Callable[[Scene], Calibration], time: np.ndarray) -> Predictor:
     """Motion of the lattice from rest; row i of the points is asked at time[i] [s]."""
     from scipy.interpolate import CubicSpline
 
@@ -98,8 +96,7 @@ def motion(
         places, which = np.unique(points, axis=0, return_inverse=True)
         probes = {f"m{i}": (float(x), float(y)) for i, (x, y) in enumerate(places)}
         here = here.replace(probes=probes)
-        springs = calibrate(here.sheet, here.material, grid=grid, calibration=calibration, grading=grading)
-        run = lumped.simulate(here, springs, float(time.max()))
+        run = lumped.simulate(here, springs_of(here), float(time.max()))
         if run.status is not Status.CONVERGED:
             raise NotReached(f"{run.label}: {run.status}: {run.message}")
         moved = CubicSpline(run.time, np.stack([run.probes[name] for name in probes], axis=1))(time)

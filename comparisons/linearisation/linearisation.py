@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from comparisons.linearisation import tables
-from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading
 from comparisons.models.grids import Asked
 from comparisons.models.registry import check
 from comparisons.models.sizes import size
-from comparisons.models.springs import scene_springs
+from comparisons.models.springs import LatticeSpec
 from comparisons.report.report import Report
 from comparisons.report.work import Progress, Work, silent
 from sheetbench.files import whole
@@ -134,8 +133,10 @@ def linearise(
     scene: AnyScene,
     *,
     grid: Asked = None,
-    grading: Grading = None,
     calibration: str | None = None,
+    k: float | None = None,
+    layer_distance: float | None = None,
+    grading: Grading = None,
     modes: int | None = MODES,
     reduce: str | None = None,
     about: str = "deformed",
@@ -156,11 +157,10 @@ def linearise(
     if modes is not None and modes < 1:
         raise BadInput(f"modes = {modes}: at least 1")
     order, tolerance = _balance(reduce)
-    own = {"grid": grid, "grading": grading, "calibration": calibration}
-    lattice = Candidate("lumped", own)
-    check(asked, lattice, large)
-    springs, _ = scene_springs(asked, grid=grid, grading=grading, calibration=calibration)
-    progress(Work("linearising the lattice", size(asked, lattice)))
+    lattice = LatticeSpec(grid, calibration, k, layer_distance, grading)
+    check(asked, lattice.candidate, large)
+    springs, _ = lattice.springs(asked)
+    progress(Work("linearising the lattice", size(asked, lattice.candidate)))
     found = lumped.linearise(asked, springs, "flat" if about == "flat" else "deformed")
     most = found.mass.shape[0]
     space = found.state_space(None if modes is None else min(modes, most))

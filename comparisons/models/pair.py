@@ -22,12 +22,11 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.models.grading import Grading, grading_of
+from comparisons.models.grading import Grading
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.lattice import Solve, Watch, lattice, require_known
-from comparisons.models.method import chosen
-from comparisons.models.springs import check_lattice, has_own_springs
-from sheetbench.choices import AUTO, CALIBRATION, EXTRAPOLATED, listed
+from comparisons.models.springs import LatticeSpec, check_lattice, has_own_springs, resolve
+from sheetbench.choices import AUTO, EXTRAPOLATED, listed
 from sheetbench.scenes import FieldMesh, Scene, Solution
 from sheetbench.scenes.balance import Balance
 from sheetbench.scenes.errors import BadInput
@@ -53,20 +52,15 @@ def lattice_pair(
     coarser: the other grid, of half as many cells unless given. grading: of both; "auto" looks at the finer.
     """
     fine, coarse = grids(scene, grid, coarser)
-    method, because = chosen(scene, fine, calibration, grading, layer_distance=layer_distance)
-    method = method or CALIBRATION
-    own = {"calibration": method, "layer_distance": layer_distance}
-    graded, why = grading_of(scene, fine, grading, **own)
-    ready = [
-        lattice(scene, grid=shape, grading=graded, linear=linear, symmetry=symmetry, **own)
-        for shape in (coarse, fine)
-    ]
-    reasons = {"grading_reason": why, "calibration_reason": because}
-    said = {name: text for name, text in reasons.items() if text}
+    spec = LatticeSpec(fine, calibration, None, layer_distance, grading)
+    found = resolve(scene, spec, own=False)
+    own: dict[str, Any] = {"calibration": found.calibration, "grading": found.grading}
+    own |= {"layer_distance": layer_distance, "linear": linear, "symmetry": symmetry}
+    ready = [lattice(scene, grid=shape, **own) for shape in (coarse, fine)]
 
     def solve(watch: Watch | None) -> Solution:
         rough, near = (answer(watch) for answer in ready)
-        return extrapolated(rough, replace(near, settings={**near.settings, **said}))
+        return extrapolated(rough, replace(near, settings={**near.settings, **found.reasons}))
 
     return solve
 

@@ -20,7 +20,7 @@ from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.lattice import Solve, Watch, check_settings, lattice
 from comparisons.models.pair import check_pair, lattice_pair
 from comparisons.models.sizes import require_room, size
-from comparisons.models.springs import is_fitted, require_room_to_fit, scene_springs
+from comparisons.models.springs import LatticeSpec, is_fitted, require_room_to_fit
 from comparisons.models.symmetry import by_parts, cut_axes
 from comparisons.report.work import Progress, Work, silent
 from sheetbench.choices import ELEMENTS, REFERENCE, REFERENCES
@@ -55,8 +55,10 @@ def simulate(
     duration: float,
     *,
     grid: Asked = None,
-    grading: Grading = None,
     calibration: str | None = None,
+    k: float | None = None,
+    layer_distance: float | None = None,
+    grading: Grading = None,
     large: bool = False,
     **settings: Any,
 ) -> History:
@@ -66,8 +68,9 @@ def simulate(
     """
     import lumped
 
-    check(scene, Candidate("lumped", {"grid": grid, "calibration": calibration, "grading": grading}), large)
-    springs, because = scene_springs(scene, grid=grid, grading=grading, calibration=calibration)
+    spec = LatticeSpec(grid, calibration, k, layer_distance, grading)
+    check(scene, spec.candidate, large)
+    springs, because = spec.springs(scene)
     history = lumped.simulate(scene, springs, duration, **settings)
     return replace(history, settings={**history.settings, **because})
 

@@ -1,8 +1,13 @@
-"""The springs of a lattice as they are asked for: by a calibration, by k, or as a scene brings them."""
+"""The springs of a lattice as they are asked for: by a calibration, by k, or as a scene brings them.
+
+`LatticeSpec` is what a user asks; `resolve` makes every choice that it leaves open, by the scene; the springs
+are made of that. Every verb that has a lattice goes this way.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 from warnings import warn
 
@@ -16,12 +21,93 @@ from sheetbench.choices import AUTO, CALIBRATION, CALIBRATIONS, method_of
 from sheetbench.scenes import Material, Scene, Sheet
 from sheetbench.scenes.errors import BadInput, Implausible, require_choice
 from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.grid import MASSES, grid_of
+from sheetbench.scenes.grid import MASSES, Grid, grid_of
 from sheetbench.scenes.plausibility import layer_slips
 from sheetbench.scenes.quantities import require_positive
 
 if TYPE_CHECKING:
     from lumped import Calibration
+
+
+@dataclass(frozen=True)
+class LatticeSpec:
+    """A lattice as it is asked for, None where the choice is left open: grid, as `comparisons.models.grids`
+    reads it; calibration, a name or "auto"; k [N/m]; layer_distance [m]; grading, a number, towards some
+    edges, or "auto"."""
+
+    grid: Asked = None
+    calibration: str | None = None
+    k: float | None = None
+    layer_distance: float | None = None
+    grading: Grading = None
+
+    @property
+    def candidate(self) -> Candidate:
+        """The lattice as a model with settings."""
+        return Candidate("lumped", asdict(self))
+
+    def springs(self, scene: Scene) -> tuple[Calibration, dict[str, str]]:
+        """The springs for a scene, and the reasons for what was chosen, as settings."""
+        found = resolve(scene, self)
+        return found.springs(scene), found.reasons
+
+
+@dataclass(frozen=True)
+class Resolved:
+    """A lattice with every choice made. calibration: None where the scene's own [springs] are meant; grading:
+    None where none is asked for; reasons: sentences on what was chosen, by the setting `…_reason`."""
+
+    grid: Grid
+    calibration: str | None
+    k: float | None = None
+    layer_distance: float | None = None
+    grading: Graded | None = None
+    reasons: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def options(self) -> dict[str, float]:
+        """k and layer_distance, where they are given."""
+        own = {"k": self.k, "layer_distance": self.layer_distance}
+        return {name: value for name, value in own.items() if value is not None}
+
+    def springs(
+        self, scene: Scene, training: Sequence[Scene] | None = None, progress: Progress = silent
+    ) -> Calibration:
+        """The springs for a scene, which may be another one of the same sides."""
+        if self.calibration is None:
+            import lumped
+
+            return lumped.given(scene, self.grid, self.grading)
+        return _calibrate(
+            scene.sheet,
+            scene.material,
+            self.grid,
+            self.calibration,
+            self.k,
+            self.layer_distance,
+            self.grading or 0.0,
+            training,
+            progress,
+        )
+
+
+def resolve(scene: Scene, asked: LatticeSpec, own: bool = True) -> Resolved:
+    """The lattice that is meant on a scene, of settings that `check_lattice` has seen.
+
+    own: whether the scene's [springs], where it has them, are meant if no calibration, k or layer distance
+    is given, on their own grid and grading. The grading "auto" chooses the calibration too where none is
+    given, as the calibration "auto" does (`comparisons.models.grading`, `comparisons.models.method`).
+    """
+    masses = scene_grid(scene, asked.grid)
+    choices = {"k": asked.k, "layer_distance": asked.layer_distance}
+    if own and has_own_springs(scene, calibration=asked.calibration, **choices):
+        return Resolved(masses, None, grading=fixed(asked.grading))
+    method, because = chosen(scene, masses, asked.calibration, asked.grading, **choices)
+    method = method_of(method, asked.k)
+    grading, why = grading_of(scene, masses, asked.grading, calibration=method, **choices)
+    reasons = {"grading_reason": why, "calibration_reason": because}
+    said = {name: reason for name, reason in reasons.items() if reason}
+    return Resolved(masses, method, asked.k, asked.layer_distance, grading, said)
 
 
 def calibrate(
@@ -54,9 +140,8 @@ def calibrate(
 
         for scene in training_scenes(sheet, material) if training is None else training:
             require_room_to_fit(scene, grid)
-    return _calibrate(
-        sheet, material, grid, calibration, k, layer_distance, fixed(grading) or 0.0, training, progress
-    )
+    graded = fixed(grading) or 0.0
+    return _calibrate(sheet, material, grid, calibration, k, layer_distance, graded, training, progress)
 
 
 def _calibrate(
@@ -120,28 +205,10 @@ def check_lattice(
 
 def has_own_springs(scene: Scene, **settings: Any) -> bool:
     """Whether the scene's own [springs] are to be used: it has them and nothing else is asked for."""
-    chosen = (settings.get(name) for name in ("calibration", "k", "layer_distance"))
-    return scene.springs is not None and all(choice is None for choice in chosen)
+    choices = (settings.get(name) for name in ("calibration", "k", "layer_distance"))
+    return scene.springs is not None and all(choice is None for choice in choices)
 
 
-def scene_springs(
-    scene: Scene, *, grid: Asked = None, grading: Grading = None, **settings: Any
-) -> tuple[Calibration, dict[str, str]]:
-    """Springs of a lattice for a scene, with settings of `calibrate` that `check` has seen: its own [springs]
-    if it has them and no calibration, k or layer distance is given, on their own grid and grading.
-
-    grid: as `comparisons.models.grids` reads it; grading: 0 unless given, or "auto", which chooses
-    the calibration too where none is given, as the calibration "auto" does; the reasons for what is chosen
-    come with the springs, as settings (`comparisons.models.grading`, `comparisons.models.method`).
-    """
-    import lumped
-
-    masses = scene_grid(scene, grid)
-    if has_own_springs(scene, **settings):
-        return lumped.given(scene, masses, fixed(grading)), {}
-    method, because = chosen(scene, masses, grading=grading, **{"calibration": None, **settings})
-    settings["calibration"] = method
-    graded, why = grading_of(scene, masses, grading, **settings)
-    found = _calibrate(scene.sheet, scene.material, masses, grading=graded or 0.0, **settings)
-    reasons = {"grading_reason": why, "calibration_reason": because}
-    return found, {name: said for name, said in reasons.items() if said}
+def scene_springs(scene: Scene, **settings: Any) -> tuple[Calibration, dict[str, str]]:
+    """The springs of a `LatticeSpec` of these settings for a scene, and the reasons for what was chosen."""
+    return LatticeSpec(**settings).springs(scene)

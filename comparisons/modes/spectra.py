@@ -22,7 +22,7 @@ from comparisons.models.grading import Grading
 from comparisons.models.grids import Asked, Elements
 from comparisons.models.registry import check, check_reference
 from comparisons.models.sizes import size
-from comparisons.models.springs import scene_springs
+from comparisons.models.springs import LatticeSpec
 from comparisons.modes import tables
 from comparisons.modes.kinds import kinds
 from comparisons.modes.pairing import CELLS, Pair, assurance, cell_centres, matched
@@ -145,8 +145,10 @@ def spectra(
     *,
     count: int = 10,
     grid: Asked = None,
-    grading: Grading = None,
     calibration: str | None = None,
+    k: float | None = None,
+    layer_distance: float | None = None,
+    grading: Grading = None,
     masses: str | None = None,
     references: Sequence[str] = (REFERENCE,),
     elements: Elements = ELEMENTS,
@@ -168,8 +170,8 @@ def spectra(
     scene = scene if isinstance(scene, Scene) else load(scene)
     if count < 1:
         raise BadInput(f"--count = {count}: at least 1")
-    lattice: dict[str, Any] = {"grid": grid, "grading": grading, "calibration": calibration}
-    asked = [Candidate("lumped", lattice)]
+    lattice = LatticeSpec(grid, calibration, k, layer_distance, grading)
+    asked = [lattice.candidate]
     for reference in references:
         check_reference(reference, elements)
         asked.append(Candidate(reference, {"elements": elements}))
@@ -180,7 +182,7 @@ def spectra(
         progress(Work(f"modes of {candidate.model}", size(scene, candidate)))
 
     starting(asked[0])
-    springs, because = scene_springs(scene, **lattice)
+    springs, because = lattice.springs(scene)
     found = [_lattice(scene, count, springs, because, around, masses)]
     for candidate in asked[1:]:
         starting(candidate)

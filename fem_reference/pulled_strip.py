@@ -23,4 +23,4 @@ def pulled(pulls: tuple[float, float], sheet: Sheet = SHEET, material: Material 
     held = (Held(edge="x0", components=("x", "z")), Held(edge="y0", components=("y", "z")))
     along_x = EdgeLoad(edge="x1", force_per_length=(pulls[0], 0.0, 0.0))
     along_y = EdgeLoad(edge="y1", force_per_length=(0.0, pulls[1], 0.0))
-    return Scene(name="pulled", sheet=sheet, material=material, support=held, load=(along_x, along_y))
+    return Scene(name="pulled", sheet=sheet, material=material, supports=held, loads=(along_x, along_y))

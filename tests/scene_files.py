@@ -15,7 +15,7 @@ BAD = {
     "negative thickness": (GOOD.replace("0.003", "-0.003"), ["sheet.thickness", "-0.003", "greater than 0"]),
     "millimetres": (GOOD.replace("0.003", "3.0"), ["thickness", "metres"]),
     "incompressible": (GOOD.replace("0.48", "0.5"), ["material.poisson", "0.5", "less than 0.5"]),
-    "text for a number": (GOOD.replace("0.003", '"3 mm"'), ["sheet.thickness", "3 mm", "number"]),
+    "text for a number": (GOOD.replace("0.003", '"three mm"'), ["sheet.thickness", "three mm", "number"]),
     "infinite": (GOOD.replace("54.5e6", "inf"), ["material.young", "inf", "finite"]),
     "probe off the sheet": (GOOD.replace("P4 = [0.188, 0.188]", "P4 = [0.188, 0.2]"), ["probes.P4", "0.2"]),
     "load off the sheet": (

@@ -44,7 +44,10 @@ def with_load(keys: str) -> str:
             "load 2.force = [0.0, 0.0, 1.0]: unknown key; "
             "known here are edge, force_per_length, history, kind, moment_per_length",
         ),
-        (with_load('kind = "pressure"\nvalue = "2"'), "load 2.value = '2': must be a number"),
+        (
+            with_load('kind = "pressure"\nvalue = "2"'),
+            "load 2.value: '2' is text: write the number [Pa] without quotes, or with a unit",
+        ),
         (
             GOOD.replace('"clamped"', '"clamp"'),
             "support 1: kind = 'clamp': did you mean clamped? "
@@ -90,7 +93,7 @@ def test_the_key_the_value_and_what_is_allowed_are_said(tmp_path: Path, text: st
         (GOOD.replace("thickness = 0.003", f"thickness = 0x1{'0' * 9000}"), "a number of about 1083"),
         (f"{'.'.join(['a'] * 5000)} = 1\n{GOOD}", "a = {'a': {'a'"),
         (f"{'a' * 5000} = 1\n{GOOD}", "unknown key"),
-        (GOOD.replace("thickness = 0.003", f'thickness = "{"3" * 9000}"'), "must be a number"),
+        (GOOD.replace("thickness = 0.003", f'thickness = "{"3" * 9000}"'), "write a number"),
     ],
 )
 def test_hostile_files_are_refused_in_a_short_line(tmp_path: Path, text: str, part: str) -> None:

@@ -61,8 +61,8 @@ def scenes_at_random(seed: int = SEED) -> Iterator[Scene]:
             sheet=Sheet(length_x=sides[0], length_y=sides[1], thickness=thickness),
             material=Material(young=young, poisson=poisson, density=density),
             gravity=Gravity(acceleration=(0.0, 0.0, -GRAVITY)),
-            support=supports,
-            load=loads,
+            supports=supports,
+            loads=loads,
         )
         number += 1
 

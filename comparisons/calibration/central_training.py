@@ -125,7 +125,7 @@ def trained_to_stretch(poisson: float, a: float, b: float) -> tuple[float, float
 
 def _scene(held: tuple[AnySupport, ...], gravity: Gravity | None, loads: tuple[Load, ...] = ()) -> Scene:
     return Scene(
-        name="training", sheet=SEED.sheet, material=SEED.material, gravity=gravity, support=held, load=loads
+        name="training", sheet=SEED.sheet, material=SEED.material, gravity=gravity, supports=held, loads=loads
     )
 
 

@@ -1,25 +1,31 @@
 """What a scene asks, in words: its parts, whether it can rest, and what the models make of it unless told.
 
-Nothing is solved. What is hardly meant is warned of where the scene is read (`sheetbench.scenes.files`).
+Nothing is solved. What is hardly meant (`sheetbench.scenes.plausibility`) stands among the complaints.
 """
 
 from __future__ import annotations
 
 import shlex
+from warnings import catch_warnings, simplefilter
 
 from comparisons.models.grids import scene_grid
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
 from sheetbench.choices import ELEMENTS
 from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
+from sheetbench.scenes.errors import Implausible
 from sheetbench.scenes.grid import near_square
+from sheetbench.scenes.plausibility import slips
 from sheetbench.scenes.words import in_words
 
 
 def check(scene: AnyScene, called: str | None = None) -> Report:
     """The report of `sheetbench check`; called: the catalogue name or path that commands shall have."""
     called = called or (scene.name if isinstance(scene, Scene) else str(scene))
-    scene = scene_of(scene)
+    with catch_warnings():
+        simplefilter("ignore", Implausible)  # they stand in the report
+        scene = scene_of(scene)
+    warnings = [f"{called}: {said}" for said in slips(scene)]
     parts = [*in_words(scene), ("lattice", _lattice(scene)), ("shell", _shell(scene))]
     free, foretold = free_rigid_motions(scene), _foretold(scene)
     return Report(
@@ -31,12 +37,16 @@ def check(scene: AnyScene, called: str | None = None) -> Report:
             *foretold,
             *([] if free else [f"Solve it with:\nsheetbench compare {shlex.quote(called)}"]),
         ),
-        complaints=("nothing holds the sheet: only `modes` and `simulate` can answer",) if free else (),
+        complaints=(
+            *warnings,
+            *(["nothing holds the sheet: only `modes` and `simulate` can answer"] if free else []),
+        ),
         document={
             "scene": scene.document(),
             "parts": [{"part": part, "what": what} for part, what in parts],
             "free_rigid_motions": free,
             "foretold": foretold,
+            "warnings": warnings,
         },
         scene=scene,
     )

@@ -67,8 +67,8 @@ def half(scene: Scene, axis: int) -> Scene:
         sheet=scene.sheet.model_copy(update=lengths),  # not validated: half a sheet may be thicker than wide
         material=scene.material,
         gravity=scene.gravity,
-        support=(*supports, Symmetric(edge=cut)),
-        load=tuple(loads),
+        supports=(*supports, Symmetric(edge=cut)),
+        loads=tuple(loads),
         springs=scene.springs,
         dampers=scene.dampers,
     )

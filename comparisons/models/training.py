@@ -36,7 +36,7 @@ def training_scenes(sheet: Sheet, material: Material) -> tuple[Scene, ...]:
         "two-edges-clamped": (Clamped(edge="x0"), Clamped(edge="y0")),
     }
     return tuple(
-        Scene(name=name, sheet=sheet, material=material, gravity=WEIGHT, support=held)
+        Scene(name=name, sheet=sheet, material=material, gravity=WEIGHT, supports=held)
         for name, held in supports.items()
     )
 

@@ -64,7 +64,7 @@ def _scene(
     weight: bool = True,
 ) -> Scene:
     gravity = WEIGHT if weight else None
-    return Scene(name=name, sheet=sheet, material=material, gravity=gravity, support=supports, load=loads)
+    return Scene(name=name, sheet=sheet, material=material, gravity=gravity, supports=supports, loads=loads)
 
 
 def _with(material: Material, **changes: float) -> Material:

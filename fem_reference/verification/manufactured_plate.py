@@ -53,7 +53,7 @@ def _square(ratio: float) -> Scene:
         name="manufactured",
         sheet=Sheet(length_x=1.0, length_y=1.0, thickness=ratio),
         material=MATERIAL,
-        support=tuple(Clamped.model_validate({"edge": edge}) for edge in EDGES),
+        supports=tuple(Clamped.model_validate({"edge": edge}) for edge in EDGES),
     )
 
 

@@ -66,7 +66,7 @@ def deflection(model: str, kind: str, ratio: float, elements: int, poisson: floa
         name="square",
         sheet=Sheet(length_x=1.0, length_y=1.0, thickness=ratio),
         material=material,
-        support=tuple(SUPPORTS[kind].model_validate({"edge": edge}) for edge in EDGES),
+        supports=tuple(SUPPORTS[kind].model_validate({"edge": edge}) for edge in EDGES),
         gravity=Gravity(acceleration=(0.0, 0.0, load / (material.density * ratio))),
     )
     hard: dict[str, Any] = {"hard_edges": tuple(EDGES)} if kind == "hinged" else {}

@@ -41,7 +41,7 @@ def _rows(
 ) -> Iterator[Row]:
     """Six modes of every model; unit: "Hz" or "ω a² √(ρh/D)"."""
     clamps = tuple(Clamped.model_validate({"edge": edge}) for edge in edges)
-    scene = Scene(name=case, sheet=sheet, material=STEEL, support=clamps)
+    scene = Scene(name=case, sheet=sheet, material=STEEL, supports=clamps)
     scale = 1.0 if unit == "Hz" else _coefficient(scene)
     for model in models:
         mesh = f"{model} {ELEMENTS} × {ELEMENTS}"

@@ -50,8 +50,8 @@ def rise(share: float, radial: int, around: int) -> np.ndarray:
         name="slit annulus",
         sheet=Sheet(length_x=20.0, length_y=20.0, thickness=0.03),
         material=Material(young=21e6, poisson=0.0, density=1.0),
-        support=(Clamped(edge="y1"),),
-        load=(EdgeLoad(edge="y0", force_per_length=(0.0, 0.0, FORCE * share)),),
+        supports=(Clamped(edge="y1"),),
+        loads=(EdgeLoad(edge="y0", force_per_length=(0.0, 0.0, FORCE * share)),),
     )
     mesh = annulus(radial, around)
     solution = shell.solve_on(mesh, scene)

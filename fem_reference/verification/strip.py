@@ -16,7 +16,7 @@ def strip(length: float, width: float, thickness: float, young: float, **asked: 
         name="strip",
         sheet=Sheet(length_x=length, length_y=width, thickness=thickness),
         material=Material(young=young, poisson=0.0, density=1000.0),
-        support=(Clamped(edge="x0"),),
+        supports=(Clamped(edge="x0"),),
         **asked,
     )
 

@@ -117,7 +117,7 @@ def compile_kernels() -> None:
     material = Material(young=1e6, poisson=0.3, density=1e3)
     gravity = Gravity(acceleration=(0.0, 0.0, -1.0))
     scene = Scene(
-        name="small", sheet=sheet, material=material, gravity=gravity, support=(Clamped(edge="x0"),)
+        name="small", sheet=sheet, material=material, gravity=gravity, supports=(Clamped(edge="x0"),)
     )
     with one_blas_thread():
         settle(scene, pose(scene, consistent(sheet, material, (3, 7, 2))), "path")

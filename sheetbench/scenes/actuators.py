@@ -57,7 +57,7 @@ Curvature = Annotated[
 class Chain(Frozen):
     """A chain of `segments` rigid segments; bending_stiffness [N·m²], line_density [kg/m], radius [m]."""
 
-    kind: Literal["chain"] = "chain"
+    kind: Literal["chain"] = Field(default="chain", kw_only=True)
     """A flexible chain of rigid segments bound to an edge; it carries weight and inertia of its own."""
     edge: EdgeName
     """The edge it is bound to, which has no support."""
@@ -122,7 +122,7 @@ class EdgeMotion(OverTime):
     """The edge displaced by `displacement` (n, 3) [m] and turned about its middle by the rotation vectors
     `rotation` (n, 3) [rad] at the times `time` (n,) [s], linear between samples."""
 
-    kind: Literal["motion"]
+    kind: Literal["motion"] = Field(kw_only=True)
     """The edge moved rigidly as prescribed over time."""
     edge: EdgeName
     """The edge that is moved, which has no support."""

@@ -11,7 +11,7 @@ from pydantic import ValidationError
 
 from sheetbench.scenes.errors import Implausible, SceneError
 from sheetbench.scenes.plausibility import slips
-from sheetbench.scenes.refusals import in_one_line
+from sheetbench.scenes.refusals import did_you_mean, in_one_line
 from sheetbench.scenes.scene import Scene
 
 
@@ -40,8 +40,9 @@ def load(scene: str | Path) -> Scene:
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8-sig"))  # some editors put a mark before the text
     except FileNotFoundError:
-        names = ", ".join(known)
-        raise SceneError(f"{scene}: no such file, and no catalogue scene of that name ({names})") from None
+        near = did_you_mean(str(scene), known)
+        hint = f"did you mean {near}?" if near else f"those are {', '.join(known)}"
+        raise SceneError(f"{scene}: no such file, and no catalogue scene of that name; {hint}") from None
     except (OSError, UnicodeDecodeError) as error:
         raise SceneError(f"{scene}: cannot be read as text: {error}") from None
     except tomllib.TOMLDecodeError as error:

@@ -25,7 +25,7 @@ from sheetbench.scenes.tables import Loading
 class PointLoad(Loading):
     """A dead force [N] at plan point `at` [m]."""
 
-    kind: Literal["point"] = "point"
+    kind: Literal["point"] = Field(default="point", kw_only=True)
     """A dead force at a point of the mid-surface."""
     at: Annotated[PlanPoint, Unit("m")]
     """Plan point [x, y] of the undeformed sheet where the force acts."""
@@ -36,7 +36,7 @@ class PointLoad(Loading):
 class EdgeLoad(Loading):
     """A dead force [N/m] and a moment [N·m/m] along an edge."""
 
-    kind: Literal["edge"] = "edge"
+    kind: Literal["edge"] = Field(default="edge", kw_only=True)
     """A dead force and a moment along an edge."""
     edge: EdgeName
     """The edge that is loaded."""
@@ -55,7 +55,7 @@ class EdgeLoad(Loading):
 class Pressure(Loading):
     """A follower pressure [Pa]."""
 
-    kind: Literal["pressure"] = "pressure"
+    kind: Literal["pressure"] = Field(default="pressure", kw_only=True)
     """A follower pressure on the whole sheet."""
     value: Annotated[Number, Unit("Pa")]
     """> 0 pushes along the sheet's current normal, at first +z; per current area."""

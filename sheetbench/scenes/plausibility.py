@@ -44,7 +44,7 @@ def sheet_slips(sheet: Sheet) -> list[str]:
     if max(sheet.lengths) > LARGEST:
         written = ", ".join(f"{key} = {value:g} m" for key, value in sizes.items())
         side = max(sheet.lengths)
-        return [f"{written}: lengths are in metres; {side:g} mm is written {side / 1e3:g}"]
+        return [f'{written}: lengths are in metres; {side:g} mm is written {side / 1e3:g} or "{side:g} mm"']
     shorter = min(sheet.lengths)
     if sheet.thickness > THICKEST * shorter:
         return [
@@ -61,7 +61,7 @@ def material_slips(material: Material) -> list[str]:
     if young < SOFTEST:
         said.append(
             f"young = {young:g} Pa is softer than any solid sheet; "
-            f"it is in pascals: {young:g} MPa is written {young:g}e6, {young:g} kPa {young:g}e3"
+            f'it is in pascals: {young:g} MPa is written {young:g}e6 or "{young:g} MPa"'
         )
     elif young > STIFFEST:
         said.append(
@@ -70,7 +70,7 @@ def material_slips(material: Material) -> list[str]:
     if density < LIGHTEST:
         said.append(
             f"density = {density:g} kg/m³ is lighter than foam; "
-            f"it is in kg/m³: {density:g} g/cm³ is written {1e3 * density:g}"
+            f'it is in kg/m³: {density:g} g/cm³ is written {1e3 * density:g} or "{density:g} g/cm³"'
         )
     elif density > HEAVIEST:
         said.append(f"density = {density:g} kg/m³ is heavier than any metal; water's is 1000 kg/m³")

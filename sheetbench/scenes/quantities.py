@@ -6,24 +6,33 @@ them nothing is meant, and the products and quotients of the mechanics would ove
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import reduce
+from inspect import Parameter, Signature
 from math import isfinite
-from typing import Annotated, Any, Self
+from operator import or_
+from types import UnionType
+from typing import Annotated, Any, Literal, Self, Union, dataclass_transform, get_args, get_origin
 
 from pydantic import (
     AfterValidator,
     BaseModel,
     ConfigDict,
     Field,
+    GetCoreSchemaHandler,
     GetJsonSchemaHandler,
     Strict,
     ValidationError,
 )
-from pydantic_core import PydanticCustomError
+from pydantic.fields import FieldInfo
+from pydantic_core import CoreSchema, PydanticCustomError
+from pydantic_core.core_schema import no_info_before_validator_function
 
 from sheetbench.scenes.errors import BadInput, SceneError
 from sheetbench.scenes.refusals import in_one_line
 from sheetbench.scenes.schema import sentences
+from sheetbench.scenes.units import converted
 
 SMALLEST, LARGEST = 1e-12, 1e15  # E of a diamond is 1e12 Pa
 
@@ -62,28 +71,36 @@ PlanPoint = tuple[Number, Number]
 
 @dataclass(frozen=True)
 class Unit:
-    """The SI unit of a number or of every number in a list; it stands as `unit` in the JSON Schema."""
+    """The SI unit of a number or of every number in a list; it stands as `unit` in the JSON Schema.
+
+    The number may be text with a unit of its own, as "2 mm" (`sheetbench.scenes.units`).
+    """
 
     symbol: str
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return no_info_before_validator_function(lambda value: converted(value, self.symbol), handler(source))
 
     def __get_pydantic_json_schema__(self, core: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         return {**handler(core), "unit": self.symbol}
 
 
-class Frozen(BaseModel):
+@dataclass_transform(frozen_default=True, field_specifiers=(Field,))
+class Frozen(BaseModel, frozen=True):
     """Base of the scene objects: immutable, and unknown keys are refused.
 
     A sentence below each key says what it is and which sign it has; the JSON Schema, the reference page
     (docs/scene.md) and the files that `sheetbench new` writes are made of these. Objects built with values
-    that make no sense raise SceneError, in one line; values without a name are the keys in their order.
+    that make no sense raise SceneError, in one line; values without a name are the keys in their order, but
+    for those that are keyword-only (`kind`, `title`, `history`, `motion`).
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True)
+    model_config = ConfigDict(extra="forbid", populate_by_name=True)
 
     def __init__(self, *values: Any, **keys: Any) -> None:
-        names = list(type(self).model_fields)
+        names = [name for name, field in type(self).model_fields.items() if not field.kw_only]
         if len(values) > len(names):
-            raise TypeError(f"{type(self).__name__} has {len(names)} keys: {', '.join(names)}")
+            raise TypeError(f"{type(self).__name__} takes {len(names)} values by place: {', '.join(names)}")
         for name, value in zip(names, values, strict=False):
             if name in keys:
                 raise TypeError(f"{type(self).__name__}: {name} is given twice")
@@ -93,14 +110,33 @@ class Frozen(BaseModel):
         except ValidationError as error:
             raise SceneError(f"{type(self).__name__}: {in_one_line(error, type(self))}") from None
 
-    def replace(self, **values: Any) -> Self:
-        """The same with other values for some keys. Raises SceneError for what makes no sense."""
-        kept = {name: getattr(self, name) for name in type(self).model_fields}
-        return type(self)(**{**kept, **values})
-
     # what is read from a file or lies within another object is built without the above, so that the whole
     # scene's faults are told together
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **options: Any) -> None:
+        cls.__signature__ = _signature(cls.model_fields)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise SceneError(
+            f"{type(self).__name__}.{name} cannot be changed, the object is frozen: "
+            f"replace({name}=…) gives another one"
+        )
+
+    def __repr_args__(self) -> Iterator[tuple[str, Any]]:
+        """What differs from the usual, as it would be written."""
+        for name, field in type(self).model_fields.items():
+            if (value := getattr(self, name)) != field.get_default(call_default_factory=True):
+                yield name, value
+
+    def __str__(self) -> str:
+        return repr(self)
+
+    def replace(self, **values: Any) -> Self:
+        """Return a copy with other values for some keys. Raises SceneError for what makes no sense."""
+        kept = {name: getattr(self, name) for name in type(self).model_fields}
+        return type(self)(**{**kept, **values})
 
     @classmethod
     def __get_pydantic_json_schema__(cls, core: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
@@ -108,5 +144,28 @@ class Frozen(BaseModel):
         keys = handler.resolve_ref_schema(schema).get("properties", {})
         for name, field in cls.model_fields.items():  # pydantic would read the sources at every import
             if name in (said := sentences(cls)):
-                keys[field.alias or name]["description"] = said[name]
+                keys[field.validation_alias or name]["description"] = said[name]
         return schema
+
+
+def _signature(fields: dict[str, FieldInfo]) -> Signature:
+    """The keys of an object as `help` shows them: those that may go without a name first."""
+    parameters = []
+    for name, field in sorted(fields.items(), key=lambda item: bool(item[1].kw_only)):
+        kind = Parameter.KEYWORD_ONLY if field.kw_only else Parameter.POSITIONAL_OR_KEYWORD
+        usual = Parameter.empty if field.is_required() else field.get_default(call_default_factory=True)
+        parameters.append(Parameter(name, kind, default=usual, annotation=_plain(field.annotation)))
+    return Signature(parameters)
+
+
+def _plain(annotation: Any) -> Any:
+    """A type without its bounds."""
+    if hasattr(annotation, "__metadata__"):
+        return _plain(annotation.__origin__)
+    inside = get_args(annotation)
+    if not inside or get_origin(annotation) is Literal:
+        return annotation
+    parts = tuple(_plain(part) for part in inside)
+    if get_origin(annotation) in (Union, UnionType):
+        return reduce(or_, parts)
+    return get_origin(annotation)[parts]

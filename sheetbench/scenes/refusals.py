@@ -14,7 +14,10 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.limits import wish
 from sheetbench.scenes.schema import branches, json_schema, kind
+from sheetbench.scenes.units import quantity
 
 TOLD = 3  # faults
 LONGEST = 60  # characters of a key or a value
@@ -67,6 +70,8 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
     facts = fault.get("ctx", {})
     match fault["type"]:
         case "extra_forbidden":
+            if not_modelled := wish(str(where[-1])):
+                return f"{key}: {not_modelled}"
             keys = _keys(_place(fault["loc"][:-1], schema)[1])
             near = did_you_mean(str(where[-1]), keys)
             hint = f"did you mean {near}?" if near else f"known here are {', '.join(keys)}"
@@ -79,10 +84,14 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
         case "union_tag_not_found":
             return f"{key}: kind is missing; {_one_of(_kinds(nodes))}"
         case "union_tag_invalid":
+            if not_modelled := wish(str(facts["tag"])):
+                return f"{key}: kind = {shown(facts['tag'])}: {not_modelled}"
             return f"{key}: kind = {shown(facts['tag'])}: {_choose(str(facts['tag']), _kinds(nodes))}"
         case "literal_error":
             choices = [str(choice) for node in nodes for choice in _choices(node)]
             return f"{key} = {shown(value)}: {_choose(str(value), choices)}"
+        case "float_type" if isinstance(value, str) and (unit := _unit(fault["loc"], schema)) is not None:
+            return f"{key}: {_no_quantity(value, unit)}"
         case "tuple_type":
             entries = [entry for node in nodes for entry in _inside(node, 0, schema)]
             if _keys(entries):
@@ -95,6 +104,24 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
             table = f"a table with the keys {', '.join(keys)}" if keys else "a table"
             return f"{key} = {shown(value)}: must be {table}"
     return f"{key} = {shown(value)}: {_allowed(fault['type'], facts)}"
+
+
+def _no_quantity(text: str, unit: str) -> str:
+    """Why a text stands for no number in this unit."""
+    try:
+        quantity(text, unit)
+    except BadInput as error:
+        return str(error)
+    return f"'{text}' is text: write the number [{unit}] without quotes, or with a unit"
+
+
+def _unit(location: tuple[int | str, ...], schema: dict[str, Any]) -> str | None:
+    """The SI unit of the number at a location, or None where it has none."""
+    for end in range(len(location), 0, -1):
+        for node in _place(location[:end], schema)[1]:
+            if "unit" in node:
+                return str(node["unit"])
+    return None
 
 
 def _allowed(fault: str, facts: dict[str, Any]) -> str:

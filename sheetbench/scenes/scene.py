@@ -6,21 +6,25 @@ once, and frozen; see `sheetbench.scenes.supports` and `sheetbench.scenes.loads`
 
 from __future__ import annotations
 
+import sys
 from functools import lru_cache
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
+from warnings import warn
 
 import numpy as np
 from pydantic import Field, ValidationError, model_validator
 
-from sheetbench.scenes import corners
+from sheetbench.scenes import corners, summary
 from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion, disagreement
-from sheetbench.scenes.errors import SceneError
+from sheetbench.scenes.errors import Implausible, SceneError
 from sheetbench.scenes.loads import Load, PointLoad
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
 from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
 from sheetbench.scenes.springs import DamperSet, SpringTable
 from sheetbench.scenes.supports import Support, contradiction, held_axes, holds_tilt, lets_twist_go
+
+OURS = {"sheetbench", "lumped", "fem_reference", "comparisons", "studies"}
 
 
 class Scene(Frozen):
@@ -31,7 +35,7 @@ class Scene(Frozen):
 
     name: str = Field(min_length=1)
     """A short name, for tables and messages."""
-    title: str = ""
+    title: str = Field(default="", kw_only=True)
     """A line for headings and pictures."""
     sheet: Sheet
     """The flat, stress-free sheet."""
@@ -39,11 +43,15 @@ class Scene(Frozen):
     """What the sheet is made of."""
     gravity: Gravity | None = None
     """The sheet's weight; without this table the sheet is weightless."""
-    supports: tuple[Support, ...] = Field(default=(), alias="support")
+    supports: tuple[Support, ...] = Field(
+        default=(), validation_alias="support", serialization_alias="support"
+    )
     """How edges are held, at most one support an edge."""
-    loads: tuple[Load, ...] = Field(default=(), alias="load")
+    loads: tuple[Load, ...] = Field(default=(), validation_alias="load", serialization_alias="load")
     """Forces, moments and pressures, which add up."""
-    actuators: tuple[Actuator, ...] = Field(default=(), alias="actuator")
+    actuators: tuple[Actuator, ...] = Field(
+        default=(), validation_alias="actuator", serialization_alias="actuator"
+    )
     """What moves edges that have no support."""
     springs: SpringTable | None = None
     """The lattice's own spring constants, as `sheetbench calibrate --toml` writes them; no other model reads
@@ -56,6 +64,14 @@ class Scene(Frozen):
     """Named plan points [x, y] of the undeformed sheet where displacements are told; without this table P1 is
     the centre, P4 the corner farthest from the supports, P2 and P3 are the middles of the sides beside P4,
     each a quarter of the sheet inside where it would lie on an edge that is held."""
+
+    if not TYPE_CHECKING:  # type checkers read the signature off the fields
+
+        def __init__(self, *values: Any, **keys: Any) -> None:
+            super().__init__(*values, **keys)
+            _warn_author(self)
+
+        __init__.__pydantic_base_init__ = True
 
     @model_validator(mode="before")
     @classmethod
@@ -93,6 +109,34 @@ class Scene(Frozen):
 
     def _extent(self) -> str:
         return f"which is 0 ≤ x ≤ {self.sheet.length_x:g} m, 0 ≤ y ≤ {self.sheet.length_y:g} m"
+
+    def replace(self, **values: Any) -> Scene:
+        """Return a copy with other values for some keys, those of its sheet and material too.
+
+        Probes that nobody chose go with the sheet's sides. Raises SceneError for what makes no sense.
+        """
+        for part in ("sheet", "material"):
+            kept = values.get(part, getattr(self, part))
+            own = {key: values.pop(key) for key in list(values) if key in type(kept).model_fields}
+            if own:
+                values[part] = kept.replace(**own)
+        resized = values.get("sheet", self.sheet) != self.sheet and "probes" not in values
+        if resized and self.probes == super().replace(probes={}).probes:
+            values["probes"] = {}
+        changed = super().replace(**values)
+        _warn_author(changed, known=self)
+        return changed
+
+    def __repr__(self) -> str:
+        return summary.text(*self._summary())
+
+    def _repr_html_(self) -> str:
+        return summary.html(*self._summary())
+
+    def _summary(self) -> tuple[str, summary.Facts]:
+        from sheetbench.scenes.words import in_words  # which is made of scenes
+
+        return f"Scene {self.name}", in_words(self)
 
     def document(self) -> dict[str, Any]:
         """The scene as in a file, for JSON: plain lists, dicts, numbers and texts."""
@@ -132,6 +176,21 @@ class Scene(Frozen):
     def probe_points(self) -> np.ndarray:
         """Plan points of the probes, (n, 2) [m], in the order of `probes`."""
         return np.array(list(self.probes.values()), dtype=float).reshape(-1, 2)
+
+
+def _warn_author(scene: Scene, known: Scene | None = None) -> None:
+    """Warn whoever writes a scene in Python of what is hardly meant and was not so in the scene `known`.
+
+    What our own packages make of a scene is not its author's.
+    """
+    if sys._getframe(2).f_globals.get("__name__", "").partition(".")[0] in OURS:
+        return
+    from sheetbench.scenes.plausibility import slips  # which is made of scenes
+
+    before = () if known is None else slips(known)
+    for said in slips(scene):
+        if said not in before:
+            warn(Implausible(f"scene '{scene.name}': {said}"), stacklevel=3)
 
 
 def default_probes(sheet: Sheet, supported: list[str], held: list[str]) -> dict[str, PlanPoint]:

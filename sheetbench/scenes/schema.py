@@ -50,7 +50,21 @@ def for_editors(model: type[BaseModel]) -> dict[str, Any]:
         for key in table["properties"].values():
             if "unit" in key:
                 key["description"] = f"[{key['unit']}] {key['description']}"
+                _or_text(key)
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
+
+
+def _or_text(node: Any) -> None:
+    """Let every number within a node be text with a unit, as "2 mm"."""
+    if isinstance(node, list):
+        for entry in node:
+            _or_text(entry)
+    elif isinstance(node, dict) and node.get("type") == "number":
+        bounds = {key: node.pop(key) for key in list(node) if key not in ("default", "description", "unit")}
+        node["anyOf"] = [bounds, {"type": "string"}]
+    elif isinstance(node, dict):
+        for key in ("items", "prefixItems", "anyOf", "oneOf", "additionalProperties"):
+            _or_text(node.get(key))
 
 
 def _ask_for_kind(table: dict[str, Any]) -> None:

@@ -6,7 +6,7 @@ An edge is named by the axis it is normal to and the end of that axis: x0, x1, y
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field, model_validator
 
@@ -49,10 +49,6 @@ class Sheet(Frozen):
     thickness: Length
     """Thickness, half of it above and half below the mid-surface z = 0; at most the shorter side."""
 
-    if TYPE_CHECKING:
-
-        def __init__(self, length_x: float, length_y: float, thickness: float) -> None: ...
-
     @model_validator(mode="after")
     def _thinner_than_wide(self) -> Sheet:
         if self.thickness > min(self.lengths):
@@ -94,17 +90,6 @@ class Material(Frozen):
     """Stiffness-proportional damping: every spring has a damper of damping_time times its stiffness."""
     damping_rate: Annotated[NonNegative, Unit("1/s")] = 0.0
     """Mass-proportional damping: a force damping_rate · mass · velocity on every mass, against its motion."""
-
-    if TYPE_CHECKING:
-
-        def __init__(
-            self,
-            young: float,
-            poisson: float,
-            density: float,
-            damping_time: float = 0.0,
-            damping_rate: float = 0.0,
-        ) -> None: ...
 
 
 class Gravity(Loading):

@@ -115,7 +115,7 @@ class SpringSet(Frozen):
     """edge_shear of the edges x1 and y1, where it is not that of x0 and y0."""
     far_strip_shear: EdgeStiffness | None = None
     """strip_shear of the edges x1 and y1, where it is not that of x0 and y0."""
-    layer_distance: Annotated[Positive, Unit("m")]
+    layer_distance: Annotated[Positive, Unit("m")] = Field(kw_only=True)
     """Distance of neighbouring layers; of two layers, about the sheet's thickness."""
 
 

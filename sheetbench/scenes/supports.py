@@ -42,14 +42,14 @@ class Motion(OverTime):
 class _EdgeSupport(Frozen):
     edge: EdgeName
     """The edge that is supported."""
-    motion: Motion | None = None
+    motion: Motion | None = Field(default=None, kw_only=True)
     """How the support moves over time, in the components that it holds; statics take the last sample."""
 
 
 class Clamped(_EdgeSupport):
     """Mid-surface and director held, the director turned about the edge by `tilt` [rad]."""
 
-    kind: Literal["clamped"] = "clamped"
+    kind: Literal["clamped"] = Field(default="clamped", kw_only=True)
     """Mid-surface and its normal held."""
     tilt: Annotated[Number, Unit("rad")] = 0.0
     """The clamp turned about the edge, at most π/2 either way; > 0 lets the sheet start off downwards."""
@@ -65,14 +65,14 @@ class Clamped(_EdgeSupport):
 class Hinged(_EdgeSupport):
     """Mid-surface held, director free."""
 
-    kind: Literal["hinged"] = "hinged"
+    kind: Literal["hinged"] = Field(default="hinged", kw_only=True)
     """Mid-surface held, free to turn."""
 
 
 class Held(_EdgeSupport):
     """Named components of the mid-surface's displacement held."""
 
-    kind: Literal["held"] = "held"
+    kind: Literal["held"] = Field(default="held", kw_only=True)
     """Some components of the mid-surface's displacement held, free to turn."""
     components: tuple[Component, ...] = Field(min_length=1)
     """Which of "x", "y" and "z" are held, for instance ["z"] for an edge that slides on a rail."""
@@ -88,7 +88,7 @@ class Held(_EdgeSupport):
 class Curved(_EdgeSupport):
     """Clamped to a rod bent to `curvature` [1/m]."""
 
-    kind: Literal["curved"] = "curved"
+    kind: Literal["curved"] = Field(default="curved", kw_only=True)
     """Clamped to a rigid rod bent in the plane of the edge and z."""
     curvature: Annotated[Number, Unit("1/m")]
     """Of the rod; > 0 lifts the edge's ends towards +z, its middle stays where it is."""
@@ -97,11 +97,11 @@ class Curved(_EdgeSupport):
 class Symmetric(Frozen):
     """The plane of symmetry through which the sheet is cut."""
 
-    kind: Literal["symmetric"] = "symmetric"
+    kind: Literal["symmetric"] = Field(default="symmetric", kw_only=True)
     """A plane of symmetry: beyond the edge the sheet goes on as its own mirror image."""
     edge: EdgeName
     """The edge where the sheet is cut."""
-    motion: None = None
+    motion: None = Field(default=None, kw_only=True)
     """A plane of symmetry does not move."""
 
 

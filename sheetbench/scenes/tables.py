@@ -72,7 +72,7 @@ class FactorTable(OverTime):
 class Loading(Frozen):
     """Base of loads and gravity, whose `history` scales them over time."""
 
-    history: FactorTable | None = None
+    history: FactorTable | None = Field(default=None, kw_only=True)
     """A factor over time; without it the load acts in full from t = 0 on."""
 
     @property

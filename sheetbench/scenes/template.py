@@ -29,7 +29,7 @@ def template(name: str, sheet: Sheet, material: Material, clamped: Sequence[str]
         sheet=sheet,
         material=material,
         gravity=EARTH,
-        support=tuple(Clamped.model_validate({"edge": edge}) for edge in clamped),
+        supports=tuple(Clamped.model_validate({"edge": edge}) for edge in clamped),
     )
     given = keys(scene)
     parts = [

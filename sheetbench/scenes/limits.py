@@ -1,0 +1,58 @@
+"""Keys of a scene that people ask for and that sheetbench does not model, with what it models instead.
+
+They are refused with that sentence and the page of limits, not as slips of typing. Whoever adds one of them
+takes its line away.
+"""
+
+from __future__ import annotations
+
+PAGE = "docs/limits.md"
+
+_FULL = "a sheet is a full rectangle: holes and cut-outs are not modelled"
+_UNIFORM = "a sheet has one material and one thickness all over: patches and inclusions are not modelled"
+_RECTANGLE = "a sheet is a flat rectangle of one thickness: other outlines are not modelled"
+_ISOTROPIC = "a material is isotropic, with one young and one poisson: orthotropy is not modelled"
+_LINEAR = (
+    "a scene's material is linearly elastic; a shell or solid of another law of strain is `compare --law`"
+)
+_VISCOUS = "of viscosity there is linear damping alone, damping_time and damping_rate"
+_CONTACT = "contact is not modelled, neither with other bodies nor of the sheet with itself"
+_STRESS_FREE = "the flat sheet is free of stress: pre-stretch and residual stress are not modelled"
+_FLAT = "the sheet is flat where nothing acts on it: a curved rest shape is not modelled"
+_FROM_REST = "motion starts from the flat sheet at rest; `history` makes loads come and go"
+_HEAT = "heat, swelling and growth are not modelled"
+_FLUID = "no fluid surrounds the sheet; damping_rate drags every mass"
+_FIELDS = "magnetic and electric forces are not modelled; give the loads that they make"
+_ACTUATORS = "actuators are chains of segments on an edge and prescribed motions of an edge"
+_RIGID = "supports are rigid: elastic ones are not modelled"
+_PLASTIC = "plasticity, damage and fracture are not modelled"
+
+_WORDS = {
+    _FULL: "hole holes cutout cutouts cut cuts slit slits notch notches",
+    _UNIFORM: "patch patches region regions inclusion inclusions stiffener stiffeners magnet magnets layer "
+    "layers laminate ply plies",
+    _RECTANGLE: "shape outline polygon contour mesh diameter taper taper_x taper_y",
+    _ISOTROPIC: "young_x young_y young_z young_1 young_2 young_3 poisson_xy poisson_yx poisson_12 poisson_21 "
+    "shear_xy shear_12 shear_13 shear_23 orthotropic orthotropy anisotropic fibre fibres fiber fibers "
+    "fibre_angle fiber_angle angle",
+    _LINEAR: "law laws hyperelastic neo_hookean mooney_rivlin ogden yeoh gent c1 c2 c3 c10 c01",
+    _VISCOUS: "relaxation prony viscoelastic viscoelasticity viscosity creep loss_factor",
+    _CONTACT: "contact contacts friction obstacle obstacles floor ground table wall",
+    _STRESS_FREE: "prestretch pre_stretch prestrain pre_strain prestress pre_stress pretension "
+    "residual_stress initial_stress initial_strain",
+    _FLAT: "rest_shape rest_curvature natural_curvature initial_curvature",
+    _FROM_REST: "initial initial_state initial_displacement initial_velocity velocity release",
+    _HEAT: "temperature thermal thermal_expansion expansion swelling growth",
+    _FLUID: "fluid water air drag lift buoyancy aerodynamics",
+    _FIELDS: "magnetic magnetisation magnetization electric voltage charge",
+    _ACTUATORS: "tendon tendons cable cables muscle muscles bellows chamber pneumatic",
+    _RIGID: "foundation elastic spring",
+    _PLASTIC: "plasticity plastic yield yield_stress damage fracture",
+}
+WISHES = {word: sentence for sentence, words in _WORDS.items() for word in words.split()}
+
+
+def wish(word: str) -> str | None:
+    """The sentence about a key or a kind that is not modelled, with the page; None for any other."""
+    sentence = WISHES.get(word.lower().replace("-", "_"))
+    return f"{sentence} ({PAGE})" if sentence else None

@@ -1,0 +1,149 @@
+"""Quantities as people write them, `2 mm`, `0.6 MPa`, `1.2 g/cm³`, `5 ms`, as numbers in SI units.
+
+A unit is a product of powers of the units in `UNITS`, some of which take an SI prefix; `*`, `·` or a space
+multiply and `/` divides. What stands for another dimension than the one asked for is refused by name.
+"""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from functools import cache
+from math import pi
+
+from sheetbench.scenes.errors import BadInput
+
+Dimension = tuple[int, int, int, int]  # powers of m, kg, s and rad
+
+# exact, so that 1.2 g/cm³ is 1200 kg/m³ to the last digit
+UNITS: dict[str, tuple[Fraction, Dimension]] = {
+    "m": (Fraction(1), (1, 0, 0, 0)),
+    "g": (Fraction(1, 1000), (0, 1, 0, 0)),
+    "s": (Fraction(1), (0, 0, 1, 0)),
+    "N": (Fraction(1), (1, 1, -2, 0)),
+    "Pa": (Fraction(1), (-1, 1, -2, 0)),
+    "J": (Fraction(1), (2, 1, -2, 0)),
+    "Hz": (Fraction(1), (0, 0, -1, 0)),
+    "rad": (Fraction(1), (0, 0, 0, 1)),
+    "bar": (Fraction(100_000), (-1, 1, -2, 0)),
+    "deg": (Fraction(pi) / 180, (0, 0, 0, 1)),
+    "°": (Fraction(pi) / 180, (0, 0, 0, 1)),
+    "min": (Fraction(60), (0, 0, 1, 0)),
+    "in": (Fraction(254, 10_000), (1, 0, 0, 0)),
+    "%": (Fraction(1, 100), (0, 0, 0, 0)),
+    "1": (Fraction(1), (0, 0, 0, 0)),
+}
+PREFIXED = {"m", "g", "s", "N", "Pa", "J", "Hz", "rad", "bar"}
+PREFIXES = {"G": 9, "M": 6, "k": 3, "d": -1, "c": -2, "m": -3, "µ": -6, "μ": -6, "u": -6}  # powers of ten
+SPELLED = {**UNITS} | {
+    prefix + unit: (Fraction(10) ** power * UNITS[unit][0], UNITS[unit][1])
+    for prefix, power in PREFIXES.items()
+    for unit in sorted(PREFIXED)
+    if prefix + unit not in UNITS
+}
+NAMES: dict[str, tuple[str, str]] = {  # by the SI unit: the quantity, and how one is written
+    "m": ("length", "2 mm"),
+    "s": ("time", "5 ms"),
+    "Pa": ("stress or modulus", "0.6 MPa"),
+    "kg/m³": ("density", "1.2 g/cm³"),
+    "m/s²": ("acceleration", "9.81 m/s²"),
+    "N": ("force", "20 mN"),
+    "N/m": ("stiffness or force per length", "5 N/m"),
+    "N·m/m": ("moment per length", "2 mN·m/m"),
+    "N·m²": ("bending stiffness", "20 N·cm²"),
+    "N·s/m": ("damping", "3 mN·s/m"),
+    "kg/m": ("mass per length", "50 g/m"),
+    "kg": ("mass", "20 g"),
+    "1/m": ("curvature", "0.4 1/cm"),
+    "1/s": ("rate", "0.5 1/s"),
+    "rad": ("angle", "2 deg"),
+    "": ("pure number", "0.45"),
+}
+LARGEST = Fraction(10) ** 300
+LONGEST = 40  # characters
+NUMBER = re.compile(r"\s*([-+−]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?)\s*(.*?)\s*")
+FACTOR = re.compile(r"([^\d^⁰¹²³⁴⁻-]+|1)\^?(-?\d|⁻?[¹²³⁴])?")
+POWERS = str.maketrans("¹²³⁴⁻", "1234-")
+
+
+def quantity(text: str, unit: str) -> float:
+    """The number in the SI unit `unit` of a text as `2 mm`; one without a unit is in SI units.
+
+    Raises BadInput, in a sentence, for what is no number, no unit or a unit of something else.
+    """
+    example = NAMES.get(unit, ("", f"1 {unit}"))[1]
+    found = NUMBER.fullmatch(text)
+    if len(text) > LONGEST:
+        found, text = None, f"{text[:LONGEST]}…"
+    if found is None or "," in text:
+        why = "with a decimal point" if found else f"[{unit}], or with a unit: {example}"
+        why = f"write a number {why}"
+        raise BadInput(f"'{text}' is no quantity; {why}")
+    value = Fraction(found[1].replace("−", "-"))
+    if found[2]:
+        size, dimension = _unit(found[2])
+        if dimension != _unit(unit)[1]:
+            raise BadInput(f"'{text}' is {_named(dimension, found[2])}; needed is {_called(unit)}: {example}")
+        value *= size / _unit(unit)[0]
+    if abs(value) > LARGEST:
+        raise BadInput(f"'{text}' is too large")
+    return float(value)
+
+
+def converted(value: object, unit: str) -> object:
+    """A number given as text with a unit, in SI units, and those in lists and tables; all else as it is.
+
+    What is no quantity of this unit is left for whoever checks the number, and refuses it where it stands.
+    """
+    if isinstance(value, str):
+        try:
+            return value if _bare(value) else quantity(value, unit)
+        except BadInput:
+            return value
+    if isinstance(value, list | tuple):
+        return [converted(entry, unit) for entry in value]
+    if isinstance(value, dict):
+        return {key: converted(entry, unit) for key, entry in value.items()}
+    return value
+
+
+def _bare(text: str) -> bool:
+    """Whether a text is a number without a unit, which needs no quotes."""
+    found = NUMBER.fullmatch(text)
+    return found is not None and not found[2]
+
+
+@cache
+def _unit(text: str) -> tuple[Fraction, Dimension]:
+    """Size in SI units and dimension of a unit. Raises BadInput where a part of it is none."""
+    size, dimension, sign = Fraction(1), [0, 0, 0, 0], 1
+    for part in re.split(r"([*·⋅ /]+)", text):
+        if not part.strip(" ·*⋅"):
+            continue
+        if part.strip() == "/":
+            sign = -1
+            continue
+        found = FACTOR.fullmatch(part)
+        if found is None or found[1] not in SPELLED:
+            known = ", ".join(list(UNITS)[:-1])
+            raise BadInput(f"'{part}' is no unit known here; known are {known}, with prefixes G to µ")
+        power = sign * int((found[2] or "1").translate(POWERS))
+        one, of = SPELLED[found[1]]
+        size *= one**power
+        dimension = [have + power * more for have, more in zip(dimension, of, strict=True)]
+        sign = 1
+    m, kg, s, rad = dimension
+    return size, (m, kg, s, rad)
+
+
+def _named(dimension: Dimension, unit: str) -> str:
+    """What a unit is of, with its article."""
+    for known in NAMES:
+        if _unit(known)[1] == dimension:
+            return _called(known)
+    return f"in {unit}"
+
+
+def _called(unit: str) -> str:
+    name = NAMES.get(unit, (f"quantity in {unit}", ""))[0]
+    return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"

@@ -18,7 +18,7 @@ from comparisons.coverage.scenes import ARRANGEMENTS, SEED, drawn_scenes
 from comparisons.coverage.study import GOAL, LOOSE, coverage, measured
 from comparisons.runs.store import Store
 from sheetbench import scenes
-from sheetbench.scenes.scene import require_static
+from sheetbench.scenes.rigid_motions import require_static
 
 TRUTH = {"plate": 20, "shell": 16}  # enough beside 8 elements, and quick
 

@@ -10,7 +10,7 @@ from comparisons.models.grading import Grading
 from comparisons.models.grids import parse_elements
 from sheetbench.scenes import Scene, catalogue, load
 from sheetbench.scenes.errors import BadInput, SceneError
-from sheetbench.scenes.scene import require_static
+from sheetbench.scenes.rigid_motions import require_static
 
 ALL = "all"
 

@@ -53,7 +53,7 @@ from sheetbench.scenes import (
     Status,
     outside_model,
 )
-from sheetbench.scenes.scene import require_static
+from sheetbench.scenes.rigid_motions import require_static
 
 PARTS = ("membrane", "bending", "shear")
 

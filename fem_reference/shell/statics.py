@@ -38,7 +38,7 @@ from fem_reference.surface.mesh import Elements, divisions, mesh_of, nodes_of, o
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 from sheetbench.scenes.errors import BadInput, require_choice
-from sheetbench.scenes.scene import require_static
+from sheetbench.scenes.rigid_motions import require_static
 
 
 def solve(

@@ -38,7 +38,7 @@ from fem_reference.surface.stretch import largest_stretch
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.scenes import Scene, Solution, Status, outside_model
 from sheetbench.scenes.errors import BadInput
-from sheetbench.scenes.scene import require_static
+from sheetbench.scenes.rigid_motions import require_static
 
 GRADINGS = ("edges", "uniform")
 

@@ -6,7 +6,8 @@ from sheetbench.scenes.errors import BadInput, Implausible, SceneError
 from sheetbench.scenes.files import AnyScene, catalogue, load, scene_of
 from sheetbench.scenes.history import History
 from sheetbench.scenes.loads import EdgeLoad, Load, PointLoad, Pressure
-from sheetbench.scenes.scene import Scene, free_rigid_motions, require_static
+from sheetbench.scenes.rigid_motions import free_rigid_motions, require_static
+from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.sheet import EDGES, Edge, Gravity, Material, Sheet
 from sheetbench.scenes.solution import About, FieldMesh, Iteration, Solution, Status, comparable
 from sheetbench.scenes.springs import DamperSet, PerDirection, SpringSet, SpringTable

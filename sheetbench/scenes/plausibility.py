@@ -10,11 +10,14 @@ sheet, and a sheet that nothing moves.
 from __future__ import annotations
 
 from math import hypot
+from typing import TYPE_CHECKING
 
 from sheetbench.scenes.loads import EdgeLoad, PointLoad, Pressure
-from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
 from sheetbench.scenes.strains import STRETCH_LIMIT, WEIGHT_LIMIT, weight_strain
+
+if TYPE_CHECKING:
+    from sheetbench.scenes.scene import Scene
 
 SOFTEST, STIFFEST = 1e3, 1e10  # Pa: agar, and the stiffest polymers
 LIGHTEST, HEAVIEST = 100.0, 20_000.0  # kg/m³: foam, gold

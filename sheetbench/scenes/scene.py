@@ -7,7 +7,6 @@ once, and frozen; see `sheetbench.scenes.supports` and `sheetbench.scenes.loads`
 from __future__ import annotations
 
 import sys
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 from warnings import warn
@@ -17,12 +16,14 @@ from pydantic import Field, ValidationError, model_validator
 
 from sheetbench.scenes import corners, summary
 from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion, disagreement
-from sheetbench.scenes.errors import Implausible, SceneError
+from sheetbench.scenes.errors import Implausible
 from sheetbench.scenes.loads import Load, PointLoad
+from sheetbench.scenes.plausibility import slips
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
 from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
 from sheetbench.scenes.springs import DamperSet, SpringTable
-from sheetbench.scenes.supports import Support, contradiction, held_axes, holds_tilt, lets_twist_go
+from sheetbench.scenes.supports import Support, contradiction, lets_twist_go
+from sheetbench.scenes.words import in_words
 
 OURS = {"sheetbench", "lumped", "fem_reference", "comparisons", "studies"}
 
@@ -134,8 +135,6 @@ class Scene(Frozen):
         return summary.html(*self._summary())
 
     def _summary(self) -> tuple[str, summary.Facts]:
-        from sheetbench.scenes.words import in_words  # which is made of scenes
-
         return f"Scene {self.name}", in_words(self)
 
     def document(self) -> dict[str, Any]:
@@ -185,8 +184,6 @@ def _warn_author(scene: Scene, known: Scene | None = None) -> None:
     """
     if sys._getframe(2).f_globals.get("__name__", "").partition(".")[0] in OURS:
         return
-    from sheetbench.scenes.plausibility import slips  # which is made of scenes
-
     before = () if known is None else slips(known)
     for said in slips(scene):
         if said not in before:
@@ -239,51 +236,3 @@ def _holds_height(support: Any) -> bool:
     """Whether a support, as it is asked for, holds the mid-surface along z."""
     kind, components = _said(support, "kind"), _said(support, "components")
     return "z" in (components or ()) if kind == "held" else kind != "symmetric"
-
-
-def free_rigid_motions(scene: Scene) -> list[str]:
-    """Names of the rigid motions that supports and actuators leave free (empty: a static answer can exist).
-
-    An actuator whose base is held, or that prescribes the edge's motion, leaves none.
-    A support fixes rows of the rigid velocity t + θ × X at both ends of its edge and, if it holds
-    the tilt, those of θ × e_z; what the stacked rows leave in their null space is free.
-    """
-    if any(not isinstance(actuator, Chain) or actuator.base != "free" for actuator in scene.actuators):
-        return []
-    return list(_left_free(scene.sheet, scene.supports))
-
-
-@lru_cache(maxsize=64)
-def _left_free(sheet: Sheet, supports: tuple[Support, ...]) -> tuple[str, ...]:
-    """Names of the rigid motions that supports leave free: asked again at every solve of a scene."""
-    centre = np.array([sheet.length_x / 2, sheet.length_y / 2, 0.0])
-    scale = max(sheet.lengths)
-    rows = [np.zeros(6)]
-    for support in supports:
-        for end in sheet.edge_ends(support.edge):
-            arm = (np.array([*end, 0.0]) - centre) / scale
-            velocity = np.hstack([np.eye(3), -_cross_matrix(arm)])
-            rows.extend(velocity[axis] for axis in held_axes(support))
-        if holds_tilt(support):
-            turned = np.hstack([np.zeros((3, 3)), -_cross_matrix(np.array([0.0, 0.0, 1.0]))])
-            rows.extend(turned[axis] for axis in held_axes(support))
-    _, singular, motions = np.linalg.svd(np.array(rows))
-    rank = int(np.sum(singular > 1e-9))
-    names = [f"{kind} {axis}" for kind in ("translation along", "rotation about") for axis in "xyz"]
-    free = motions[rank:]
-    moved = np.linalg.norm(free, axis=0)
-    return tuple(name for name, share in zip(names, moved, strict=True) if share > 1e-6)
-
-
-def require_static(scene: Scene) -> None:
-    """Raise SceneError unless the supports stop every rigid motion."""
-    free = free_rigid_motions(scene)
-    if free:
-        raise SceneError(
-            f"scene '{scene.name}': support: nothing stops {', '.join(free)}; a static answer needs supports "
-            'that stop every rigid motion (for instance kind = "clamped" on one edge)'
-        )
-
-
-def _cross_matrix(v: np.ndarray) -> np.ndarray:
-    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])

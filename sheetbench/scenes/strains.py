@@ -9,8 +9,10 @@ One rule for every model; where a model looks is its own affair.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
-from sheetbench.scenes.scene import Scene
+if TYPE_CHECKING:
+    from sheetbench.scenes.scene import Scene
 
 WEIGHT_LIMIT = 0.05
 STRETCH_LIMIT = 0.5

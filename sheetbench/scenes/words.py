@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import degrees, hypot
+from typing import TYPE_CHECKING
 
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable
 from sheetbench.scenes.loads import EdgeLoad, PointLoad, Pressure
 from sheetbench.scenes.quantities import PlanPoint
-from sheetbench.scenes.scene import Scene, free_rigid_motions
+from sheetbench.scenes.rigid_motions import free_rigid_motions
 from sheetbench.scenes.sheet import EDGES, Sheet
 from sheetbench.scenes.supports import AnySupport, Clamped, Curved, Held, Hinged
 from sheetbench.scenes.tables import FactorTable
+
+if TYPE_CHECKING:
+    from sheetbench.scenes.scene import Scene
 
 Load = PointLoad | EdgeLoad | Pressure
 

@@ -2,11 +2,14 @@
 
 Answers f₁, f₂, f₃ on meshes of size h₁ < h₂ < h₃, refinement ratios r₂₁ = h₂/h₁ and r₃₂:
 
-    order           p ln r₂₁ = |ln |(f₃ − f₂)/(f₂ − f₁)| + q(p)|,    q = ln((r₂₁ᵖ − s)/(r₃₂ᵖ − s)), s = ±1
+    order           p ln r₂₁ = ln((f₃ − f₂)/(f₂ − f₁)) + q(p),    q = ln((r₂₁ᵖ − 1)/(r₃₂ᵖ − 1))
     extrapolated    f = f₁ + (f₁ − f₂)/(r₂₁ᵖ − 1)
     by a pair       e_ij = |f_i − f_j| h₁ᵖ/(h_jᵖ − h_iᵖ),   p of the field
     by the layer    e_η = min(|f₁ − f₃| η₁/(η₃ − η₁), 0.3 η₁ |f₁|)
     bar             U = e + 0.35 ē |f₁|,   e = max(e₁₂, e₁₃, e₂₃) + e_η
+
+Celik et al. take magnitudes and ± 1 in q, and so give an order to answers that swing, f₃ − f₂ and f₂ − f₁ of
+unlike signs: here those have none. Changes that grow give an order below 0.
 
 Observed orders of single components are chance more often than not: differences that happen to be small, or
 of either sign, give 0.6, 9 or none for elements of order 3. In the bar p is the field's, the median over the

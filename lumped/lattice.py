@@ -26,6 +26,7 @@ import numpy as np
 
 from lumped.grid_lines import Lines, grid_lines
 from lumped.pattern import KEPT
+from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grading import Graded
@@ -177,7 +178,8 @@ def build(
     mass the same share, as the seed has them. grading, half: of the grid's lines (`lumped.grid_lines`).
 
     Raises BadInput for fewer than two masses a side or two layers, a grading outside 0 to 1, and full weights
-    on a graded grid. A small lattice is the same object every time: its arrays are not to be written to.
+    on a graded grid. A small lattice is the same object every time: its arrays are not to
+    be written to, and read-only where no kernel takes them (numba has another type for those).
     """
     small = math.prod(grid) <= KEPT
     return (_kept_lattice if small else _build)(sheet, grid, layer_distance, weights, twisting, grading, half)
@@ -212,7 +214,9 @@ def _build(
         offset[:, 0] = di * across_x.widths[step.column]
         offset[:, 1] = dj * across_y.widths[step.row]
         offset[:, 2] = dk * layer_distance
-        families.append(LinkFamily(step.name, step.direction, step.nodes, offset, step.cells, shares))
+        families.append(
+            LinkFamily(step.name, step.direction, step.nodes, *frozen((offset, step.cells, shares)))
+        )
 
     columns = np.arange(nx * ny * layers).reshape(ny, nx, layers)
     corners = np.stack([columns[:-1, :-1], columns[:-1, 1:], columns[1:, 1:], columns[1:, :-1]], axis=2)
@@ -222,6 +226,7 @@ def _build(
     share = np.repeat(np.outer(y_share, x_share).ravel(), layers)
     if weights == "full":
         share = np.full(len(positions), (nx - 1) * (ny - 1) / (nx * ny))
+    frozen((positions, share))
     return Lattice(
         grid=grid,
         lines=lines,
@@ -273,7 +278,7 @@ def _steps(grid: Grid) -> tuple[_Step, ...]:
         column = np.minimum(i[first], i[second]).clip(max=nx - 2)
         nodes = np.stack([first, second], axis=1)
         found.append(_Step(name, direction, (di, dj, dk), nodes, cells, shares, row, column))
-    return tuple(found)
+    return frozen(tuple(found))
 
 
 _kept_steps = lru_cache(maxsize=16)(_steps)

@@ -100,9 +100,7 @@ class Loads:
 
     def force(self, u: np.ndarray, time: float | None = None) -> np.ndarray:
         """External force (n, 3) [N] on the masses displaced by u, at a time [s]; without a time, as statics
-        have it: with the last factor of every history."""
-        if self.potential:
-            return self.dead
+        have it: with the last factor of every history. An array of its own."""
         force = self.dead.copy()
         for part in self._parts.values():
             if part.history is not None:

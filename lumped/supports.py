@@ -17,6 +17,7 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 import scipy.sparse as sp
+from scipy.sparse.linalg import splu
 
 from lumped.actuators import Coupling
 from lumped.lattice import Lattice
@@ -24,6 +25,7 @@ from lumped.linear.maps import Rows, rows
 from lumped.linear.solver import ReducedSystem, reduced
 from lumped.pattern import KEPT, Pattern
 from lumped.springs.rest import Itself
+from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import Scene, Sheet, Support, held_axes, holds_tilt
 from sheetbench.scenes.kinematics import bent_or_tilted, shifts
 
@@ -51,6 +53,20 @@ class Constraints:
     def rows(self) -> Rows:
         """The transform as compiled loops take it."""
         return rows(self.transform)
+
+    def nearest(self, u: np.ndarray) -> np.ndarray:
+        """The unknowns (m,) whose T q is closest to u (n, 3): (TᵀT)⁻¹ Tᵀ u."""
+        unknowns: np.ndarray = self._normal_solve(self.transform.T @ u.ravel())
+        return unknowns
+
+    @cached_property
+    def _normal_solve(self) -> Callable[[np.ndarray], np.ndarray]:
+        """The solver of TᵀT q = b; TᵀT is diagonal up to two layers without bindings."""
+        normal = sp.csc_array(self.transform.T @ self.transform)
+        diagonal = normal.diagonal()
+        if normal.nnz == len(diagonal):
+            return lambda b: b / diagonal
+        return splu(normal).solve
 
     def reduced(self, pattern: Pattern, symmetric: bool) -> ReducedSystem:
         """The system of the free unknowns, without multipliers, over a pattern: the same one when asked for
@@ -171,6 +187,7 @@ def _constrain(
         masses = holders[moved_support.edge][0]
         for axis, distance in zip(moved_support.axes, moved_support.displacement, strict=True):
             shift[masses, axis] = distance
+    frozen(fixed)
     return Constraints(transform, turned, shift, holders, held, fixed, coupling)
 
 

@@ -15,10 +15,12 @@ import lumped
 
 ROOT = Path(__file__).parent.parent
 GROUND = ("sheetbench.scenes", "sheetbench.choices", "sheetbench.files", "sheetbench.kernels")
+GROUND += ("sheetbench.numerics",)
 ALLOWED = {
     "sheetbench/scenes": {"sheetbench.scenes"},
+    "sheetbench/numerics": {"sheetbench.numerics"},
     "lumped": {*GROUND, "lumped"},
-    "fem_reference": {"sheetbench.scenes", "sheetbench.choices", "sheetbench.kernels", "fem_reference"},
+    "fem_reference": {*GROUND, "fem_reference"} - {"sheetbench.files"},
     "comparisons": {*GROUND, "lumped", "fem_reference", "comparisons"},
 }
 

@@ -11,9 +11,9 @@ from fem_reference.shell.element import MEMBRANE
 from fem_reference.shell.membrane_strains import at_nodes, sampled
 from fem_reference.shell.statics import discretise
 from fem_reference.solving import equilibrium
-from fem_reference.solving.kept import kept
 from fem_reference.surface.mesh import mesh_of
 from sheetbench import scenes
+from sheetbench.numerics.kept import kept
 from sheetbench.scenes import Status
 
 

@@ -39,3 +39,17 @@ def test_supports_alike_but_for_their_tilt_are_kept_apart():
     tilted = scene.replace(supports=(Clamped(edge=scene.supports[0].edge, tilt=0.1),))
     flat, turned, again = (lumped.pose(s, springs).constraints for s in (scene, tilted, scene))
     assert flat is again and not flat.prescribed(1.0).any() and turned.prescribed(1.0).any()
+
+
+def test_what_is_shared_between_solves_cannot_be_written_to():
+    scene = load("one-edge-clamped")
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(3, 4))
+    problem = lumped.pose(scene, springs)
+    lattice = problem.assembly.lattice
+    shared = [lattice.positions, lattice.share, lattice.links[0].cells, problem.constraints.fixed]
+    for array in shared:
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+    force = problem.loads.force(np.zeros_like(problem.loads.dead))
+    force[:] = 1.0  # one's own
+    assert not (problem.loads.dead == 1.0).any()

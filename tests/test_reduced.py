@@ -7,7 +7,7 @@ import pytest
 from dynamic_cases import ROD, scene, springs, system
 
 import lumped
-from lumped.dynamics.reduced import Reduced
+from lumped.dynamics.reduced import LOOK, Reduced
 from lumped.reduction.monomials import add_force, gradients, monomials, values
 from sheetbench import scenes
 from sheetbench.scenes import Status
@@ -59,11 +59,22 @@ def test_steps_of_the_model_are_of_second_order():
     method, ends = Reduced(equations, 1e-3), []
     for count in (20, 40, 80):
         method.recall({"algorithm": None, "largest": 0.0, "unseen": 0})
-        advance, _ = method.march(rest, 0.1 / count, count)
-        ends.append(advance.state.u)
+        state, left = rest, count
+        while left:
+            advance, taken = method.march(state, 0.1 / count, left)
+            state, left = advance.state, left - taken
+        ends.append(state.u)
     changes = [np.abs(a - b).max() for a, b in pairwise(ends)]
     assert np.log2(changes[0] / changes[1]) == pytest.approx(Reduced.order, abs=0.15)
     assert changes[1] < 2e-2 * np.abs(ends[-1]).max()
+
+
+def test_the_full_equations_are_asked_every_so_many_steps_however_rare_the_samples(monkeypatch):
+    asked, looks, look = scenes.load("two-edges-settling"), [], Reduced._look
+    monkeypatch.setattr(Reduced, "_look", lambda self, state: looks.append(state.time) or look(self, state))
+    lumped.simulate(asked, springs(asked), 0.1, integrator="reduced", step=1e-3, every=0.05)
+    np.testing.assert_allclose(np.diff([0.0, *looks]), LOOK * 1e-3, rtol=1e-6)
+    assert len(looks) == 5
 
 
 class Stopped(Exception):

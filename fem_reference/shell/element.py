@@ -31,7 +31,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem_reference.shell import sampling, tangent
-from fem_reference.solving.kept import kept
 from fem_reference.surface.biquadratic import (
     AT_GAUSS,
     GAUSS,
@@ -44,6 +43,7 @@ from fem_reference.surface.biquadratic import (
     shape,
 )
 from fem_reference.surface.materials import Section
+from sheetbench.numerics.kept import kept
 from sheetbench.scenes.errors import BadInput
 
 # Sampling grids of the covariant components and their interpolation to the Gauss points.

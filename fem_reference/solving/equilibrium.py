@@ -114,7 +114,7 @@ def _arrived(
         return False
     path.state, path.load_factor, path.factor = state, near.target, factor
     close = structure.length(near.state, state) <= NEAR * near.length
-    if close and inspect(path) is None and stability(structure, solver, path)[0] is Status.CONVERGED:
+    if close and inspect(path) is None and stability(structure, solver, path) == (Status.CONVERGED, ""):
         return True
     path.state, path.load_factor, path.factor = before
     return False
@@ -160,9 +160,10 @@ def _at_limit_point(path: Path[State], failure: StepFailed) -> bool:
 def _doubt(structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> list[str]:
     """A sentence where a path that is about to snap has not been stable until then."""
     status, said = stability(structure, solver, path)
-    if status is Status.CONVERGED:
+    if not said:
         return []
-    return [f"unstable before it snapped at load factor {path.load_factor:.4g}: {said}"]
+    begin = "" if status is Status.CONVERGED else "unstable "
+    return [f"{begin}before it snapped at load factor {path.load_factor:.4g}: {said}"]
 
 
 def _snap(

@@ -103,7 +103,9 @@ class _Creep(Generic[State, Forces]):
                 self.nearly = FURTHER * residual
             else:
                 inertia = self._factor(self.structure, state).inertia
-                if inertia is None or inertia.negative == inertia.zero == 0:
+                if inertia is None:
+                    raise StepFailed(Status.STEP_LIMIT, "whether it is stable is not known", 0.0)
+                if inertia.negative == inertia.zero == 0:
                     return state
                 self._leave(state)
 

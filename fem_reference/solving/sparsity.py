@@ -14,7 +14,7 @@ from numba import njit
 from scipy.sparse import csr_matrix
 
 from fem_reference.solving.fronts import Cells, Fronts, fronts_of
-from fem_reference.solving.kept import kept
+from sheetbench.numerics.kept import kept
 
 
 class Pattern:

@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 from skfem import MeshQuad
 
-from fem_reference.solving.kept import kept
 from fem_reference.surface.biquadratic import shape
+from sheetbench.numerics.kept import kept
 from sheetbench.scenes.errors import BadInput
 
 SLACK = 1e-9  # how far outside, in element sizes, still counts as on the edge: rounding only

@@ -12,7 +12,7 @@ from collections.abc import Callable, Collection
 import numpy as np
 from skfem import Dofs, ElementQuad2, MeshQuad
 
-from fem_reference.solving.kept import kept
+from sheetbench.numerics.kept import kept
 from sheetbench.scenes import EDGES, Scene, Sheet, Symmetric
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import near_square

@@ -72,6 +72,8 @@ class Projective(Integrator):
             work = -float(move @ gradient)
             first = max(first, work)
             small = np.abs(system.problem.expand(move)).max() <= ROUNDING * system.problem.size
+            if work < 0.0 and not small:
+                raise StepFailed("the kept matrix is not positive definite: use smaller steps")
             if work <= self._tolerance**2 * first or small:
                 break
             if looks >= self._iterations:

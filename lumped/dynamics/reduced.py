@@ -1,7 +1,8 @@
 """A reduced model as an integrator: the sheet in its lowest modes, all else following statically.
 
 The model (`lumped.reduction.condensed`) is made once, of the flat lattice under its own loads; then a step
-takes microseconds (`lumped.reduction.motion`). Every LOOK steps the full equations are asked what they leave,
+takes microseconds (`lumped.reduction.motion`). At least every LOOK steps the full equations are asked what
+they leave,
 
     Δu = Kₜ⁻¹ (f_ext − f(u, v) − M v̇),
 
@@ -65,9 +66,9 @@ class Reduced(Integrator):
         return self.march(state, at_most, 1)[0]
 
     def march(self, state: State, step: float, most: int) -> tuple[Advance, int]:
-        """Steps of the same length in one compiled call. Raises StepFailed, also where the motion has left
-        what the model knows."""
-        system = self.system
+        """Steps of the same length in one compiled call, up to the next look at the full equations. Raises
+        StepFailed, also where the motion has left what the model knows."""
+        system, most = self.system, min(most, LOOK - self._unseen)
         q, v, a = (self._dual @ system.contract(x) for x in (state.u, state.v, state.a))
         at = Coordinates(q, v, a, a.copy() if self._algorithm is None else self._algorithm.copy())
         times = state.time + step * np.arange(1, most + 1)

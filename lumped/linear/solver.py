@@ -16,13 +16,14 @@ from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import LinearOperator, eigs, onenormest, splu
+from scipy.sparse.linalg import LinearOperator, onenormest, splu
 
 from lumped.linear import banded, pardiso
 from lumped.linear.banded import BACKWARD_ERROR
 from lumped.linear.reduction import Reduction, reduction
 from lumped.linear.saddle_point import Saddle, minimal_residual
 from lumped.pattern import KEPT, Pattern
+from sheetbench.numerics.stability import nearest_to_zero, negative_real
 
 rslab: Any
 try:
@@ -31,7 +32,6 @@ except ImportError:  # SciPy always works
     rslab = None
 
 BANDED_LIMIT = 2.0e7  # n × bandwidth² below which the banded Cholesky is quicker than the sparse one
-NEAREST = 12  # eigenvalues sought when the tangent is unsymmetric
 
 REFINEMENTS = 1
 
@@ -76,21 +76,14 @@ class Factor:
         largest = float(abs(self._matrix).sum(axis=0).max())
         return largest * float(onenormest(inverse, t=min(2, n)))
 
-    def negative_real_parts(self) -> int:
-        """Eigenvalues with a negative real part among the NEAREST ones to zero of an unsymmetric matrix.
-
-        Along a path that starts stable, a real eigenvalue changes sign only through zero. None are sought
-        where the symmetric part is positive definite, which is enough for stability.
-        """
-        if not _symmetric(sp.csc_array((self._matrix + self._matrix.T) / 2.0)).negative:
+    def negative_real(self) -> int | None:
+        """Real eigenvalues below zero of an unsymmetric matrix (see `sheetbench.numerics.stability`); None
+        where they are not found. None are sought where the symmetric part is positive definite: then no
+        eigenvalue has a negative real part."""
+        if _negative(sp.csc_array((self._matrix + self._matrix.T) / 2.0)) == 0:
             return 0
-        n = self._matrix.shape[0]
-        inverse = LinearOperator((n, n), matvec=self._solve, dtype=float)
-        start = np.random.default_rng(0).standard_normal(n)
-        values = eigs(
-            self._matrix, k=min(NEAREST, n - 2), sigma=0.0, OPinv=inverse, v0=start, return_eigenvectors=False
-        )
-        return int(np.sum(values.real < 0.0))
+        found = nearest_to_zero(self._matrix, self._solve)
+        return None if found is None else negative_real(found)
 
 
 def checked(x: np.ndarray, miss: float) -> np.ndarray:
@@ -276,12 +269,14 @@ def _analysis(matrix: sp.csc_array, symmetric: bool) -> Any:
     return rslab.analyze(matrix, path="ldlt" if symmetric else "lu")
 
 
-def _symmetric(matrix: sp.csc_array) -> Factor:
-    """Factors of a symmetric matrix without an analysis to reuse."""
-    if rslab is None:
-        return _superlu(matrix, symmetric=True)
-    factors = rslab.ldlt(matrix)
-    return Factor(matrix, factors.solve, factors.inertia[1])
+def _negative(matrix: sp.csc_array) -> int | None:
+    """Negative eigenvalues of a symmetric matrix; None where its factors do not tell, or there are none."""
+    try:
+        if rslab is None:
+            return _superlu(matrix, symmetric=True).negative
+        return int(rslab.ldlt(matrix).inertia[1])
+    except RuntimeError:
+        return None
 
 
 def _superlu(matrix: sp.csc_array, symmetric: bool) -> Factor:

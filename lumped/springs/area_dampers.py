@@ -9,7 +9,8 @@ c = d1 × d2 and ċ = v1 × d2 + d1 × v2 (see `lumped.springs.areas`),
     ∇²a v = ½ (v2 × n + d2 × ṅ,  ṅ × d1 + n × v1),   ṅ = (ċ − n (n·ċ))/|c|.
 
 With c = damping_time × k on every link and cell, the damping matrix of the undeformed lattice is
-damping_time × its stiffness, positive also where single area springs are negative (ν < 1/3).
+damping_time × its stiffness, positive also where single area springs are negative (ν < 1/3). In a strained
+lattice nothing checks the sum: the energy dissipated, which every run tells, would fall.
 """
 
 from __future__ import annotations

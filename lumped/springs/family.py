@@ -67,7 +67,7 @@ class Family(ABC):
         return rates
 
     def harmless(self, stress: np.ndarray) -> np.ndarray:
-        """Stresses with which the tangent is a sum of positive terms."""
+        """Stresses with which the tangent is positive while strains are small: none of compression."""
         return np.maximum(stress, 0.0)
 
     def add_tangent(self, u: np.ndarray, stress: np.ndarray, blocks: np.ndarray) -> None:

@@ -2,9 +2,10 @@
 
 Minimises Π(q) = elastic energy − λ f·u by Newton steps with a backtracking line search (Armijo). The
 true tangent serves where it is positive definite; elsewhere the tangent with compressed links' and cells'
-stresses set to zero, a sum of positive terms (Teran et al. 2005). Every accepted step lowers the energy,
-so the end is a local minimum or the step limit. Only for dead loads and central springs: others have no
-energy.
+stresses set to zero (Teran et al. 2005). Links then add nothing negative, but an area spring's ∇²a is
+indefinite in its plane, and some are of negative stiffness (ν < 1/3): the sum is positive while strains are
+small, and a direction that is none of descent ends the search. Every accepted step lowers the energy, so the
+end is a local minimum or the step limit. Only for dead loads and central springs: others have no energy.
 """
 
 from __future__ import annotations
@@ -40,6 +41,8 @@ def descend(problem: Problem, u: np.ndarray, load_factor: float) -> State:
         gradient = -problem.reduce(unbalanced)
         direction = factor.solve(-gradient)
         slope = float(gradient @ direction)
+        if not slope < 0.0:  # also catches nan
+            raise StepFailed("no direction of descent: the projected tangent is not positive definite")
         move = problem.expand(direction)
         share = min(1.0, 0.25 * problem.size / float(np.abs(move).max()))
         start = problem.potential(u, load_factor)

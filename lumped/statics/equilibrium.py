@@ -47,7 +47,7 @@ from lumped.statics.problem import Problem, Tangent
 class State:
     """An equilibrium: displacement, load factor, stresses and the factors of the true tangent there.
 
-    negative: eigenvalues of the tangent below zero (real parts), None when not known.
+    negative: real eigenvalues of the tangent below zero, None when not known.
     """
 
     u: np.ndarray

@@ -129,14 +129,14 @@ class Problem:
         return self.system.factor(blocks)
 
     def negative(self, factor: Factor) -> int | None:
-        """Eigenvalues below zero of the factored tangent (real parts, when it is unsymmetric), on motions
-        that the actuators' constraints allow: each multiplier brings one more."""
+        """Eigenvalues below zero of the factored tangent (real ones, when it is unsymmetric), on motions
+        that the actuators' constraints allow: each multiplier brings one more. None where it is not known."""
         if self.conservative:
             return None if factor.negative is None else factor.negative - self.multipliers
         if self.multipliers:
             return None
         self.factorisations += 1
-        return factor.negative_real_parts()
+        return factor.negative_real()
 
     def prescribed(self, load_factor: float) -> np.ndarray:
         """Displacement of the masses that supports and actuators put in place."""
@@ -146,10 +146,9 @@ class Problem:
         return placed
 
     def placed(self, u: np.ndarray, load_factor: float) -> np.ndarray:
-        """The displacement that the supports allow which comes closest to u on the free unknowns."""
-        transform = self.constraints.transform
-        weight = transform.multiply(transform).sum(axis=0)
-        return self.expand((transform.T @ u.ravel()) / weight) + self.prescribed(load_factor)
+        """The displacement that the supports allow which comes closest to u."""
+        prescribed = self.prescribed(load_factor)
+        return self.expand(self.constraints.nearest(u - prescribed)) + prescribed
 
     def internal(self, u: np.ndarray, load_factor: float) -> tuple[float, np.ndarray]:
         """Elastic energy [J] and internal force, actuators included."""

@@ -54,6 +54,7 @@ from sheetbench.scenes import (
 from sheetbench.scenes.errors import BadInput
 
 STRETCH = "largest in-plane link strain"
+UNKNOWN = "stability not known: the tangent's factors do not tell how many eigenvalues are negative"
 SNAPS = 12  # of one load path
 SNAP_STEP = 0.02  # in load factor, past the point where the path ended
 
@@ -251,6 +252,8 @@ def judged(
     elif state.negative:
         status = Status.UNSTABLE
         notes.append(f"{state.negative} directions of negative curvature")
+    elif state.negative is None:
+        notes.append(UNKNOWN)
     energies = problem.assembly.energies(state.u, state.stresses)
     doubts = validity.layers(scene, problem.assembly, state.u, state.stresses, sum(energies.values()))
     rounded = validity.digits(problem, state)

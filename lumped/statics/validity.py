@@ -30,6 +30,7 @@ from lumped.springs.together import Stresses
 from lumped.statics.equilibrium import State
 from lumped.statics.faults import Fault, place, surface
 from lumped.statics.problem import Problem
+from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import Scene, Status
 
 DOUBTFUL, LOST = 1e-2, 0.05  # displacement by rounding over the largest: that it may be, that it is
@@ -70,7 +71,7 @@ def digits(problem: Problem, state: State) -> Fault | None:
 @lru_cache(maxsize=4)
 def _noise(shape: tuple[int, ...]) -> np.ndarray:
     """The random forces: the same for all lattices of a size."""
-    return np.random.default_rng(0).standard_normal((SAMPLES, *shape))
+    return frozen(np.random.default_rng(0).standard_normal((SAMPLES, *shape)))
 
 
 def layers(scene: Scene, assembly: Assembly, u: np.ndarray, stresses: Stresses, energy: float) -> str:

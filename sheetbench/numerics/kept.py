@@ -1,5 +1,5 @@
 """What was found for the same arrays before: meshes, patterns and orders of elimination are the same from one
-solution to the next, whatever the material and the loads."""
+solution to the next, whatever the material and the loads. Arrays that several hold cannot be written to."""
 
 from __future__ import annotations
 
@@ -14,9 +14,19 @@ Given = ParamSpec("Given")
 Found = TypeVar("Found")
 
 
+def frozen(shared: Found) -> Found:
+    """What is shared, its arrays read-only: an array, or tuples of them."""
+    if isinstance(shared, np.ndarray):
+        shared.flags.writeable = False
+    elif isinstance(shared, tuple):
+        for part in shared:
+            frozen(part)
+    return shared
+
+
 def kept(last: int, most: int) -> Callable[[Callable[Given, Found]], Callable[Given, Found]]:
-    """For a function of arrays and of what can be hashed: its last results, which nobody may change, are
-    given again where all arguments are the same; of arguments beyond `most` bytes none is kept."""
+    """For a function of arrays and of what can be hashed: its last results, read-only, are given again where
+    all arguments are the same; of arguments beyond `most` bytes none is kept."""
 
     def decorate(function: Callable[Given, Found]) -> Callable[Given, Found]:
         found: OrderedDict[object, Found] = OrderedDict()
@@ -24,11 +34,11 @@ def kept(last: int, most: int) -> Callable[[Callable[Given, Found]], Callable[Gi
         @wraps(function)
         def remembering(*given: Given.args, **named: Given.kwargs) -> Found:
             if sum(one.nbytes for one in given if isinstance(one, np.ndarray)) > most:
-                return function(*given, **named)
+                return frozen(function(*given, **named))
             key = (tuple(map(_content, given)), tuple((name, _content(one)) for name, one in named.items()))
             out = found.pop(key, None)
             if out is None:
-                out = function(*given, **named)
+                out = frozen(function(*given, **named))
             found[key] = out
             while len(found) > last:
                 found.popitem(last=False)

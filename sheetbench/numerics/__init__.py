@@ -1,0 +1,1 @@
+"""Numerical algebra that both solvers use: equations, no mechanics."""

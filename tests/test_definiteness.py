@@ -1,0 +1,104 @@
+"""Nothing counts as stable, definite or admissible that is not: inertia, descent, quasi-Newton, supports."""
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from dynamic_cases import scene, system
+from scipy.sparse.linalg import splu
+
+import lumped
+from lumped.dynamics.integrator import StepFailed as TimeStepFailed
+from lumped.dynamics.integrators import INTEGRATORS
+from lumped.linear import solver
+from lumped.linear.solver import Factor
+from lumped.statics import energy_descent
+from lumped.statics.equilibrium import StepFailed
+from sheetbench.numerics.stability import nearest_to_zero, negative_real
+
+
+@pytest.fixture
+def indefinite():
+    """An unsymmetric matrix with one eigenvalue of −1; without pivoting its symmetric part has no factors."""
+    matrix = np.diag(np.arange(1.0, 61.0))
+    matrix[:2, :2] = [[0.0, 1.0], [1.0, 0.0]]
+    matrix[5, 9], matrix[9, 5] = 0.3, -0.3
+    return sp.csc_array(matrix)
+
+
+def test_an_unknown_inertia_of_the_symmetric_part_is_not_taken_for_stability(monkeypatch, indefinite):
+    monkeypatch.setattr(solver, "rslab", None)
+    assert solver._negative(sp.csc_array((indefinite + indefinite.T) / 2.0)) is None
+    assert Factor(indefinite, splu(indefinite).solve, None).negative_real() == 1
+
+
+def test_factors_that_fail_tell_no_inertia(monkeypatch, indefinite):
+    class Failing:
+        def ldlt(self, matrix):
+            raise RuntimeError("no factors")
+
+    monkeypatch.setattr(solver, "rslab", Failing())
+    assert Factor(indefinite, splu(indefinite).solve, None).negative_real() == 1
+
+
+@pytest.mark.parametrize("n", [1, 2, 3])
+def test_the_eigenvalues_of_the_smallest_matrices_are_found(n):
+    matrix = sp.csc_array(np.diag(np.arange(1.0, n + 1.0)) - 1.5 * np.eye(n))
+    found = nearest_to_zero(matrix, splu(matrix).solve)
+    assert found is not None and negative_real(found) == 1
+
+
+def test_only_real_eigenvalues_below_zero_count_as_instability():
+    assert negative_real(np.array([-1.0, 2.0, -3.0 + 2.0j, -3.0 - 2.0j])) == 1
+    # two equal ones that rounding has made a pair
+    assert negative_real(np.array([-1.0 + 1e-8j, -1.0 - 1e-8j, 5.0])) == 2
+
+
+def test_a_lattice_whose_stability_is_not_known_says_so(monkeypatch):
+    asked = scene(loads=[{"kind": "pressure", "value": 5.0}])
+    springs = lumped.calibrate(asked.sheet, asked.material, grid=(5, 5))
+    monkeypatch.setattr(Factor, "negative_real", lambda self: None)
+    assert any("stability not known" in note for note in lumped.solve(asked, springs).notes)
+
+
+def test_descent_refuses_a_direction_along_which_the_energy_rises(monkeypatch):
+    asked = scene()
+    springs = lumped.calibrate(asked.sheet, asked.material, grid=(5, 5))
+    problem = lumped.pose(asked, springs)
+    flat = np.zeros_like(problem.loads.dead)
+    factor = problem.factor(problem.tangent(flat, 0.0))
+    monkeypatch.setattr(factor, "solve", lambda b, of=factor.solve: -of(b))
+    monkeypatch.setattr(energy_descent, "_definite_factor", lambda *given: (factor, 1))
+    with pytest.raises(StepFailed, match="not positive definite"):
+        energy_descent.descend(problem, flat, 1.0)
+
+
+def test_a_projective_step_with_negative_work_is_not_solved(monkeypatch):
+    equations, state = system(scene())
+    method = INTEGRATORS["projective"](equations, 5e-3)
+    factor = method._matrix(state, 5e-3)
+    monkeypatch.setattr(factor, "solve", lambda b, of=factor.solve: -of(b))
+    method._factor, method._made_for = factor, 5e-3
+    with pytest.raises(TimeStepFailed, match="not positive definite"):
+        method.advance(state, 5e-3)
+
+
+@pytest.mark.parametrize("layers", [2, 3, 4])
+def test_an_admissible_displacement_is_its_own_nearest(layers):
+    supports = [{"edge": "x0", "kind": "hinged"}, {"edge": "x1", "kind": "clamped", "tilt": 0.2}]
+    asked = scene(supports=[*supports, {"edge": "y1", "kind": "held", "components": ["y"]}])
+    problem = lumped.pose(asked, lumped.calibrate(asked.sheet, asked.material, grid=(4, 3, layers)))
+    unknowns = np.random.default_rng(layers).standard_normal(problem.system.unknowns)
+    admissible = problem.expand(unknowns) + problem.prescribed(1.0)
+    np.testing.assert_allclose(problem.placed(admissible, 1.0), admissible, rtol=0, atol=1e-14)
+    # of any other the miss is at right angles to all that is admissible
+    other = np.random.default_rng(9).standard_normal(admissible.shape)
+    miss = problem.reduce(other - problem.placed(other, 1.0))
+    np.testing.assert_allclose(miss, 0.0, atol=1e-13)
+
+
+def test_a_solve_that_starts_at_its_own_answer_stays_there():
+    asked = scene(supports=[{"edge": "x0", "kind": "hinged"}, {"edge": "y0", "kind": "hinged"}])
+    springs = lumped.calibrate(asked.sheet, asked.material, grid=(5, 5, 3))
+    found = lumped.solve(asked, springs)
+    again = lumped.solve(asked, springs, near=found.mesh.point_data["displacement"])
+    assert again.history[0].residual < 1e-9

@@ -3,7 +3,8 @@
     ∫ N·δε + M·δκ + Q·δγ dA = δ(loads),   N = h C ε,   M = h³/12 C κ,   Q = 5/6 h G γ
 
 with plane-stress C (see `materials`) and the strains of `element`. Bending and membrane do not know of
-each other: no stiffening by stretching, no shortening by bending. Loads act on the flat sheet: pressure
+each other: no stiffening by stretching, no shortening by bending; where that stops meaning anything says
+`fem_reference.plate.validity`. Loads act on the flat sheet: pressure
 along +z, an edge moment m as −m on the tilt towards the outward normal. Actuators are linearised about the
 flat sheet (`rods`), and their forces' moments taken there. So are bent, tilted and moved edges (the first
 orders of `sheetbench.scenes.kinematics`): the shortening of a bent edge's mid-line is of second order.
@@ -30,6 +31,7 @@ from skfem import Basis, ElementQuad2, MeshQuad
 from fem_reference.plate.balance import Solved, balance
 from fem_reference.plate.element import TILT_X, PlateElements, W
 from fem_reference.plate.rods import PlateRods
+from fem_reference.plate.validity import judge
 from fem_reference.solving.linear import SingularMatrix, solve_free
 from fem_reference.solving.sparsity import Pattern
 from fem_reference.solving.threads import one_blas_thread
@@ -51,7 +53,6 @@ from sheetbench.scenes import (
     Scene,
     Solution,
     Status,
-    outside_model,
 )
 from sheetbench.scenes.rigid_motions import require_static
 
@@ -150,9 +151,9 @@ def _solved(
             status, notes = Status.SINGULAR, (str(error),)
     done = perf_counter()
     solved = Solved(stiffness, force, u, free)
-    outside = outside_model(scene, stretch(plate, u[: fields.size]))
-    if outside and status is Status.CONVERGED:
-        status, notes = Status.STRAIN_OUTSIDE_MODEL, (outside,)
+    if status is Status.CONVERGED:
+        of_plate = section or section_of(scene.material, scene.sheet.thickness)
+        status, notes = judge(scene, plate.elements, of_plate, u, stiffness, free)
 
     fields, nodal = u[: fields.size].reshape(-1, 5), solved.unbalanced[: fields.size].reshape(-1, 5)
     couple = np.column_stack([-nodal[:, 4], nodal[:, 3], np.zeros(len(nodal))])  # e_z × what holds the tilts
@@ -221,14 +222,6 @@ def energies(scene: Scene, plate: Plate, u: np.ndarray, section: Section | None 
         strain = np.einsum("mqic,mc->mqi", operator, nodal)
         out[part] = 0.5 * float(np.einsum("mq,mqi,ij,mqj", areas, strain, sections[part], strain))
     return out
-
-
-def stretch(plate: Plate, u: np.ndarray) -> float:
-    """The largest strain along x or y, the mean over an element, of the unknowns u (5 n,)."""
-    areas = plate.elements.areas
-    strain = np.einsum("mqic,mc->mqi", plate.elements.membrane[:, :, :2], u[plate.elements.unknowns])
-    mean = np.einsum("mq,mqi->mi", areas, strain) / areas.sum(axis=1, keepdims=True)
-    return float(np.abs(mean).max())
 
 
 def constrain(

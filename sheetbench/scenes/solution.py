@@ -52,7 +52,7 @@ _ADVICE = {
     Status.DIVERGED: f"no equilibrium found: {_FINER}; the last converged load is kept",
     Status.NON_FINITE: "a number overflowed: check the magnitudes of loads and stiffnesses",
     Status.INVERTED: f"a cell or an element turned inside out: {_FINER}",
-    Status.STRAIN_OUTSIDE_MODEL: "strains beyond what a linear spring or material means: not physical",
+    Status.STRAIN_OUTSIDE_MODEL: "strains or turns beyond what the model means: not physical",
     Status.REFUSED: "the model does not support what the scene asks",
     Status.FAILED: "a program of your own ended without an answer",
 }

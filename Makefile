@@ -25,14 +25,14 @@ help:
 	@echo "make mutants   how many of SAMPLE=100 faults put into the solvers the tests notice: docs/quality.md (an hour; goes on where it stopped)"
 	@echo "make catalogue the table of the catalogue's answers, tests/catalogue.json, for a change that is meant"
 	@echo "make verify    the references against published values, every row (about a minute)"
-	@echo "make locking   the locking sweeps and their picture (files in $(OUT)/)"
+	@echo "make locking   the locking sweeps and their picture (files in $(OUT)/locking/)"
 	@echo "make coverage  how often the references' error bars hold, on forty drawn scenes (20 minutes of one processor, resumed; files in $(OUT)/coverage/): a row of docs/theory.md"
 	@echo "make central   the table of the calibration central, trained anew (three minutes)"
 	@echo "make simulators  other simulators with what we export for them (two minutes; files in $(OUT)/simulators/)"
 	@echo "make transfer  every calibration on every scene of the transfer study: docs/transfer.md (ten minutes)"
 	@echo "make coarse    coarse grids, even and graded by the scene's layers, on the transfer study's scenes (files in $(OUT)/coarse*/)"
 	@echo "make tradeoff  error against time on the seed's test 1, with the picture (files in $(OUT)/)"
-	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/; up to half an hour)"
+	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/advisor/; up to half an hour)"
 	@echo "make reproduce the seed's study again: docs/reproduction.md and its pictures (a minute and a half)"
 	@echo "make crosscheck every model and other people's programs on eight scenes: docs/crosscheck.md (ten minutes)"
 	@echo "make peers     ours and other people's codes in one run: docs/peers.md and its picture (six minutes)"
@@ -97,7 +97,7 @@ verify: install
 	@$(BIN)/sheetbench verify
 
 locking: install
-	@$(BIN)/sheetbench verify --locking --out $(OUT)
+	@$(BIN)/sheetbench verify --locking --out $(OUT)/locking
 
 coverage: install
 	@$(BIN)/sheetbench verify --coverage --out $(OUT)/coverage; status=$$?; \
@@ -151,7 +151,7 @@ crosscheck: install
 	@cp $(OUT)/crosscheck/crosscheck.md docs/crosscheck.md
 
 advisor-study: install
-	@$(BIN)/python -m comparisons.cli.advisor_study --out $(OUT)
+	@$(BIN)/python -m comparisons.cli.advisor_study --out $(OUT)/advisor
 
 stability: install
 	@$(BIN)/sheetbench stability --out $(OUT)/stability

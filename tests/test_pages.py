@@ -15,14 +15,17 @@ from browser import browser, colours, opened, pixels  # noqa: F401
 from commands import run
 
 from comparisons.comparison.comparison import compare
+from comparisons.pages import charts
 from comparisons.pages.asked import asked
-from comparisons.pages.findings import findings
+from comparisons.pages.findings import _percent, findings, notes
 from comparisons.pages.page import page
 from comparisons.pages.studies import Study, read
 from comparisons.pages.tables import tables
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table, unit
 from comparisons.runs.folder import Folder
+from comparisons.tradeoff.motion import DynamicTradeoff
+from comparisons.tradeoff.motion_row import MotionRow
 from sheetbench.scenes import load
 
 EVIL = "<script>alert(1)</script>"
@@ -189,13 +192,78 @@ def test_a_study_begins_with_what_it_found(tmp_path: Path, verb: str) -> None:
     document, said = FOUND[verb]
     (tmp_path / "found.json").write_text(json.dumps(document))
     study = Study(tmp_path, "", verb, ("found.json",), {"words": {"notes": ["what columns mean"]}})
-    assert findings(study) == [*said, "what columns mean"] and not study.troubles
+    assert findings(study) == said and notes(study) == ["what columns mean"] and not study.troubles
 
 
 def test_several_grids_are_not_the_sides_of_one(tmp_path: Path) -> None:
     settings = {"grids": [5, 9], "grid": [5, 9]}
     study = Study(tmp_path, "", "transfer", (), {"settings": settings})
     assert asked(study) == [("settings", "grids 5, 9, grid 5 × 9")]
+
+
+def _motion_tradeoff(folder: Path) -> Path:
+    rows = [
+        MotionRow("midpoint", 0.01, "converged", "", 10, 0.2, 0.03),
+        MotionRow("midpoint", 0.001, "converged", "", 100, 1.5, 0.0003),
+        MotionRow("verlet", 0.01, "diverged", "not finite"),
+    ]
+    found = DynamicTradeoff(load("two-edges-settling"), 0.1, 0.5, tuple(rows), rows[1], 1e-5)
+    Folder(folder, "tradeoff", ["sheetbench", "tradeoff"]).report(found.report())
+    return folder
+
+
+def test_a_trade_of_motion_has_its_picture_its_plot_and_its_findings(tmp_path: Path) -> None:
+    (study,) = read(_motion_tradeoff(tmp_path)).studies
+    assert {"motion.png", "motion.pdf"} <= set(study.files)
+    assert findings(study) == [
+        "Cheapest within 5 %: midpoint with steps of 10 ms, 3 % off in 200 ms a simulated second.",
+        "Cheapest within 1 %: midpoint with steps of 1 ms, 0.03 % off in 1.5 s a simulated second.",
+    ]
+    (plot,) = charts.charts(study)
+    assert [series.name for series in plot.series] == ["midpoint"] and "simulated second" in plot.x.label
+    assert not study.troubles and not study.faults
+
+
+def test_a_document_that_we_wrote_and_cannot_show_is_our_fault(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _motion_tradeoff(tmp_path)
+    monkeypatch.setitem(charts.CHARTS, "tradeoff", lambda document: document["of no such key"])
+    assert run("report", str(tmp_path)) == 1
+    said = capsys.readouterr().err
+    assert "cannot be shown: KeyError" in said and "Traceback" in said and "fault of the program" in said
+    assert (tmp_path / "report.html").is_file()
+    document = json.loads((tmp_path / "motion.json").read_text())
+    (tmp_path / "motion.json").write_text(json.dumps({**document, "rows": 7}))  # somebody's hand
+    assert run("report", str(tmp_path)) == 0
+    assert "cannot be shown" in capsys.readouterr().err
+
+
+def test_many_studies_are_folded_dated_and_placed(tmp_path: Path) -> None:
+    for n in range(5):
+        _motion_tradeoff(tmp_path / f"run-{n}")
+        (tmp_path / f"run-{n}" / "mine.csv").write_text("a,b\n1,2\n")
+    (tmp_path / "loose").mkdir()
+    (tmp_path / "loose" / "cmp.json").write_text("{}")
+    found = read(tmp_path)
+    assert len(found.studies) == 5
+    text = page(found, "all")
+    assert text.count('<details class="body">') == 5 and "cmp.json" not in text and "run-0/mine.csv" in text
+    today = found.studies[0].date
+    assert re.fullmatch(r"\d{4}-\d\d-\d\d \d\d:\d\d", today)
+    assert f'<span class="place">run-3 {today}</span>' in text
+
+
+@pytest.mark.parametrize(("share", "said"), [(1.0, "100 %"), (0.0123, "1.2 %"), (12.3, "1230 %")])
+def test_percent_has_no_exponent(share: float, said: str) -> None:
+    assert _percent(share) == said
+
+
+def test_long_tables_are_folded(tmp_path: Path) -> None:
+    columns = (Column("mode", form="d"),)
+    made = [Table(f"of {n}", columns, tuple((i,) for i in range(n)), f"of{n}") for n in (3, 40)]
+    Folder(tmp_path, "check", ["sheetbench"]).report(Report("made", "made", {}, tables=tuple(made)))
+    assert [table.aside for table in tables(read(tmp_path).studies[0])] == [False, True]
 
 
 def test_damage_costs_a_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -215,21 +283,25 @@ def test_damage_costs_a_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[s
     outside = {"files": ["../broken.csv", "gone.csv"], "command": 3, "scene": {"name": 1}}
     (tmp_path / "odd").mkdir()
     (tmp_path / "odd/manifest.json").write_text(json.dumps({"runs": {"compare": outside, "x": 7}}))
+    damaged = sorted(path.name for path in tmp_path.iterdir() if path.is_file())
+    (tmp_path / "manifest.json").write_text(json.dumps({"runs": {"check": {"files": damaged}}}))
     assert run("report", str(tmp_path), "--json") == 0
     said = capsys.readouterr()
     troubles = json.loads(said.out)["troubles"]
-    broken = ("vtu", "json", "csv", "png", "pvd")
+    broken = ("vtu", "json", "csv", "png", "pvd")  # the first document of a run is its own
     for name in (*(f"broken.{kind}" for kind in broken), "broken2.svg", "deep/manifest.json"):
         assert any(one.startswith(name) for one in troubles), name
     assert any("lies outside" in one for one in troubles) and any("not there" in one for one in troubles)
     assert "Traceback" not in said.err
     text = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert re.search(r'data-value="0.001">1<', text) and "x [mm]" in text
-    assert "data:image/svg+xml;base64" in text and "k &lt;b&gt;" in text and ">7</td>" in text
+    assert "data:image/svg+xml;base64" in text
 
 
 def test_a_folder_that_is_none_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("report", str(tmp_path / "none")) == 2
     assert "there is no such folder" in capsys.readouterr().err
-    assert run("report", str(tmp_path)) == 0
-    assert "0 studies" in capsys.readouterr().out
+    (tmp_path / "mine.csv").write_text("a,b\n")
+    assert run("report", str(tmp_path)) == 2
+    assert "holds no study" in capsys.readouterr().err
+    assert not (tmp_path / "report.html").exists()

@@ -170,10 +170,23 @@ def test_springs_of_another_sheet_are_refused_beside_a_scene(tmp_path: Path) -> 
 
 
 def test_other_options_of_a_verb_are_refused_where_they_leave_other_files(tmp_path: Path) -> None:
-    Folder(tmp_path, "compare", ["c"], apart={"--reference": "shell"}).report(report("shell.vtu"))
+    Folder(tmp_path, "compare", ["c"], about=about(), apart={"--reference": "shell"}).report(
+        report("shell.vtu")
+    )
     with pytest.raises(BadInput, match="--reference is shell there, plate here"):
-        Folder(tmp_path, "compare", ["c"], apart={"--reference": "plate"})
-    Folder(tmp_path, "modes", ["m"], apart={"--reference": "plate"})
+        Folder(tmp_path, "compare", ["c"], about=about(), apart={"--reference": "plate"})
+    Folder(tmp_path, "modes", ["m"], about=about(), apart={"--reference": "plate"})
+
+
+def test_a_verb_does_not_write_among_files_of_another_that_is_about_something_else(tmp_path: Path) -> None:
+    Folder(tmp_path, "stability", ["s"]).report(report("map.csv"))
+    before = files(tmp_path)
+    for verb, of in (("compare", about()), ("verify", {})):
+        with pytest.raises(BadInput, match=r"holds files of another 'stability' \(about something else\)"):
+            Folder(tmp_path, verb, ["c"], about=of)
+    assert files(tmp_path) == before
+    Folder(tmp_path, "compare", ["c"], about=about(), overwrite=True).report(report("a.txt"))
+    assert files(tmp_path) == {"a.txt", "answer.json", MANIFEST}
 
 
 def test_overwrite_removes_what_the_manifest_lists_and_nothing_else(tmp_path: Path) -> None:

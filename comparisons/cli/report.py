@@ -25,6 +25,8 @@ def command(
 ) -> None:
     """Write one HTML file of the studies in a folder and those below it, to read in any browser.
 
+    A study is what a verb wrote with --out, as its manifest says.
+
     Sheets to turn, tables to sort, plots, findings and manifests; it needs no network.
     """
     from comparisons.cli import console
@@ -49,3 +51,5 @@ def command(
         console.note(f"{many} {'study' if many == 1 else 'studies'} in {target}, {memory_of(size)}")
     for said in troubles:
         console.warn(said)
+    for fault in (fault for study in found.studies for fault in study.faults):
+        raise fault

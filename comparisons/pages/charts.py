@@ -9,6 +9,7 @@ from typing import Any
 
 from comparisons.pages.plots import Axis, Plot, Series
 from comparisons.pages.studies import Study
+from comparisons.report.table import number
 
 Document = Mapping[str, Any]
 
@@ -18,7 +19,7 @@ def charts(study: Study) -> list[Plot]:
     draw = CHARTS.get(study.verb)
     if draw is None or not study.document:
         return []
-    found = study.attempt(study.words.get("document") or "document", lambda: draw(study.document))
+    found = study.of_document(draw)
     return [plot for plot in found or [] if plot.shown]
 
 
@@ -44,6 +45,8 @@ def _thousandths(values: Sequence[float | None]) -> list[float]:
 
 
 def _tradeoff(document: Document) -> list[Plot]:
+    if "lowest_period" in document:
+        return _motion_tradeoff(document)
     rows = [row for row in document["rows"] if row.get("error") and row.get("solve_seconds")]
     series = []
     for title, some in groupby(sorted(rows, key=_series), key=_series):
@@ -53,6 +56,23 @@ def _tradeoff(document: Document) -> list[Plot]:
         series.append(Series(title, times, errors, labels=[row.get("label", title) for row in of]))
     said = "Below and to the left is better: a smaller error in less time."
     return [Plot("Error against time", Axis("solve [ms]", True), Axis("error [%]", True), series, said)]
+
+
+def _motion_tradeoff(document: Document) -> list[Plot]:
+    rows = [row for row in document["rows"] if row.get("error") and row.get("seconds_per_second")]
+    series = []
+    for integrator, some in groupby(sorted(rows, key=_integrator), key=_integrator):
+        of = sorted(some, key=lambda row: row["seconds_per_second"])
+        costs = [row["seconds_per_second"] for row in of]
+        labels = [f"{integrator}, step {number(1e3 * row['step'], '.3g')} ms" for row in of]
+        series.append(Series(integrator, costs, [100 * row["error"] for row in of], labels=labels))
+    said = "Below and to the left is better: a smaller error in less time."
+    across = Axis("solve a simulated second [s]", True)
+    return [Plot("Error of the motion against time", across, Axis("error [%]", True), series, said)]
+
+
+def _integrator(row: Mapping[str, Any]) -> str:
+    return str(row["integrator"])
 
 
 def _series(row: Mapping[str, Any]) -> str:

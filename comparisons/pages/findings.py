@@ -3,7 +3,9 @@ itself."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
+from math import pi
 from statistics import median
 from typing import Any
 
@@ -12,17 +14,22 @@ from comparisons.pages.studies import Study
 from comparisons.report.table import number
 
 Document = Mapping[str, Any]
+TOLERANCES = (0.05, 0.01, 0.001)
 
 
 def findings(study: Study) -> list[str]:
     """Sentences on a study's answer."""
     say = SAID.get(study.verb)
-    own = study.attempt("document", lambda: say(study.document)) if say and study.document else None
-    notes = study.words.get("notes") or study.document.get("notes") or ()
+    own = study.of_document(say) if say else None
     told = study.document.get("findings")
-    rows = told if isinstance(told, list) else []
+    rows = told if isinstance(told, list) and study.verb != "reproduce" else []
     listed = [str(one["finding"]) for one in rows if isinstance(one, dict) and one.get("finding")]
-    return [*(own or []), *listed, *_joined(map(str, notes))]
+    return [*(own or []), *listed]
+
+
+def notes(study: Study) -> list[str]:
+    """What the run says of its own tables."""
+    return _joined(map(str, study.words.get("notes") or study.document.get("notes") or ()))
 
 
 def complaints(study: Study) -> list[str]:
@@ -47,7 +54,9 @@ def _milliseconds(seconds: float) -> str:
 
 
 def _percent(share: float) -> str:
-    return f"{number(100 * share, '.2g')} %"
+    """Two digits at least, and never an exponent."""
+    percent = 100 * share
+    return f"{number(percent, '.0f' if abs(percent) >= 99.5 else '.2g')} %"
 
 
 def _compare(document: Document) -> list[str]:
@@ -68,7 +77,17 @@ def _compare(document: Document) -> list[str]:
 
 
 def _modes(document: Document) -> list[str]:
-    return [
+    pairs = [pair for pair in document.get("pairs", ()) if pair["relative"] is not None]
+    worst = max(pairs, key=lambda pair: abs(pair["relative"]), default=None)
+    said = (
+        []
+        if worst is None
+        else [
+            f"Frequencies of {len(pairs)} pairs of modes of one shape differ by "
+            f"{_percent(abs(worst['relative']))} at most, in mode {worst['number']}."
+        ]
+    )
+    return said + [
         f"{one['label']}: the lowest frequency is {number(one['frequencies_hz'][0], '.4g')} Hz."
         for one in document["solutions"]
         if one["frequencies_hz"]
@@ -99,13 +118,58 @@ def _calibrate(document: Document) -> list[str]:
 
 
 def _tradeoff(document: Document) -> list[str]:
-    front = [document["rows"][i] for i in document["front"]]
-    return [
-        f"{row['label']}: {_percent(row['error'])} off in {_milliseconds(row['solve_seconds']['median'])}; "
-        "nothing tried is both faster and nearer."
-        for row in front
-        if row.get("error") is not None
-    ]
+    """The cheapest row within every tolerance that one meets, then the nearest of all."""
+    moving = "lowest_period" in document
+    rows = [row for row in document["rows"] if row.get("error") is not None]
+    if not rows:
+        return [f"None of {len(document['rows'])} runs has an error to show."]
+
+    def seconds(row: Mapping[str, Any]) -> float:
+        return float(row["seconds_per_second"] if moving else row["solve_seconds"]["median"])
+
+    def named(row: Mapping[str, Any]) -> str:
+        of = f"{row['integrator']} with steps of {_milliseconds(row['step'])}" if moving else row["label"]
+        cost = f"{_milliseconds(seconds(row))}{' a simulated second' if moving else ''}"
+        return f"{of}, {_percent(row['error'])} off in {cost}"
+
+    said, least = [], None
+    for tolerance in TOLERANCES:
+        within = [row for row in rows if row["error"] <= tolerance]
+        cheapest = min(within, key=seconds, default=None)
+        if cheapest is not None and cheapest is not least:
+            said.append(f"Cheapest within {_percent(tolerance)}: {named(cheapest)}.")
+            least = cheapest
+    nearest = min(rows, key=lambda row: float(row["error"]))
+    return said if nearest is least else [*said, f"Nearest to the reference: {named(nearest)}."]
+
+
+def _linearise(document: Document) -> list[str]:
+    poles = [complex(re, im) for re, im in document["poles"]]
+    said = [f"{len(poles)} poles of {document['unknowns']} unknowns, {document['label']}."]
+    swinging = [pole for pole in poles if pole.imag > 0.0]
+    if swinging:
+        lowest = min(swinging, key=abs)
+        said.insert(
+            0,
+            f"The lowest mode swings at {number(abs(lowest) / (2 * pi), '.4g')} Hz with "
+            f"{_percent(-lowest.real / abs(lowest))} of critical damping.",
+        )
+    return said
+
+
+def _identify(document: Document) -> list[str]:
+    said = []
+    for name, found in document["unknowns"].items():
+        interval = [number(one, ".4g") for one in found["interval"] or () if one is not None]
+        within = f", 95 % within {' to '.join(interval)}" if len(interval) == 2 else ""
+        said.append(f"{name.replace('_', ' ')} = {number(found['value'], '.4g')}{within} (SI units).")
+    return said
+
+
+def _stability(document: Document) -> list[str]:
+    counted = Counter(str(row["status"]) for row in document["rows"])
+    parts = ", ".join(f"{count} {status}" for status, count in counted.most_common())
+    return [f"{len(document['rows'])} cells: {parts}."]
 
 
 def _advise(document: Document) -> list[str]:
@@ -175,6 +239,9 @@ SAID: dict[str, Callable[[Document], list[str]]] = {
     "simulate": _simulate,
     "calibrate": _calibrate,
     "tradeoff": _tradeoff,
+    "linearise": _linearise,
+    "identify": _identify,
+    "stability": _stability,
     "advise": _advise,
     "verify": _verify,
     "reproduce": _reproduce,

@@ -19,7 +19,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from comparisons.browser import viewer
 from comparisons.pages.asked import asked, command, question
 from comparisons.pages.charts import charts
-from comparisons.pages.findings import complaints, findings
+from comparisons.pages.findings import complaints, findings, notes
 from comparisons.pages.pictures import pictures
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import Found, Study
@@ -30,6 +30,7 @@ from comparisons.report.files import plain
 from comparisons.runs.manifest import made_with
 
 PACKAGE = "comparisons.pages"
+MANY, OTHERS = 4, 30  # studies from which on each is folded to its findings; other files that are named
 
 
 def page(found: Found, title: str) -> str:
@@ -45,7 +46,9 @@ def page(found: Found, title: str) -> str:
     return environment.get_template("page.html").render(
         title=title,
         studies=shown,
-        others=[(name, memory_of(size)) for name, size in found.others],
+        others=[(name, memory_of(size)) for name, size in found.others[:OTHERS]],
+        more=max(len(found.others) - OTHERS, 0),
+        brief=len(shown) > MANY,
         troubles=list(dict.fromkeys(troubles)),
         made_with=made_with(),
         policy=policy(script, style),
@@ -95,7 +98,9 @@ def _study(study: Study, number: int) -> dict[str, Any]:
         "question": question(study),
         "command": command(study),
         "asked": asked(study),
+        "date": study.date,
         "findings": findings(study),
+        "notes": notes(study),
         "complaints": complaints(study),
         "unfinished": bool(study.run) and not study.run.get("finished", True),
         "met": words.get("met", True),

@@ -1,7 +1,8 @@
 """The studies that a folder holds: what every run was asked, what it said, and which files are its own.
 
-A manifest tells of its folder's runs; files that none of them owns are a study of their own where a page can
-show them, else they are named. A file that cannot be read costs a sentence and nothing else.
+A manifest tells of its folder's runs; other files beside them are named. A file that cannot be read costs a
+sentence and nothing else. A document that is as its run wrote it and cannot be shown is a fault of the
+program.
 """
 
 from __future__ import annotations
@@ -13,23 +14,23 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from comparisons.report.files import digest
 from comparisons.runs.folder import MANIFEST
 from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput
 
 LARGEST = 64_000_000  # bytes of a file that a page reads
-SHOWN = (".csv", ".json", ".png", ".svg", ".vtu", ".pvd")  # what a page shows of files without a manifest
 OURS = ("report.html", MANIFEST)
 Say = Callable[[str], None]
 
 
 @dataclass
 class Study:
-    """A run's answer, or files that stand together.
+    """A run's answer.
 
-    folder: where its files are; place: that as the reader knows it; verb: of the run, "" for loose files;
-    run: its entry in the manifest; record: the manifest. troubles: a sentence for everything that cannot be
-    read.
+    folder: where its files are; place: that as the reader knows it; verb: of the run; run: its entry in the
+    manifest; record: the manifest. troubles: a sentence for everything that cannot be read; faults: of the
+    program.
     """
 
     folder: Path
@@ -39,6 +40,7 @@ class Study:
     run: Mapping[str, Any] = field(default_factory=dict)
     record: Mapping[str, Any] = field(default_factory=dict)
     troubles: list[str] = field(default_factory=list)
+    faults: list[Exception] = field(default_factory=list)
 
     @cached_property
     def words(self) -> Mapping[str, Any]:
@@ -48,7 +50,7 @@ class Study:
 
     @cached_property
     def document(self) -> Mapping[str, Any]:
-        """The run's JSON document; of loose files the only one. Empty where there is none."""
+        """The run's JSON document. Empty where there is none."""
         documents = [name for name in self.files if name.endswith(".json") and name not in OURS]
         named = self.words.get("document")
         found = self.json(named if named in documents else documents[0]) if documents else None
@@ -72,8 +74,12 @@ class Study:
         """What the study is about."""
         asked = self.run.get("scene")
         named = self.words.get("title") or (asked.get("name") if isinstance(asked, dict) else None)
-        alone = self.files[0] if not self.verb and len(self.files) == 1 else ""
-        return str(named or alone or self.place or self.folder.resolve().name)
+        return str(named or self.place or self.folder.resolve().name)
+
+    @property
+    def date(self) -> str:
+        """The day and minute of the run, as "2026-11-21 04:37"."""
+        return str(self.run.get("date") or "")[:16].replace("T", " ")
 
     def path(self, name: str) -> Path | None:
         """A file of the study; None, with a sentence said, where it is missing, outside or too large."""
@@ -112,6 +118,25 @@ class Study:
             )
         return None
 
+    def of_document(self, made: Callable[[Mapping[str, Any]], Any]) -> Any:
+        """What is made of the document, None where nothing can be. An exception is the program's fault where
+        the document is as its run wrote it."""
+
+        def attempt() -> Any:
+            try:
+                return made(self.document)
+            except Exception as error:
+                if self._unchanged():
+                    self.faults.append(error)
+                raise
+
+        return self.attempt(self.words.get("document") or "document", attempt) if self.document else None
+
+    def _unchanged(self) -> bool:
+        name, kept = self.words.get("document"), self.words.get("digest")
+        text = self.read(name, lambda path: path.read_text(encoding="utf-8")) if name and kept else None
+        return text is not None and digest(text) == kept
+
     def json(self, name: str) -> Any:
         """A JSON document."""
         return self.read(name, lambda path: json.loads(path.read_text(encoding="utf-8")))
@@ -135,13 +160,14 @@ class Found:
 
 
 def read(root: Path) -> Found:
-    """Every study in a folder and those below it. Raises BadInput where there is no such folder."""
+    """Every study in a folder and those below it. Raises BadInput where there is no such folder, or none in
+    it."""
     if not root.is_dir():
         raise BadInput(f"'{root}': there is no such folder")
     studies: list[Study] = []
     others: list[tuple[str, int]] = []
     troubles: list[str] = []
-    for folder in _folders(root):
+    for folder in _folders(root, troubles):
         place = folder.relative_to(root).as_posix().removeprefix(".")
         record = _manifest(folder, place, troubles)
         claimed: set[str] = set()
@@ -149,28 +175,29 @@ def read(root: Path) -> Found:
             names = tuple(name for name in run.get("files", ()) if isinstance(name, str))
             claimed.update(names)
             studies.append(Study(folder, place, verb, names, run, record))
-        loose = [path.name for path in sorted(folder.iterdir()) if _counts(path) and path.name not in claimed]
-        if not record and any(name.endswith(SHOWN) for name in loose):
-            shown = [name for name in loose if name.endswith(SHOWN)]
-            documents = [name for name in shown if name.endswith(".json")]
-            rest = tuple(name for name in shown if name not in documents)
-            for names in filter(None, (rest, *((name,) for name in documents))):
-                studies.append(Study(folder, place, "", names))
-            loose = [name for name in loose if name not in shown]
-        others += [(f"{place}/{name}".lstrip("/"), (folder / name).stat().st_size) for name in loose]
+        if record:
+            beside = [path for path in sorted(folder.iterdir()) if _counts(path) and path.name not in claimed]
+            others += [(f"{place}/{path.name}".lstrip("/"), path.stat().st_size) for path in beside]
+    if not studies:
+        raise BadInput(" ".join([f"'{root}': holds no study: no verb wrote here with --out.", *troubles[:1]]))
     return Found(studies, others, troubles)
 
 
-def _folders(root: Path) -> Iterator[Path]:
+def _folders(root: Path, troubles: list[str]) -> Iterator[Path]:
     """The folder and all below it but those that a run keeps for itself, hidden ones and links."""
+    try:
+        inside = sorted(root.iterdir())
+    except OSError as error:
+        troubles.append(f"{root}: cannot be read: {error.strerror}")
+        return
     yield root
     series = {path.stem for path in root.glob("*.pvd")}
     kept = {name.rstrip("/") for run in _runs(_manifest(root, "", [])).values() for name in _names(run)}
-    for path in sorted(root.iterdir()):
+    for path in inside:
         if path.is_dir() and not path.is_symlink() and not path.name.startswith("."):
             if path.name in series | kept or (path / "run.json").exists():
                 continue
-            yield from _folders(path)
+            yield from _folders(path, troubles)
 
 
 def _names(run: Mapping[str, Any]) -> list[str]:

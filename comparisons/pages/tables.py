@@ -1,8 +1,7 @@
 """Tables of a study for a page: values with all their digits to sort by, shown as everywhere else.
 
 The manifest has the columns with their units and formats, the CSV file the values in SI units. A CSV file
-that no manifest tells of is shown as it is, its columns of numbers to five digits; so are the records of a
-JSON document that came alone.
+of the run that the manifest does not describe is shown as it is, its columns of numbers to five digits.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ from typing import Any
 from comparisons.pages.studies import Study
 from comparisons.report.table import Column, Table, Unit, number, unit
 
-MOST = 500  # rows of a table on a page
+MOST, LONG = 500, 15  # rows of a table on a page, and from which on it is folded
 WORD = 24  # letters; longer texts are broken over lines
 
 
@@ -68,22 +67,6 @@ def tables(study: Study) -> list[Sheet]:
     for name in study.ending(".csv"):
         if name not in told and (read := study.read(name, _rows)):
             found.append(_loose(name, read, aside=bool(told)))
-    if not study.words and not study.ending(".csv"):
-        found += study.attempt("document", lambda: _of_document(study.document)) or []
-    return found
-
-
-def _of_document(document: Mapping[str, Any]) -> list[Sheet]:
-    """The lists of records in a document that no tables came with: a column for every key of one value."""
-    found = []
-    for key, records in document.items():
-        records = records if isinstance(records, list) and key != "findings" else []
-        if not all(isinstance(record, dict) for record in records):
-            continue
-        names = dict.fromkeys(k for r in records for k, v in r.items() if isinstance(v, str | int | float))
-        if names:
-            texts = [["" if r.get(k) is None else str(r[k]) for k in names] for r in records]
-            found.append(_loose(key.replace("_", " "), [list(names), *texts], aside=False))
     return found
 
 
@@ -121,7 +104,8 @@ def _told(words: Mapping[str, Any], rows: Sequence[Sequence[Any]]) -> Sheet:
     ]
     kinds = ["number" if c.numeric else "prose" if c.prose else "word" for c in columns]
     heads = [Head(c.header(shown=True), kind) for c, kind in zip(columns, kinds, strict=True)]
-    return Sheet(words.get("caption", ""), words.get("text", ""), heads, cells, _left_out(rows))
+    caption, text = words.get("caption", ""), words.get("text", "")
+    return Sheet(caption, text, heads, cells, _left_out(rows), aside=len(rows) > LONG)
 
 
 def _cell(column: Column, of_units: bool, value: Any) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 import os
@@ -35,6 +36,11 @@ def folder(path: Path | str, option: str = "--out") -> Path:
     if not os.access(made, os.W_OK | os.X_OK):
         raise BadInput(f"{option} = '{path}': cannot be written to; make it writable, or choose another")
     return made
+
+
+def digest(text: str) -> str:
+    """Sixteen digits that follow from a text."""
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def plain(value: Any) -> Any:

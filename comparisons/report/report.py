@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.report.escape import html, markdown, terminal
+from comparisons.report.files import digest, to_json, write_text
 from comparisons.report.files import folder as made
-from comparisons.report.files import to_json, write_text
 from comparisons.report.look import FORMATS, PLAIN, Look, parse_figure
 from comparisons.report.table import Table
 from sheetbench.scenes import Scene
@@ -147,6 +147,7 @@ class Report:
             "subtitle": self.subtitle,
             "lead": self.lead,
             "document": f"{self.name}.json",
+            "digest": digest(to_json(self.document)),
             "tables": [table.words() for table in self.tables],
             "notes": list(self.notes),
             "complaints": list(self.complaints),

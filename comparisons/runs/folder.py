@@ -1,8 +1,9 @@
 """The folder that a verb's files go to, and its manifest: what is there, of which scene, made with what.
 
-A folder holds answers about one scene. Files of another scene, or of the same verb asked in another way that
-leaves other files, would stand side by side with new ones as if they belonged together: such a folder is
-refused, and with `overwrite` cleared first, of the files that its manifest lists and of nothing else.
+A folder holds answers about one scene. Files of another scene, of another verb that is about no scene or
+sheet in common, or of the same verb asked in another way that leaves other files, would stand side by side
+with new ones as if they belonged together: such a folder is refused, and with `overwrite` cleared first, of
+the files that its manifest lists and of nothing else.
 
 The manifest says what the latest run was made with, and under "runs", for every verb, what it was asked and
 which files are its own. It is written before the first file is whole, so that what an interrupted run leaves
@@ -133,6 +134,8 @@ class Folder:
             for of in (run, self._about)
         )
         shared = [key for key in ABOUT if key in there and key in here]
+        if not shared and verb != self._verb:
+            return "about something else"
         said = _differing({key: there[key] for key in shared}, {key: here[key] for key in shared})
         if verb == self._verb:
             said += _differing(run.get("asked", {}), self._apart)

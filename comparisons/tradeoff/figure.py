@@ -11,10 +11,10 @@ import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from comparisons.report.look import PLAIN, Look
 from comparisons.report.style import GREY, SERIES, STYLE, plain, save
+from comparisons.tradeoff.axes import logarithmic
 from comparisons.tradeoff.pareto import grouped
 from comparisons.tradeoff.row import TradeoffRow
 
@@ -60,7 +60,7 @@ def compose(tradeoff: Tradeoff, look: Look = PLAIN) -> Figure:
         right.plot([h for h, _ in sized], [e for _, e in sized], **style)
     _front(left, tradeoff)
     for axis, said in ((left, "uncertainty of the reference"), (right, "")):
-        _logarithmic(axis)
+        logarithmic(axis)
         _floor(axis, tradeoff, said)
     left.set_xlabel("solve time [ms], one thread")
     left.set_ylabel("error at the probes [%]")
@@ -160,30 +160,3 @@ def _floor(axis: Axes, tradeoff: Tradeoff, said: str) -> None:
         fontsize=6,
         color=GREY,
     )
-
-
-def _logarithmic(axis: Axes) -> None:
-    axis.set_xscale("log")
-    axis.set_yscale("log")
-    axis.grid(which="major", color="#e4e4e4", lw=0.5, zorder=-1)
-    axis.set_axisbelow(True)
-    for side in (axis.xaxis, axis.yaxis):
-        side.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        side.set_minor_locator(LogLocator(subs=range(2, 10)))
-        side.set_minor_formatter(NullFormatter())
-    axis.xaxis.set_minor_formatter(
-        FuncFormatter(lambda value, _: f"{value:g}" if _decades(axis) < 1.5 and _leads(value) else "")
-    )
-    axis.tick_params(which="both", width=0.5, length=2.5)
-    axis.tick_params(which="minor", length=1.5, labelsize=6.5)
-    axis.spines[["top", "right"]].set_visible(False)
-
-
-def _decades(axis: Axes) -> float:
-    low, high = axis.get_xlim()
-    return float(np.log10(high / low))
-
-
-def _leads(value: float) -> bool:
-    """Whether a number is 2 or 5 times a power of ten."""
-    return round(value / 10.0 ** np.floor(np.log10(value))) in (2, 5)

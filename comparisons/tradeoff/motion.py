@@ -17,6 +17,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import inf
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -25,7 +26,8 @@ from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading, grading_of, plain
 from comparisons.models.grids import Asked, scene_grid
 from comparisons.models.registry import check, simulate
-from comparisons.report.report import Report
+from comparisons.report.look import Look
+from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 from comparisons.runs import manifest
 from comparisons.runs.campaign import Progress, Run, carry_out
@@ -98,6 +100,9 @@ class DynamicTradeoff:
                 *self.reasons,
                 f"lowest period {self.lowest_period:.4g} s; uncertainty of the reference {known}",
             ),
+            pictures=(Picture(("motion.png", "motion.pdf"), self._draw),)
+            if any(r.error for r in self.rows)
+            else (),
             complaints=tuple(
                 f"{row.integrator}, step {row.step:.3g} s: {row.status}: {row.message}"
                 for row in self.rows
@@ -106,6 +111,11 @@ class DynamicTradeoff:
             scene=self.scene,
             settings={"duration": self.duration},
         )
+
+    def _draw(self, paths: Sequence[Path], look: Look) -> None:
+        from comparisons.tradeoff.motion_figure import draw
+
+        draw(self, paths, look)
 
     def table(self) -> Table:
         """A row per integrator and step."""

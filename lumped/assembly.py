@@ -16,7 +16,10 @@ from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.pattern import Pattern, neighbours, of_grid
+from lumped.springs.all_forces import add_forces
 from lumped.springs.families import Links, families
+from lumped.springs.packing import pack, scratch
+from lumped.springs.tiles import NO, YES
 from lumped.springs.together import Stresses, together
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
@@ -65,7 +68,7 @@ class Assembly:
         self.together = together(self.springs)
         self.precision = precision
         single = precision == "single"
-        self._forcing = tuple(family.rounded() for family in self.springs) if single else self.springs
+        self._single = pack(self.lattice, self.springs, (), True) if single else None
 
     @cached_property
     def plan(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -104,13 +107,16 @@ class Assembly:
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Elastic energy [J] and its gradient, the internal force, (n, 3) [N]."""
-        if self.together is not None and self.precision == "double":
+        if self._single is not None:
+            force = np.zeros_like(u)
+            energy, _ = add_forces(u, u, YES, NO, self._single, scratch(self._single), force)
+            return energy, force
+        if self.together is not None:
             return self.together.force(u)
-        kept = u.astype(np.float32) if self.precision == "single" else u
-        force, energy = np.zeros(kept.shape, kept.dtype), 0.0
-        for family in self._forcing:
-            energy += family.add_force(kept, force)
-        return energy, force.astype(float, copy=False)
+        force, energy = np.zeros_like(u), 0.0
+        for family in self.springs:
+            energy += family.add_force(u, force)
+        return energy, force
 
     def average_force(self, start: np.ndarray, end: np.ndarray) -> np.ndarray:
         """Internal force (n, 3) [N] whose work from `start` to `end` is the elastic energy stored."""
@@ -119,12 +125,11 @@ class Assembly:
             family.add_average_force(start, end, force)
         return force
 
-    def energies(self, u: np.ndarray, stresses: Stresses | None = None) -> dict[str, float]:
-        """Elastic energy [J] of the springs under each name in the spring set. stresses: those at u, where
-        they are known."""
+    def energies(self, u: np.ndarray) -> dict[str, float]:
+        """Return the elastic energy [J] of the springs under each name in the spring set."""
         found: dict[str, float] = {}
-        for family, stress in zip(self.springs, stresses or self.stresses(u), strict=True):
-            for name, energy in family.by_name(family.energies(stress)).items():
+        for family in self.springs:
+            for name, energy in family.by_name(family.energies(u)).items():
                 found[name] = found.get(name, 0.0) + energy
         return found
 
@@ -140,16 +145,17 @@ class Assembly:
             return self.together.extrapolated(u, step)
         return tuple(family.extrapolated(u, step) for family in self.springs)
 
-    def harmless(self, u: np.ndarray) -> Stresses:
-        """Stresses at u less those that could make the tangent indefinite."""
-        return tuple(family.harmless(family.stresses(u)) for family in self.springs)
+    def nonnegative_tangent(self, u: np.ndarray) -> np.ndarray:
+        """Return blocks (b, 3, 3) [N/m] of the tangent at u less what could make it indefinite."""
+        return self.tangent(u, tuple(family.nonnegative_part(u) for family in self.springs), 0.0)
 
-    def tangent(self, u: np.ndarray, stresses: Stresses | None = None) -> np.ndarray:
-        """Blocks (b, 3, 3) [N/m] of the tangent at u, with the stresses given or those at u."""
-        stresses = stresses or self.stresses(u)
+    def tangent(self, u: np.ndarray, stresses: Stresses | None = None, share: float = 1.0) -> np.ndarray:
+        """Return blocks (b, 3, 3) [N/m] of the tangent at u, with the stresses given or the share of those at
+        u, and of the stiffness the material part and this share of the rest (`lumped.springs.laws`)."""
+        stresses = stresses or tuple(family.no_stress for family in self.springs)
         if self.together is not None:
-            return self.together.tangent(u, stresses, self.pattern.blocks)
+            return self.together.tangent(u, stresses, self.pattern.blocks, share)
         blocks = np.zeros((self.pattern.blocks, 3, 3))
         for family, stress in zip(self.springs, stresses, strict=True):
-            family.add_tangent(u, stress, blocks)
+            family.add_tangent(u, stress, blocks, share)
         return blocks

@@ -6,6 +6,7 @@ and resists the rate of what the spring resists. Loads and supports are those of
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,7 +16,7 @@ from lumped.calibration import Calibration
 from lumped.lattice import Lattice
 from lumped.loads import Loads
 from lumped.masses import masses
-from lumped.springs.families import AreaSprings, Cells, Links, StrainSprings, table_dampers
+from lumped.springs.families import Cells, Links, table_dampers
 from lumped.statics.problem import Problem
 from lumped.statics.solver import pose, solve
 from sheetbench.scenes import Scene, Status, free_rigid_motions
@@ -126,7 +127,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
         mass=masses(scene, lattice, assembly.distribution),
         damping_rate=scene.material.damping_rate,
         links=_links(scene, assembly),
-        cells=tuple(_cells(scene, family) for family in assembly.springs if isinstance(family, Cells)),
+        cells=tuple(_cells(scene, assembly)),
         holds=_holds(problem),
         dead=_constant(problem.loads),
         pressure=pressure,
@@ -159,12 +160,15 @@ def _table(links: Links, stiffness: np.ndarray, damping: np.ndarray) -> LinkTabl
     return LinkTable(links.nodes, names, links.rest_length, stiffness, damping)
 
 
-def _cells(scene: Scene, family: Cells) -> CellTable:
-    kinds = {AreaSprings: "area", StrainSprings: "strain"}
-    stiffness = np.zeros((len(family), 3))
-    stiffness[:, : family.stiffness[0].size] = family.stiffness.reshape(len(family), -1)
+def _cells(scene: Scene, assembly: Assembly) -> Iterator[CellTable]:
+    """Yield the area springs of the layers and of the mid-surface, then the springs against strain."""
     time = 0.0 if scene.dampers is not None else scene.material.damping_time
-    return CellTable(kinds[type(family)], family.nodes, family.rest_area, stiffness, time * stiffness)
+    for kind, columns in (("area", slice(0, 1)), ("strain", slice(1, 4))):
+        for family in assembly.springs:
+            if isinstance(family, Cells) and (on := (family.stiffness[:, columns] != 0.0).any(axis=1)).any():
+                table = np.zeros((on.sum(), 3))
+                table[:, : columns.stop - columns.start] = family.stiffness[on, columns]
+                yield CellTable(kind, family.nodes[on], family.area[on], table, time * table)
 
 
 def _holds(problem: Problem) -> tuple[Hold, ...]:

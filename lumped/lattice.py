@@ -121,14 +121,13 @@ class Lattice:
         return np.outer(y.widths, x.widths)
 
     @cached_property
-    def diagonals(self) -> dict[str, np.ndarray]:
-        """Rest diagonals (c, 2, 3) [m] of the cells of each family, between the means of their corners."""
+    def sides(self) -> dict[str, np.ndarray]:
+        """Mean sides at rest (c, 2, 3) [m], along x and along y, of the cells of each family."""
         found = {}
         for family in self.cells:
             corners = self.positions[family.nodes].mean(axis=2)
-            found[family.name] = np.stack(
-                [corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]], axis=1
-            )
+            across, along = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+            found[family.name] = 0.5 * np.stack([across - along, across + along], axis=1)
         return found
 
     def number(self, i: np.ndarray, j: np.ndarray, k: np.ndarray) -> np.ndarray:

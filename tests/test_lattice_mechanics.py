@@ -89,7 +89,7 @@ def test_absent_families_are_not_assembled():
 )
 def test_rigid_motions_cost_nothing(turn, shift):
     assembly = assembly_of(**ALL)
-    x = assembly.lattice.positions
+    x = assembly.lattice.positions.copy()  # a rotation takes no array that is not to be written to
     u = Rotation.from_rotvec(turn).apply(x) + np.array(shift) - x
     energy, force = assembly.force(u)
     assert abs(energy) < 1e-24 + 1e-13 * 100.0 * 0.1**2
@@ -101,7 +101,7 @@ def test_rigid_motions_cost_nothing(turn, shift):
 def test_energy_and_force_turn_with_the_sheet(seed, turn):
     assembly = assembly_of(**ALL)
     u = state(assembly, seed=seed)
-    x = assembly.lattice.positions
+    x = assembly.lattice.positions.copy()  # a rotation takes no array that is not to be written to
     rotation = Rotation.from_rotvec(turn)
     energy, force = assembly.force(u)
     turned_energy, turned_force = assembly.force(rotation.apply(x + u) - x)

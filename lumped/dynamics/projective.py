@@ -105,7 +105,7 @@ class Projective(Integrator):
         blocks = system.matrix(u, np.zeros_like(u), state.time, 1.0 / h**2, 1.0 / h, 0.0)
         for family in system.assembly.springs:
             springs = family.symmetric()
-            springs.add_tangent(u, springs.harmless(springs.stresses(u)), blocks)
+            springs.add_tangent(u, springs.nonnegative_part(u), blocks, 0.0)
         reduced = ReducedSystem(system.assembly.pattern, system.transform, symmetric=True)
         return reduced.factor(blocks)
 

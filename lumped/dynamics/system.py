@@ -194,7 +194,7 @@ class System:
         """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once."""
         both = stiffness + damping * self.damping.time  # dampers in proportion stand where the springs do
         share = stiffness / both if both else 0.0
-        blocks = self.assembly.tangent(u, tuple(share * stress for stress in self.assembly.stresses(u)))
+        blocks = self.assembly.tangent(u, None, share)
         blocks *= both
         self.problem.loads.add_tangent(u, stiffness, blocks, time)
         if not self.problem.conservative or self.coupling is not None:

@@ -11,23 +11,14 @@ import numpy as np
 from numba import njit
 
 from lumped.springs import packing as kinds
-from lumped.springs.cell_tiles import (
-    AREA_SHAPE,
-    HALF,
-    gather_sides,
-    push_corner,
-    resist_areas,
-    resist_strains,
-    stretch_areas,
-    stretch_strains,
-)
+from lumped.springs.cell_tiles import HALF, gather_sides, push_corner, resist_cells, stretch_cells
 from lumped.springs.link_tiles import pull_ends, resist_links, stretch_directional, stretch_links
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import LANES, NO, OPTIONS, ROWS, YES
 
 DIRECTIONAL, CELLS = np.uint64(kinds.DIRECTIONAL), np.uint64(kinds.CELLS)
-NONE, ONE = np.uint64(0), np.uint64(1)
-R6, R11, AREA_ROWS = ROWS[6], ROWS[11], ROWS[AREA_SHAPE]
+ONE = np.uint64(1)
+R6, R11 = ROWS[6], ROWS[11]
 
 
 @njit(**OPTIONS)
@@ -105,7 +96,7 @@ def _pass(
     energy = power = 0.0
     for r in range(len(packing.runs)):
         run = packing.runs[r]
-        kind, blocks, t, a, b, at = run[0], run[1], run[2], run[3], run[4], run[9]
+        kind, blocks, t, a, b, at = run[0], run[1], run[2], run[3], run[4], run[7]
         if kind != CELLS:
             if kind == DIRECTIONAL:
                 if not elastic:
@@ -120,22 +111,15 @@ def _pass(
             pull_ends(-1.0, a, size, blocks, tile, at, force)
             pull_ends(1.0, b, size, blocks, tile, at, force)
             continue
-        c, d, area, strain = run[5], run[6], run[7] != NONE, run[8] != NONE
-        sides = at + AREA_ROWS if area else at
-        if not (fresh and area):
-            tile[R6 : R11 + blocks * LANES] = 0.0
+        c, d = run[5], run[6]
         if fresh:
             gather_sides(u, a, b, c, d, size, blocks, tile)
-            if area:
-                energy += stretch_areas(share, rest, t, blocks, tile, at)
-            if strain:
-                energy += stretch_strains(share, rest, t, blocks, tile, sides)
+            energy += stretch_cells(share, rest, t, blocks, tile, at)
+        else:
+            tile[R6 : R11 + blocks * LANES] = 0.0
         if damped:
             gather_sides(v, a, b, c, d, size, blocks, tile)
-            if area:
-                power += resist_areas(rest, t, blocks, tile, at)
-            if strain:
-                power += resist_strains(rest, t, blocks, tile, sides)
+            power += resist_cells(rest, t, blocks, tile, at)
         push_corner(-HALF, -HALF, a, size, blocks, tile, force)
         push_corner(HALF, -HALF, b, size, blocks, tile, force)
         push_corner(HALF, HALF, c, size, blocks, tile, force)

@@ -1,4 +1,4 @@
-"""The seed's per-direction law F_q = k_q Δ_q (1 − L/r): links of unequal stiffness along x, y and z.
+"""The per-direction law of Habibi et al., F_q = k_q Δ_q (1 − L/r): links of unequal stiffness along x, y, z.
 
 It has no energy, hence no tension to extrapolate, and an unsymmetric tangent. Arrays as in
 `lumped.springs.links`, but stiffness (m, 3) [N/m].
@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from lumped.springs.links import stretch
+from lumped.springs.links import measure
 
 
 @njit(cache=True)
@@ -24,9 +24,11 @@ def add_forces(
     """Add the force on the links' ends to `force` (n, 3) [N]; there is no energy, 0 [J]."""
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
-        e, _, nx, ny, nz = stretch(u, nodes, offset, rest_length, m)
-        for q, n in ((0, nx), (1, ny), (2, nz)):
-            value = stiffness[m, q] * e * n
+        change, square, r = measure(u, nodes, offset, m)
+        length = np.sqrt(square)
+        e = change / (length + rest_length[m])
+        for q in range(3):
+            value = stiffness[m, q] * e * r[q] / length
             force[a, q] -= value
             force[b, q] += value
     return 0.0
@@ -40,14 +42,17 @@ def add_tangent(
     rest_length: np.ndarray,
     stiffness: np.ndarray,
     stress: np.ndarray,
+    share: float,
     slots: np.ndarray,
     blocks: np.ndarray,
 ) -> None:
-    """Tangent of the per-direction law, diag(k) [n nᵀ + (e/r)(I − n nᵀ)]; `stress` is not looked at."""
+    """Tangent of the per-direction law, diag(k) [n nᵀ + (e/r)(I − n nᵀ)], whatever the stress."""
     n = np.empty(3)
     for m in range(len(nodes)):
-        e, length, n[0], n[1], n[2] = stretch(u, nodes, offset, rest_length, m)
-        across = e / length
+        change, square, r = measure(u, nodes, offset, m)
+        length = np.sqrt(square)
+        n[0], n[1], n[2] = r[0] / length, r[1] / length, r[2] / length
+        across = change / (length + rest_length[m]) / length
         for p in range(3):
             for q in range(3):
                 value = (1.0 - across) * n[p] * n[q]

@@ -8,23 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
 
 from lumped.lattice import Lattice
 from lumped.pattern import Pattern
-from lumped.springs import (
-    area_dampers,
-    areas,
-    by_cell,
-    constants,
-    directional,
-    link_dampers,
-    links,
-    strain_dampers,
-    strains,
-)
+from lumped.springs import by_cell, cells, constants, directional, laws, links
 from lumped.springs.family import Dampers, Family
 from lumped.springs.rest import Rest, rest_of
 from sheetbench.scenes import SpringSet
@@ -42,53 +33,66 @@ class Links(Family):
     kind: np.ndarray
     names: tuple[str, ...]
 
-    springs: ClassVar[Any] = links
-    dampers: ClassVar[Any] = link_dampers
+    loops: ClassVar[Any] = links
+    no_stress: ClassVar[np.ndarray] = np.empty(0)
 
     @property
     def geometry(self) -> tuple[np.ndarray, ...]:
-        """Rest vectors and their lengths."""
+        """Return rest vectors and their lengths."""
         return self.offset, self.rest_length
 
-    def energies(self, stress: np.ndarray) -> np.ndarray:
-        """½ N²/k."""
-        return 0.5 * stress**2 / self.stiffness
+    def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
+        """Return the stresses of stretched links."""
+        return np.maximum(self.stresses(u), 0.0)
+
+    def elongations(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
+        """Return the elongation of every link, or what is linear in u of it, (m,) [m]."""
+        if linear:
+            a, b = self.nodes.T
+            along: np.ndarray = np.einsum("mq,mq->m", self.offset, u[b] - u[a])
+            return along / self.rest_length
+        elongations: np.ndarray = links.elongations(u, self.nodes, *self.geometry)
+        return elongations
+
+    def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
+        """Return ½ k e² of every link."""
+        return 0.5 * self.stiffness * self.elongations(u, linear) ** 2
 
     def by_name(self, energies: np.ndarray) -> dict[str, float]:
-        """By kind of link."""
+        """Return sums by kind of link."""
         sums = np.bincount(self.kind, energies, minlength=len(self.names))
         return dict(zip(self.names, sums.tolist(), strict=True))
 
 
 @dataclass(frozen=True, eq=False)
 class DirectionalLinks(Links):
-    """Links of the seed's per-direction law, stiffness (m, 3); neither energy nor stress."""
+    """Links of the per-direction law of Habibi et al., stiffness (m, 3); neither energy nor stress."""
 
-    springs: ClassVar[Any] = directional
+    loops: ClassVar[Any] = directional
     conservative: ClassVar[bool] = False
 
     def add_average_force(self, start: np.ndarray, end: np.ndarray, force: np.ndarray) -> None:
-        """The force in the middle of the step, for want of an energy."""
+        """Add the force in the middle of the step, for want of an energy."""
         self.add_force(0.5 * (start + end), force)
 
     def stresses(self, u: np.ndarray) -> np.ndarray:
-        """None: the tangent takes none."""
+        """Return none: the tangent takes none."""
         return np.zeros(len(self))
 
     def extrapolated(self, u: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """None."""
+        """Return none."""
         return np.zeros(len(self))
 
-    def energies(self, stress: np.ndarray) -> np.ndarray:
-        """None."""
+    def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
+        """Return zero: this law has no energy."""
         return np.zeros(len(self))
 
     def symmetric(self) -> Links:
-        """Central links as stiff as the stiffest direction."""
+        """Return central links as stiff as the stiffest direction."""
         return self._central(self.stiffness.max(axis=1))
 
     def damped(self, time: float) -> Dampers:
-        """Dampers along the links, of the mean stiffness."""
+        """Return dampers along the links, of the mean stiffness."""
         return Dampers(self._central(time * self.stiffness.mean(axis=1)))
 
     def _central(self, stiffness: np.ndarray) -> Links:
@@ -97,48 +101,52 @@ class DirectionalLinks(Links):
 
 @dataclass(frozen=True, eq=False)
 class Cells(Family):
-    """Springs of one kind on cells: nodes (c, 4, p), rest diagonals (c, 2, 3) [m] and areas (c,) [m²], and
-    which of the lattice's cells of that kind they are on, (all of them,)."""
+    """Springs on the cells of the layers or of the mid-surface: nodes (c, 4, p), stiffness (c, 4) against
+    the change of area and the Green strains ε1, ε2, γ of the mean sides; at rest sides (c, 2, 3) [m] and area
+    (c,) [m²]; the names of area springs and of springs against strain."""
 
-    diagonals: np.ndarray
-    rest_area: np.ndarray
-    name: str
-    on: np.ndarray
+    sides: np.ndarray
+    area: np.ndarray
+    names: tuple[str, str]
+
+    loops: ClassVar[Any] = cells
+    no_stress: ClassVar[np.ndarray] = np.empty((0, 3))
 
     @property
     def geometry(self) -> tuple[np.ndarray, ...]:
-        """Rest diagonals."""
-        return (self.diagonals,)
+        """Return sides and area at rest."""
+        return self.sides, self.area
 
-    def energies(self, stress: np.ndarray) -> np.ndarray:
-        """½ τ²/k a0, summed over a cell's strains where it has several."""
-        k = self.stiffness
-        density = 0.5 * np.divide(stress**2, k, out=np.zeros(k.shape), where=k != 0.0)
-        return self.rest_area * (density if density.ndim == 1 else density.sum(axis=1))
+    @cached_property
+    def constants(self) -> np.ndarray:  # type: ignore[override]  # kept
+        """Return the law's constants, (c, 4) [N/m³]."""
+        return laws.of_stiffness(self.stiffness, self.sides, self.area)
+
+    def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
+        """Return the stresses of stretched areas; a shear stress of either sign softens some motion."""
+        part: np.ndarray = cells.nonnegative_part(u, *self.arrays)
+        return part
+
+    def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
+        """Return the energy of the area spring and of the springs against strain of every cell."""
+        if linear:
+            corners = u[self.nodes].mean(axis=2)
+            first, second = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+            (a, b), (da, db) = np.moveaxis(self.sides, 1, 0), (0.5 * (first - second), 0.5 * (first + second))
+            strains = [(a * da).sum(1), (b * db).sum(1), (a * db + b * da).sum(1)] / np.array(
+                [(a * a).sum(1), (b * b).sum(1), np.sqrt((a * a).sum(1) * (b * b).sum(1))]
+            )
+            squares = np.stack([(strains[0] + strains[1]) ** 2, *strains**2], axis=1)
+            stored = 0.5 * self.area[:, None] * self.stiffness * squares
+            return np.stack([stored[:, 0], stored[:, 1:].sum(axis=1)], axis=1)
+        energies: np.ndarray = cells.energies(u, *self.arrays)
+        return energies
 
     def by_name(self, energies: np.ndarray) -> dict[str, float]:
-        """All under the one name."""
-        return {self.name: float(energies.sum())}
-
-
-@dataclass(frozen=True, eq=False)
-class AreaSprings(Cells):
-    """Area springs, stiffness (c,)."""
-
-    springs: ClassVar[Any] = areas
-    dampers: ClassVar[Any] = area_dampers
-
-
-@dataclass(frozen=True, eq=False)
-class StrainSprings(Cells):
-    """Strain springs, stiffness (c, 3) of ε1, ε2, γ."""
-
-    springs: ClassVar[Any] = strains
-    dampers: ClassVar[Any] = strain_dampers
-
-    def harmless(self, stress: np.ndarray) -> np.ndarray:
-        """None: a shear stress of either sign softens some motion."""
-        return np.zeros_like(stress)
+        """Return both sums, of the springs that there are."""
+        there = self.stiffness[:, 0].any(), self.stiffness[:, 1:].any()
+        sums = zip(self.names, energies.sum(axis=0).tolist(), there, strict=True)
+        return {name: energy for name, energy, has in sums if has}
 
 
 def link_springs(lattice: Lattice, pattern: Pattern, table: SpringSet | DamperSet) -> Iterator[Links]:
@@ -169,40 +177,22 @@ def _links(kind: type[Links], rest: Rest, which: np.ndarray, k: np.ndarray, name
     return kind(nodes, k[which], slots, offset, rest_length, number, names)
 
 
-def area_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[AreaSprings]:
-    """On the cells of the layers and of the mid-surface."""
-    count = (lattice.grid[0] - 1) * (lattice.grid[1] - 1)
-    for cells in lattice.cells:
-        stiffness = by_cell.of_cells(getattr(springs, cells.name), count)
-        if stiffness.any():
-            every = np.full(len(cells.nodes), True)
-            stiffness = np.concatenate([stiffness] * (len(every) // count))
-            nodes, slots, diagonals, area, on = rest_of(lattice, pattern).cells(cells.name, every)
-            yield AreaSprings(nodes, stiffness, slots, diagonals, area, cells.name, on)
-
-
-def strain_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[StrainSprings]:
+def cell_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[Cells]:
     """On the cells of the layers and of the mid-surface, with what the edges take off the twist."""
     twist = constants.of_edge_cells(springs, lattice.grid, lattice.twisting)
-    for cells in lattice.cells:
-        name, stiffness = constants.of_strains(springs, cells.name, len(twist))
-        layers = lattice.grid[2]
-        if cells.name == "area":
-            stiffness[:, 2] += twist
-            stiffness = np.concatenate([stiffness] * layers)
-        else:
-            stiffness[:, 2] -= layers * twist
-        stiff = (stiffness != 0.0).any(axis=1)  # edges stiffen the cells along them alone
-        if stiff.any():
-            nodes, slots, diagonals, area, on = rest_of(lattice, pattern).cells(cells.name, stiff)
-            yield StrainSprings(nodes, stiffness[stiff], slots, diagonals, area, name, on)
+    layers = lattice.grid[2]
+    for family in lattice.cells:
+        name, strains = constants.of_strains(springs, family.name, len(twist))
+        area = by_cell.of_cells(getattr(springs, family.name), len(twist))
+        strains[:, 2] += twist if family.name == "area" else -layers * twist
+        stiffness = np.column_stack([area, strains])
+        if stiffness.any():
+            stiffness = np.concatenate([stiffness] * (len(family.nodes) // len(twist)))
+            nodes, slots, sides, rest_area = rest_of(lattice, pattern).cells(family.name)
+            yield Cells(nodes, stiffness, slots, sides, rest_area, (family.name, name))
 
 
-FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] = (
-    link_springs,
-    area_springs,
-    strain_springs,
-)
+FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] = (link_springs, cell_springs)
 
 
 def families(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> tuple[Family, ...]:

@@ -1,196 +1,215 @@
-"""Links: energy, tension, force and tangent of linear springs between masses, as compiled loops.
+"""Springs and dampers of links as compiled loops: measure, stress, force, tangent, rate.
 
-A link of rest vector d0, rest length L, stiffness k and relative displacement du stores ½ k e², with
-the elongation e = r − L written as (2 d0·du + du·du)/(r + L), which loses no digits when du is small.
-Tension N = k e; force ± N n on its ends; tangent k n nᵀ + (N/r)(I − n nᵀ). The tangent takes N as an
-argument of its own so that a solver may put in the extrapolated tension of Magisano, Leonetti and
-Garcea (2017) or its positive part. The average force over a step depends on positions through scalar products
-only, which conserves momentum, and its quotient cannot vanish below.
+A link joins two masses; its measure is g = r·r of their relative position r = d₀ + du, d₀ at rest, and what
+it stores is a law of g (`lumped.springs.laws`). With S = dW/dg, D = d²W/dg², its ends are pulled by ± 2 S r;
+the tangent is 2 S I + 4 D r rᵀ. The change of g, (2 d₀ + du)·du, loses no digits where du is small. The
+tangent takes S as an argument of its own: that at u, an extrapolated one S + D ġ (Magisano, Leonetti and
+Garcea 2017), its positive part, none. Dampers have the stress M ġ, ġ = 2 r·dv; of it the derivative by the
+displacement, 2 M ġ I + 4 M r (dv − ġ r/g)ᵀ, is unsymmetric.
 
-Arrays: displacement (n, 3) [m]; nodes (m, 2); offset (m, 3) [m]; rest_length (m,) [m]; stiffness (m,) [N/m];
-tension (m,) [N]; slots (m, 4) block numbers aa, ab, ba, bb; blocks (b, 3, 3) [N/m], added to.
+Arrays: nodes (m, 2); offset (m, 3) [m], d₀; rest_length (m,) [m]; constants (m,), stiffness [N/m] or damping
+[N·s/m]; stress (m,) [N/m]; slots (m, 4) block numbers aa, ab, ba, bb; blocks (b, 3, 3) [N/m], added to; u, v,
+force (n, 3).
 """
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numba import njit
 
+from lumped.springs.laws import elongation, mean_elongation
+from lumped.springs.vectors import Vector, dot, less, times
 
-@njit(cache=True, inline="always")
-def stretch(
-    u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest_length: np.ndarray, m: int
-) -> tuple[float, float, float, float, float]:
-    """Elongation, current length and unit vector of link m."""
-    a, b = nodes[m, 0], nodes[m, 1]
-    dx, dy, dz = u[b, 0] - u[a, 0], u[b, 1] - u[a, 1], u[b, 2] - u[a, 2]
-    rx, ry, rz = offset[m, 0] + dx, offset[m, 1] + dy, offset[m, 2] + dz
-    length = math.sqrt(rx * rx + ry * ry + rz * rz)
-    along = offset[m, 0] * dx + offset[m, 1] * dy + offset[m, 2] * dz
-    # not 2.0 * along: the literal would turn single precision into double
-    elongation = (along + along + dx * dx + dy * dy + dz * dz) / (length + rest_length[m])
-    return elongation, length, rx / length, ry / length, rz / length
+HALF = 0.5
 
 
-@njit(cache=True)
-def stresses(
-    u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest_length: np.ndarray, stiffness: np.ndarray
-) -> np.ndarray:
-    """Tension of every link, (m,) [N]."""
-    out = np.empty(len(nodes))
-    for m in range(len(nodes)):
-        out[m] = stiffness[m] * stretch(u, nodes, offset, rest_length, m)[0]
-    return out
+@njit(cache=True, error_model="numpy")
+def difference(u: np.ndarray, nodes: np.ndarray, m: int) -> Vector:
+    """u of the second end of link m less that of the first."""
+    a, b = np.uint64(nodes[m, 0]), np.uint64(nodes[m, 1])
+    return u[b, 0] - u[a, 0], u[b, 1] - u[a, 1], u[b, 2] - u[a, 2]
 
 
-@njit(cache=True)
-def along(v: np.ndarray, a: int, b: int, nx: float, ny: float, nz: float) -> float:
-    """n·(v_b − v_a), how fast b leaves a along the unit vector n."""
-    return nx * (v[b, 0] - v[a, 0]) + ny * (v[b, 1] - v[a, 1]) + nz * (v[b, 2] - v[a, 2])
+@njit(cache=True, error_model="numpy")
+def measure(u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, m: int) -> tuple[float, float, Vector]:
+    """δg, g and r of link m."""
+    d = difference(u, nodes, m)
+    r = offset[m, 0] + d[0], offset[m, 1] + d[1], offset[m, 2] + d[2]
+    change = (offset[m, 0] + r[0]) * d[0] + (offset[m, 1] + r[1]) * d[1] + (offset[m, 2] + r[2]) * d[2]
+    return change, dot(r, r), r
 
 
-@njit(cache=True)
-def rates(
-    u: np.ndarray,
-    v: np.ndarray,
-    nodes: np.ndarray,
-    offset: np.ndarray,
-    rest_length: np.ndarray,
-    stiffness: np.ndarray,
-) -> np.ndarray:
-    """Rates k n·v of the tensions as the ends move with v (n, 3), (m,) [N per unit of v's time]."""
-    out = np.empty(len(nodes))
-    for m in range(len(nodes)):
-        a, b = nodes[m, 0], nodes[m, 1]
-        _, _, nx, ny, nz = stretch(u, nodes, offset, rest_length, m)
-        out[m] = stiffness[m] * along(v, a, b, nx, ny, nz)
-    return out
+@njit(cache=True, error_model="numpy")
+def pull(nodes: np.ndarray, m: int, k: float, r: Vector, force: np.ndarray) -> None:
+    """Add ± k r to the forces on the ends of link m."""
+    a, b = np.uint64(nodes[m, 0]), np.uint64(nodes[m, 1])
+    for q in range(3):
+        force[a, q] -= k * r[q]
+        force[b, q] += k * r[q]
 
 
-@njit(cache=True)
-def extrapolated(
-    u: np.ndarray,
-    v: np.ndarray,
-    nodes: np.ndarray,
-    offset: np.ndarray,
-    rest_length: np.ndarray,
-    stiffness: np.ndarray,
-) -> np.ndarray:
-    """Tensions that the linearisation at u predicts after a step v (n, 3) [m], (m,) [N]."""
-    out = np.empty(len(nodes))
-    for m in range(len(nodes)):
-        a, b = nodes[m, 0], nodes[m, 1]
-        elongation, _, nx, ny, nz = stretch(u, nodes, offset, rest_length, m)
-        out[m] = stiffness[m] * (elongation + along(v, a, b, nx, ny, nz))
-    return out
-
-
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def add_forces(
     u: np.ndarray,
     nodes: np.ndarray,
     offset: np.ndarray,
     rest_length: np.ndarray,
-    stiffness: np.ndarray,
+    constants: np.ndarray,
     force: np.ndarray,
 ) -> float:
-    """Add the internal force (gradient of the energy) to `force` (n, 3) [N]; returns the energy [J]."""
+    """Add the internal force to `force` (n, 3) [N]; return the energy [J]."""
     energy = 0.0
     for m in range(len(nodes)):
-        a, b = nodes[m, 0], nodes[m, 1]
-        e, _, nx, ny, nz = stretch(u, nodes, offset, rest_length, m)
-        tension = stiffness[m] * e
-        energy += 0.5 * tension * e
-        force[a, 0] -= tension * nx
-        force[a, 1] -= tension * ny
-        force[a, 2] -= tension * nz
-        force[b, 0] += tension * nx
-        force[b, 1] += tension * ny
-        force[b, 2] += tension * nz
+        change, square, r = measure(u, nodes, offset, m)
+        stored, stress, _, _ = elongation(HALF, change, square, rest_length[m], constants[m])
+        energy += stored
+        pull(nodes, m, stress + stress, r, force)
     return energy
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
+def elongations(u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest_length: np.ndarray) -> np.ndarray:
+    """Elongation of every link, (m,) [m]."""
+    out = np.empty(len(nodes))
+    for m in range(len(nodes)):
+        change, square, _ = measure(u, nodes, offset, m)
+        out[m] = change / (np.sqrt(square) + rest_length[m])
+    return out
+
+
+@njit(cache=True, error_model="numpy")
+def stresses(
+    u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest_length: np.ndarray, constants: np.ndarray
+) -> np.ndarray:
+    """Stress of every link, half its tension over its length, (m,) [N/m]."""
+    out = np.empty(len(nodes))
+    for m in range(len(nodes)):
+        change, square, _ = measure(u, nodes, offset, m)
+        out[m] = elongation(HALF, change, square, rest_length[m], constants[m])[1]
+    return out
+
+
+@njit(cache=True, error_model="numpy")
+def extrapolated(
+    u: np.ndarray,
+    step: np.ndarray,
+    nodes: np.ndarray,
+    offset: np.ndarray,
+    rest_length: np.ndarray,
+    constants: np.ndarray,
+) -> np.ndarray:
+    """Stress S + D ġ that the linearisation at u predicts after a step (n, 3) [m], (m,) [N/m]."""
+    out = np.empty(len(nodes))
+    for m in range(len(nodes)):
+        change, square, r = measure(u, nodes, offset, m)
+        _, stress, material, rest = elongation(HALF, change, square, rest_length[m], constants[m])
+        out[m] = stress + (material + rest) * 2.0 * dot(r, difference(step, nodes, m))
+    return out
+
+
+@njit(cache=True, error_model="numpy")
 def add_average_forces(
     start: np.ndarray,
     end: np.ndarray,
     nodes: np.ndarray,
     offset: np.ndarray,
     rest_length: np.ndarray,
-    stiffness: np.ndarray,
+    constants: np.ndarray,
     force: np.ndarray,
 ) -> None:
-    """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it:
-
-    k (e0 + e1)/(l0 + l1) r̄, with r̄ the mean of relative positions, since l1² − l0² = 2 r̄·Δr and
-    ½ k (e1² − e0²) = force·Δr (Simo and Tarnow 1992, Gonzalez 1996).
-    """
+    """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it: that
+    of the mean stress on the mean r, since the change of g is 2 r̄·Δr."""
     for m in range(len(nodes)):
-        a, b = nodes[m, 0], nodes[m, 1]
-        e0, l0, _, _, _ = stretch(start, nodes, offset, rest_length, m)
-        e1, l1, _, _, _ = stretch(end, nodes, offset, rest_length, m)
-        pull = stiffness[m] * (e0 + e1) / (l0 + l1)
-        for q in range(3):
-            mean = offset[m, q] + 0.5 * (start[b, q] - start[a, q] + end[b, q] - end[a, q])
-            force[a, q] -= pull * mean
-            force[b, q] += pull * mean
+        change0, square0, r0 = measure(start, nodes, offset, m)
+        change1, square1, r1 = measure(end, nodes, offset, m)
+        l0, l1 = np.sqrt(square0), np.sqrt(square1)
+        e0, e1 = change0 / (l0 + rest_length[m]), change1 / (l1 + rest_length[m])
+        stress = mean_elongation(l0, l1, e0, e1, constants[m])
+        pull(nodes, m, stress, (r0[0] + r1[0], r0[1] + r1[1], r0[2] + r1[2]), force)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
+def add_damping_forces(
+    u: np.ndarray,
+    v: np.ndarray,
+    nodes: np.ndarray,
+    offset: np.ndarray,
+    rest_length: np.ndarray,
+    constants: np.ndarray,
+    force: np.ndarray,
+) -> float:
+    """Add the damping force c (n·dv) n, n = r/|r|, signed as an internal one, to `force` (n, 3) [N]; return
+    the power taken [W]."""
+    power = 0.0
+    for m in range(len(nodes)):
+        _, square, r = measure(u, nodes, offset, m)
+        along = dot(r, difference(v, nodes, m))
+        resisting = constants[m] * along / square
+        power += resisting * along
+        pull(nodes, m, resisting, r, force)
+    return power
+
+
+@njit(cache=True, error_model="numpy")
 def add_tangent(
     u: np.ndarray,
     nodes: np.ndarray,
     offset: np.ndarray,
     rest_length: np.ndarray,
-    stiffness: np.ndarray,
-    tension: np.ndarray,
-    slots: np.ndarray,
-    blocks: np.ndarray,
-) -> None:
-    """Add k n nᵀ + (N/r)(I − n nᵀ) of every link to the 3×3 blocks."""
-    flat = blocks.reshape(-1, 9)
-    for m in range(len(nodes)):
-        _, length, x, y, z = stretch(u, nodes, offset, rest_length, m)
-        _add_blocks(flat, slots, m, stiffness[m], tension[m] / length, x, y, z)
-
-
-@njit(cache=True)
-def add_own_tangent(
-    u: np.ndarray,
-    nodes: np.ndarray,
-    offset: np.ndarray,
-    rest_length: np.ndarray,
-    stiffness: np.ndarray,
+    constants: np.ndarray,
+    stress: np.ndarray,
     share: float,
     slots: np.ndarray,
     blocks: np.ndarray,
 ) -> None:
-    """The same with this share of the tensions at u."""
+    """Add the tangent of every link with this stress, or with the share of its own where `stress` is empty,
+    and with M + share (D − M), to the 3×3 blocks."""
+    flat = blocks.reshape(-1, 9)
+    own = len(stress) == 0
+    for m in range(len(nodes)):
+        change, square, r = measure(u, nodes, offset, m)
+        _, at_u, material, rest = elongation(HALF, change, square, rest_length[m], constants[m])
+        across = 2.0 * (share * at_u if own else stress[m])
+        _add_blocks(flat, slots, m, across, times(4.0 * (material + share * rest), r), r)
+
+
+@njit(cache=True, error_model="numpy")
+def add_damping_tangent(
+    u: np.ndarray,
+    v: np.ndarray,
+    nodes: np.ndarray,
+    offset: np.ndarray,
+    rest_length: np.ndarray,
+    constants: np.ndarray,
+    slots: np.ndarray,
+    blocks: np.ndarray,
+) -> None:
+    """Add the derivative of the damping force by the displacement to the 3×3 blocks, unsymmetric."""
     flat = blocks.reshape(-1, 9)
     for m in range(len(nodes)):
-        elongation, length, x, y, z = stretch(u, nodes, offset, rest_length, m)
-        _add_blocks(flat, slots, m, stiffness[m], share * stiffness[m] * elongation / length, x, y, z)
+        _, square, r = measure(u, nodes, offset, m)
+        moving = difference(v, nodes, m)
+        resisting = constants[m] / square
+        along = dot(r, moving)
+        turned = less(moving, times(2.0 * along / square, r))
+        _add_blocks(flat, slots, m, resisting * along, times(resisting, r), turned)
 
 
-@njit(cache=True)
-def _add_blocks(
-    flat: np.ndarray, slots: np.ndarray, m: int, stiffness: float, across: float, x: float, y: float, z: float
-) -> None:
-    """Add the blocks of link m, of unit vector (x, y, z) and N/r across it."""
-    along = stiffness - across
-    xx, xy, xz = along * x * x + across, along * x * y, along * x * z
-    yy, yz, zz = along * y * y + across, along * y * z, along * z * z + across
+@njit(cache=True, error_model="numpy")
+def _add_blocks(flat: np.ndarray, slots: np.ndarray, m: int, across: float, a: Vector, b: Vector) -> None:
+    """Add ± (across I + a bᵀ) to the blocks of link m."""
+    xx, xy, xz = a[0] * b[0] + across, a[0] * b[1], a[0] * b[2]
+    yx, yy, yz = a[1] * b[0], a[1] * b[1] + across, a[1] * b[2]
+    zx, zy, zz = a[2] * b[0], a[2] * b[1], a[2] * b[2] + across
     for e in range(4):
         block = flat[np.uint64(slots[m, e])]
         sign = 1.0 if e == 0 or e == 3 else -1.0
         block[0] += sign * xx
         block[1] += sign * xy
         block[2] += sign * xz
-        block[3] += sign * xy
+        block[3] += sign * yx
         block[4] += sign * yy
         block[5] += sign * yz
-        block[6] += sign * xz
-        block[7] += sign * yz
+        block[6] += sign * zx
+        block[7] += sign * zy
         block[8] += sign * zz

@@ -16,7 +16,7 @@ import numpy as np
 
 from lumped.lattice import Lattice
 from lumped.springs import cell_tiles, link_tiles
-from lumped.springs.families import AreaSprings, DirectionalLinks, Links, StrainSprings
+from lumped.springs.families import Cells, DirectionalLinks, Links
 from lumped.springs.family import Dampers, Family
 from lumped.springs.tiles import LANES, STRIDE, WIDTH
 
@@ -25,23 +25,21 @@ BLOCK = int(LANES)
 KEPT = 2**18  # numbers of all shapes at most: from beyond the caches they come slower than they are found
 BRIDGED = 4  # places at most from one spring of a run to the next
 ROWS = {LINKS: link_tiles.DATA, DIRECTIONAL: link_tiles.DATA, CELLS: cell_tiles.DATA}
-GEOMETRY = {LINKS: (0, 1, 2, 3), DIRECTIONAL: (0, 1, 2, 3), CELLS: (0, 1, 2, 3, 4, 5, 6, 9, 10, 11)}
+GEOMETRY = {LINKS: (0, 1, 2, 3), DIRECTIONAL: (0, 1, 2, 3), CELLS: tuple(range(10))}
 NOTHING = {  # rest data where there is no spring: a link or a cell of side 1 [m]
     LINKS: (1.0, 0.0, 0.0, 1.0),
     DIRECTIONAL: (1.0, 0.0, 0.0, 1.0),
-    CELLS: (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0),
+    CELLS: (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0),
 }
-AREA, STRAIN = slice(7, 9), slice(12, 18)  # rows of stiffness and damping of a cell
 
 
 class Packing(NamedTuple):
     """order: (n,) mass at each place; layers, plane: how many planes, and of how many masses; size: places
     of a component, with some to spare after the mid-surface's for blocks that are not full; mid: whether
-    there are cells on the mid-surface; damped: whether there are dampers; runs: (r, 10), of each what it is,
-    its blocks of springs, where its rest data begin, its first four (or two) masses, whether its cells
-    resist changes of area and strains, and where in a tile its shapes are kept; rest: rest data, flat;
-    keeping: whether shapes are kept for dampers, those of each run in a place of its own; length: of a tile
-    with what is kept."""
+    there are cells on the mid-surface; damped: whether there are dampers; runs: (r, 8), of each what it is,
+    its blocks of springs, where its rest data begin, its first four (or two) masses, and where in a tile its
+    shapes are kept; rest: rest data, flat; keeping: whether shapes are kept for dampers, those of each run in
+    a place of its own; length: of a tile with what is kept."""
 
     order: np.ndarray
     layers: np.uint64
@@ -103,7 +101,7 @@ def pack(
                 used += table.size
             of_run[2] = tables[key]
             runs.append(of_run)
-    table = np.array(runs, dtype=np.uint64).reshape(-1, 10)
+    table = np.array(runs, dtype=np.uint64).reshape(-1, 8)
     table = table[np.argsort(table[:, 3] % plane, kind="stable")]  # masses stay in the fastest memory
     keeping, length = _place_shapes(table, bool(dampers))
     return Packing(
@@ -125,13 +123,12 @@ def _in_blocks(count: int) -> int:
 
 
 def _place_shapes(runs: np.ndarray, damped: bool) -> tuple[bool, int]:
-    """Set where the shapes of each run (r, 10) are kept, all in one place where none are asked for again, or
+    """Set where the shapes of each run (r, 8) are kept, all in one place where none are asked for again, or
     there are too many; whether each has its own, and a tile's length."""
-    links = np.where(runs[:, 0] == CELLS, 0, link_tiles.SHAPE)
-    rows = links + cell_tiles.AREA_SHAPE * runs[:, 7] + cell_tiles.STRAIN_SHAPE * runs[:, 8]
+    rows = np.where(runs[:, 0] == CELLS, cell_tiles.SHAPE, link_tiles.SHAPE)
     before = np.append(0, np.cumsum(rows)).astype(int)
     keeping = damped and STRIDE * int(before[-1]) <= KEPT
-    runs[:, 9] = STRIDE * (cell_tiles.USED + before[:-1] * keeping)
+    runs[:, 7] = STRIDE * (cell_tiles.USED + before[:-1] * keeping)
     return keeping, STRIDE * (cell_tiles.USED + int(before[-1] if keeping else rows.max(initial=0)))
 
 
@@ -146,19 +143,12 @@ def _data(family: Family, damped: bool) -> tuple[int, np.ndarray]:
             return DIRECTIONAL, data
         data[:, 4 if damped else 5] = k
         return LINKS, data
-    assert isinstance(family, AreaSprings | StrainSprings)
+    assert isinstance(family, Cells)
     data = np.zeros((len(family), cell_tiles.DATA))
-    d1, d2 = family.diagonals[:, 0], family.diagonals[:, 1]
-    a, b = 0.5 * (d1 - d2), 0.5 * (d1 + d2)
-    data[:, :3], data[:, 3:6] = a, b
-    area = data[:, 6] = np.linalg.norm(np.cross(a, b), axis=1)
-    aa, bb = (a**2).sum(axis=1), (b**2).sum(axis=1)
-    sides = np.sqrt(aa * bb)
-    data[:, 9], data[:, 10], data[:, 11] = 1.0 / aa, 1.0 / bb, 1.0 / sides
-    if isinstance(family, AreaSprings):
-        data[:, 8 if damped else 7] = k / area
-    else:
-        data[:, slice(15, 18) if damped else slice(12, 15)] = k * sides[:, None]
+    a, b = data[:, :3], data[:, 3:6] = family.sides[:, 0], family.sides[:, 1]
+    data[:, 6], data[:, 7], data[:, 8] = (a * a).sum(axis=1), (b * b).sum(axis=1), (a * b).sum(axis=1)
+    data[:, 9] = family.area
+    data[:, slice(14, 18) if damped else slice(10, 14)] = family.constants
     return CELLS, data
 
 
@@ -197,5 +187,4 @@ def _runs(
         table[list(GEOMETRY[kind])] = np.array(NOTHING[kind])[:, None]
         table[:, first[begin:end] - first[begin]] = data[begin:end].T
         corners = nodes[begin].tolist() + [0] * (4 - nodes.shape[1])
-        has = [int(table[rows].any()) if kind == CELLS else 0 for rows in (AREA, STRAIN)]
-        yield [kind, _in_blocks(int(first[end - 1] - first[begin]) + 1), 0, *corners, *has, 0], table
+        yield [kind, _in_blocks(int(first[end - 1] - first[begin]) + 1), 0, *corners, 0], table

@@ -5,9 +5,8 @@ A small lattice's are found once and kept: lattices on one grid differ in stiffn
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -27,14 +26,13 @@ class LinkRest(NamedTuple):
 
 
 class CellRest(NamedTuple):
-    """nodes (c, 4, p) masses; slots (c, 4p, 4p) blocks; diagonals (c, 2, 3) [m]; rest_area (c,) [m²]; on:
-    which of the lattice's cells of that name they are, (all of them,)."""
+    """nodes (c, 4, p) masses; slots (c, 4p, 4p) blocks; sides (c, 2, 3) [m], the means of opposite ones; area
+    (c,) [m²]."""
 
     nodes: np.ndarray
     slots: np.ndarray
-    diagonals: np.ndarray
-    rest_area: np.ndarray
-    on: np.ndarray
+    sides: np.ndarray
+    area: np.ndarray
 
 
 class Rest:
@@ -42,7 +40,8 @@ class Rest:
 
     def __init__(self, lattice: Lattice, pattern: Pattern):
         self._lattice, self._pattern = lattice, pattern
-        self._found: dict[tuple[str, bytes], Any] = {}
+        self._found: dict[bytes, LinkRest] = {}
+        self._cells: dict[str, CellRest] = {}
 
     @cached_property
     def weight(self) -> np.ndarray:
@@ -55,36 +54,27 @@ class Rest:
         return np.array([len(family.nodes) for family in self._lattice.links])
 
     def links(self, which: np.ndarray) -> LinkRest:
-        """Those of all the lattice's links that `which` (m,) tells."""
-        return self._kept("", which, self._links)
-
-    def cells(self, name: str, which: np.ndarray) -> CellRest:
-        """Those of the lattice's cells of this name that `which` (c,) tells."""
-        return self._kept(name, which, lambda chosen: self._cells(name, chosen))
-
-    def _kept(self, name: str, which: np.ndarray, make: Callable[[np.ndarray], Any]) -> Any:
-        key = name, which.tobytes()
+        """Return those of all the lattice's links that `which` (m,) tells."""
+        key = which.tobytes()
         found = self._found.get(key)
         if found is None:
             if len(self._found) == ASKED:
                 self._found.clear()
-            found = self._found[key] = make(which)
+            joined = self._lattice.joined
+            nodes, offset, rest, kind = joined if which.all() else (part[which] for part in joined)
+            slots = self._pattern.among(nodes).reshape(-1, 4)
+            found = self._found[key] = LinkRest(nodes, slots, offset, rest, kind)
         return found
 
-    def _links(self, which: np.ndarray) -> LinkRest:
-        joined = self._lattice.joined
-        nodes, offset, rest, kind = joined if which.all() else (part[which] for part in joined)
-        return LinkRest(nodes, self._pattern.among(nodes).reshape(-1, 4), offset, rest, kind)
-
-    def _cells(self, name: str, which: np.ndarray) -> CellRest:
-        (cells,) = (family for family in self._lattice.cells if family.name == name)
-        nodes, diagonals = cells.nodes, self._lattice.diagonals[name]
-        if not which.all():
-            nodes, diagonals = nodes[which], diagonals[which]
-        slots = self._pattern.among(nodes.reshape(len(nodes), -1))
-        (x, y, z), (p, q, r) = diagonals[:, 0].T, diagonals[:, 1].T
-        area = 0.5 * np.sqrt((y * r - z * q) ** 2 + (z * p - x * r) ** 2 + (x * q - y * p) ** 2)
-        return CellRest(nodes, slots, diagonals, area, which.copy())
+    def cells(self, name: str) -> CellRest:
+        """Return the lattice's cells of this name."""
+        if name not in self._cells:
+            (cells,) = (family for family in self._lattice.cells if family.name == name)
+            slots = self._pattern.among(cells.nodes.reshape(len(cells.nodes), -1))
+            sides = self._lattice.sides[name]
+            area = np.sqrt((np.cross(sides[:, 0], sides[:, 1]) ** 2).sum(axis=1))
+            self._cells[name] = CellRest(cells.nodes, slots, sides, area)
+        return self._cells[name]
 
 
 class Itself:

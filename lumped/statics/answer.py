@@ -39,7 +39,7 @@ def solution(
 ) -> Solution:
     """The answer of an outcome; asked: the options that are not their defaults."""
     state, lattice = outcome.state, problem.assembly.lattice
-    assembly, u, stresses = problem.assembly, state.u, state.stresses  # they outlive the solve
+    assembly, u = problem.assembly, state.u  # they outlive the solve
     linear = asked.get("linear", False)
     exerted, energies = _of_small_displacements(problem, state) if linear else _at(problem, outcome)
     reactions, on_masses = problem.constraints.reactions(exerted)
@@ -62,7 +62,7 @@ def solution(
         sample=lambda points: MidSurface(lattice, points).of(u),
         reactions=reactions,
         energies=energies,
-        mesh=LatticeMesh(lambda: field_mesh(assembly, u, on_masses, stresses)),
+        mesh=LatticeMesh(lambda: field_mesh(assembly, u, on_masses, linear)),
         history=tuple(problem.history),
         load_factor=state.load_factor,
         actuators=wrenches,
@@ -77,7 +77,7 @@ def _at(problem: Problem, outcome: Outcome) -> tuple[np.ndarray, dict[str, float
     the energies [J]."""
     state = outcome.state
     unbalanced, _ = problem.residual(state.u, state.load_factor)
-    return -unbalanced, outcome.energies or problem.assembly.energies(state.u, state.stresses)
+    return -unbalanced, outcome.energies or problem.assembly.energies(state.u)
 
 
 def _of_small_displacements(problem: Problem, state: State) -> tuple[np.ndarray, dict[str, float]]:

@@ -19,20 +19,21 @@ from lumped.statics import fused_path
 from lumped.statics.fused import Posed, Work
 
 OWN = ("dead", "placed", "link_stiffness", "positions", "areas", "size")  # of `Posed`
-Cells = tuple[np.ndarray, ...]  # of the four families of `Springs` after the links
+Cells = tuple[np.ndarray, ...]  # of the two families of `Springs` after the links
 
 
 class Batch(NamedTuple):
     """b lattices alike to the first, `like`, and of each, along the first axis, what is its own: offset
-    (b, m, 3), rest_length, stiffness (b, m) of the links, diagonals and stiffness of the cells, and `Posed`'s
-    dead, placed, link_stiffness, positions, areas and size."""
+    (b, m, 3), rest_length, constants (b, m) of the links, sides, area and constants of the cells, and
+    `Posed`'s dead, placed, link_stiffness, positions, areas and size."""
 
     like: Posed
     offset: np.ndarray
     rest_length: np.ndarray
-    stiffness: np.ndarray
-    diagonals: Cells
-    cells_stiffness: Cells
+    constants: np.ndarray
+    sides: Cells
+    area: Cells
+    of_cells: Cells
     dead: np.ndarray
     placed: np.ndarray
     link_stiffness: np.ndarray
@@ -74,9 +75,10 @@ def batch(lattices: Sequence[Posed]) -> Batch:
         lattices[0],
         np.stack([own.offset for own in links]),
         np.stack([own.rest_length for own in links]),
-        np.stack([own.stiffness for own in links]),
-        tuple(np.stack([own.diagonals for own in family]) for family in cells),
-        tuple(np.stack([own.stiffness for own in family]) for family in cells),
+        np.stack([own.constants for own in links]),
+        tuple(np.stack([own.sides for own in family]) for family in cells),
+        tuple(np.stack([own.area for own in family]) for family in cells),
+        tuple(np.stack([own.constants for own in family]) for family in cells),
         *(np.stack([getattr(lattice, name) for lattice in lattices]) for name in OWN),
     )
 
@@ -108,15 +110,12 @@ def paths(given: Batch) -> Paths:
 def lattice(given: Batch, at: int) -> Posed:
     """One of the lattices."""
     like = given.like
-    links, a, b = like.springs.links, like.springs.layers_area, like.springs.middle_area
-    c, d = like.springs.layers_strain, like.springs.middle_strain
-    rest, k = given.diagonals, given.cells_stiffness
+    links, a, b = like.springs.links, like.springs.layers, like.springs.middle
+    sides, area, constants = given.sides, given.area, given.of_cells
     springs = Springs(
-        LinkArrays(links.nodes, given.offset[at], given.rest_length[at], given.stiffness[at], links.slots),
-        CellArrays(a.nodes, rest[0][at], k[0][at], a.slots),
-        CellArrays(b.nodes, rest[1][at], k[1][at], b.slots),
-        CellArrays(c.nodes, rest[2][at], k[2][at], c.slots),
-        CellArrays(d.nodes, rest[3][at], k[3][at], d.slots),
+        LinkArrays(links.nodes, given.offset[at], given.rest_length[at], given.constants[at], links.slots),
+        CellArrays(a.nodes, sides[0][at], area[0][at], constants[0][at], a.slots),
+        CellArrays(b.nodes, sides[1][at], area[1][at], constants[1][at], b.slots),
     )
     return Posed(
         springs, like.blocks, like.rows, like.indices, like.band, like.free, like.held, given.dead[at],

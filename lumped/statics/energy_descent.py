@@ -86,4 +86,4 @@ def _definite_factor(problem: Problem, u: np.ndarray, load_factor: float, wait: 
         except SingularMatrixError:
             pass
         wait = PROJECTED_RUN
-    return problem.factor(problem.tangent(u, load_factor, problem.assembly.harmless(u))), wait - 1
+    return problem.factor(problem.nonnegative_tangent(u, load_factor)), wait - 1

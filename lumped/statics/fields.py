@@ -17,7 +17,6 @@ import numpy as np
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
 from lumped.springs.families import Cells
-from lumped.springs.together import Stresses
 from sheetbench.scenes import FieldMesh
 
 
@@ -35,24 +34,21 @@ class LatticeMesh(FieldMesh):
         return self.__dict__[name]
 
 
-def field_mesh(
-    assembly: Assembly, u: np.ndarray, reactions: np.ndarray, stresses: Stresses | None = None
-) -> FieldMesh:
+def field_mesh(assembly: Assembly, u: np.ndarray, reactions: np.ndarray, linear: bool = False) -> FieldMesh:
     """Mesh and fields at displacement u (n, 3) [m] with the supports' forces on the masses (n, 3) [N];
-    rows of actuators after those of the masses are left out. stresses: those at u unless given."""
+    rows of actuators after those of the masses are left out. linear: of a
+    solution for small displacements."""
     links, lattice = assembly.links, assembly.lattice
-    stresses = stresses or assembly.stresses(u)
     (layer_cells,) = (c.nodes[:, :, 0] for c in lattice.cells if c.name == "area")
     quads, masses = len(layer_cells), lattice.mass_count
     cell_energy = np.zeros(quads)
-    for family, stress in zip(assembly.springs, stresses, strict=True):
+    for family in assembly.springs:
         if isinstance(family, Cells):
-            energy = np.zeros(len(family.on))
-            energy[family.on] = family.energies(stress)
+            energy = family.energies(u, linear).sum(axis=1)
             layers = quads // len(energy)
             cell_energy += np.tile(energy / layers, layers)
-    tension = stresses[0]
-    link_energy = links.energies(tension)
+    elongation = links.elongations(u, linear)
+    link_energy = links.energies(u, linear)
     per_plan_cell = _links_by_cell(lattice, links.nodes, link_energy)
     layers = quads // len(per_plan_cell)
     per_plan_cell += cell_energy.reshape(layers, -1).sum(axis=0)
@@ -66,8 +62,8 @@ def field_mesh(
             "mass_share": lattice.share,
         },
         cell_data={
-            "tension": [tension, np.zeros(quads)],
-            "strain": [tension / links.stiffness / links.rest_length, np.zeros(quads)],
+            "tension": [links.stiffness * elongation, np.zeros(quads)],
+            "strain": [elongation / links.rest_length, np.zeros(quads)],
             "family": [links.kind.astype(float), np.full(quads, -1.0)],
             "elastic_energy": [link_energy, cell_energy],
             "cell_energy": [np.zeros(len(links)), all_energy],

@@ -79,7 +79,7 @@ def room(count: int, band: Band) -> Work:
 def factored(u: np.ndarray, stress: Stresses, posed: Posed, work: Work) -> bool:
     """Whether the tangent at u (n, 3) [m] with these stresses is positive definite; its factors to `work`."""
     work.blocks[:] = 0.0
-    together.add_tangent(u, posed.springs, stress, work.blocks)
+    together.add_tangent(u, posed.springs, stress, 1.0, work.blocks)
     banded.store(work.blocks, posed.band, work.matrix)
     work.factors[:] = work.matrix
     return banded.factor(work.factors, len(posed.band.order), posed.band.width)

@@ -114,7 +114,13 @@ class Problem:
 
     def tangent(self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None) -> np.ndarray:
         """Blocks of the tangent of the residual, loads included."""
-        blocks = self.assembly.tangent(u, stresses)
+        return self._with_loads(self.assembly.tangent(u, stresses), u, load_factor)
+
+    def nonnegative_tangent(self, u: np.ndarray, load_factor: float) -> np.ndarray:
+        """Return blocks of the tangent less what could make that of the springs indefinite."""
+        return self._with_loads(self.assembly.nonnegative_tangent(u), u, load_factor)
+
+    def _with_loads(self, blocks: np.ndarray, u: np.ndarray, load_factor: float) -> np.ndarray:
         self.loads.add_tangent(u, load_factor, blocks)
         if self.base is not None:
             self.base.add_tangent(u, 1.0, blocks)

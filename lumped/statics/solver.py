@@ -18,7 +18,6 @@ from lumped.lattice import Weights
 from lumped.linear.solver import SingularMatrixError
 from lumped.linear.threads import one_blas_thread
 from lumped.loads import Loads
-from lumped.springs.together import Stresses
 from lumped.statics import validity
 from lumped.statics.answer import Outcome, solution
 from lumped.statics.coarse_start import FROM, halved, refined
@@ -154,7 +153,7 @@ def flat_step(scene: Scene, problem: Problem) -> Outcome:
         return _singular(problem, error)
     u = predictor(problem, start, 1.0)
     state = replace(start, u=u, load_factor=1.0, stresses=problem.assembly.extrapolated(start.u, u))
-    if outside := outside_model(scene, link_stretch(problem.assembly, state.stresses), STRETCH):
+    if outside := outside_model(scene, link_stretch(problem.assembly, u, linear=True), STRETCH):
         return Outcome(Status.STRAIN_OUTSIDE_MODEL, state, notes=(outside,))
     return Outcome(Status.CONVERGED, state)
 
@@ -246,7 +245,7 @@ def judged(
     whether it is stable. snaps, known: on the way there, and what there was to say."""
     notes = list(known)
     status = Status.CONVERGED
-    if outside := outside_model(scene, link_stretch(problem.assembly, state.stresses), STRETCH):
+    if outside := outside_model(scene, link_stretch(problem.assembly, state.u), STRETCH):
         status = Status.STRAIN_OUTSIDE_MODEL
         notes.append(outside)
     elif state.negative:
@@ -254,8 +253,8 @@ def judged(
         notes.append(f"{state.negative} directions of negative curvature")
     elif state.negative is None:
         notes.append(UNKNOWN)
-    energies = problem.assembly.energies(state.u, state.stresses)
-    doubts = validity.layers(scene, problem.assembly, state.u, state.stresses, sum(energies.values()))
+    energies = problem.assembly.energies(state.u)
+    doubts = validity.layers(scene, problem.assembly, state.u, sum(energies.values()))
     rounded = validity.digits(problem, state)
     if rounded is not None and status is Status.CONVERGED:
         status = rounded.status
@@ -279,12 +278,11 @@ def judged(
     return Outcome(status, state, tuple(snaps), tuple(notes), energies)
 
 
-def link_stretch(assembly: Assembly, stresses: Stresses) -> float:
-    """Largest relative change of length of the in-plane central links."""
+def link_stretch(assembly: Assembly, u: np.ndarray, linear: bool = False) -> float:
+    """Return the largest relative change of length of the in-plane central links, or what is linear of it."""
     links = assembly.links
-    in_plane = links.offset[:, 2] == 0.0
-    stretch = np.abs(stresses[0] / (links.stiffness * links.rest_length))  # the links come first
-    return float(stretch.max(where=in_plane, initial=0.0))
+    stretch = np.abs(links.elongations(u, linear) / links.rest_length)
+    return float(stretch.max(where=links.offset[:, 2] == 0.0, initial=0.0))
 
 
 def _nothing(problem: Problem) -> tuple[Any, ...]:

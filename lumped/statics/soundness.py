@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numba import njit
 
-from lumped.springs.links import stretch
+from lumped.springs.links import measure
 
 
 @njit(cache=True)
@@ -17,8 +17,8 @@ def long_enough(
     """Whether every link is longer than a share of its rest length, u: (n, 3) [m]; arrays as in
     `lumped.springs.links`."""
     for m in range(len(nodes)):
-        length = stretch(u, nodes, offset, rest_length, m)[1]
-        if not length >= share * rest_length[m]:  # also catches nan
+        square = measure(u, nodes, offset, m)[1]
+        if not square >= (share * rest_length[m]) ** 2:  # also catches nan
             return False
     return True
 

@@ -26,7 +26,6 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
-from lumped.springs.together import Stresses
 from lumped.statics.equilibrium import State
 from lumped.statics.faults import Fault, place, surface
 from lumped.statics.problem import Problem
@@ -74,11 +73,11 @@ def _noise(shape: tuple[int, ...]) -> np.ndarray:
     return frozen(np.random.default_rng(0).standard_normal((SAMPLES, *shape)))
 
 
-def layers(scene: Scene, assembly: Assembly, u: np.ndarray, stresses: Stresses, energy: float) -> str:
+def layers(scene: Scene, assembly: Assembly, u: np.ndarray, energy: float) -> str:
     """A sentence where the sheet's stretching lies in layers thinner than the grid's cells, else nothing.
     energy: all that the springs store [J]."""
     lattice = assembly.lattice
-    stretched = _stretch_share(assembly, stresses, energy)
+    stretched = _stretch_share(assembly, u, energy)
     if stretched < FREE_OF_STRETCH:
         return ""
     kappa = _double_curvature(lattice, u[: lattice.mass_count])
@@ -110,7 +109,7 @@ def _double_curvature(lattice: Lattice, u: np.ndarray) -> np.ndarray:
     return gauss
 
 
-def _stretch_share(assembly: Assembly, stresses: Stresses, total: float) -> float:
+def _stretch_share(assembly: Assembly, u: np.ndarray, total: float) -> float:
     """Energy of the layers' mean stretch, as the in-plane links have it, over the elastic energy [J]."""
     links, layers_ = assembly.links, assembly.lattice.grid[2]
     in_plane = np.flatnonzero(links.offset[:, 2] == 0.0)
@@ -118,5 +117,5 @@ def _stretch_share(assembly: Assembly, stresses: Stresses, total: float) -> floa
         return 0.0
     # links between the same columns follow each other, layer by layer, and are as stiff as each other
     stiffness = links.stiffness[in_plane].reshape(-1, layers_)
-    mean = (stresses[0][in_plane].reshape(-1, layers_) / stiffness).sum(axis=1) / layers_
+    mean = links.elongations(u)[in_plane].reshape(-1, layers_).mean(axis=1)
     return float(0.5 * (stiffness.sum(axis=1) @ mean**2) / total)

@@ -1,0 +1,364 @@
+"""Springs and dampers of cells as compiled loops: measure, stress, force, tangent, rate.
+
+A cell whose four corners, in turn, are the means of p masses each has the mean sides a = (d1 − d2)/2 and
+b = (d1 + d2)/2, d1 and d2 its diagonals, and the measure g = (a·a, b·b, a·b); its area is √(det g), exact for
+a flat cell, that of the mid-point parallelogram doubled for a warped one. What its springs store is a law of
+g (`lumped.springs.laws`); rigid motions leave g alone. With S = dW/dg, D = d²W/dg² and the change δ of g,
+
+    forces      f_a = 2 S₁ a + S₃ b,   f_b = 2 S₂ b + S₃ a
+    tangent     δf_a = 2 S₁ δa + S₃ δb + 2 a δS₁ + b δS₃,   δS = D δg,   δf_b likewise.
+
+The tangent takes S as an argument of its own: that at u, an extrapolated one S + D ġ, its nonnegative part,
+none. Dampers have the stress M ġ (`lumped.springs.laws`); of it the derivative by the displacement is
+unsymmetric.
+
+Arrays: nodes (c, 4, p); sides (c, 2, 3) [m] and area (c,) [m²] at rest; constants (c, 4) [N/m³] of the
+springs' law or, times a second, of the dampers'; stress (c, 3) [N/m]; slots (c, 4p, 4p) block numbers,
+corner-major; blocks (b, 3, 3) [N/m], added to; u, v, force (n, 3).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from lumped.springs.laws import Four, Six, Three, area_and_strains, mean_area_and_strains, stiffness
+from lumped.springs.vectors import Vector, dot, less, plus, times
+
+HALF = 0.5
+Pair = tuple[Vector, Vector]
+Rows = tuple[Pair, Pair, Pair]
+
+
+@njit(cache=True, error_model="numpy")
+def side_changes(u: np.ndarray, nodes: np.ndarray, c: int) -> tuple[Vector, Vector]:
+    """What u changes in the mean sides a and b of cell c."""
+    fx = fy = fz = sx = sy = sz = 0.0
+    for s in range(nodes.shape[2]):
+        k, m = np.uint64(nodes[c, 0, s]), np.uint64(nodes[c, 1, s])
+        n, o = np.uint64(nodes[c, 2, s]), np.uint64(nodes[c, 3, s])
+        fx += u[n, 0] - u[k, 0]
+        fy += u[n, 1] - u[k, 1]
+        fz += u[n, 2] - u[k, 2]
+        sx += u[o, 0] - u[m, 0]
+        sy += u[o, 1] - u[m, 1]
+        sz += u[o, 2] - u[m, 2]
+    share = 0.5 / nodes.shape[2]
+    return (
+        (share * (fx - sx), share * (fy - sy), share * (fz - sz)),
+        (share * (fx + sx), share * (fy + sy), share * (fz + sz)),
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def at_rest(sides: np.ndarray, c: int) -> tuple[Vector, Vector]:
+    """The mean sides of cell c at rest."""
+    return (
+        (sides[c, 0, 0], sides[c, 0, 1], sides[c, 0, 2]),
+        (sides[c, 1, 0], sides[c, 1, 1], sides[c, 1, 2]),
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def products(a: Vector, b: Vector) -> Three:
+    """The measure of sides a and b."""
+    return dot(a, a), dot(b, b), dot(a, b)
+
+
+@njit(cache=True, error_model="numpy")
+def measure(
+    u: np.ndarray, nodes: np.ndarray, sides: np.ndarray, c: int
+) -> tuple[Three, Three, Vector, Vector]:
+    """δg, g at rest, and the sides a and b now, of cell c."""
+    a, b = at_rest(sides, c)
+    da, db = side_changes(u, nodes, c)
+    rest = products(a, b)
+    now_a, now_b = plus(a, da), plus(b, db)
+    change = dot(plus(a, now_a), da), dot(plus(b, now_b), db), dot(da, b) + dot(now_a, db)
+    return change, rest, now_a, now_b
+
+
+@njit(cache=True, error_model="numpy")
+def rate(a: Vector, b: Vector, va: Vector, vb: Vector) -> Three:
+    """ġ of sides a, b that move with va, vb."""
+    return 2.0 * dot(a, va), 2.0 * dot(b, vb), dot(a, vb) + dot(b, va)
+
+
+@njit(cache=True, error_model="numpy")
+def of_cell(constants: np.ndarray, c: int) -> Four:
+    """The constants of cell c."""
+    return constants[c, 0], constants[c, 1], constants[c, 2], constants[c, 3]
+
+
+@njit(cache=True, error_model="numpy")
+def times_six(d: Six, x: Three) -> Three:
+    """A symmetric matrix times a vector."""
+    return (
+        d[0] * x[0] + d[3] * x[1] + d[4] * x[2],
+        d[3] * x[0] + d[1] * x[1] + d[5] * x[2],
+        d[4] * x[0] + d[5] * x[1] + d[2] * x[2],
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def pull(nodes: np.ndarray, c: int, stress: Three, a: Vector, b: Vector, force: np.ndarray) -> None:
+    """Add the forces of a stress on sides a and b of cell c to its masses."""
+    share = 0.5 / nodes.shape[2]
+    twice1, twice2, s3 = share * (stress[0] + stress[0]), share * (stress[1] + stress[1]), share * stress[2]
+    on_a, on_b = plus(times(twice1, a), times(s3, b)), plus(times(twice2, b), times(s3, a))
+    along, across = plus(on_a, on_b), less(on_b, on_a)
+    for s in range(nodes.shape[2]):
+        k, m = np.uint64(nodes[c, 0, s]), np.uint64(nodes[c, 1, s])
+        n, o = np.uint64(nodes[c, 2, s]), np.uint64(nodes[c, 3, s])
+        for q in range(3):
+            force[k, q] -= along[q]
+            force[n, q] += along[q]
+            force[m, q] -= across[q]
+            force[o, q] += across[q]
+
+
+@njit(cache=True, error_model="numpy")
+def add_forces(
+    u: np.ndarray,
+    nodes: np.ndarray,
+    sides: np.ndarray,
+    area: np.ndarray,
+    constants: np.ndarray,
+    force: np.ndarray,
+) -> float:
+    """Add the internal force to `force` (n, 3) [N]; return the energy [J]."""
+    energy = 0.0
+    for c in range(len(nodes)):
+        d, g, a, b = measure(u, nodes, sides, c)
+        stored, _, _, stress = area_and_strains(HALF, d, g, area[c], of_cell(constants, c))
+        energy += stored
+        pull(nodes, c, stress, a, b, force)
+    return energy
+
+
+@njit(cache=True, error_model="numpy")
+def energies(
+    u: np.ndarray, nodes: np.ndarray, sides: np.ndarray, area: np.ndarray, constants: np.ndarray
+) -> np.ndarray:
+    """Energy of every cell's area spring and of its springs against strain, (c, 2) [J]."""
+    out = np.empty((len(nodes), 2))
+    for c in range(len(nodes)):
+        d, g, _, _ = measure(u, nodes, sides, c)
+        q = of_cell(constants, c)
+        out[c, 0] = area_and_strains(HALF, d, g, area[c], (q[0], 0.0, 0.0, 0.0))[0]
+        out[c, 1] = area_and_strains(HALF, d, g, area[c], (0.0, q[1], q[2], q[3]))[0]
+    return out
+
+
+@njit(cache=True, error_model="numpy")
+def stresses(
+    u: np.ndarray, nodes: np.ndarray, sides: np.ndarray, area: np.ndarray, constants: np.ndarray
+) -> np.ndarray:
+    """Stress S of every cell, (c, 3) [N/m]."""
+    out = np.empty((len(nodes), 3))
+    for c in range(len(nodes)):
+        d, g, _, _ = measure(u, nodes, sides, c)
+        _, _, _, (out[c, 0], out[c, 1], out[c, 2]) = area_and_strains(
+            HALF, d, g, area[c], of_cell(constants, c)
+        )
+    return out
+
+
+@njit(cache=True, error_model="numpy")
+def extrapolated(
+    u: np.ndarray,
+    step: np.ndarray,
+    nodes: np.ndarray,
+    sides: np.ndarray,
+    area: np.ndarray,
+    constants: np.ndarray,
+) -> np.ndarray:
+    """Stress S + D ġ that the linearisation at u predicts after a step (n, 3) [m], (c, 3) [N/m]."""
+    out = np.empty((len(nodes), 3))
+    for c in range(len(nodes)):
+        d, g, a, b = measure(u, nodes, sides, c)
+        q = of_cell(constants, c)
+        _, t, square, stress = area_and_strains(HALF, d, g, area[c], q)
+        moved = rate(a, b, *side_changes(step, nodes, c))
+        out[c, 0], out[c, 1], out[c, 2] = plus(
+            stress, times_six(stiffness(plus(g, d), t, square, 1.0, q), moved)
+        )
+    return out
+
+
+@njit(cache=True, error_model="numpy")
+def nonnegative_part(
+    u: np.ndarray, nodes: np.ndarray, sides: np.ndarray, area: np.ndarray, constants: np.ndarray
+) -> np.ndarray:
+    """The part of the stress with which, and with M for D, the tangent is a sum of squares (of negative area
+    springs while strains are small): that of stretched areas, (c, 3) [N/m]."""
+    out = np.zeros((len(nodes), 3))
+    for c in range(len(nodes)):
+        d, g, _, _ = measure(u, nodes, sides, c)
+        _, t, _, _ = area_and_strains(HALF, d, g, area[c], of_cell(constants, c))
+        if t > 0.0:
+            out[c, 0], out[c, 1], out[c, 2] = t * (g[1] + d[1]), t * (g[0] + d[0]), -2.0 * t * (g[2] + d[2])
+    return out
+
+
+@njit(cache=True, error_model="numpy")
+def add_average_forces(
+    start: np.ndarray,
+    end: np.ndarray,
+    nodes: np.ndarray,
+    sides: np.ndarray,
+    area: np.ndarray,
+    constants: np.ndarray,
+    force: np.ndarray,
+) -> None:
+    """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it: that
+    of the mean stress on the mean sides."""
+    for c in range(len(nodes)):
+        d0, g, a0, b0 = measure(start, nodes, sides, c)
+        d1, _, a1, b1 = measure(end, nodes, sides, c)
+        stress = mean_area_and_strains(d0, d1, g, area[c], of_cell(constants, c))
+        pull(nodes, c, stress, times(0.5, plus(a0, a1)), times(0.5, plus(b0, b1)), force)
+
+
+@njit(cache=True, error_model="numpy")
+def add_damping_forces(
+    u: np.ndarray,
+    v: np.ndarray,
+    nodes: np.ndarray,
+    sides: np.ndarray,
+    area: np.ndarray,
+    constants: np.ndarray,
+    force: np.ndarray,
+) -> float:
+    """Add the damping force of the stress M ġ, signed as an internal one, to `force` (n, 3) [N]; return the
+    power taken [W]."""
+    power = 0.0
+    for c in range(len(nodes)):
+        _, _, a, b = measure(u, nodes, sides, c)
+        q, now = of_cell(constants, c), products(a, b)
+        moving = rate(a, b, *side_changes(v, nodes, c))
+        stress = times_six(stiffness(now, 0.0, now[0] * now[1] - now[2] * now[2], 0.0, q), moving)
+        power += dot(stress, moving)
+        pull(nodes, c, stress, a, b, force)
+    return power
+
+
+@njit(cache=True, error_model="numpy")
+def add_tangent(
+    u: np.ndarray,
+    nodes: np.ndarray,
+    sides: np.ndarray,
+    area: np.ndarray,
+    constants: np.ndarray,
+    stress: np.ndarray,
+    share: float,
+    slots: np.ndarray,
+    blocks: np.ndarray,
+) -> None:
+    """Add the tangent of every cell with this stress, or with the share of its own where `stress` is empty,
+    and with M + share (D − M), to the 3×3 blocks."""
+    in_diagonals = np.empty((4, 9))
+    own = len(stress) == 0
+    for c in range(len(nodes)):
+        d, g, a, b = measure(u, nodes, sides, c)
+        q = of_cell(constants, c)
+        _, t, square, s = area_and_strains(HALF, d, g, area[c], q)
+        s = times(share, s) if own else (stress[c, 0], stress[c, 1], stress[c, 2])
+        k = stiffness(plus(g, d), t, square, share, q)
+        rows = (
+            _by_sides((k[0], k[3], k[4]), a, b),
+            _by_sides((k[3], k[1], k[5]), a, b),
+            _by_sides((k[4], k[5], k[2]), a, b),
+        )
+        _to_diagonals(s, a, b, rows, in_diagonals)
+        add_blocks(in_diagonals, nodes.shape[2], slots[c], blocks)
+
+
+@njit(cache=True, error_model="numpy")
+def add_damping_tangent(
+    u: np.ndarray,
+    v: np.ndarray,
+    nodes: np.ndarray,
+    sides: np.ndarray,
+    area: np.ndarray,
+    constants: np.ndarray,
+    slots: np.ndarray,
+    blocks: np.ndarray,
+) -> None:
+    """Add the derivative of the damping force by the displacement to the 3×3 blocks, unsymmetric. Of the area
+
+    q₀ [Ȧ ∇²A + ∇A (∇²A ġ)ᵀ],   ∇A = n/2A,   ∇²A = N/2A − n nᵀ/4A³
+
+    is ∂(M ġ)/∂g; with M and the sides' velocities comes ∂ġ.
+    """
+    in_diagonals = np.empty((4, 9))
+    for c in range(len(nodes)):
+        _, _, a, b = measure(u, nodes, sides, c)
+        q, now = of_cell(constants, c), products(a, b)
+        va, vb = side_changes(v, nodes, c)
+        moving = rate(a, b, va, vb)
+        square = now[0] * now[1] - now[2] * now[2]
+        k = stiffness(now, 0.0, square, 0.0, q)
+        n, turned = (now[1], now[0], -2.0 * now[2]), (moving[1], moving[0], -2.0 * moving[2])
+        along = dot(n, moving) / square
+        scale = 0.25 * q[0] / square
+        h = less(turned, times(0.5 * along, n))  # 2A ∇²A ġ
+        h, growing = times(scale, less(h, times(0.5 * along, n))), scale * along * square
+        r1 = plus(times(n[0], h), (0.0, growing, 0.0))
+        r2 = plus(times(n[1], h), (growing, 0.0, 0.0))
+        r3 = plus(times(n[2], h), (0.0, 0.0, -2.0 * growing))
+        rows = (
+            _both(_by_sides(r1, a, b), _by_sides((k[0], k[3], k[4]), va, vb)),
+            _both(_by_sides(r2, a, b), _by_sides((k[3], k[1], k[5]), va, vb)),
+            _both(_by_sides(r3, a, b), _by_sides((k[4], k[5], k[2]), va, vb)),
+        )
+        _to_diagonals(times_six(k, moving), a, b, rows, in_diagonals)
+        add_blocks(in_diagonals, nodes.shape[2], slots[c], blocks)
+
+
+@njit(cache=True, error_model="numpy")
+def _by_sides(d: Three, a: Vector, b: Vector) -> Pair:
+    """The derivatives by a and by b of what has the derivative d by g, g that of sides a and b."""
+    return plus(times(2.0 * d[0], a), times(d[2], b)), plus(times(2.0 * d[1], b), times(d[2], a))
+
+
+@njit(cache=True, error_model="numpy")
+def _both(one: Pair, other: Pair) -> Pair:
+    """The sum of two pairs of vectors."""
+    return plus(one[0], other[0]), plus(one[1], other[1])
+
+
+@njit(cache=True, error_model="numpy")
+def _to_diagonals(stress: Three, a: Vector, b: Vector, rows: Rows, out: np.ndarray) -> None:
+    """The tangent of a cell in its diagonals, (4, 9) of (d1, d1), (d1, d2), (d2, d1), (d2, d2), from the
+    derivatives of S₁, S₂, S₃ by the sides: that in a and b, with a = (d1 − d2)/2 and b = (d1 + d2)/2."""
+    (s1a, s1b), (s2a, s2b), (s3a, s3b) = rows
+    s1, s2, s3 = 0.5 * stress[0], 0.5 * stress[1], 0.25 * stress[2]
+    for q in range(3):
+        x, y = a[q], b[q]
+        x2, y2, x1, y1 = 0.5 * x, 0.5 * y, 0.25 * x, 0.25 * y
+        for r in range(3):
+            aa, ab = x2 * s1a[r] + y1 * s3a[r], x2 * s1b[r] + y1 * s3b[r]
+            ba, bb = y2 * s2a[r] + x1 * s3a[r], y2 * s2b[r] + x1 * s3b[r]
+            if q == r:
+                aa, bb, ab, ba = aa + s1, bb + s2, ab + s3, ba + s3
+            at = 3 * q + r
+            out[0, at] = bb + aa + (ab + ba)
+            out[1, at] = bb - aa + (ab - ba)
+            out[2, at] = bb - aa - (ab - ba)
+            out[3, at] = bb + aa - (ab + ba)
+
+
+@njit(cache=True, error_model="numpy")
+def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, blocks: np.ndarray) -> None:
+    """Add a tangent in a cell's diagonals, (4, 9), to the blocks of its corners, each a mean of p masses."""
+    flat, share = blocks.reshape(-1, 9), 1.0 / (p * p)
+    for corner in range(4):
+        for other in range(4):
+            part = in_diagonals[2 * (corner % 2) + other % 2]
+            sign = share if (corner < 2) == (other < 2) else -share
+            for s in range(p):
+                for t in range(p):
+                    block = flat[np.uint64(slots[corner * p + s, other * p + t])]
+                    for e in range(9):
+                        block[e] += sign * part[e]

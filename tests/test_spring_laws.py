@@ -1,0 +1,135 @@
+"""Laws of springs: energy → stress → stiffness by differences, for cells of any rest shape."""
+
+import numpy as np
+import pytest
+
+from lumped.springs import cells
+from lumped.springs.laws import (
+    area_and_strains,
+    elongation,
+    mean_area_and_strains,
+    mean_elongation,
+    of_stiffness,
+    stiffness,
+)
+
+SIDES = {
+    "square": np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]),
+    "long": np.array([[0.4, 0.0, 0.0], [0.0, 1.3, 0.0]]),
+    "oblique": np.array([[1.0, 0.1, 0.0], [0.5, 0.9, 0.0]]),
+}
+STIFFNESS = np.array([[-30.0, 200.0, 150.0, 80.0]])
+F = np.array([[1.3, 0.2, 0.0], [-0.1, 0.9, 0.0], [0.3, 0.1, 1.0]])  # a large homogeneous deformation
+
+
+def gram(sides):
+    a, b = sides
+    return np.array([a @ a, b @ b, a @ b])
+
+
+def law(sides, now):
+    """Energy, t, A² and S of a cell with these sides at rest and now."""
+    area = float(np.linalg.norm(np.cross(*sides)))
+    q = tuple(of_stiffness(STIFFNESS, sides[None], np.array([area]))[0].tolist())
+    g = gram(sides)
+    return area_and_strains(0.5, tuple(gram(now) - g), tuple(g), area, q), area, q
+
+
+@pytest.mark.parametrize("name", SIDES)
+def test_stress_and_stiffness_of_cells_are_derivatives_of_the_energy(name):
+    sides = SIDES[name]
+    now = sides @ F.T
+    (_, t, square, stress), area, q = law(sides, now)
+    g, rest = gram(now), gram(sides)
+    h = 1e-5
+
+    def at(change):
+        return area_and_strains(0.5, tuple(g + change - rest), tuple(rest), area, q)
+
+    k = stiffness(tuple(g), t, square, 1.0, q)
+    full = np.array([[k[0], k[3], k[4]], [k[3], k[1], k[5]], [k[4], k[5], k[2]]])
+    for i, unit in enumerate(np.eye(3)):
+        up, down = at(h * unit), at(-h * unit)
+        # a central difference of third derivatives of order one: h² of them
+        assert (up[0] - down[0]) / (2 * h) == pytest.approx(stress[i], rel=1e-7, abs=1e-7)
+        slope = (np.array(up[3]) - np.array(down[3])) / (2 * h)
+        assert np.allclose(slope, full[i], atol=1e-7 * np.abs(full).max())
+
+
+@pytest.mark.parametrize("name", SIDES)
+def test_the_energy_is_that_of_the_change_of_area_and_of_green_strains(name):
+    sides = SIDES[name]
+    now = sides @ F.T
+    (energy, *_), area, _ = law(sides, now)
+    (aa, bb, ab), (gaa, gbb, gab) = gram(now), gram(sides)
+    strains = np.array(
+        [
+            np.linalg.norm(np.cross(*now)) / area - 1.0,
+            0.5 * (aa / gaa - 1.0),
+            0.5 * (bb / gbb - 1.0),
+            (ab - gab) / np.sqrt(gaa * gbb),
+        ]
+    )
+    assert energy == pytest.approx(0.5 * area * STIFFNESS[0] @ strains**2, rel=1e-13)
+
+
+@pytest.mark.parametrize("name", SIDES)
+def test_a_turned_cell_stores_nothing_and_its_mean_stress_does_the_work(name):
+    sides = SIDES[name]
+    turn = np.array([[0.0, -1.0, 0.0], [0.6, 0.0, -0.8], [0.8, 0.0, 0.6]])
+    (energy, _, _, stress), area, q = law(sides, sides @ turn.T)
+    assert abs(energy) < 1e-28 and np.abs(stress).max() < 1e-12
+    rest, d0, d1 = gram(sides), gram(sides @ F.T) - gram(sides), gram(sides @ F) - gram(sides)
+    mean = mean_area_and_strains(tuple(d0), tuple(d1), tuple(rest), area, q)
+    stored = law(sides, sides @ F)[0][0] - law(sides, sides @ F.T)[0][0]
+    assert np.array(mean) @ (d1 - d0) == pytest.approx(stored, rel=1e-12)
+
+
+def test_stress_and_stiffness_of_links_are_derivatives_of_the_energy():
+    k, length, g, h = 70.0, 0.4, 0.25, 1e-6
+
+    def at(square):
+        return elongation(0.5, square - length**2, square, length, k)
+
+    energy, stress, material, rest = at(g)
+    assert energy == pytest.approx(0.5 * k * (0.5 - 0.4) ** 2, rel=1e-13)
+    assert (at(g + h)[0] - at(g - h)[0]) / (2 * h) == pytest.approx(stress, rel=1e-8)
+    assert (at(g + h)[1] - at(g - h)[1]) / (2 * h) == pytest.approx(material + rest, rel=1e-8)
+    mean = mean_elongation(0.5, 0.6, 0.1, 0.2, k)
+    assert mean * (0.6**2 - 0.5**2) == pytest.approx(0.5 * k * (0.2**2 - 0.1**2), rel=1e-13)
+
+
+@pytest.mark.parametrize("name", SIDES)
+def test_forces_of_cells_of_any_rest_shape_are_the_energys_gradient(name):
+    """Whatever the angle between a cell's sides at rest: a right one was taken for granted."""
+    sides = SIDES[name]
+    area = np.array([np.linalg.norm(np.cross(*sides))])
+    q = of_stiffness(STIFFNESS, sides[None], area)
+    nodes = np.arange(4).reshape(1, 4, 1)
+    rng = np.random.default_rng(1)
+    u = 0.1 * rng.standard_normal((4, 3))
+    force = np.zeros_like(u)
+    cells.add_forces(u, nodes, sides[None], area, q, force)
+
+    def energy(v):
+        return cells.add_forces(v, nodes, sides[None], area, q, np.zeros_like(v))
+
+    h = 1e-6
+    for i in np.ndindex(*u.shape):
+        step = np.zeros_like(u)
+        step[i] = h
+        slope = (energy(u + step) - energy(u - step)) / (2 * h)
+        assert slope == pytest.approx(force[i], rel=1e-6, abs=1e-7 * np.abs(force).max())
+    slots = np.arange(16, dtype=np.int32).reshape(1, 4, 4)
+    blocks = np.zeros((16, 3, 3))
+    cells.add_tangent(u, nodes, sides[None], area, q, np.empty((0, 3)), 1.0, slots, blocks)
+    tangent = blocks.reshape(4, 4, 3, 3).transpose(0, 2, 1, 3).reshape(12, 12)
+    numeric = np.empty((12, 12))
+    for column, i in enumerate(np.ndindex(*u.shape)):
+        step = np.zeros_like(u)
+        step[i] = h
+        sides_of = [np.zeros_like(u), np.zeros_like(u)]
+        for sign, out in zip((1, -1), sides_of, strict=True):
+            cells.add_forces(u + sign * step, nodes, sides[None], area, q, out)
+        numeric[:, column] = ((sides_of[0] - sides_of[1]) / (2 * h)).ravel()
+    assert np.allclose(tangent, numeric, atol=1e-6 * np.abs(numeric).max())

@@ -169,6 +169,13 @@ def test_the_option(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     capsys.readouterr()
     assert run(*asked, "--figure", "svg") == 2
     assert "needs --out" in one_line(capsys)
+    assert run(*asked, "--figure", "svg", "--no-pictures", "--out", str(out)) == 2
+    assert "--no-pictures" in one_line(capsys)
+    bare = tmp_path / "bare"
+    assert run(*asked, "--no-pictures", "--out", str(bare)) == 0
+    assert "drawing" not in capsys.readouterr().err
+    left = {path.suffix for path in bare.iterdir()}
+    assert not left & {".png", ".pdf", ".svg"} and {".json", ".csv", ".vtu"} <= left
     assert run(*asked, "--figure", "jpg", "--out", str(out)) == 2
     assert "--figure" in one_line(capsys)
     assert run("stability", "--study", "mass", "--figure", "pdf:single", "--out", str(tmp_path / "s")) == 2

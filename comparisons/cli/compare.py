@@ -15,6 +15,7 @@ from comparisons.cli.options import (
     Large,
     Law,
     Models,
+    NoPictures,
     Out,
     Overwrite,
     Scene,
@@ -53,6 +54,7 @@ def command(
     json: Json = False,
     out: Out = None,
     figure: Figure = None,
+    no_pictures: NoPictures = False,
     overwrite: Overwrite = False,
 ) -> None:
     """Solve a scene with the lattice and with a reference, and show what differs and what it cost.
@@ -76,7 +78,9 @@ def command(
     named = lattice["calibration"] is not None or lattice["k"] is not None
     models = {"--reference": reference, "--calibration": "named" if named else "open", "--auto": auto}
     models |= {"--model": " ".join(model)} if model else {}
-    with finish("compare", json, out, overwrite, scene=asked, apart=models, figure=figure) as end:
+    with finish(
+        "compare", json, out, overwrite, scene=asked, apart=models, figure=figure, pictures=not no_pictures
+    ) as end:
         advice = None
         if auto:
             allowed = 0.01 if tolerance is None else tolerance

@@ -33,10 +33,11 @@ NOT_CONVERGED = 3
 class End:
     """What a verb may do while it works, and its end when called with the report."""
 
-    def __init__(self, json: bool, folder: Folder | None, look: Look) -> None:
+    def __init__(self, json: bool, folder: Folder | None, look: Look, pictures: bool) -> None:
         self._json = json
         self._folder = folder
         self._look = look
+        self._pictures = pictures
         self._also: list[str] = []
         self._spinning = ExitStack()
         self._say: Callable[[Work | str], None] | None = None
@@ -106,7 +107,8 @@ class End:
         leave with 3 where the question was not met."""
         found = report.document.get("warnings", ())  # the question's own, before those about its scene
         document = {**report.document, "warnings": [*found, *warned.said]}
-        report = replace(report, document=document).dressed(self._look)
+        pictures = report.pictures if self._pictures else ()
+        report = replace(report, document=document, pictures=pictures).dressed(self._look)
         missing: list[str] = []
         if self._folder is not None:
             missing = [f"No picture: {said}" for said in self._folder.report(report, self.progress)]
@@ -153,13 +155,15 @@ def finish(
     about: Mapping[str, Any] | None = None,
     apart: Mapping[str, Any] | None = None,
     figure: str | None = None,
+    pictures: bool = True,
     alone: bool = False,
 ) -> Iterator[End]:
     """The end of a verb, to be called with its report.
 
     scene, or about: what the answer is about; apart: options that decide which files it leaves; figure: the
-    look of its pictures; alone: no other process may write to the folder meanwhile (campaigns see to that
-    themselves). Raises BadInput for a folder that cannot be had, or that holds files of something else.
+    look of its pictures; pictures: whether they are drawn; alone: no other process may write to the folder
+    meanwhile (campaigns see to that themselves). Raises BadInput for a folder that cannot be had, or that
+    holds files of something else.
     """
     from comparisons.report.look import parse_figure
     from sheetbench.scenes.errors import BadInput
@@ -167,6 +171,8 @@ def finish(
     look = parse_figure(figure)
     if figure is not None and out is None:
         raise BadInput("--figure: needs --out, a folder to draw into")
+    if figure is not None and not pictures:
+        raise BadInput("--figure: names pictures, and --no-pictures says to draw none; leave one of them out")
     with ExitStack() as held:
         folder = None
         if out is not None:
@@ -180,4 +186,4 @@ def finish(
             if alone:
                 held.enter_context(only_writer(files.folder(out)))
             folder = Folder(out, verb, command_line(), about=about, apart=apart, overwrite=overwrite)
-        yield held.enter_context(closing(End(json, folder, look)))
+        yield held.enter_context(closing(End(json, folder, look, pictures)))

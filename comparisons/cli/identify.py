@@ -14,6 +14,7 @@ from comparisons.cli.options import (
     Json,
     Large,
     Law,
+    NoPictures,
     Out,
     Overwrite,
     Scene,
@@ -55,6 +56,7 @@ def command(
     json: Json = False,
     out: Out = None,
     figure: Figure = None,
+    no_pictures: NoPictures = False,
     overwrite: Overwrite = False,
 ) -> None:
     """Find the values with which a model comes nearest to what was measured, with 95 % intervals.
@@ -71,7 +73,9 @@ def command(
 
     asked = load_static(scene)
     data = read(measured, asked)
-    with finish("identify", json, out, overwrite, scene=asked, figure=figure) as end:
+    with finish(
+        "identify", json, out, overwrite, scene=asked, figure=figure, pictures=not no_pictures
+    ) as end:
         try:
             found = identify(
                 asked,

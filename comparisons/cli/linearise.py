@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.lattice_options import Lattice, with_lattice
-from comparisons.cli.options import Figure, Json, Large, Out, Overwrite, Scene
+from comparisons.cli.options import Figure, Json, Large, NoPictures, Out, Overwrite, Scene
 
 MODES = 20
 
@@ -35,6 +35,7 @@ def command(
     json: Json = False,
     out: Out = None,
     figure: Figure = None,
+    no_pictures: NoPictures = False,
     overwrite: Overwrite = False,
 ) -> None:
     """Make the lattice linear about its equilibrium: poles, what commands do, matrices for control.
@@ -47,7 +48,9 @@ def command(
     from sheetbench import scenes
 
     asked = scenes.load(scene)
-    with finish("linearise", json, out, overwrite, scene=asked, figure=figure) as end:
+    with finish(
+        "linearise", json, out, overwrite, scene=asked, figure=figure, pictures=not no_pictures
+    ) as end:
         found = linearise(
             asked,
             **lattice,

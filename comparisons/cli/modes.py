@@ -12,6 +12,7 @@ from comparisons.cli.options import (
     Figure,
     Json,
     Large,
+    NoPictures,
     Out,
     Overwrite,
     Scene,
@@ -50,6 +51,7 @@ def command(
     json: Json = False,
     out: Out = None,
     figure: Figure = None,
+    no_pictures: NoPictures = False,
     overwrite: Overwrite = False,
 ) -> None:
     """List the natural frequencies of the lattice and a reference, about the flat sheet or the deformed."""
@@ -60,7 +62,7 @@ def command(
     from sheetbench.scenes.errors import NoEquilibrium
 
     asked = load(scene)
-    with finish("modes", json, out, overwrite, scene=asked, figure=figure) as end:
+    with finish("modes", json, out, overwrite, scene=asked, figure=figure, pictures=not no_pictures) as end:
         try:
             found = spectra(
                 asked,

@@ -58,6 +58,10 @@ Figure = Annotated[
         show_default=False,
     ),
 ]
+NoPictures = Annotated[
+    bool,
+    typer.Option("--no-pictures", help="With --out: all files but the pictures.", show_default=False),
+]
 Overwrite = Annotated[
     bool,
     typer.Option(

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Elements, Figure, Json, Out, Overwrite
+from comparisons.cli.options import Elements, Figure, Json, NoPictures, Out, Overwrite
 from sheetbench.choices import ELEMENTS
 
 
@@ -24,6 +24,7 @@ def command(
     json: Json = False,
     out: Out = None,
     figure: Figure = None,
+    no_pictures: NoPictures = False,
     overwrite: Overwrite = False,
 ) -> None:
     """Reproduce the seed's study: tables beside our models, errors, the settling run, what fits best.
@@ -39,7 +40,9 @@ def command(
     for name in part or ():
         require_choice("--part", name, PARTS)
     parts = [name for name in PARTS if name in (part or PARTS)]
-    with finish("reproduce", json, out, overwrite, apart={"--part": parts}, figure=figure) as end:
+    with finish(
+        "reproduce", json, out, overwrite, apart={"--part": parts}, figure=figure, pictures=not no_pictures
+    ) as end:
         found = reproduce(parts, elements=parse_elements(elements), progress=end.progress)
         for name in found.folders:
             end.place(name)

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Figure, Json, Out, Overwrite
+from comparisons.cli.options import Figure, Json, NoPictures, Out, Overwrite
 
 
 def command(
@@ -26,6 +26,7 @@ def command(
     json: Json = False,
     out: Out = None,
     figure: Figure = None,
+    no_pictures: NoPictures = False,
     overwrite: Overwrite = False,
 ) -> None:
     """Score answers to the reference set: errors, what is wrong with them, the place beside other models.
@@ -40,6 +41,12 @@ def command(
 
     require_choice("--suite", suite, SUITES)
     with finish(
-        "score", json, out, overwrite, apart={"--suite": suite, "--case": case}, figure=figure
+        "score",
+        json,
+        out,
+        overwrite,
+        apart={"--suite": suite, "--case": case},
+        figure=figure,
+        pictures=not no_pictures,
     ) as end:
         end(score(answers, suite, case).report())

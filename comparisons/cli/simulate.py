@@ -13,6 +13,7 @@ from comparisons.cli.options import (
     Figure,
     Json,
     Large,
+    NoPictures,
     Out,
     Overwrite,
     Scene,
@@ -53,6 +54,7 @@ def command(
     json: Json = False,
     out: Out = None,
     figure: Figure = None,
+    no_pictures: NoPictures = False,
     overwrite: Overwrite = False,
 ) -> None:
     """Simulate the lattice from rest. With --out the run streams to a folder; the same command resumes it."""
@@ -78,7 +80,17 @@ def command(
     model = Candidate("lumped", lattice)
     check(asked, model, large)
     run = {"--integrator": integrator, **given(lattice), "--step": step, "--every": every}
-    with finish("simulate", json, out, overwrite, scene=asked, apart=run, alone=True, figure=figure) as end:
+    with finish(
+        "simulate",
+        json,
+        out,
+        overwrite,
+        scene=asked,
+        apart=run,
+        alone=True,
+        figure=figure,
+        pictures=not no_pictures,
+    ) as end:
         pace = Pace(duration)
 
         def reached(time: float) -> None:

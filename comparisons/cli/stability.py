@@ -11,6 +11,7 @@ from comparisons.cli.options import (
     Grading,
     Json,
     Large,
+    NoPictures,
     Out,
     Overwrite,
     Retry,
@@ -41,6 +42,7 @@ def command(
     json: Json = False,
     out: Out = None,
     figure: Figure = None,
+    no_pictures: NoPictures = False,
     overwrite: Overwrite = False,
 ) -> None:
     """Measure the cells of every study, in the order of docs/stability.md; an interrupted run can be resumed.
@@ -62,7 +64,7 @@ def command(
     for name in names:
         require_choice("study", name, STUDIES)
     chosen = [STUDIES[name] for name in dict.fromkeys(names)]
-    with finish("stability", json, out, overwrite, figure=figure) as end:
+    with finish("stability", json, out, overwrite, figure=figure, pictures=not no_pictures) as end:
         with end.campaign(scheduler, wait) as (store, pool, progress):
             rows = survey(
                 chosen,

@@ -14,6 +14,7 @@ from comparisons.cli.options import (
     Json,
     Large,
     Models,
+    NoPictures,
     Out,
     Overwrite,
     Retry,
@@ -108,6 +109,7 @@ def command(
     json: Json = False,
     out: Out = None,
     figure: Figure = None,
+    no_pictures: NoPictures = False,
     overwrite: Overwrite = False,
 ) -> None:
     """Measure what each model of a scene gets wrong and what it costs; an interrupted run can be resumed.
@@ -136,7 +138,9 @@ def command(
         measure = of_statics(
             asked, grids, calibration, meshes, model or (), symmetry, elements, repeats, grading, lumped_pair
         )
-    with finish("tradeoff", json, out, overwrite, scene=asked, figure=figure) as end:
+    with finish(
+        "tradeoff", json, out, overwrite, scene=asked, figure=figure, pictures=not no_pictures
+    ) as end:
         with end.campaign(scheduler, wait) as (store, pool, progress):
             found = measure(
                 store=store,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from comparisons.cli.options import Figure, Json, Out, Overwrite, Retry, Workers
+from comparisons.cli.options import Figure, Json, NoPictures, Out, Overwrite, Retry, Workers
 
 if TYPE_CHECKING:
     from comparisons.cli.finish import End
@@ -66,6 +66,7 @@ def command(
     json: Json = False,
     out: Out = None,
     figure: Figure = None,
+    no_pictures: NoPictures = False,
     overwrite: Overwrite = False,
 ) -> None:
     """Check the references against published values, one row each: exit status 3 unless all pass."""
@@ -87,7 +88,13 @@ def command(
         raise BadInput("--scenes, --seed, --model, --workers and --retry are of --coverage")
     chosen = list(MODELS) if locking else ["strain-laws"] if laws else case
     with finish(
-        "verify", json, out, overwrite, apart={key: parts[key] for key in list(parts)[:3]}, figure=figure
+        "verify",
+        json,
+        out,
+        overwrite,
+        apart={key: parts[key] for key in list(parts)[:3]},
+        figure=figure,
+        pictures=not no_pictures,
     ) as end:
         if coverage:
             _coverage(end, scenes, seed, model, workers, retry)

@@ -53,7 +53,7 @@ def report(comparison: Comparison, advice: Advice | None = None) -> Report:
         ),
         complaints=tuple(complaints(comparison)),
         pictures=(
-            Picture(FIGURES, partial(draw, comparison), "drawing the picture …"),
+            Picture(FIGURES, partial(draw, comparison)),
             Picture(PROBES, partial(draw_probes, comparison)),
         ),
         attachments={

@@ -26,7 +26,7 @@ def report(
     if animate:
         films = ("animation.gif", "animation.mp4") if shutil.which("ffmpeg") else ("animation.gif",)
         moving = partial(_animate, history, scene)
-        pictures.append(Picture(films, moving, "drawing the animation …"))
+        pictures.append(Picture(films, moving))
     complete = history.status is Status.CONVERGED
     resumed = history.resumed_from
     earlier = f"went on from {resumed:.4g} s, which an earlier run had reached"

@@ -49,7 +49,7 @@ def report(rows: Sequence[PeerRow]) -> Report:
         document={"rows": told},
         tables=tuple(table(name, rows) for name in asked),
         notes=NOTES,
-        pictures=(Picture(("peers.png", "peers.pdf"), partial(_draw, rows), "drawing the picture …"),),
+        pictures=(Picture(("peers.png", "peers.pdf"), partial(_draw, rows)),),
     )
 
 

@@ -15,11 +15,26 @@ PACKAGES = "libegl1 libgl1-mesa-dri (or libosmesa6)"
 _WINDOW = "VTK_DEFAULT_OPENGL_WINDOW"
 _WINDOWS = ("vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow", "")  # "": whatever VTK picks by itself
 _TRIAL = """
-import pyvista
-plotter = pyvista.Plotter(off_screen=True, window_size=(32, 32))
-plotter.add_mesh(pyvista.Plane())
-image = plotter.screenshot(return_img=True)
-raise SystemExit(0 if image.min() < image.max() else 1)
+import vtkmodules.vtkRenderingOpenGL2
+from vtkmodules.vtkFiltersSources import vtkPlaneSource
+from vtkmodules.vtkRenderingCore import (
+    vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter,
+)
+
+plane, mapper, actor, renderer = vtkPlaneSource(), vtkPolyDataMapper(), vtkActor(), vtkRenderer()
+mapper.SetInputConnection(plane.GetOutputPort())
+actor.SetMapper(mapper)
+renderer.AddActor(actor)
+window = vtkRenderWindow()
+window.SetOffScreenRendering(True)
+window.SetSize(32, 32)
+window.AddRenderer(renderer)
+window.Render()
+image = vtkWindowToImageFilter()
+image.SetInput(window)
+image.Update()
+low, high = image.GetOutput().GetPointData().GetScalars().GetRange()
+raise SystemExit(0 if low < high else 1)
 """
 
 

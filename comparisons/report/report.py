@@ -26,12 +26,11 @@ Write = Callable[[Path], None]
 class Picture:
     """A picture in one or more files; `draw` writes them, or answers in a sentence why there is none.
 
-    starting: what to say before, where drawing takes long enough to wonder; look: how it is dressed.
+    look: how it is dressed.
     """
 
     names: tuple[str, ...]
     draw: Callable[[Sequence[Path], Look], str | None]
-    starting: str = ""
     look: Look = PLAIN
 
     def write(self, folder: Path) -> str | None:

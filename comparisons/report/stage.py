@@ -17,6 +17,7 @@ from comparisons.report.vtk import PLAN_CELLS, plan_mesh
 from sheetbench.scenes import EDGES, FieldMesh, Scene, Sheet, Solution, holds_director
 from sheetbench.scenes.grid import near_square
 
+REFERENCE_PIXELS = 1800  # across an image, in which the widths of lines below are pixels
 MARGIN = 0.04  # as a share of the image's width
 ELEVATION, TURN = 27.0, 24.0  # degrees above the plane, and aside from the free side's direction
 PALE, OUTLINE, ROD = "#c9ced4", "#a9afb6", "#c8553d"
@@ -28,6 +29,7 @@ class Stage:
     def __init__(self, scene: Scene, held: Solution, scale: float, pixels: int) -> None:
         self.scene = scene
         self.pixels = pixels
+        self._line = pixels / REFERENCE_PIXELS
         self.scale = scale
         self.size = max(scene.sheet.lengths)
         self.plotter = pyvista.Plotter(off_screen=True, window_size=[pixels, pixels])
@@ -43,7 +45,7 @@ class Stage:
         straight = along.sum(axis=1) == 1
         for some, colour, width in ((pairs[~straight], PALE, 2.0), (pairs[straight], GREY, 4.0)):
             links = pyvista.PolyData(points, lines=np.insert(some, 0, 2, axis=1).ravel())
-            self.plotter.add_mesh(links, color=colour, line_width=width, lighting=False)
+            self.plotter.add_mesh(links, color=colour, line_width=self._line * width, lighting=False)
         masses = pyvista.PolyData(points)
         masses["value"] = values
         ball = pyvista.Sphere(radius=min(0.15 * self.size / np.sqrt(len(points)), 0.011 * self.size))
@@ -145,7 +147,9 @@ class Stage:
 
     def _curve(self, points: np.ndarray, colour: str, width: float, opacity: float = 1.0) -> None:
         curve = pyvista.lines_from_points(points)
-        self.plotter.add_mesh(curve, color=colour, line_width=width, lighting=False, opacity=opacity)
+        self.plotter.add_mesh(
+            curve, color=colour, line_width=self._line * width, lighting=False, opacity=opacity
+        )
 
 
 def _coloured(limits: tuple[float, float], colours: str) -> dict[str, Any]:

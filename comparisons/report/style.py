@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from sheetbench.files import whole
 
 DPI = 300  # of pictures as PNG, and of what is rendered inside those as PDF or SVG
-PIXELS = 1800  # across a sheet that is rendered
+PIXELS = 1080  # across a sheet that is rendered: half as many again as a third of the page has at DPI
 MOST = 12  # probes with a panel or a line of their own
 DARK, GREY = "#222222", "#8a8a8a"
 # Okabe and Ito's colours, which everyone tells apart.
@@ -42,9 +42,8 @@ def save(figure: Figure, paths: Iterable[Path]) -> None:
     The same figure is the same bytes: no file says when it was made.
     """
     for path in paths:
-        lossless: Any = {"pil_kwargs": {"optimize": True}} if path.suffix == ".png" else {}
         with whole(path) as partial:
-            figure.savefig(partial, dpi=DPI, facecolor="white", metadata=UNDATED[path.suffix], **lossless)
+            figure.savefig(partial, dpi=DPI, facecolor="white", metadata=UNDATED[path.suffix])
 
 
 def plain(text: str, width: int | None = None, longest: int | None = None) -> str:

@@ -68,7 +68,7 @@ def report(found: Reproduction) -> Report:
         tables=tuple(table for table, _ in parts),
         complaints=tuple(_complaints(found)),
         pictures=tuple(
-            Picture((f"{table.name}.png", f"{table.name}.pdf"), draw, f"drawing {table.name} …")
+            Picture((f"{table.name}.png", f"{table.name}.pdf"), draw)
             for table, draw in parts
             if draw is not None
         ),

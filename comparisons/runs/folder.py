@@ -81,8 +81,7 @@ class Folder:
                 self.write(name, write)
         missing = []
         for picture in report.pictures:
-            if picture.starting:
-                progress(picture.starting)
+            progress(f"drawing {picture.names[0]} …")
             if said := picture.write(self.path):
                 missing.append(said)
             else:

@@ -6,8 +6,8 @@ BDF has the lattice's own sparse Jacobian and compiled right-hand side; it only 
 ours also keep energies and reactions and watch every sample, and set up within their time. Error: of P4 over
 the run, relative to its largest displacement, against `esdirk` at fixed steps of 1 ms. Best of three, taken
 in turn, on one thread; CPU seconds, which other programs on the machine lengthen less than the clock's. A
-step of ours: what the run takes beyond one to the first sample, samples included; of the reduced model also
-one of a thousand in one call. --all: `verlet`, a million steps, and midpoint too.
+step of ours: what the run takes beyond one to the first sample, samples included. --all:
+`verlet`, a million steps, and midpoint too.
 """
 
 from __future__ import annotations
@@ -86,22 +86,6 @@ def seconds(work: Callable[[], Any]) -> tuple[float, Any]:
     return time.process_time() - began, found
 
 
-def reduced_step(steps: int = 1000) -> float:
-    """CPU seconds a step of the reduced model in one call, with one look at the full equations at its end."""
-    asked = scenes.load(SCENE)
-    springs = lumped.calibrate(asked.sheet, asked.material, grid=GRID)
-    system = lumped.System(asked, lumped.pose(asked, springs))
-    rest = np.zeros_like(system.problem.loads.dead)
-    state = lumped.State(0.0, rest, rest, system.accelerate(system.unbalanced(rest, rest, 0.0)))
-    method = lumped.INTEGRATORS["reduced"](system, 1e-3)
-    began = method.memory()
-    found = []
-    for _ in range(REPEATS):
-        method.recall(began)
-        found.append(seconds(lambda: method.march(state, 1e-3, steps))[0])
-    return min(found) / steps
-
-
 def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -113,7 +97,6 @@ def main() -> None:
     methods: dict[str, tuple[str, dict[str, Any]]] = {
         "generalised-alpha": ("generalised-alpha", {}),
         "esdirk": ("esdirk", {}),
-        "reduced, 4 modes": ("reduced", {"step": 1e-3}),
         "verlet-implicit-damping": ("verlet-implicit-damping", {}),
     }
     if asked.all:
@@ -154,9 +137,6 @@ def main() -> None:
             f"  {faster:6.1f} times as fast as the first{each}",
             flush=True,
         )
-    alone = reduced_step()
-    rows.append({"method": "reduced, 4 modes, a thousand steps in one call", "step_seconds": alone})
-    print(f"reduced, 4 modes: {1e6 * alone:.1f} µs a step of a thousand in one call")
     if asked.json is not None:
         asked.json.write_text(json.dumps(rows, indent=1), encoding="utf-8")
     if asked.keep:

@@ -93,9 +93,6 @@ def figures(rows: dict[str, list[Row]]) -> dict[str, str]:
 
     return {
         "verlet": _within(_worst(r for r in steps if r["integrator"] == "verlet")),
-        "projective": _percent(
-            at(steps, "amplitude decay", integrator="projective", **{"step [s]": "0.001"})
-        ),
         "load_number": _within(
             _worst(r for r in stiff if r["load number"] and _number(r, "load number") <= 1e3)
         ),

@@ -24,7 +24,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -40,6 +39,7 @@ from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.threads import one_blas_thread
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from sheetbench.clock import now
 from sheetbench.scenes import About, AnyScene, Scene, require_static, scene_of, summary
 from sheetbench.scenes.errors import BadInput
 
@@ -112,7 +112,7 @@ def modes(
     """
     if model not in REST_STATES:
         raise BadInput(f"model = {model!r}: known are {', '.join(REST_STATES)}")
-    begin = perf_counter()
+    begin = now()
     scene = scene_of(scene)
     if about == "deformed":
         require_static(scene)
@@ -123,14 +123,14 @@ def modes(
     along_x, along_y = divisions(scene.sheet, elements)
     with one_blas_thread():
         rest = at_rest(scene, (along_x, along_y), **options)
-        ready = perf_counter()
+        ready = now()
         free = np.flatnonzero(~rest.held)
         rigid = _free_rigid_motions(rest)
         if not 1 <= count < len(free) - rigid:
             raise BadInput(f"count = {count}: 1 to {len(free) - rigid - 1} on this mesh")
         stiffness, mass = (matrix[free][:, free] for matrix in (rest.stiffness, rest.mass))
         values, vectors = _lowest(stiffness, mass, count + rigid, scene)
-        done = perf_counter()
+        done = now()
     shapes = np.zeros((count, rest.held.size))
     shapes[:, free] = vectors[:, rigid:].T
     return Modes(

@@ -26,6 +26,8 @@ from typing import Any
 
 from platformdirs import user_cache_path
 
+from sheetbench import clock
+
 os.environ.setdefault("NUMBA_CACHE_DIR", str(user_cache_path("sheetbench") / "numba"))  # numba reads it once
 
 from numba.core import caching, event  # after its directory is set
@@ -134,7 +136,7 @@ def _ours(file: str) -> bool:
 
 
 class _Announcement(event.Listener):  # type: ignore[misc]
-    """Says once a process that something is compiled."""
+    """Says once a process that something is compiled, and stops the solvers' clock meanwhile."""
 
     said = False
 
@@ -144,9 +146,11 @@ class _Announcement(event.Listener):  # type: ignore[misc]
             self.said = True
             _mismatches_in_brief()
             logging.getLogger("sheetbench").info(SAID)
+        clock.stop()
 
     def on_end(self, event: object) -> None:
-        """Nothing."""
+        """Let the clock go on."""
+        clock.start()
 
 
 def _mismatches_in_brief() -> None:
@@ -175,9 +179,10 @@ def _load(self: caching.FunctionCache, signature: object, target_context: object
     """A compiled kernel of the cache, or None: what numba does, without what only compiling needs."""
     if not isinstance(self._impl.locator, Locator):
         return _load_as_numba(self, signature, target_context)
-    rtsys.initialize(target_context)
-    with self._guard_against_spurious_io_errors():
-        return self._load_overload(signature, target_context)
+    with clock.stopped():
+        rtsys.initialize(target_context)
+        with self._guard_against_spurious_io_errors():
+            return self._load_overload(signature, target_context)
 
 
 _load_as_numba = caching.FunctionCache.load_overload

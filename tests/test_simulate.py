@@ -56,6 +56,7 @@ def test_files_of_a_run(tmp_path, capsys):
     [
         (["--integrator", "verlet", "--step", "0.1"], "stability limit of verlet"),
         (["--integrator", "rk4"], "choose from"),
+        (["--integrator", "reduced"], "removed; esdirk, in its place"),
         (["--duration", "-1"], "duration = -1 s"),
         (["--measured", "nowhere.csv"], "nowhere.csv"),
         (["--animate"], "--animate: needs --out"),
@@ -136,3 +137,27 @@ def test_a_frames_mid_surface_is_that_of_the_runs_lattice(grading):
     for number, (_, frame) in enumerate(frames(history)):
         told = np.array([history.probes[name][number] for name in asked.probes])
         np.testing.assert_allclose(frame.displacement(asked.probe_points()), told, atol=1e-15)
+
+
+def test_a_run_says_which_integrator_it_chose_and_why(capsys):
+    assert run(*RUN) == 0
+    assert "integrator esdirk: the quickest at its error\n" in capsys.readouterr().out
+    asked = load("actuated-edge")
+    chained = lumped.simulate(asked, springs(asked, 3), 1e-3)
+    assert chained.integrator == "generalised-alpha"
+    assert chained.settings["integrator_reason"] == "the quickest at its error, with chains"
+    plain = scene("two-edges-settling")
+    damped = lumped.simulate(plain, springs(plain, 3), 1e-3, radius=0.5)
+    assert damped.integrator == "generalised-alpha" and "radius" in damped.settings["integrator_reason"]
+
+
+def test_an_explicit_run_names_its_largest_stable_step(capsys):
+    assert run(*RUN, "--integrator", "verlet-implicit-damping", "--duration", "0.005") == 0
+    assert "the largest stable one is" in capsys.readouterr().out
+    asked = scene("two-edges-settling")
+    history = lumped.simulate(asked, springs(asked, 4), 1e-3, integrator="verlet-implicit-damping")
+    limit = lumped.INTEGRATORS["verlet-implicit-damping"].limit(
+        lumped.System(asked, lumped.pose(asked, springs(asked, 4))), np.zeros((32, 3))
+    )
+    assert history.settings["largest_step"] == pytest.approx(limit.step)
+    assert history.settings["step"] <= limit.step

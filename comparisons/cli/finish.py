@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from comparisons.cli import console, warned
+from sheetbench import clock
 
 if TYPE_CHECKING:
     from comparisons.report.look import Look
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from sheetbench.scenes import Scene
 
 NOT_CONVERGED = 3
+COMPILED = 5.0  # s from which on it is said: loading takes less
 
 
 class End:
@@ -139,6 +141,10 @@ class End:
                 console.note(table.text)
         for said in report.notes:
             console.note(said)
+        if (spent := clock.compiled()) > COMPILED:
+            console.note(
+                f"Kernels were compiled, once on this machine: {spent:.3g} s, in none of the times above."
+            )
         if self._folder is not None:
             written = [*self._folder.written, "manifest.json", *self._also]
             console.note(f"Files in {self._folder.path}: {', '.join(written)}")

@@ -37,7 +37,9 @@ def command(
     integrator: Annotated[
         str,
         typer.Option(
-            metavar="NAME", help="; ".join(f"{name}: {said}" for name, said in INTEGRATORS.items()) + "."
+            metavar="NAME",
+            help="; ".join(f"{name}: {summary}" for name, summary in INTEGRATORS.items())
+            + "; auto: esdirk, or generalised-alpha where the sheet has chains.",
         ),
     ] = INTEGRATOR,
     every: Annotated[

@@ -1,8 +1,8 @@
 """The one place that knows both solvers: a candidate in, a Solution out.
 
 The solvers are imported when they are first used, so that asking for help stays quick. A model is warmed up
-first: what a process pays once, to import and compile, counts as set-up and not as solving, and so do the
-springs of a lattice.
+first: what a process pays once, to import and compile, counts neither as set-up nor as solving
+(`sheetbench.clock`); the springs of a lattice count as set-up.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
-from time import perf_counter
 from typing import Any
 
 from comparisons.models import plugins
@@ -24,6 +23,7 @@ from comparisons.models.springs import LatticeSpec, is_fitted, require_room_to_f
 from comparisons.models.symmetry import by_parts, cut_axes
 from comparisons.report.work import Progress, Work, silent
 from sheetbench.choices import ELEMENTS, REFERENCE, REFERENCES
+from sheetbench.clock import now
 from sheetbench.scenes import History, Scene, Solution, load
 from sheetbench.scenes.errors import BadInput, require_choice
 from sheetbench.scenes.grid import near_square
@@ -152,10 +152,10 @@ def answer(scene: Scene, candidate: Candidate, name: str = "", progress: Progres
     """The answer of a candidate that `check` has let pass; name: what to call it instead of its model;
     progress: told what is being done, and of every iteration."""
     watch = _begun(scene, candidate, name or plugins.shown_name(candidate.model), progress)
-    started = perf_counter()
     warm(candidate.model)
+    started = now()
     ready = _ready(scene, candidate)
-    preparing = perf_counter() - started
+    preparing = now() - started
     solution = ready(watch)
     called = name or solution.model
     return replace(solution, model=called, setup_seconds=solution.setup_seconds + preparing)

@@ -12,7 +12,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from time import perf_counter
 from typing import TYPE_CHECKING, Any, cast, get_args, overload
 
 import numpy as np
@@ -29,6 +28,7 @@ from comparisons.modes.pairing import CELLS, Pair, assurance, cell_centres, matc
 from comparisons.report.report import Report
 from comparisons.report.work import Progress, Work, silent
 from sheetbench.choices import ELEMENTS, MASSES, REFERENCE
+from sheetbench.clock import now
 from sheetbench.scenes import About, Scene, free_rigid_motions, load, summary
 from sheetbench.scenes.errors import BadInput, require_choice
 from sheetbench.scenes.grading import as_settings
@@ -211,10 +211,10 @@ def _lattice(
 ) -> Spectrum:
     import lumped
 
-    begin = perf_counter()
+    begin = now()
     distribution = cast("lumped.Inertia | None", masses) or lumped.usual_masses(springs)
     modes = lumped.modes(scene, springs, count, distribution, about)
-    seconds = perf_counter() - begin
+    seconds = now() - begin
     return Spectrum(
         model="lumped",
         label=f"lumped {springs.title}, {distribution} masses",

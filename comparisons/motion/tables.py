@@ -37,7 +37,7 @@ def report(
         lead=f"{history.label}, {history.integrator}, {history.steps} steps",
         document=as_dict(history, truth),
         tables=(summary(history, truth),),
-        notes=(*([earlier] if resumed else []), *told(history.settings), balance(history)),
+        notes=(*([earlier] if resumed else []), *told(history.settings), *steps(history), balance(history)),
         complaints=(
             *(() if complete else (f"{history.status}: {history.message}",)),
             *left_out(history, truth),
@@ -51,6 +51,17 @@ def report(
         settings={"integrator": history.integrator, **history.settings},
         met=complete,
     )
+
+
+def steps(history: History) -> list[str]:
+    """Why the integrator is the one that it is, and how long an explicit one's steps may be, a line each."""
+    found = []
+    if why := history.settings.get("integrator_reason"):
+        found.append(f"integrator {history.integrator}: {why}")
+    if limit := history.settings.get("largest_step"):
+        taken = number(1e3 * history.settings["step"], ".4g")
+        found.append(f"steps of {taken} ms; the largest stable one is {number(1e3 * limit, '.4g')} ms")
+    return found
 
 
 def balance(history: History) -> str:

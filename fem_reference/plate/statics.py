@@ -21,7 +21,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -46,6 +45,7 @@ from fem_reference.surface.materials import Section, section_of
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, quarters, require_upright
 from fem_reference.surface.rod import Rod
 from fem_reference.surface.supports import Supports
+from sheetbench.clock import now
 from sheetbench.scenes import (
     EDGES,
     FieldMesh,
@@ -130,7 +130,7 @@ def _solved(
     own: bool = False,
 ) -> Solution:
     """own: whether the mesh has an outline of its own, in place of the scene's sheet."""
-    begin = perf_counter()
+    begin = now()
     plate = Plate.on(mesh)
     sides = rod.sides(scene, mesh, plate.elements.nodes, plate.nodes)
     along = rod.of_scene(scene, plate.nodes, sides)
@@ -140,7 +140,7 @@ def _solved(
     u = np.concatenate([fields.ravel(), np.zeros(len(rods.held))])
     force = rods.force(u.size)
     force[: fields.size] += nodal_forces(scene, plate).ravel()
-    ready = perf_counter()
+    ready = now()
 
     status, notes = Status.CONVERGED, tuple[str, ...]()
     with one_blas_thread():
@@ -149,7 +149,7 @@ def _solved(
             u = solve_free(stiffness, force, u, free)
         except SingularMatrix as error:
             status, notes = Status.SINGULAR, (str(error),)
-    done = perf_counter()
+    done = now()
     solved = Solved(stiffness, force, u, free)
     if status is Status.CONVERGED:
         of_plate = section or section_of(scene.material, scene.sheet.thickness)

@@ -9,7 +9,6 @@ and follower loads. Rotations may be large; the weight has no couple on the dire
 from __future__ import annotations
 
 from collections.abc import Sequence
-from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -36,6 +35,7 @@ from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, nodes_of, on_boundary, quarters
 from sheetbench.choices import STRAIN_LAW
+from sheetbench.clock import now
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 from sheetbench.scenes.errors import BadInput, require_choice
 from sheetbench.scenes.rigid_motions import require_static
@@ -121,17 +121,17 @@ def _run(
 ) -> _Run:
     """graded: give up where stretched elements bend too much (see `validity`); near: where to begin; limit:
     of factorisations."""
-    begin = perf_counter()
+    begin = now()
     structure, nodes = discretise(mesh, scene, section, law)
     solver = DirectSolver(structure.symmetric, fronts=structure.fronts)
-    ready = perf_counter()
+    ready = now()
     begin_at: Start[State] | None = None
     if near is not None:
         begin_at = coarse_start.start(near.mesh, near.structure, near.path.state, structure, nodes)
     inspect, settle = inspector(scene, structure, solver, graded), settler(structure, solver)
     slenderness = scene.sheet.thickness / structure.lever
     path = trace(structure, solver, inspect, settle, progress, begin_at, slenderness, limit)
-    return _Run(mesh, structure, nodes, path, ready - begin, perf_counter() - ready)
+    return _Run(mesh, structure, nodes, path, ready - begin, now() - ready)
 
 
 def trace_on(scene: Scene, structure: ShellStructure) -> tuple[State, Status, list[str]]:

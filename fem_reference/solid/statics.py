@@ -15,7 +15,6 @@ units.
 
 from __future__ import annotations
 
-from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -36,6 +35,7 @@ from fem_reference.surface.actuator_forces import Held, OnEdge, exerted
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, require_upright
 from fem_reference.surface.stretch import largest_stretch
 from sheetbench.choices import STRAIN_LAW
+from sheetbench.clock import now
 from sheetbench.scenes import Scene, Solution, Status, outside_model
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.rigid_motions import require_static
@@ -84,12 +84,12 @@ def _solved(
     progress: Progress | None = None,
 ) -> Solution:
     """own: whether the mesh has an outline of its own, in place of the scene's sheet."""
-    begin = perf_counter()
+    begin = now()
     structure = discretise(mesh, scene, layers, law, clamp)
     solver = DirectSolver(structure.symmetric)
-    ready = perf_counter()
+    ready = now()
     path = trace(structure, solver, progress=progress)
-    done = perf_counter()
+    done = now()
 
     columns, displacement = structure.columns, path.state.displacement
     status, notes = path.status, path.notes

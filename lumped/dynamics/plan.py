@@ -9,7 +9,8 @@ import numpy as np
 
 from lumped.calibration import Calibration
 from lumped.dynamics.integrators import INTEGRATORS
-from lumped.dynamics.system import State, System
+from lumped.dynamics.step_limit import StepLimit
+from lumped.dynamics.system import System
 from lumped.vibration import modes
 from sheetbench.scenes.errors import BadInput
 
@@ -52,13 +53,14 @@ class Plan:
 def plan_run(
     system: System,
     calibration: Calibration,
-    start: State,
+    limit: StepLimit | None,
     duration: float,
     step: float | None,
     integrator: str,
     every: float | None,
 ) -> Plan:
-    """How a run that begins is sampled and stepped; see `lumped.simulate` for the defaults.
+    """How a run that begins is sampled and stepped; see `lumped.simulate` for the defaults. limit: of
+    stability, of an explicit integrator.
 
     Raises BadInput for a step above the limit of an explicit one, too many of them, or too many samples.
     """
@@ -79,7 +81,6 @@ def plan_run(
     samples = round(duration / spacing) if every is not None else int(np.ceil(duration / spacing - 1e-9))
     samples = max(samples, 1)
     spacing = duration / samples
-    limit = kind.limit(system, start.u)
     wanted = step if step is not None else kind.default_step(period, limit)
     if limit is not None:
         if wanted > limit.step:

@@ -7,7 +7,6 @@ are evenly spaced; steps divide their distance.
 
 from __future__ import annotations
 
-import time as clock
 from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import asdict
@@ -20,7 +19,7 @@ from lumped.assembly import Precision
 from lumped.calibration import Calibration, default
 from lumped.dynamics.initial import initial_state
 from lumped.dynamics.integrator import Integrator
-from lumped.dynamics.integrators import INTEGRATORS
+from lumped.dynamics.integrators import INTEGRATORS, require_integrator, resolve_integrator
 from lumped.dynamics.plan import Plan, plan_run
 from lumped.dynamics.run import Run
 from lumped.dynamics.sampling import Sampling
@@ -31,8 +30,8 @@ from lumped.linear.threads import one_blas_thread
 from lumped.statics.fields import field_mesh
 from lumped.statics.solver import pose
 from sheetbench.choices import INTEGRATOR
+from sheetbench.clock import now
 from sheetbench.scenes import AnyScene, History, scene_of
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grading import as_settings
 from sheetbench.scenes.quantities import require_positive
 
@@ -54,8 +53,9 @@ def simulate(
 ) -> History:
     """Motion of the scene's sheet over `duration` [s].
 
-    step [s]: of the integrator, never exceeded; without it the explicit ones take 0.9 of their limit,
-    `generalised-alpha` and `esdirk` adapt to their error, the others take 1/200 of the lowest period.
+    integrator: a name of `INTEGRATORS`, or "auto": the quickest at its error that this run can have
+    (`lumped.dynamics.integrators`). step [s]: never exceeded; without it the explicit ones take 0.9 of their
+    limit, `generalised-alpha` and `esdirk` adapt to their error, `midpoint` takes 1/200 of the lowest period.
     every [s]: distance of samples, 1/100 of the lowest period unless given; no step is longer, and what a
     load's history does within a step may go unseen, but for `esdirk`, whose adaptive steps may be longer and
     end where a history bends. store: a folder to stream to; a run that was stopped goes on from there, and
@@ -64,19 +64,23 @@ def simulate(
     "axes", of each edge with chains the rest places (p, 3) and displacements (n, p, 3) [m] of its axis.
     progress: called with the time reached.
     precision: of the internal force (see `lumped.assembly`). options: the integrator's own (`radius`,
-    `error`, `iterations`, `modes`).
+    `error`).
 
     Raises BadInput for an unknown integrator, a step above the limit of an explicit one, more than ten
     million default steps of it; for a folder that cannot be written to, that another process writes to, that
     holds another run, or whose files are damaged.
     """
-    _refuse(integrator, options, {"duration": duration, "step": step, "every": every})
-    began = clock.perf_counter()
+    require_integrator(integrator)
+    for name, value in {"duration": duration, "step": step, "every": every}.items():
+        require_positive(name, value, "s")
+    began = now()
     scene = scene_of(scene)
     calibration = calibration or default(scene)
     system = System(scene, pose(scene, calibration, weights, precision))
+    integrator, why = resolve_integrator(integrator, system, options)
     start = initial_state(system, calibration, weights)
-    plan = plan_run(system, calibration, start, duration, step, integrator, every)
+    limit = INTEGRATORS[integrator].limit(system, start.u)
+    plan = plan_run(system, calibration, limit, duration, step, integrator, every)
     sampling = Sampling(system)
     nx, ny, layers = calibration.grid
     settings: dict[str, Any] = {
@@ -111,21 +115,20 @@ def simulate(
                 plan = Plan(**kept.plan).longer(duration)
             kept.begin(asdict(plan))
         method = _method(system, plan, integrator, options)
-        # kernels are compiled, or loaded, in the set-up
-        system.matrix(start.u, start.v, 0.0, 1.0, 1.0, 1.0)
-        system.average_elastic(start.u, start.u, 0.0)
         shown = plan.shown(frames)
-        ready = clock.perf_counter()
+        ready = now()
         with one_blas_thread():
             run = Run(system, method, plan, sampling, kept, set(shown), drawn, progress)
             run.begin(start)
             resumed_from = run.reached.state.time
             status, message = run.finish()
-        done = clock.perf_counter()
+        done = now()
         parts = sampling.split(kept.samples())
         whole = kept.frames()
     settings["step"] = "adaptive" if plan.adapts else plan.every / plan.steps
     settings["every"] = plan.every
+    settings |= {"largest_step": limit.step} if limit is not None else {}
+    settings |= {"integrator_reason": why} if why else {}
     return History(
         label=f"lumped {calibration.title}",
         integrator=integrator,
@@ -151,17 +154,6 @@ def simulate(
             "mesh": field_mesh(system.problem.assembly, start.u, np.zeros_like(start.u)),
         },
     )
-
-
-def _refuse(integrator: str, options: dict[str, float], times: dict[str, float | None]) -> None:
-    """Raise BadInput for an integrator that there is not, an option that it does not take, no sound time."""
-    if integrator not in INTEGRATORS:
-        raise BadInput(f"integrator = {integrator!r}: unknown; choose from {', '.join(INTEGRATORS)}")
-    foreign = [name for name in options if name not in INTEGRATORS[integrator].options]
-    if foreign:
-        raise BadInput(f"integrator = {integrator!r}: does not take {', '.join(foreign)}")
-    for name, value in times.items():
-        require_positive(name, value, "s")
 
 
 def _method(system: System, plan: Plan, integrator: str, options: dict[str, float]) -> Integrator:

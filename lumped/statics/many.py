@@ -9,7 +9,6 @@ of the full load, is solved as `lumped.solve` does it, a case at a time.
 from __future__ import annotations
 
 import os
-import time
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -25,6 +24,7 @@ from lumped.statics.equilibrium import State
 from lumped.statics.fused import Posed
 from lumped.statics.problem import Problem
 from lumped.statics.solver import compile_kernels, judged, pose, solve
+from sheetbench.clock import now
 from sheetbench.scenes import AnyScene, Iteration, Scene, Solution, require_static, scene_of
 from sheetbench.scenes.errors import BadInput
 
@@ -83,7 +83,7 @@ def _alone(cases: Sequence[Case], **options: Any) -> list[tuple[Solution, bool]]
 
 def _together(cases: Sequence[Case], weights: Weights = "tributary") -> list[tuple[Solution, bool]]:
     """Solutions, and whether each had to be solved alone."""
-    began = time.perf_counter()
+    began = now()
     ready: list[tuple[Scene, Calibration, Problem]] = []
     before: Problem | None = None
     for scene, given in cases:
@@ -92,7 +92,7 @@ def _together(cases: Sequence[Case], weights: Weights = "tributary") -> list[tup
         same = before if ready and scene is ready[-1][0] else None
         before = pose(scene, springs, weights, same=same)
         ready.append((scene, springs, before))
-    setup = (time.perf_counter() - began) / len(cases)
+    setup = (now() - began) / len(cases)
     batches: list[list[int]] = []
     first: Posed | None = None  # of the last batch
     for at, (_, _, problem) in enumerate(ready):
@@ -115,21 +115,21 @@ def _solutions(
     cases: dict[int, tuple[Scene, Calibration, Problem]], setup: float, weights: Weights
 ) -> dict[int, Solution]:
     """The solutions of cases that are alike, without those that their paths left short of the full load."""
-    began = time.perf_counter()
+    began = now()
     done = paths(batch([problem.posed for _, _, problem in cases.values() if problem.posed is not None]))
-    share = (time.perf_counter() - began) / len(cases)
+    share = (now() - began) / len(cases)
     asked = {} if weights == "tributary" else {"weights": weights}
     found = {}
     for place, (at, (scene, springs, problem)) in enumerate(cases.items()):
         if done.load_factor[place] != 1.0 or problem.system.band is None:
             continue
-        began = time.perf_counter()
+        began = now()
         u = done.u[place]
         factor = BandedFactor(problem.system.band, done.matrix[place], done.factors[place])
         state = State(u, 1.0, problem.assembly.stresses(u), done.blocks[place], factor, factor.negative)
         problem.factorisations = int(done.factorisations[place])
         problem.history = [Iteration(*line) for line in done.history[place, : done.lines[place]].tolist()]
         outcome: Outcome = judged(scene, problem, state)
-        seconds = setup, share + time.perf_counter() - began
+        seconds = setup, share + now() - began
         found[at] = solution(scene, springs, problem, outcome, seconds, asked)
     return found

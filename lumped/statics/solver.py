@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cache, partial
@@ -36,6 +35,7 @@ from lumped.statics.limits import FACTORISATIONS
 from lumped.statics.polygon import polygons
 from lumped.statics.problem import Problem
 from lumped.supports import constrain
+from sheetbench.clock import now
 from sheetbench.scenes import (
     AnyScene,
     Clamped,
@@ -90,12 +90,12 @@ def solve(
     require_static(scene := scene_of(scene))
     if linear and scene.actuators:
         raise BadInput("linear = True: actuators turn with the sheet; solve without")
-    began = time.perf_counter()
+    began = now()
     compile_kernels()
     calibration = calibration or default(scene)
     problem = pose(scene, calibration, weights, precision)
     problem.progress = progress
-    ready = time.perf_counter()
+    ready = now()
     with one_blas_thread():
         if linear:
             outcome = flat_step(scene, problem)
@@ -103,7 +103,7 @@ def solve(
             outcome = equilibrium(scene, problem, calibration, near)
         else:
             outcome = settle(scene, problem, branch)
-    done = time.perf_counter()
+    done = now()
     usual = {"branch": "path", "weights": "tributary", "precision": "double", "linear": False}
     options = {"branch": branch, "weights": weights, "precision": precision, "linear": linear}
     asked = {name: value for name, value in options.items() if value != usual[name]}

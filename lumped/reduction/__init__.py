@@ -1,1 +1,0 @@
-"""Model order reduction: a lattice's motion in a few coordinates."""

@@ -1,0 +1,49 @@
+"""The solvers' clock: it stands still while kernels are compiled, on the thread that compiles."""
+
+from __future__ import annotations
+
+import threading
+from time import perf_counter, sleep
+
+import numba
+import pytest
+
+from sheetbench import clock, kernels
+
+
+def test_compiling_counts_as_no_time() -> None:
+    assert kernels  # which tells the clock of what numba compiles
+
+    @numba.njit
+    def inner(x: float) -> float:
+        return x + 1.0
+
+    @numba.njit
+    def outer(x: float) -> float:
+        return inner(x) + 1.0
+
+    wall, began, before = perf_counter(), clock.now(), clock.compiled()
+    assert outer(1.0) == 3.0
+    spent, counted, compiled = perf_counter() - wall, clock.now() - began, clock.compiled() - before
+    assert compiled > 0.0 and counted + compiled == pytest.approx(spent, abs=1e-3)
+    began, before = clock.now(), clock.compiled()
+    outer(2.0)
+    assert clock.compiled() == before and clock.now() >= began
+
+
+def test_another_thread_s_clock_goes_on() -> None:
+    began = clock.now()
+    with clock.stopped(), clock.stopped():
+        moment = clock.now()
+        elapsed: list[float] = []
+
+        def other() -> None:
+            start = clock.now()
+            sleep(0.01)
+            elapsed.append(clock.now() - start)
+
+        thread = threading.Thread(target=other)
+        thread.start()
+        thread.join()
+        assert clock.now() == moment
+    assert elapsed[0] >= 0.01 > clock.now() - began

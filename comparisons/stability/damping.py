@@ -27,6 +27,7 @@ KINDS = ("springs", "masses")
 STEPS_PER_PERIOD, PERIODS = 100, 1
 MOST_STEPS = 20_000
 AMPLITUDE = 1e-3
+CRITICAL: dict[str, Any] = {"marker": "v", "color": maps.THEORY["color"], "ms": 5.0, "ls": ""}
 
 
 def cells(full: bool) -> list[Cell]:
@@ -124,12 +125,16 @@ def draw(figure: Figure, rows: list[Row]) -> None:
             lambda row: float(INTEGRATORS.index(row["cell"]["integrator"])),
             scale=("log", "linear"),
         )
-        axis.axvline(1.0, **maps.THEORY)
         axis.set_yticks(range(len(INTEGRATORS)), INTEGRATORS)
-        axis.set_xlabel("damping ratio of the first mode (left end: none)")
-        axis.set_title(f"Damping in proportion to the {kind}")
-    line = Line2D([], [], label="critical damping", **{**maps.THEORY, "zorder": 1})
-    maps.key(figure, [maps.outcome(row) for row in rows], line)
+        ratios = sorted({row["at"]: row["cell"]["damping_ratio"] for row in mine}.items())
+        names = [f"{ratio:g}" if ratio else "none" for _, ratio in ratios]
+        axis.set_xticks([at for at, _ in ratios], names, fontsize=6)
+        axis.set_xticks([], minor=True)
+        axis.plot(1.0, 1.0, transform=axis.get_xaxis_transform(), clip_on=False, **CRITICAL)
+        axis.set_xlabel("damping ratio of the first mode")
+        axis.set_title(f"Damping in proportion to the {kind}", pad=9)
+    mark = Line2D([], [], label="critical damping", **CRITICAL)
+    maps.key(figure, [maps.outcome(row) for row in rows], mark)
 
 
 STUDY = Study(

@@ -31,6 +31,7 @@ from comparisons.stability.vibrating import (
 from sheetbench.scenes import Gravity
 
 IMPLICIT = ("generalised-alpha", "midpoint")
+COLOURS = dict(zip(IMPLICIT, ("#0072b2", "#009e73"), strict=True))
 AMPLITUDE = 1e-3  # of the thickness
 SAFE_STEPS = 2000
 FEWEST, MOST = 12, 60  # steps of an implicit run
@@ -176,7 +177,7 @@ def draw(figure: Figure, rows: list[Row]) -> None:
         ylabel="largest stable ω_max h",
     )
     left.set_title("Explicit: velocity Verlet")
-    for name, colour in zip(IMPLICIT, ("#0072b2", "#009e73", "#e69f00"), strict=True):
+    for name, colour in COLOURS.items():
         mine = [r for r in rows if r["cell"]["integrator"] == name and r["status"] == "converged"]
         at = [r["cell"]["step"] for r in mine]
         right.plot(at, [max(r["period_error"] or 0.0, 1e-9) for r in mine], "-o", ms=3, lw=0.9, color=colour)
@@ -199,10 +200,7 @@ def draw(figure: Figure, rows: list[Row]) -> None:
             if any(row["cell"]["masses"] == n for row in explicit)
         ),
         Line2D([], [], ls="", marker="^", mfc="white", mec=DARK, label="kz = E l²/h"),
-        *(
-            Line2D([], [], color=c, label=n)
-            for n, c in zip(IMPLICIT, ("#0072b2", "#009e73", "#e69f00"), strict=True)
-        ),
+        *(Line2D([], [], color=c, label=n) for n, c in COLOURS.items()),
         Line2D([], [], color=GREY, ls="--", marker="s", ms=2.5, mfc="white", label="loss of amplitude"),
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=5, frameon=False, fontsize=6.5)

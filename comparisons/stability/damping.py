@@ -11,6 +11,8 @@ whose exact solution is the reference. Verlet's limit with stiffness-proportiona
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -27,7 +29,7 @@ KINDS = ("springs", "masses")
 STEPS_PER_PERIOD, PERIODS = 100, 1
 MOST_STEPS = 20_000
 AMPLITUDE = 1e-3
-CRITICAL: dict[str, Any] = {"marker": "v", "color": maps.THEORY["color"], "ms": 5.0, "ls": ""}
+CRITICAL: Any = {"marker": "v", "color": maps.THEORY["color"], "ms": 5.0, "ls": ""}
 
 
 def cells(full: bool) -> list[Cell]:

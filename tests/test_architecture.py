@@ -15,7 +15,7 @@ import lumped
 
 ROOT = Path(__file__).parent.parent
 GROUND = ("sheetbench.scenes", "sheetbench.choices", "sheetbench.files", "sheetbench.kernels")
-GROUND += ("sheetbench.numerics",)
+GROUND += ("sheetbench.numerics", "sheetbench.clock")
 ALLOWED = {
     "sheetbench/scenes": {"sheetbench.scenes"},
     "sheetbench/numerics": {"sheetbench.numerics"},

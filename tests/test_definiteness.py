@@ -3,12 +3,10 @@
 import numpy as np
 import pytest
 import scipy.sparse as sp
-from dynamic_cases import scene, system
+from dynamic_cases import scene
 from scipy.sparse.linalg import splu
 
 import lumped
-from lumped.dynamics.integrator import StepFailed as TimeStepFailed
-from lumped.dynamics.integrators import INTEGRATORS
 from lumped.linear import solver
 from lumped.linear.solver import Factor
 from lumped.statics import energy_descent
@@ -70,16 +68,6 @@ def test_descent_refuses_a_direction_along_which_the_energy_rises(monkeypatch):
     monkeypatch.setattr(energy_descent, "_definite_factor", lambda *given: (factor, 1))
     with pytest.raises(StepFailed, match="not positive definite"):
         energy_descent.descend(problem, flat, 1.0)
-
-
-def test_a_projective_step_with_negative_work_is_not_solved(monkeypatch):
-    equations, state = system(scene())
-    method = INTEGRATORS["projective"](equations, 5e-3)
-    factor = method._matrix(state, 5e-3)
-    monkeypatch.setattr(factor, "solve", lambda b, of=factor.solve: -of(b))
-    method._factor, method._made_for = factor, 5e-3
-    with pytest.raises(TimeStepFailed, match="not positive definite"):
-        method.advance(state, 5e-3)
 
 
 @pytest.mark.parametrize("layers", [2, 3, 4])

@@ -82,7 +82,6 @@ WORDS = (
         "moduli",
         "verlet",
         "midpoint",
-        "projective",
         "plate",
         "shell",
         "solid",

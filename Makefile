@@ -12,7 +12,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
             report.py measurements.py) tests/fuzz
 
 .PHONY: docs docs-scene help install demo test check kernels slow fuzz kills catalogue verify locking coverage transfer coarse tradeoff \
-        advisor-study animations notebooks reproduce crosscheck peers bench central simulators stability stability-full suite standing mutants viewer \
+        advisor-study animations pictures notebooks reproduce crosscheck peers bench central simulators stability stability-full suite standing mutants viewer \
         wheel-check extras-check lint clean
 help:
 	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
@@ -44,6 +44,7 @@ help:
 	@echo "make standing  where models, plug-ins and judges stand on that set (three minutes; MODELS=felupe:elements=4 for one that takes longer): docs/suite.md"
 	@echo "make docs-scene  the page of every key of a scene and its sketch, docs/scene.md, from the types"
 	@echo "make animations  the README's moving pictures, docs/images/settling.gif and actuated.gif (two minutes)"
+	@echo "make pictures  the still pictures of the README and of docs/motion.md, live.md and report.md (a minute; needs chromium)"
 	@echo "make notebooks the notebooks of docs/notebooks anew, with what they print and draw"
 	@echo "make docs      the documentation as a site, docs/_build/html/index.html (three minutes; a warning is an error)"
 	@echo "make wheel-check  the wheel as its users get it: installed elsewhere, run there, uninstalled without a trace"
@@ -125,6 +126,7 @@ tradeoff: install
 	@$(BIN)/sheetbench tradeoff two-edges-clamped --lumped 3,5,7,9,17,33 --calibration consistent,consistent-interior,cauchy,uniform \
 	  --shell 2,3,4,8,12,16 --solid 2,4,8 --model mujoco:grid=5 --model mujoco:grid=9 --model mujoco:grid=17 \
 	  --out $(OUT)
+	@cp $(OUT)/tradeoff.png docs/images/tradeoff.png
 
 # other people's codes in an environment of their own; CalculiX where ccx is on the PATH
 .venv-peers/installed: pyproject.toml constraints.txt
@@ -192,6 +194,11 @@ animations: install
 	@$(BIN)/sheetbench simulate actuated-edge --duration 1 --animate --out $(OUT)/actuated
 	@cp $(OUT)/settling/animation.gif docs/images/settling.gif
 	@cp $(OUT)/actuated/animation.gif docs/images/actuated.gif
+
+pictures: install
+	@$(BIN)/python docs/pictures.py
+	@$(BIN)/sheetbench compare two-edges-clamped --no-pictures --overwrite --out $(OUT)/page >/dev/null
+	@$(BIN)/python docs/page_pictures.py $(OUT)/page
 
 notebooks: install
 	@$(BIN)/python docs/run_notebooks.py

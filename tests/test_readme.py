@@ -7,9 +7,11 @@ import shlex
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 from comparisons.cli.app import VERBS
 from comparisons.comparison.comparison import compare
+from comparisons.comparison.figure import described
 from sheetbench import scenes
 
 ROOT = Path(__file__).parent.parent
@@ -57,6 +59,35 @@ def test_pictures_exist_and_are_small() -> None:
     for picture in pictures:
         most = 1_000_000 if picture.endswith(".gif") else 300_000  # what moves is a few dozen pictures
         assert (ROOT / picture).stat().st_size < most
+
+
+def test_numbers_in_the_pictures_are_those_of_the_text_and_of_a_solve() -> None:
+    for name in ("two-edges-clamped", "one-edge-clamped", "curved-edge"):
+        with Image.open(ROOT / "docs/images" / f"{name}.png") as image:
+            kept = image.info["Description"]
+        assert kept == described(compare(name, uncertainty=False)), f"{name}.png: make pictures"
+    with Image.open(ROOT / "docs/images/two-edges-clamped.png") as image:
+        shown = float(re.search(r"error at the probes ([\d.]+) %", image.info["Description"])[1])  # type: ignore[index]
+    caption = re.search(r"lattice is ([\d.]+) % off the converged shell", TEXT)
+    row = re.search(r"^\| lumped \| .*\| ([\d.]+) \| converged", TEXT, re.MULTILINE)
+    assert caption and row
+    assert float(row[1]) == shown and float(caption[1]) == round(shown, 1)
+
+
+def test_every_picture_is_drawn_by_a_make_target_and_shown_somewhere() -> None:
+    pages = "\n".join(
+        path.read_text(encoding="utf-8") for path in (*ROOT.glob("docs/*.md"), ROOT / "README.md")
+    )
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    scripts = "\n".join(
+        path.read_text(encoding="utf-8") for path in ROOT.glob("docs/*.py") if f"docs/{path.name}" in makefile
+    )
+    for path in (ROOT / "docs/images").iterdir():
+        if path.is_file():
+            assert f"images/{path.name}" in pages, f"{path.name}: shown nowhere"
+            assert f"images/{path.name}" in makefile or path.stem in scripts, (
+                f"{path.name}: no make target draws it"
+            )
 
 
 def test_displacements_in_the_table_are_those_that_compare_gives() -> None:

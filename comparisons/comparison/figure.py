@@ -42,7 +42,15 @@ MODEL_NAMES = {
 def picture(paths: Sequence[Path], comparison: Comparison, look: Look = PLAIN) -> None:
     """Write the picture. Needs off-screen drawing: ask `report.offscreen.why_not` first."""
     with matplotlib.rc_context(STYLE):
-        save(compose(comparison, look), paths)
+        save(compose(comparison, look), paths, described(comparison))
+
+
+def described(comparison: Comparison) -> str:
+    """What the picture shows, with its number, for the file's metadata."""
+    lattice, reference = comparison.solutions[:2]
+    error = comparison.error(lattice)
+    off = "" if error is None else f": error at the probes {100 * error:.2f} %"
+    return f"{comparison.scene.name}: {lattice.label} against {reference.label}{off}"
 
 
 def compose(comparison: Comparison, look: Look = PLAIN) -> Figure:

@@ -33,17 +33,20 @@ STYLE: Any = {
     "svg.fonttype": "path",  # text as curves: the same on machines that have not this font
     "svg.hashsalt": "sheetbench",
 }
+DESCRIPTION = {".pdf": "Subject", ".svg": "Description", ".png": "Description"}
 UNDATED: Any = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}, ".png": {}}
 
 
-def save(figure: Figure, paths: Iterable[Path]) -> None:
+def save(figure: Figure, paths: Iterable[Path], description: str = "") -> None:
     """Write a figure to every path, in the format of its suffix (.png, .pdf, .svg), whole or not at all.
 
-    The same figure is the same bytes: no file says when it was made.
+    description: kept in the file's metadata. The same figure is the same bytes: no file says when it was
+    made.
     """
     for path in paths:
+        words = {DESCRIPTION[path.suffix]: description} if description else {}
         with whole(path) as partial:
-            figure.savefig(partial, dpi=DPI, facecolor="white", metadata=UNDATED[path.suffix])
+            figure.savefig(partial, dpi=DPI, facecolor="white", metadata={**UNDATED[path.suffix], **words})
 
 
 def plain(text: str, width: int | None = None, longest: int | None = None) -> str:

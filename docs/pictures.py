@@ -1,0 +1,49 @@
+"""Draw the still pictures of the README and of docs/motion.md anew, into docs/images: `make pictures`.
+
+A PNG says in its description what its numbers are; tests/test_readme.py holds it against the text and a fresh
+solve.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
+
+import sheetbench as sb
+from comparisons.motion.tables import report
+from comparisons.report import style
+from comparisons.report.report import Report
+
+IMAGES = Path(__file__).parent / "images"
+COMPARED = ("two-edges-clamped", "one-edge-clamped", "curved-edge")
+DPI = 170  # 1224 pixels wide
+
+
+def main() -> None:
+    """Draw all of them."""
+    style.DPI = DPI
+    with TemporaryDirectory() as folder:
+        for name in COMPARED:
+            keep(sb.compare(name).report(), "comparison.png", Path(folder), name)
+        settling = sb.load("two-edges-settling")
+        keep(report(sb.simulate(settling, 1.0), settling), "history.png", Path(folder), "settling")
+
+
+def keep(answer: Report, drawn: str, folder: Path, name: str) -> None:
+    """Draw one picture of an answer; keep it as a small file with its description."""
+    (picture,) = (one for one in answer.pictures if drawn in one.names)
+    if said := picture.write(folder):
+        raise SystemExit(said)
+    with Image.open(folder / drawn) as image:
+        words = PngInfo()
+        for key, text in image.text.items():
+            words.add_text(key, text)
+        image.convert("RGB").save(IMAGES / f"{name}.png", optimize=True, pnginfo=words)
+    print(IMAGES / f"{name}.png")
+
+
+if __name__ == "__main__":
+    main()

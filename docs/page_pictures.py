@@ -1,6 +1,6 @@
 """Draw docs/images/report.png and docs/images/live.png: `make pictures`.
 
-They are the page that `sheetbench report` writes of a comparison, whose folder is the argument, and the page of
+The page that `sheetbench report` writes of a comparison, whose folder is the argument, and the page of
 `sheetbench live`. Needs the Debian package chromium.
 """
 

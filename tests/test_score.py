@@ -147,8 +147,8 @@ def test_what_is_missing_is_refused_in_a_line(
     write: Write, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = write(leave_out=["thin"])
-    assert run("score", str(path)) == 2
-    assert "no answer to thin; answer all cases of statics, or name one with --case" in one_line(capsys)
+    assert run("score", str(path), "--case", "thin") == 2
+    assert "no answer yet to thin: fill in the numbers of a case" in one_line(capsys)
     assert run("score", str(path), "--case", "thick", "--json") == 0
     document = json.loads(capsys.readouterr().out)
     assert {row["case"] for row in document["rows"]} == {"thick"}
@@ -160,10 +160,71 @@ def test_what_is_missing_is_refused_in_a_line(
         ("\n".join(line for line in text.splitlines() if "thick,P2" not in line), "probe P2 is missing"),
         (text.replace("case,probe", "scene,probe"), "the header of statics must be case,probe,ux,uy,uz"),
         (text.replace("thick,P2,", "thick,P2,x"), "not a number"),
+        (text.replace("thick,", "thik,"), "case = 'thik': statics has no such case; did you mean thick?"),
+        (
+            text.replace("thick,", "modes-free,"),
+            "case = 'modes-free': a case of modes: score it with --suite modes",
+        ),
     ):
         path.write_text(changed)
         assert run("score", str(path), "--case", "thick") == 2
         assert said in one_line(capsys)
+
+
+def test_a_form_is_filled_in_in_stages(
+    write: Write, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = write(seconds=1e-3)
+    rows = path.read_text().splitlines()
+    filled = [
+        row if row.startswith(("case,", "thick,", "thin,")) else ",".join(row.split(",")[:2]) for row in rows
+    ]
+    path.write_text("\n".join(filled))
+    found = score(path)
+    assert {answer.reference.name for answer in found.answers} == {"thick", "thin"}
+    assert len(found.unanswered) == 18 and "soft-one-edge" in found.unanswered
+    report = found.report()
+    assert "on 2 of 20 cases" in report.subtitle and any("not answered yet" in said for said in report.notes)
+    assert run("score", str(path), "--case", "thick", "--case", "thin", "--json") == 0
+    document = json.loads(capsys.readouterr().out)
+    assert [case["case"] for case in document["cases"]] == ["thick", "thin"] and document["unanswered"] == []
+    path.write_text("\n".join(row if i == 0 else ",".join(row.split(",")[:2]) for i, row in enumerate(rows)))
+    assert run("score", str(path)) == 2
+    assert "no answer yet" in one_line(capsys)
+
+
+def test_answers_that_a_slip_has_spoilt_are_not_on_the_front(write: Write) -> None:
+    quick = score(write(change=lambda case, u: -u, seconds=1e-6))
+    assert quick.standing[-1].model == "answers" and "answers" not in quick.front
+    assert (
+        "answers" in score(write(change=lambda case, u: 1.3 * u, seconds=1e-6)).front
+    )  # quick, and right in kind
+
+
+@pytest.mark.parametrize(
+    ("suite", "factor", "said"),
+    [
+        ("statics", 1 / 1.05, "all 20 cases too stiff by about 5 %"),
+        ("statics", 1 / 0.9, "all 20 cases too soft by about 10 %"),
+        ("modes", 1.05**0.5, "all 7 cases too stiff by about 5 %"),
+        ("statics", 1.0, "not distinguishable from the reference in all 20 cases"),
+    ],
+)
+def test_the_verdict_comes_first_and_says_what_is_off_throughout(
+    write: Write, suite: str, factor: float, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = write(suite, lambda case, u: factor * u)
+    assert run("score", str(path), "--suite", suite) == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    assert said in printed and printed.index("Verdict") < printed.index("Errors by case")
+
+
+def test_noise_is_no_stiffness(write: Write) -> None:
+    noise = np.random.default_rng(0)
+    found = score(write(change=lambda case, u: u * noise.uniform(0.6, 1.4)))
+    assert found.as_dict()["stiffer"] is None
+    slipped = score(write(change=lambda case, u: 1e3 * u))
+    assert "1000 times" in slipped.report().lead
 
 
 def test_the_sheet_and_the_picture(write: Write, tmp_path: Path) -> None:

@@ -21,7 +21,8 @@ def command(
         str, typer.Option("--suite", metavar="NAME", help="What it answers: statics, settling or modes.")
     ] = "statics",
     case: Annotated[
-        str | None, typer.Option("--case", metavar="NAME", help="Only this case.", show_default=False)
+        list[str] | None,
+        typer.Option("--case", metavar="NAME", help="Only this case; may be repeated.", show_default=False),
     ] = None,
     json: Json = False,
     out: Out = None,
@@ -31,8 +32,8 @@ def command(
 ) -> None:
     """Score answers to the reference set: errors, what is wrong with them, the place beside other models.
 
-    `sheetbench suite --out DIR` writes the scenes and a form to fill in. Exit status 3 where units, signs or
-    probes are mistaken.
+    `sheetbench suite --out DIR` writes the scenes and a form to fill in; cases left empty are left out. Exit
+    status 3 where units, signs or probes are mistaken.
     """
     from comparisons.cli.finish import finish
     from comparisons.scoring.score import score
@@ -45,8 +46,8 @@ def command(
         json,
         out,
         overwrite,
-        apart={"--suite": suite, "--case": case},
+        apart={"--suite": suite, "--case": sorted(case) if case else None},
         figure=figure,
         pictures=not no_pictures,
     ) as end:
-        end(score(answers, suite, case).report())
+        end(score(answers, suite, case or ()).report())

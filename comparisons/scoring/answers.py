@@ -3,18 +3,21 @@
 statics   case,probe,ux,uy,uz[,seconds]
 settling  case,time,probe,ux,uy,uz[,seconds]: at the times of the reference, which are interpolated to
 modes     case,mode,frequency[,seconds]: modes count from 1, lowest first
+
+A form may be filled in stages: a row whose numbers are all empty is open, and so is its case.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 from pathlib import Path
 
 import numpy as np
 
 from comparisons.measured.columns import Row, read_columns
-from comparisons.suite.reference import Reference
+from comparisons.suite.reference import Reference, reference, references
 from sheetbench.scenes.errors import BadInput
 
 HEADERS = {
@@ -33,23 +36,45 @@ class Answer:
     seconds: float | None
 
 
-def read_answers(path: Path, suite: str, asked: Sequence[Reference]) -> list[Answer]:
-    """The answers to the cases asked for. Raises BadInput naming what is missing, or is there twice."""
+def read_answers(path: Path, suite: str, chosen: Sequence[str] = ()) -> tuple[list[Answer], list[Reference]]:
+    """The answers to a suite, or to the chosen cases of it, and the cases that are open.
+
+    Raises BadInput naming a case that there is not, what is missing of one, or is there twice.
+    """
+    known = references(suite)
+    asked = [reference(name, suite) for name in dict.fromkeys(chosen)] or list(known.values())
     columns = read_columns(path)
     header = HEADERS[suite]
     if not set(header) <= set(columns.names):
         raise BadInput(f"{path}: the header of {suite} must be {','.join(header)}, and may have seconds")
     rows: dict[str, list[Row]] = {}
     for row in columns.rows:
+        if row.cells["case"] not in known:
+            raise row.refused("case", _unknown(row.cells["case"], suite))
         rows.setdefault(row.cells["case"], []).append(row)
-    missing = [one.name for one in asked if one.name not in rows]
-    if missing:
-        more = f" and {len(missing) - 4} more" if len(missing) > 4 else ""
-        raise BadInput(
-            f"{path}: no answer to {', '.join(missing[:4])}{more}; answer all cases of {suite}, or name one "
-            "with --case"
-        )
-    return [_answer(path, one, rows[one.name]) for one in asked]
+    closed = [
+        one for one in asked if one.name in rows and not any(_open(suite, row) for row in rows[one.name])
+    ]
+    if not closed:
+        names = ", ".join(one.name for one in asked[:4])
+        raise BadInput(f"{path}: no answer yet to {names}: fill in the numbers of a case")
+    unanswered = [one for one in asked if one not in closed]
+    return [_answer(path, one, rows[one.name]) for one in closed], unanswered
+
+
+def _open(suite: str, row: Row) -> bool:
+    """Whether none of the numbers of a row is filled in."""
+    names = HEADERS[suite][2:] if suite != "settling" else HEADERS[suite][3:]
+    return not any(row.cells[name] for name in names if name != "probe")
+
+
+def _unknown(name: str, suite: str) -> str:
+    """Why there is no such case, and which is likely meant."""
+    elsewhere = references().get(name)
+    if elsewhere is not None:
+        return f"a case of {elsewhere.suite}: score it with --suite {elsewhere.suite}"
+    close = get_close_matches(name, references(suite), 1)
+    return f"{suite} has no such case" + (f"; did you mean {close[0]}?" if close else "")
 
 
 def _answer(path: Path, reference: Reference, rows: list[Row]) -> Answer:

@@ -23,7 +23,8 @@ from comparisons.report.report import Report
 from comparisons.scoring import tables
 from comparisons.scoring.answers import Answer, read_answers
 from comparisons.scoring.faults import faults
-from comparisons.suite.reference import Reference, document, reference, references
+from comparisons.scoring.verdict import stiffness, verdict
+from comparisons.suite.reference import Reference, document
 from sheetbench.choices import REFERENCES
 
 OWN = "answers"
@@ -63,10 +64,11 @@ class Standing:
 
 @dataclass(frozen=True, eq=False)
 class Score:
-    """Answers to a suite with what they get wrong."""
+    """Answers to a suite with what they get wrong; unanswered: cases that were asked for and are open."""
 
     suite: str
     answers: tuple[Answer, ...]
+    unanswered: tuple[str, ...] = ()
 
     @property
     def rows(self) -> list[Row]:
@@ -98,9 +100,11 @@ class Score:
 
     @property
     def front(self) -> list[str]:
-        """Models that none other is both quicker and better than, the quickest first."""
+        """Models that none other is both quicker and better than, the quickest first. Answers that a slip has
+        spoilt, or that are off by all of the displacement, are none however quick they are."""
         kept: list[Standing] = []
-        timed = [one for one in self.standing if one.seconds is not None]
+        wrong = self.faults or self.score >= 1.0
+        timed = [one for one in self.standing if one.seconds is not None and not (wrong and one.model == OWN)]
         for one in sorted(timed, key=lambda one: (one.seconds, one.score)):
             if not kept or one.score < kept[-1].score:
                 kept.append(one)
@@ -121,6 +125,9 @@ class Score:
                 }
                 for a in self.answers
             ],
+            "unanswered": list(self.unanswered),
+            "verdict": verdict(self),
+            "stiffer": stiffness(self),
             "faults": self.faults,
             "score": self.score,
             "standing": [vars(one) for one in self.standing],
@@ -132,10 +139,11 @@ class Score:
         return tables.report(self)
 
 
-def score(path: Path, suite: str = "statics", case: str | None = None) -> Score:
-    """The score of a file of answers to a suite, or to one case of it. Raises BadInput for what it lacks."""
-    asked = [reference(case, suite)] if case is not None else list(references(suite).values())
-    return Score(suite, tuple(read_answers(path, suite, asked)))
+def score(path: Path, suite: str = "statics", case: str | Sequence[str] = ()) -> Score:
+    """The score of a file of answers to a suite, or to a case or some cases of it. Raises BadInput for what
+    it lacks."""
+    answers, unanswered = read_answers(path, suite, [case] if isinstance(case, str) else case)
+    return Score(suite, tuple(answers), tuple(one.name for one in unanswered))
 
 
 def mean(errors: Sequence[float | None], of: Sequence[Reference]) -> float:

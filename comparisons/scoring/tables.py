@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table, number
+from comparisons.scoring.verdict import verdict
 from comparisons.suite.reference import document
 
 if TYPE_CHECKING:
@@ -20,19 +21,19 @@ PERCENT = ("", "%", 100.0, ".3g")
 
 def report(found: Score) -> Report:
     """What `sheetbench score` shows."""
-    worst = max(found.answers, key=found.error)
     standing = found.standing
     return Report(
         name="score",
         title=f"score {number(100 * found.score, '.3g')} %",
         subtitle=f"on {_of(found)} of {found.suite}, reference set {document()['version']}",
-        lead=f"worst: {worst.reference.name}, {number(100 * found.error(worst), '.3g')} %",
+        lead=verdict(found),
         document=found.as_dict(),
         tables=(cases(found), rows(found), *([place(found)] if len(standing) > 1 else [])),
         printed=(cases(found), *([place(found)] if len(standing) > 1 else [])),
         notes=(
             "score: geometric mean of the cases' errors, none below the reference's bar, none above 100 %",
             *_where(found),
+            *_left(found),
         ),
         complaints=tuple(found.faults),
         pictures=(Picture(("score.png", "score.pdf"), partial(_draw, found)),),
@@ -42,8 +43,13 @@ def report(found: Score) -> Report:
 
 
 def _of(found: Score) -> str:
-    many = len(found.answers)
-    return "1 case" if many == 1 else f"{many} cases"
+    many, asked = len(found.answers), len(found.answers) + len(found.unanswered)
+    return "1 case" if asked == 1 else f"{many} cases" if many == asked else f"{many} of {asked} cases"
+
+
+def _left(found: Score) -> list[str]:
+    """The cases that are still open."""
+    return [f"not answered yet: {', '.join(found.unanswered)}"] if found.unanswered else []
 
 
 def cases(found: Score) -> Table:

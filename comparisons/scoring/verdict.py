@@ -1,0 +1,70 @@
+"""What a score comes to, in a sentence: a slip, a stiffness that is off throughout, or how many cases are
+met.
+
+The ratio of an answer to the reference is r = (u · u_ref) / (u_ref · u_ref). Under a given load a
+displacement goes as 1/E, a frequency as √E: the stiffness is off by 1/r − 1, or r² − 1. It is said where all
+but a fifth of the cases are off to the same side by more than the reference's bar (a case whose displacements
+are prescribed knows nothing of E).
+"""
+
+from __future__ import annotations
+
+from statistics import median
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.report.table import number
+from comparisons.scoring.answers import Answer
+
+if TYPE_CHECKING:
+    from comparisons.scoring.score import Score
+
+SHARE, LEAST = 0.8, 0.005  # of the cases; of the stiffness
+
+
+def verdict(found: Score) -> str:
+    """The sentence."""
+    if found.faults:
+        return f"Verdict: {'; '.join(found.faults)}."
+    cases = len(found.answers)
+    met = sum(found.error(answer) <= answer.reference.bar for answer in found.answers)
+    if met == cases:
+        return f"Verdict: not distinguishable from the reference in {_all(cases)}."
+    worst = max(found.answers, key=found.error)
+    said = f"{met} of {cases} cases within the reference's bar"
+    stiffer = stiffness(found)
+    if stiffer is not None:
+        side = "stiff" if stiffer > 0.0 else "soft"
+        which = _all(cases) if met == 0 else "most cases"
+        said = f"{which} too {side} by about {_percent(abs(stiffer))}; {said}"
+    return f"Verdict: {said}; worst {worst.reference.name}, {_percent(found.error(worst))} off."
+
+
+def stiffness(found: Score) -> float | None:
+    """How much stiffer than the reference the answers are throughout, a fraction; None where they are not."""
+    if found.suite == "settling":
+        return None
+    off = [_stiffer(answer) for answer in found.answers]
+    for side in (1.0, -1.0):
+        both = zip(off, found.answers, strict=True)
+        beyond = [one for one, answer in both if side * one > answer.reference.bar]
+        if len(beyond) >= SHARE * len(off) and abs(median(beyond)) > LEAST:
+            return float(median(beyond))
+    return None
+
+
+def _stiffer(answer: Answer) -> float:
+    values, truth = answer.values.ravel(), answer.reference.values.ravel()
+    ratio = float(values @ truth) / float(np.sum(truth**2))
+    if ratio <= 0.0:
+        return 0.0
+    return ratio**2 - 1.0 if answer.reference.suite == "modes" else 1.0 / ratio - 1.0
+
+
+def _all(cases: int) -> str:
+    return "the one case" if cases == 1 else f"all {cases} cases"
+
+
+def _percent(share: float) -> str:
+    return f"{number(100 * share, '.0f' if share >= 0.995 else '.2g')} %"

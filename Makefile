@@ -11,7 +11,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
             shell_element.py shell_linear.py solid_element.py sections.py snaps.py campaign.py \
             report.py measurements.py) tests/fuzz
 
-.PHONY: docs docs-scene help install demo test check kernels slow fuzz kills catalogue verify locking coverage transfer coarse tradeoff \
+.PHONY: docs docs-scene help install demo wheel test check kernels slow fuzz kills catalogue verify locking coverage transfer coarse tradeoff \
         advisor-study animations pictures notebooks reproduce crosscheck peers bench central simulators stability stability-full suite standing mutants viewer \
         wheel-check extras-check lint clean
 help:
@@ -47,6 +47,7 @@ help:
 	@echo "make pictures  the still pictures of the README and of docs/motion.md, live.md and report.md (a minute; needs chromium)"
 	@echo "make notebooks the notebooks of docs/notebooks anew, with what they print and draw"
 	@echo "make docs      the documentation as a site, docs/_build/html/index.html (three minutes; a warning is an error)"
+	@echo "make wheel     a wheel for this Python with its kernels compiled (dist/)"
 	@echo "make wheel-check  the wheel as its users get it: installed elsewhere, run there, uninstalled without a trace"
 	@echo "make extras-check  the wheel with each extra on its own, and with none, in environments that have nothing else"
 	@echo "make install   set up only: $(BIN)/sheetbench"
@@ -61,6 +62,12 @@ $(VENV)/installed: pyproject.toml constraints.txt
 	  { echo "$(PYTHON) cannot make virtual environments: install the Debian package python3-venv."; exit 1; }
 	@echo "setting up $(VENV) (about a minute the first time)"
 	@$(PYTHON) -m venv $(VENV)
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable .
+	@touch $@
+
+# what only tests need comes with the first of them
+$(VENV)/testing: $(VENV)/installed
+	@echo "adding what the tests need (about half a minute the first time)"
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[test]'
 	@touch $@
 
@@ -72,26 +79,26 @@ test check: export PYTHONDONTWRITEBYTECODE :=
 # the tests' processes are as many as processors are: BLAS's own threads would wait for each other, busily
 test check: export OPENBLAS_NUM_THREADS := 1
 
-test: install lint kernels
+test: $(VENV)/testing lint kernels
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile
 
-check: install lint kernels
+check: $(VENV)/testing lint kernels
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile $(CHECK)
 
 # once, and not by each of the tests' processes
-kernels: install
+kernels: $(VENV)/testing
 	@$(BIN)/python tests/kernels.py
 
-slow: install
+slow: $(VENV)/testing
 	@$(BIN)/python -m pytest --numprocesses auto -m slow
 
-fuzz: install
+fuzz: $(VENV)/testing
 	@PYTHONPATH=tests $(BIN)/python -m fuzz.long $(OUT)/fuzz $(FUZZ)
 
-kills: install
+kills: $(VENV)/testing
 	@PYTHONPATH=tests $(BIN)/python -m fuzz.kills $(OUT)/kills $(KILLS)
 
-catalogue: install
+catalogue: $(VENV)/testing
 	@$(BIN)/python tests/catalogue.py
 
 verify: install
@@ -200,7 +207,7 @@ pictures: install
 	@$(BIN)/sheetbench compare two-edges-clamped --no-pictures --overwrite --out $(OUT)/page >/dev/null
 	@$(BIN)/python docs/page_pictures.py $(OUT)/page
 
-notebooks: install
+notebooks: $(VENV)/testing
 	@$(BIN)/python docs/run_notebooks.py
 
 docs-scene: install
@@ -208,12 +215,15 @@ docs-scene: install
 	@$(BIN)/sheetbench schema --markdown > docs/scene.md
 
 # $(OUT)/mutants is gone on with; OPTIONS=--survivors tries again what survived at an older commit
-mutants: install
+mutants: $(VENV)/testing
 	@$(BIN)/python tests/mutants/session.py $(OUT)/mutants $(SAMPLE) $(CHECK) $(OPTIONS)
 	@$(BIN)/python tests/mutants/page.py $(OUT)/mutants/tried.jsonl docs/quality.md
 
 wheel-check: install
 	@.ci/wheel-check $(BIN)/python
+
+wheel: install
+	@.ci/wheel $(BIN)/python dist
 
 extras-check: install
 	@.ci/extras-check $(PYTHON)
@@ -221,7 +231,7 @@ extras-check: install
 viewer:
 	@cd comparisons/browser/source && npm ci --ignore-scripts --silent && npm run --silent build
 
-lint: install
+lint: $(VENV)/testing
 	@$(BIN)/ruff check .
 	@$(BIN)/mypy
 

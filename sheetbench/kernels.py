@@ -7,6 +7,10 @@ here is that of all files with kernels, or with the tuples and options that they
 and theirs. And before it loads what is compiled numba gets all that it would need to compile: here only where
 it does.
 
+Kernels are compiled for x86-64-v3 (AVX2, FMA, BMI2) where the processor has that and numba has not been
+imported before: results do not depend on the processor then, and a wheel may carry its kernels, in the folder
+`compiled`, which is looked into before the user's cache and never written to (`make wheel`).
+
 To be imported before numba is. Whoever wants to know that something is compiled listens to the logger
 "sheetbench"; nothing is said where all is in the cache.
 """
@@ -16,24 +20,42 @@ from __future__ import annotations
 import hashlib
 import logging
 import os
+import platform
 import re
 import shutil
+import sys
 import time
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+from llvmlite.binding import get_host_cpu_features
 from platformdirs import user_cache_path
 
 from sheetbench import clock
 
-os.environ.setdefault("NUMBA_CACHE_DIR", str(user_cache_path("sheetbench") / "numba"))  # numba reads it once
+X86_64_V3 = ("avx", "avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe", "xsave")  # beyond x86-64-v2
 
-from numba.core import caching, event  # after its directory is set
-from numba.core.runtime import rtsys
+
+def target_common_processor() -> None:
+    """Have numba compile for x86-64-v3 where this processor is one; else, where the user has chosen
+    NUMBA_CPU_NAME, and where numba has read its settings already, leave it as it is."""
+    if "numba" in sys.modules or "NUMBA_CPU_NAME" in os.environ:
+        return
+    if platform.machine() in ("x86_64", "AMD64") and all(map(get_host_cpu_features().get, X86_64_V3)):
+        os.environ["NUMBA_CPU_NAME"] = "x86-64-v3"
+        os.environ["NUMBA_CPU_FEATURES"] = "+avx2,+fma,+bmi,+bmi2"
+
+
+os.environ.setdefault("NUMBA_CACHE_DIR", str(user_cache_path("sheetbench") / "numba"))  # numba reads it once
+target_common_processor()
+
+from numba.core import caching, event  # noqa: E402  # after its settings are made
+from numba.core.runtime import rtsys  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
+SHIPPED = Path(__file__).resolve().parent / "compiled"
 OURS = ("lumped", "fem_reference")
 IMPORTS = re.compile(rf"^from ((?:{'|'.join(OURS)})[\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
 COMPILED = re.compile(r"\b(njit|NamedTuple|intrinsic|OPTIONS)\b")
@@ -182,7 +204,18 @@ def _load(self: caching.FunctionCache, signature: object, target_context: object
     with clock.stopped():
         rtsys.initialize(target_context)
         with self._guard_against_spurious_io_errors():
-            return self._load_overload(signature, target_context)
+            found = _load_shipped(self, signature, target_context) if SHIPPED.is_dir() else None
+            return found if found is not None else self._load_overload(signature, target_context)
+
+
+def _load_shipped(self: caching.FunctionCache, signature: object, target_context: Any) -> object:
+    """A compiled kernel that came with the wheel, or None."""
+    folder = SHIPPED / Path(self.cache_path).name
+    shipped = caching.IndexDataCacheFile(
+        str(folder), self._impl.filename_base, self._impl.locator.get_source_stamp()
+    )
+    data = shipped.load(self._index_key(signature, target_context.codegen()))
+    return None if data is None else self._impl.rebuild(target_context, data)
 
 
 _load_as_numba = caching.FunctionCache.load_overload

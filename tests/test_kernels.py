@@ -1,6 +1,7 @@
 """Compiled kernels: kept, compiled anew with what they are made of, and announced."""
 
 import os
+import platform
 import shutil
 import subprocess
 import sys
@@ -11,13 +12,14 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 from dynamic_cases import scene, springs
+from llvmlite.binding import get_host_cpu_features
 from numba import njit
 from numba.core import event
 
 import lumped
 from lumped.dynamics.explicit_steps import march
 from lumped.linear.maps import rows
-from sheetbench.kernels import MONTH, ROOT, SAID, _remove_old, made_of
+from sheetbench.kernels import MONTH, ROOT, SAID, X86_64_V3, _remove_old, made_of
 
 ASK = """
 import logging, sys
@@ -31,7 +33,7 @@ product(Rows(np.array([0, 1]), np.array([0]), np.array([2.0])), np.array([3.0]))
 
 def test_a_kernel_is_made_of_the_files_whose_kernels_it_calls():
     found = {str(path.relative_to(ROOT)) for path in made_of(ROOT / "lumped/statics/fused.py")}
-    assert {"lumped/springs/together.py", "lumped/springs/areas.py", "lumped/linear/banded.py"} <= found
+    assert {"lumped/springs/together.py", "lumped/springs/cells.py", "lumped/linear/banded.py"} <= found
     tuples = {path.name for path in made_of(ROOT / "lumped/springs/all_forces.py")}
     assert {"packing.py", "tiles.py", "cell_tiles.py"} <= tuples  # a tuple's fields count too
     assert "assembly.py" not in {path.name for path in made_of(ROOT / "lumped/dynamics/compiled_newton.py")}
@@ -68,22 +70,39 @@ def test_the_first_compilation_is_announced_and_the_second_run_compiles_nothing(
     assert said == [SAID + "\n", ""]
 
 
-def test_a_copy_of_the_checkout_finds_what_the_checkout_compiled(tmp_path: Path):
+def ask(place: Path, cache: Path) -> str:
+    """What is said, compiling included, by a process that runs a kernel from a checkout at `place`."""
+    return subprocess.run(
+        [sys.executable, "-c", ASK],
+        env={**os.environ, "NUMBA_CACHE_DIR": str(cache), "PYTHONPATH": str(place)},
+        cwd=place,
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stderr
+
+
+def test_a_copy_of_the_checkout_finds_what_the_checkout_compiled_and_what_came_with_it(tmp_path: Path):
     unneeded = shutil.ignore_patterns("__pycache__")
+    copy, cache, empty = tmp_path / "copy", tmp_path / "cache", tmp_path / "empty"
     for package in ("sheetbench", "lumped"):
-        shutil.copytree(ROOT / package, tmp_path / "copy" / package, ignore=unneeded)
-    said = [
-        subprocess.run(
-            [sys.executable, "-c", ASK],
-            env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache"), "PYTHONPATH": str(place)},
-            cwd=place,
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stderr
-        for place in (ROOT, tmp_path / "copy")
-    ]
-    assert said == [SAID + "\n", ""]
+        shutil.copytree(ROOT / package, copy / package, ignore=unneeded)
+    assert [ask(ROOT, cache), ask(copy, cache)] == [SAID + "\n", ""]
+    shutil.copytree(cache, copy / "sheetbench" / "compiled")
+    assert ask(copy, empty) == "" and not list(empty.rglob("*.nbi"))
+
+
+def test_the_processor_is_the_common_one_unless_numba_is_there_before():
+    show = "import os; print(os.environ.get('NUMBA_CPU_NAME'))"
+    env = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_CPU")}
+
+    def told(*lines: str) -> str:
+        command = [sys.executable, "-c", "\n".join([*lines, show])]
+        return subprocess.run(command, env=env, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+
+    common = all(map(get_host_cpu_features().get, X86_64_V3)) and platform.machine() == "x86_64"
+    assert told("import sheetbench.kernels") == f"{'x86-64-v3' if common else None}\n"
+    assert told("import numba", "import sheetbench.kernels") == "None\n"
 
 
 def test_kernels_of_former_sources_go_after_a_month(tmp_path: Path):

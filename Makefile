@@ -3,6 +3,8 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 OUT    ?= demo
+# as a path, which editors and type checkers follow; an import hook they do not
+EDITABLE := --config-settings editable_mode=compat --editable
 FUZZ   ?=
 KILLS  ?=
 SAMPLE ?= 100
@@ -62,13 +64,13 @@ $(VENV)/installed: pyproject.toml constraints.txt
 	  { echo "$(PYTHON) cannot make virtual environments: install the Debian package python3-venv."; exit 1; }
 	@echo "setting up $(VENV) (about a minute the first time)"
 	@$(PYTHON) -m venv $(VENV)
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable .
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt $(EDITABLE) .
 	@touch $@
 
 # what only tests need comes with the first of them
 $(VENV)/testing: $(VENV)/installed
 	@echo "adding what the tests need (about half a minute the first time)"
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[test]'
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt $(EDITABLE) '.[test]'
 	@touch $@
 
 demo: install
@@ -140,7 +142,7 @@ tradeoff: install
 	@echo "setting up .venv-peers (about two minutes the first time)"
 	@$(PYTHON) -m venv .venv-peers
 	@.venv-peers/bin/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt \
-	  --editable '.[kratos,felupe,mujoco]'
+	  $(EDITABLE) '.[kratos,felupe,mujoco]'
 	@touch $@
 
 peers: .venv-peers/installed
@@ -184,7 +186,7 @@ standing: install
 	@cp $(OUT)/suite/cases.md docs/suite.md
 
 docs: install
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[docs]'
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt $(EDITABLE) '.[docs]'
 	@$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going --builder html docs docs/_build/html
 	@echo "docs/_build/html/index.html"
 

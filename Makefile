@@ -13,7 +13,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
             shell_element.py shell_linear.py solid_element.py sections.py snaps.py campaign.py \
             report.py measurements.py) tests/fuzz
 
-.PHONY: docs docs-scene help install demo wheel test check kernels slow fuzz kills catalogue verify locking coverage transfer coarse tradeoff \
+.PHONY: docs docs-scene help install demo wheel test check kernels slow fuzz kills catalogue verify locking coverage transfer expected-errors coarse tradeoff \
         advisor-study animations pictures notebooks reproduce crosscheck peers bench central simulators stability stability-full suite standing mutants viewer \
         wheel-check extras-check lint clean
 help:
@@ -32,6 +32,7 @@ help:
 	@echo "make central   the table of the calibration central, trained anew (three minutes)"
 	@echo "make simulators  other simulators with what we export for them (two minutes; files in $(OUT)/simulators/)"
 	@echo "make transfer  every calibration on every scene of the transfer study: docs/transfer.md (ten minutes)"
+	@echo "make expected-errors  the expected error of a lattice's grid on a hundred scenes, beside the true one: a table of docs/theory.md (ten minutes; ARGS=--anew solves all again)"
 	@echo "make coarse    coarse grids, even and graded by the scene's layers, on the transfer study's scenes (files in $(OUT)/coarse*/)"
 	@echo "make tradeoff  error against time on the seed's test 1, with the picture (files in $(OUT)/)"
 	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/advisor/; up to half an hour)"
@@ -124,6 +125,9 @@ transfer: install
 	@sed -e '1s/.*/# The transfer study, every table/' -e '3s/.*/Written by `make transfer`; read it with [calibration.md](calibration.md)./' \
 	  $(OUT)/transfer/transfer.md > docs/transfer.md
 	@$(BIN)/python -m pytest -m slow tests/test_transfer.py
+
+expected-errors: install kernels
+	@$(BIN)/python tests/expected_errors.py $(ARGS)
 
 coarse: install
 	@$(BIN)/sheetbench transfer --methods auto,consistent,consistent-membrane --part static --grids 9,17 --elements 16 \

@@ -76,8 +76,10 @@ def test_scales_of_the_seed_sheet() -> None:
 @pytest.mark.parametrize("name", ["two-edges-clamped", "one-edge-clamped", "curved-edge"])
 @pytest.mark.parametrize("tolerance", [0.05, 0.01, 0.003])
 def test_the_choice_meets_the_tolerance(name: str, tolerance: float) -> None:
+    """The shell's own model error, 0.5 % on the curved edge by its law of strain, counts."""
     advice = advise(scenes.load(name), tolerance)
-    assert advice.met
+    assert advice.model is not None
+    assert advice.met == (advice.model.value < tolerance) == ("own model error" not in advice.reason)
     assert actual_error(advice) <= tolerance
 
 

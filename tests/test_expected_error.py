@@ -1,73 +1,170 @@
-"""The error that is foretold of a lattice, beside the one that it has."""
+"""The error that is expected of a lattice's grid, beside the one that it has."""
 
 from __future__ import annotations
 
-from itertools import islice
+import json
+from dataclasses import replace
+from math import prod
+from typing import Any
 
+import expected_errors
+import fake_solutions
 import numpy as np
 import pytest
-from cases import relative
+from commands import run
+from expected_errors import found, scenes, shares
 
-import fem_reference
-import lumped
-from comparisons.advice.validation import scenes_at_random
 from comparisons.comparison.comparison import compare
-from comparisons.models.expected_error import ExpectedError, expected_error
-from comparisons.transfer.scenes import transfer_scenes
-from comparisons.transfer.tasks import points
-from sheetbench.scenes import Scene, load
+from comparisons.models.candidate import Candidate
+from comparisons.models.expected_error import MOST, estimate, expected_error, finer_grid
+from comparisons.models.grading import grading_of
+from comparisons.models.layers import layers
+from comparisons.modes.spectra import spectra
+from sheetbench.scenes import Pressure, Scene, Solution, Status, load
 
-# Scenes that the formula was not set on (`scenes_at_random(23)`): error of `consistent`, 9 masses along the
-# shorter side, over 5 × 5 points against the shell of 12 elements, of the largest displacement.
-UNSEEN = (0.00137, 0.00558, 0.04, 0.06533, 0.01181, 0.01371, 0.01412)
-UNSEEN += (0.00472, 0.00082, 0.01877, 0.0144, 0.0129, 0.00247, 0.00523)
-
-
-def foretold(scene: Scene, masses: int = 9, grading: float = 0.0) -> ExpectedError:
-    springs = lumped.calibrate(scene.sheet, scene.material, masses)
-    found = expected_error(scene, springs.method, springs.grid, grading)
-    assert found is not None
-    return found
+ROWS: dict[str, Any] = json.loads(expected_errors.STORED.read_text())
+SCENE = load("two-edges-clamped")
 
 
-def test_on_scenes_that_it_was_not_set_on() -> None:
-    """Within a factor of two on eight of fourteen, of three on twelve, in the middle right."""
-    scenes = islice(scenes_at_random(23), len(UNSEEN))
-    ratios = np.array([foretold(s).value for s in scenes]) / np.array(UNSEEN)
-    factors = np.maximum(ratios, 1.0 / ratios)
-    assert (factors < 2.0).sum() >= 8 and (factors < 3.0).sum() >= 12
-    assert 0.7 < np.median(ratios) < 1.4
+def test_on_the_stored_scenes_it_is_within_a_factor_of_two_and_never_below_a_third() -> None:
+    """On four of five of all cases that are told of, and of each group; `make expected-errors`."""
+    assert set(ROWS) == set(scenes())
+    for group in ("hard", "catalogue", "transfer", "drawn"):
+        count, told, within, worst = shares(found(ROWS, group))
+        assert within >= 0.8 and worst < 3.0, group
+        assert told >= 0.8 * count, group
 
 
-def test_the_errors_are_as_written() -> None:
-    scene = next(islice(scenes_at_random(23), 4, None))
-    springs = lumped.calibrate(scene.sheet, scene.material, 9)
-    at = points(scene.sheet)
-    truth = fem_reference.solve(scene, model="shell", elements=6).displacement(at)
-    assert relative(lumped.solve(scene, springs).displacement(at), truth) == pytest.approx(
-        UNSEEN[4], rel=0.02
-    )
+@pytest.mark.parametrize("name", ["hinged-corner", "auxetic-two", "pull-hard"])
+def test_the_stored_displacements_are_the_lattices(name: str) -> None:
+    """Of scenes that the rule by layers' widths got wrong."""
+    stored = ROWS[name]
+    for row in stored["lattices"][:2]:
+        found = expected_errors.lattice(scenes()[name][1], tuple(row["grid"]))
+        size = np.abs(row["probes"]).max()
+        np.testing.assert_allclose(found["probes"], row["probes"], atol=1e-5 * size)
+        assert found["status"] == row["status"]
 
 
-def test_it_goes_with_the_square_of_the_cells_and_names_what_it_comes_from() -> None:
-    scenes = transfer_scenes()
-    soft, bent = scenes["tenth-of-young"], scenes["curved-edge"]
-    assert foretold(soft, 17).value == pytest.approx(foretold(soft, 9).value / 4.0, rel=1e-9)
-    assert foretold(soft, grading=0.3).value < foretold(soft).value
-    assert "its load" in foretold(soft).reason and "bent by 4 1/m" in foretold(bent).reason
-    assert "a point load" in foretold(scenes["point-load-at-corner"]).reason
+@pytest.mark.slow
+def test_the_stored_lattices_are_todays() -> None:
+    for name, (_, scene) in scenes().items():
+        for row in ROWS[name]["lattices"]:
+            found = expected_errors.lattice(scene, tuple(row["grid"]))
+            assert found["status"] == row["status"], name
+            size = np.abs(row["probes"]).max()
+            np.testing.assert_allclose(found["probes"], row["probes"], atol=1e-4 * size, err_msg=name)
 
 
-def test_nothing_is_said_where_nothing_is_known() -> None:
-    scene = load("two-edges-clamped")
-    assert expected_error(scene, "uniform", (9, 9, 2)) is None
-    assert expected_error(scene, "consistent", (9, 9, 3)) is None
-    assert expected_error(load("actuated-edge"), "consistent", (9, 9, 2)) is None
+def test_an_error_of_second_order_is_found_exactly() -> None:
+    u = np.array([[0.0, 0.0, -0.01], [0.001, 0.0, -0.02]])
+    answers = [u * (1.0 + 0.03 / cells**2 * 64.0) for cells in (8, 12)]
+    value = estimate(*answers, ratio=2.25, stretch=0.0)
+    assert value == pytest.approx(0.03 / (1.0 + 0.03 * 64 / 144), rel=1e-12)
 
 
-def test_compare_says_it() -> None:
-    found = compare("two-edges-clamped", grid=5, elements=4, reference="plate")
+def test_nothing_is_said_of_rounding_of_answers_far_apart_and_of_large_stretch() -> None:
+    u = np.array([[0.0, 0.0, -0.01]])
+    assert estimate(u, u * (1.0 + 1e-12), 2.25, 0.0) is None
+    assert estimate(u, -u, 2.25, 0.0) is None
+    assert estimate(0.0 * u, 0.0 * u, 2.25, 0.0) is None
+    assert estimate(u, 1.01 * u, 2.25, 0.05) is not None and estimate(u, 1.01 * u, 2.25, 0.1) is None
+
+
+@pytest.mark.parametrize(
+    ("grid", "finer"), [((9, 9, 2), (13, 13, 2)), ((3, 7, 2), (13, 37, 2)), ((17, 33, 2), (25, 49, 2))]
+)
+def test_the_finer_grid(grid: tuple[int, int, int], finer: tuple[int, int, int]) -> None:
+    assert finer_grid(grid) == finer
+
+
+def answered(**changes: Any) -> Solution:
+    settings = {"grid": [9, 9, 2], "calibration": "consistent"} | changes.pop("settings", {})
+    return replace(fake_solutions.solution(SCENE, "lumped", -0.01), settings=settings, **changes)
+
+
+@pytest.mark.parametrize(
+    ("changes", "options", "finer"),
+    [
+        ({"status": Status.UNSTABLE}, {}, {}),
+        ({}, {}, {"status": Status.UNSTABLE}),
+        ({"snaps": (0.7,)}, {}, {}),
+        ({"settings": {"calibration": "uniform"}}, {}, {}),
+        ({"settings": {"grid": [9, 9, 3]}}, {}, {}),
+        ({"settings": {"grid": [65, 65, 2]}}, {}, {}),
+        ({}, {"linear": True}, {}),
+        ({}, {"layer_distance": 0.004}, {}),
+    ],
+)
+def test_nothing_is_said_where_the_estimate_has_no_ground(
+    changes: dict[str, Any], options: dict[str, Any], finer: dict[str, Any]
+) -> None:
+    def solve(candidate: Candidate) -> Solution:
+        assert prod(candidate.settings["grid"][:2]) <= MOST
+        moved = fake_solutions.solution(SCENE, "lumped", -0.0101)
+        return replace(moved, settings=candidate.settings, **finer)
+
+    own = Candidate("lumped", {"grid": 9, **options})
+    assert expected_error(SCENE, own, answered(**changes), solve) is None
+    plain = Candidate("lumped", {"grid": 9})
+    assert expected_error(SCENE, plain, answered(), lambda candidate: None) is None
+    moved = fake_solutions.solution(SCENE, "lumped", -0.0101)
+    assert expected_error(SCENE, plain, answered(), lambda candidate: moved) is not None
+
+
+def test_compare_says_it_in_the_norm_of_its_error() -> None:
+    found = compare("two-edges-clamped", grid=5, elements=6)
     solutions = found.report().document["solutions"]
-    expected = solutions[0]["expected_error"]
-    assert expected == foretold(found.scene, 5).as_dict() and "expected_error" not in solutions[2]
-    assert any("to expect at this grid" in note for note in found.report().notes)
+    expected, error = solutions[0]["expected_error"], found.error(found.solutions[0])
+    assert expected["grid"] == [13, 13, 2] and "13 × 13 masses" in expected["reason"]
+    assert error is not None and 0.5 < error / expected["value"] < 2.0
+    assert all("expected_error" not in one for one in solutions[1:])
+    assert any("expected grid error" in note for note in found.report().notes)
+
+
+def test_in_plane_loads_have_no_error_of_bending() -> None:
+    """A strip pulled by 1 N/m is 0.2 % off and not the 4 to 15 % of a sheet that bends by this load; pulled
+    by 120 N/m it is off by its law of strain, which no grid mends."""
+    weak, hard = (scenes()[name][1] for name in ("pull-weak", "pull-hard"))
+    found = [_expected(scene) for scene in (weak, hard)]
+    assert found[0] is not None and found[0] < 0.004 and found[1] is None
+
+
+def _expected(scene: Scene) -> float | None:
+    from comparisons.models.registry import answer
+
+    lattice = Candidate("lumped", {"grid": 9})
+    found = expected_error(scene, lattice, answer(scene, lattice), lambda other: answer(scene, other))
+    return None if found is None else found.value
+
+
+def test_calibrate_says_it_of_a_scene(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("calibrate", "two-edges-clamped", "--grid", "9", "--json") == 0
+    told = json.loads(capsys.readouterr().out)["expected_error"]["value"]
+    assert told == pytest.approx(_expected(SCENE), rel=1e-9)
+
+
+def test_loads_in_its_plane_bend_no_flat_sheet() -> None:
+    """They make no layer at the edges, and `--grading auto` leaves the grid even."""
+    pulled, hanging = (scenes()[name][1] for name in ("pull-hard", "hanging"))
+    assert layers(pulled) == [] == layers(hanging)
+    assert grading_of(pulled, (9, 9, 2), "auto", calibration="consistent")[0] == 0.0
+    both, weight = scenes()["pull-and-weight"][1], pulled.replace(gravity=SCENE.gravity)
+    pressed = weight.replace(gravity=None, loads=(Pressure(value=3.0),))
+    assert [len(layers(scene)) for scene in (both, weight, pressed)] == [1, 1, 1]
+    assert layers(both) == layers(both.replace(loads=()))
+
+
+@pytest.mark.parametrize("name", ["two-edges-clamped", "curved-edge"])
+def test_frequencies_about_the_deformed_sheet_have_theirs(name: str) -> None:
+    """By mode: within a factor of two and 0.2 % of what the shell says."""
+    found = spectra(name, count=4, elements=12, about="deformed")
+    expected = found[0].as_dict()["expected_errors"]
+    assert len(expected) == 4
+    for pair, told in zip(found.pairs, expected, strict=True):
+        assert pair.relative is not None and told is not None
+        assert abs(told - pair.relative) < 0.5 * abs(pair.relative) + 2e-3
+    assert any("expected grid error of the frequencies" in note for note in found.report().notes)
+    assert spectra(name, count=2, elements=2)[0].expected == ()
+    uniform = spectra(name, count=2, elements=2, calibration="uniform", about="deformed")
+    assert uniform[0].expected == ()

@@ -1,8 +1,10 @@
 """The cheapest model that is good enough for a scene, or the most accurate one in a given time.
 
 Scales (`comparisons.models.scales`) decide what may be left out; a few quick solves
-(`comparisons.advice.probing`) decide the rest. A model is adequate if its distance from the judge plus the
-judge's error bar is within the tolerance; where the bar leaves that open the judge is refined. Predicted
+(`comparisons.advice.probing`) decide the rest. A model is adequate if its distance from the judge, the
+judge's error bar and what the judge leaves out on every mesh (`comparisons.comparison.model_error`) are
+together within the tolerance; where the bar leaves that open the judge is refined. Where the last alone is
+above the tolerance, the choice meets it against a converged shell only, and the advice says so. Predicted
 error: the distance; predicted time: as measured here.
 
 What is left out is said, and what the scene needs: "bending" always; "transverse shear" and "membrane
@@ -17,6 +19,7 @@ from typing import Any
 
 from comparisons.advice import tables
 from comparisons.advice.probing import Probing, Trial
+from comparisons.comparison.model_error import ModelError
 from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading
 from comparisons.models.scales import Scales, scales
@@ -34,7 +37,8 @@ STEEP = 0.1  # of the tolerance: the finest error bar a decision may hang on
 
 @dataclass(frozen=True)
 class Advice:
-    """What to solve, and why. error, seconds: predicted for the choice; bar: of the judge.
+    """What to solve, and why. error, seconds: predicted for the choice; bar: of the judge, by its mesh;
+    model: what the judge leaves out on every mesh.
 
     choice is None, with `message` saying why, where no model converges or none in `budget` is known. grading,
     calibration: what was made of graded lattices and of other springs, where they were asked for.
@@ -55,6 +59,7 @@ class Advice:
     message: str = ""
     grading: str = ""
     calibration: str = ""
+    model: ModelError | None = None
 
     @property
     def reason(self) -> str:
@@ -62,6 +67,7 @@ class Advice:
         if self.error is None or self.seconds is None:
             return self.message
         said = f"predicted error {100 * self.error:.2g} % ± {100 * self.bar:.2g} % in {_time(self.seconds)}"
+        said += f", {self.model}" if self.model else ""
         return f"{said}; {self.message}" if self.message else said
 
     @property
@@ -69,7 +75,8 @@ class Advice:
         """Whether what was asked can be had: the tolerance, within the budget if there is one."""
         if self.choice is None or self.error is None or self.seconds is None:
             return False
-        accurate = self.tolerance is None or self.error + self.bar <= self.tolerance
+        model = self.model.value if self.model else 0.0
+        accurate = self.tolerance is None or self.error + self.bar + model <= self.tolerance
         return accurate and (self.budget is None or self.seconds <= self.budget)
 
     def as_dict(self) -> dict[str, Any]:
@@ -82,7 +89,12 @@ class Advice:
             "tolerance": self.tolerance,
             "budget": self.budget,
             "choice": choice,
-            "predicted": {"error": self.error, "uncertainty": self.bar, "solve_seconds": self.seconds},
+            "predicted": {
+                "error": self.error,
+                "uncertainty": self.bar,
+                **(self.model.as_dict() if self.model else {"model": None}),
+                "solve_seconds": self.seconds,
+            },
             "met": self.met,
             "needs": list(self.needs),
             "left_out": list(self.left_out),
@@ -138,10 +150,17 @@ def advise(
     if linear:  # each family's rate
         probing.trial(probing.candidate("lumped", 4, linear=True))
         probing.trial(probing.candidate("plate", 4))
-    chosen = _cheapest(probing, candidates, tolerance) if tolerance is not None else None
-    message = ""
-    if tolerance is not None and chosen is None:
-        message = f"no model here is within {100 * tolerance:g} % for certain; this is the most accurate one"
+    model = probing.model_error.value if probing.model_error else 0.0
+    chosen, message = None, ""
+    if tolerance is not None:
+        beyond = model >= tolerance
+        chosen = _cheapest(probing, candidates, tolerance if beyond else tolerance - model)
+        if chosen is None:
+            message = (
+                f"no model here is within {100 * tolerance:g} % for certain; this is the most accurate one"
+            )
+        elif beyond:
+            message = f"within {100 * tolerance:g} % of a converged shell, whose own model error is larger"
     if budget is not None and (chosen is None or chosen.seconds > budget):
         chosen = _most_accurate(probing, candidates, budget)
         message = f"no model solves this in {budget:g} s" if chosen is None else ""
@@ -248,6 +267,7 @@ def _advice(
         message=message,
         grading=_grading(probing, chosen),
         calibration=_calibration(probing, chosen),
+        model=probing.model_error,
     )
 
 

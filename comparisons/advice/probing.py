@@ -8,6 +8,7 @@ that were not solved follow t = c N^p through the two solved ones nearest in unk
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from statistics import median
 from time import perf_counter
 from typing import Any
@@ -16,6 +17,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from comparisons.comparison.comparison import error
+from comparisons.comparison.model_error import ModelError, model_error
 from comparisons.models import registry as models
 from comparisons.models.candidate import Candidate, series
 from comparisons.models.grading import Grading, grading_of, plain, read
@@ -157,6 +159,11 @@ class Probing:
             return float("inf")
         layers = [missed_by(self.scene, trial.solution.settings) for trial in trials]
         return estimate(answers, [1.0 / cells for cells in finest], layers).error
+
+    @cached_property
+    def model_error(self) -> ModelError | None:
+        """What the judge leaves out of the sheet on every mesh, by its answer when this is first asked."""
+        return model_error(self.scene, self.judge.solution)
 
     def error(self, trial: Trial) -> float:
         """Error of a trial against the judge; infinite for an answer that is none."""

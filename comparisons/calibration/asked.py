@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import prod
 from typing import Any
 from warnings import warn
 
 import lumped
 from comparisons.comparison.comparison import load_static
-from comparisons.models.expected_error import ExpectedError, expected_error
+from comparisons.models.candidate import Candidate
+from comparisons.models.expected_error import MOST, ExpectedError, expected_error
 from comparisons.models.grading import fixed, grading_of
 from comparisons.models.method import chosen
 from comparisons.models.quantities import checked
+from comparisons.models.registry import answer
+from comparisons.report.work import Progress, silent
 from sheetbench import scenes
-from sheetbench.choices import AUTO
-from sheetbench.scenes import Material, Scene, Sheet
+from sheetbench.choices import AUTO, EXTRAPOLATED
+from sheetbench.scenes import Material, Scene, SceneError, Sheet, Solution, require_static
 from sheetbench.scenes.errors import BadInput, Implausible
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
@@ -97,13 +101,30 @@ def foretold(scene: str | None, sheet: Sheet, material: Material, grid: Grid) ->
 
 
 def expected(
-    scene: str | None, sheet: Sheet, material: Material, springs: lumped.Calibration
+    scene: str | None,
+    sheet: Sheet,
+    material: Material,
+    springs: lumped.Calibration,
+    progress: Progress = silent,
 ) -> ExpectedError | None:
-    """The error to expect of these springs in the named scene with this sheet and material."""
-    if scene is None:
+    """The grid error to expect of these springs in the named scene with this sheet and material, from two
+    solves of it; None too where the scene has no static answer or the lattice is too large to be solved for
+    a remark."""
+    if scene is None or prod(springs.grid[:2]) > MOST or springs.method not in EXTRAPOLATED:
         return None
-    changed = scenes.load(scene).model_copy(update={"sheet": sheet, "material": material})
-    return expected_error(changed, springs.method, springs.grid, springs.grading)
+    changed = scenes.load(scene).model_copy(update={"sheet": sheet, "material": material, "springs": None})
+    try:
+        require_static(changed)
+    except SceneError:
+        return None
+    lattice = Candidate(
+        "lumped", {"grid": springs.grid, "calibration": springs.method, "grading": springs.grading or None}
+    )
+
+    def solve(candidate: Candidate) -> Solution:
+        return answer(changed, candidate, progress=progress)
+
+    return expected_error(changed, lattice, solve(lattice), solve)
 
 
 def exported(scene: str | None, sheet: Sheet, material: Material) -> Scene:

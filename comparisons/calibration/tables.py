@@ -56,7 +56,7 @@ def report(
         lead=summary.sheet(sheet, material),
         document=found,
         tables=(springs(found), moduli(found), *([fit(found)] if "fit" in found else [])),
-        notes=(*fitted, *found.get("notes", ()), *([str(expected)] if expected else [])),
+        notes=(*fitted, *found.get("notes", ()), *([f"in this scene: {expected}"] if expected else [])),
         attachments={"springs.toml": partial(write_text, text=to_toml(found))},
         settings={"method": found["method"], "grid": found.get("grid")},
     )

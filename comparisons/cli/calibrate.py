@@ -117,7 +117,9 @@ def command(
         notes += [f"{method}: {because}"] if because else []
         notes += asked.foretold(scene, sheet, material, masses)
         found = replace(found, notes=(*notes, *found.notes))
-        report = tables.report(found, sheet, material, asked.expected(scene, sheet, material, found))
+        own_scale = k is not None or layer_distance is not None
+        off = None if own_scale else asked.expected(scene, sheet, material, found, end.progress)
+        report = tables.report(found, sheet, material, off)
         if export is not None:
             of = asked.exported(scene, sheet, material)
             report = end.export(export, of, found, report, overwrite, simulators or ())

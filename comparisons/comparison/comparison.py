@@ -20,6 +20,7 @@ import numpy as np
 
 from comparisons.comparison import far_apart, strain_law, tables
 from comparisons.comparison.error_bar import CHEAP, ErrorBar, error_bar
+from comparisons.comparison.model_error import ModelError, model_error
 from comparisons.models.candidate import Candidate
 from comparisons.models.expected_error import ExpectedError, expected_error
 from comparisons.models.grading import Grading
@@ -32,7 +33,6 @@ from comparisons.report.report import Report
 from comparisons.report.work import Progress, silent
 from sheetbench.choices import ELEMENTS, REFERENCE
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static, summary
-from sheetbench.scenes.grading import of_settings
 
 if TYPE_CHECKING:
     from comparisons.advice.advisor import Advice
@@ -78,7 +78,7 @@ class Comparison(summary.Summarised):
     Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
     reference's mesh leaves uncertain, where that was asked for; laws: a sentence where lattice and reference
     have laws of strain that differ by more. apart: a sentence where both are at rest and more than 100 %
-    apart.
+    apart. expected: the error to expect of the chosen lattice's grid, where an estimate holds.
     """
 
     scene: Scene
@@ -86,6 +86,7 @@ class Comparison(summary.Summarised):
     bar: ErrorBar | None = None
     laws: str = ""
     apart: str = ""
+    expected: ExpectedError | None = None
 
     @property
     def reference(self) -> Solution:
@@ -147,18 +148,15 @@ class Comparison(summary.Summarised):
         u = solution.displacement(points)
         return error(u + solution.bar(points), u)
 
+    @property
+    def model_error(self) -> ModelError | None:
+        """What the reference leaves out of the sheet on every mesh, where that is known."""
+        return model_error(self.scene, self.reference)
+
     def distinguishable(self, solution: Solution) -> bool | None:
         """Whether a solution's error is above the reference's own; None where either is not known."""
         off = self.error(solution)
         return None if self.bar is None or off is None else off > self.bar.error
-
-    def expected_error(self, solution: Solution) -> ExpectedError | None:
-        """What error cells and layers make likely of a lattice, before it is solved."""
-        found = solution.settings
-        if solution.model != "lumped" or "calibration" not in found:
-            return None
-        nx, ny, layers = found["grid"]
-        return expected_error(self.scene, found["calibration"], (nx, ny, layers), of_settings(found))
 
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench compare`: metres, newtons, seconds."""
@@ -199,10 +197,12 @@ class Comparison(summary.Summarised):
         ]
 
     def _solution_as_dict(self, solution: Solution) -> dict[str, Any]:
-        bar = self.bar.as_dict() if solution is self.reference and self.bar is not None else {}
+        bar: dict[str, Any] = {}
+        if solution is self.reference and self.bar is not None:
+            bar = self.bar.as_dict() | (self.model_error.as_dict() if self.model_error else {"model": None})
         if (own := self.own_bar(solution)) is not None:
-            bar = {"error": self.bar_of(solution), "probes": own}
-        expected = self.expected_error(solution)
+            bar = {"error": self.bar_of(solution), "mesh": self.bar_of(solution), "probes": own}
+        expected = self.expected if solution is self.solutions[0] else None
         return {
             "model": solution.model,
             "label": solution.label,
@@ -293,6 +293,13 @@ def compare(
         starting(name)
         solutions.append(answer(scene, candidate, name, progress=progress))
         finished(solutions[-1])
+
+    def also(other: Candidate) -> Solution | None:
+        if not (large or has_room(scene, other)):
+            return None
+        return answer(scene, other, "lumped on a finer grid", progress=progress)
+
+    expected = expected_error(scene, first, solutions[0], also)
     bar = None
     if (reference in CHEAP if uncertainty is None else uncertainty) and solutions[1].comparable:
         starting(f"{reference} on coarser meshes")
@@ -304,13 +311,9 @@ def compare(
     laws = apart = ""
     if first.model == "lumped":
         laws = strain_law.said(scene, first, tuple(solutions), None if bar is None else bar.error)
-
-        def also(other: Candidate) -> Solution | None:
-            return answer(scene, other, progress=progress) if large or has_room(scene, other) else None
-
         within = None if bar is None else bar.error
         apart = far_apart.said(scene, first, tuple(solutions), error, within, also)
-    return Comparison(scene, tuple(solutions), bar, laws, apart)
+    return Comparison(scene, tuple(solutions), bar, laws, apart, expected)
 
 
 def _unlike(name: str, taken: Collection[str]) -> str:

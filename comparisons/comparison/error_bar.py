@@ -48,7 +48,7 @@ class ErrorBar:
 
     def note(self, model: str) -> str:
         """The bar in words."""
-        found, meshes = self.uncertainty, ", ".join(_size(n) for n in self.elements)
+        found, (*finer, coarsest) = self.uncertainty, [_size(n) for n in self.elements]
         if len(self.elements) == 2:
             why = "order 2 assumed, factor 3: two meshes show none"
         elif np.isfinite(found.overall_order) and found.trusted.all():
@@ -57,14 +57,16 @@ class ErrorBar:
             why = "no change but rounding"
         else:
             swing = int(np.sum(~found.trusted))
-            why = f"{swing} of {found.trusted.size} components show no order of their own"
-        return f"{model}: ± {100.0 * self.error:.2g} % by its mesh ({meshes} elements; {why})."
+            why = f"{swing} of {found.trusted.size} components did not converge monotonically"
+        meshes = f"{', '.join(finer)} and {coarsest} elements"
+        return f"{model}: mesh error ± {100.0 * self.error:.2g} % (from {meshes}; {why})."
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON: lengths in metres, orders null where there is none."""
         found = self.uncertainty
         return {
             "error": self.error,
+            "mesh": self.error,
             "order": found.overall_order,
             "elements": list(self.elements),
             "probes": dict(zip(self.names, found.bar, strict=True)),

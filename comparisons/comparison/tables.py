@@ -46,7 +46,7 @@ def report(comparison: Comparison, advice: Advice | None = None) -> Report:
         notes=(
             " · ".join(solution.label for solution in comparison.solutions),
             *dict.fromkeys(said for s in comparison.solutions for said in told(s.settings)),
-            *(f"{s.label}: {said}" for s in comparison.solutions if (said := comparison.expected_error(s))),
+            *([f"{comparison.solutions[0].model}: {comparison.expected}"] if comparison.expected else []),
             *uncertainty(comparison),
             explanation(comparison),
             *chosen,
@@ -190,7 +190,9 @@ def uncertainty(comparison: Comparison) -> list[str]:
             said.append(f"{solution.model}: ± {share:.2g} % by its grids.")
     if comparison.bar is None:
         return said
-    said = [*said, comparison.bar.note(comparison.reference.model)]
+    model = comparison.reference.model
+    said.append(comparison.bar.note(model))
+    said += [f"{model}: {left_out}."] if (left_out := comparison.model_error) else []
     for solution in comparison.solutions:
         if comparison.distinguishable(solution) is False:
             said.append(f"{solution.model}: not distinguishable from {comparison.reference.model}.")

@@ -1,100 +1,144 @@
-"""How far a lattice will be from a converged shell, foretold from cells and layers before anything is solved.
+"""How far a lattice will be from a converged shell, estimated from the same lattice on a finer grid.
 
-Of the largest displacement, with cells of side l on a sheet whose shorter side is a,
+With f the displacements at the scene's probes on the grid asked for and g those on a finer one, whose cells
+are 1/r as long, an error that falls with the square of the cells is
 
-    e = (A + P p) ((1 + 0.57 γ) l/a)² + B ((1 − γ) l/δ)² + Σ C ((1 − γ) l/δ')²,
+    e = max |f − g| / (1 − 1/r²) / max |g|
 
-δ and δ' the widths of the load's layer and of those at bent edges (`comparisons.models.layers`), p the share
-of point loads in the load, γ the grading. That the error goes with l² is the expansion of the lattice's
-energy (docs/theory.md, sections 3 and 4: what is left are chords for arcs, oblique waves, the load lumped at
-masses); the factors were set on scenes: the seventeen of the transfer study at 9 and 17 masses a
-side and 44 drawn as the advisor's are (`--seed` 5 and 11 of `comparisons.advice.validation`), at 9. B depends
-on what holds the sheet: it is large where edges hold a deflection in, so that a bent sheet stretches. Of
-`consistent-membrane`, where `comparisons.models.method` takes it, only B of two adjacent edges is another. On
-scenes that they were not set on `tests/test_expected_error.py` says how good it is: an order of magnitude to
-choose a grid by, no error bar.
+in the norm of `error` (largest component over the probes; Roache, J. Fluids Eng. 116 (1994) 405–413, with
+the finer answer known). The finer grid has half as many cells again, and FINEST_COARSE or more along the
+shorter side, where the error is not yet second order on coarser ones.
+
+It is the grid's error and no more: what differs on every grid, as the laws of strain do, it does not see. So
+nothing is said
+
+- of calibrations whose answers do not tend to the sheet's, of a given k or layer distance, of linear answers;
+- where either answer is no stable equilibrium, or one snapped and the other not;
+- where the load bends the sheet within FOLD cells of the finer grid: both grids miss the fold, and agree;
+- where the estimate is above FAR: the two may lie on different branches;
+- where the sheet stretches so far that the laws of strain weigh more (LAW);
+- where the finer lattice would have more than MOST masses in plan.
+
+`tests/expected_errors.py` measures on a hundred scenes how good it is (docs/theory.md, section 6).
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import prod
 from typing import Any
 
 import numpy as np
 
+from comparisons.models.candidate import Candidate
 from comparisons.models.layers import layers
-from comparisons.models.method import MEMBRANE
-from comparisons.models.scales import scales
-from sheetbench.choices import CALIBRATION
-from sheetbench.scenes import EDGES, Clamped, Curved, Hinged, PointLoad, Scene
-from sheetbench.scenes.grading import Graded, amount
+from sheetbench.choices import EXTRAPOLATED
+from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes.grading import of_settings
 from sheetbench.scenes.grid import LAYERS, Grid
 
-SMOOTH = 0.12  # A
-ONE_EDGE, ADJACENT, OPPOSITE, HINGES = (
-    0.14,
-    0.28,
-    0.35,
-    0.08,
-)  # B of one edge, two, opposite ones, hinges alone
-BENT = 0.006  # C
-POINT = 0.27  # P
-KNOWN = (CALIBRATION, MEMBRANE)
-ADJACENT_MEMBRANE = 0.06  # B of two adjacent edges, `consistent-membrane`
+FINER = 1.5  # times as many cells
+FINEST_COARSE = 12  # cells along the shorter side of the finer grid, at least
+FOLD = 1.5  # cells of the finer grid in the layer that a load bends (`comparisons.models.layers`), at least
+FAR = 0.5  # of the largest displacement
+LAW = 0.2  # of the largest stretch, that the laws of strain may put lattice and shell apart
+MOST = 5000  # masses in plan
+ROUNDING = 1e-9  # of the largest displacement
 
 
 @dataclass(frozen=True)
 class ExpectedError:
-    """value: of the largest displacement; reason: what most of it comes from."""
+    """value: a share, in the norm of `error`; grid: the finer one that it is estimated from, and its time."""
 
     value: float
-    reason: str
+    grid: Grid
+    solve_seconds: float
+
+    @property
+    def reason(self) -> str:
+        """What it is made from, in words."""
+        masses = " × ".join(str(n) for n in self.grid[:2])
+        return f"estimated from a second solve on {masses} masses, {1e3 * self.solve_seconds:.0f} ms"
 
     def __str__(self) -> str:
-        return f"about {100 * self.value:.2g} % off a converged shell to expect at this grid: {self.reason}"
+        return f"expected grid error about {100 * self.value:.2g} % ({self.reason})"
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
-        return dict(vars(self))
+        return {**vars(self), "grid": list(self.grid), "reason": self.reason}
 
 
-def expected_error(scene: Scene, method: str, grid: Grid, grading: Graded = 0.0) -> ExpectedError | None:
-    """The error to expect of a lattice with the springs of a method, None where nothing is known: of methods
-    other than KNOWN, of more than two layers, with actuators, and where edges move, are held in part or cut
-    the sheet."""
-    edges: set[str] = {s.edge for s in scene.supports}
-    known = all(isinstance(s, Clamped | Hinged | Curved) and s.motion is None for s in scene.supports)
-    if method not in KNOWN or grid[2] != LAYERS or scene.actuators or not edges or not known:
-        return None
-    side = min(scene.sheet.lengths)
+def finer_grid(grid: Grid) -> Grid:
+    """The grid whose answer the estimate compares with: 1.5 times as many cells, at least FINEST_COARSE."""
+    cells = [n - 1 for n in grid[:2]]
+    factor = max(FINER, FINEST_COARSE / min(cells))
+    nx, ny = (int(np.ceil(factor * n - 1e-9)) + 1 for n in cells)
+    return nx, ny, grid[2]
+
+
+def converges(calibration: str, finer: Grid, settings: Mapping[str, Any]) -> bool:
+    """Whether answers with these springs and settings tend to the sheet's, and the finer grid is not too
+    large."""
+    own = any(settings.get(name) for name in ("k", "layer_distance", "linear"))
+    return calibration in EXTRAPOLATED and not own and finer[2] == LAYERS and prod(finer[:2]) <= MOST
+
+
+def resolves(scene: Scene, grid: Grid) -> bool:
+    """Whether the layer in which the scene's load bends the sheet has FOLD cells of a grid or more."""
     cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
-    by = amount(grading)
-    inside, at_edges = (1.0 + (np.pi / 2.0 - 1.0) * by) * cell, (1.0 - by) * cell
-    across = f"cells of {1e3 * cell:.3g} mm"
-    parts = [(SMOOTH * (inside / side) ** 2, f"{across} on a side of {1e3 * side:.3g} mm")]
-    parts.append((POINT * _point_share(scene) * (inside / side) ** 2, f"a point load on {across}"))
-    for layer in layers(scene):
-        factor = BENT if layer.bent_edge else _of_load(scene, edges, method)
-        parts.append((factor * (at_edges / layer.width) ** 2, f"{layer}, on {across}"))
-    return ExpectedError(float(sum(value for value, _ in parts)), max(parts)[1])
+    return all(layer.bent_edge or layer.width >= FOLD * cell for layer in layers(scene))
 
 
-def _of_load(scene: Scene, edges: set[str], method: str) -> float:
-    """B of what holds the sheet."""
-    if len(edges) == 1:
-        return ONE_EDGE
-    if not any(isinstance(s, Clamped | Curved) for s in scene.supports):
-        return HINGES
-    adjacent = len(edges) == 2 and len({EDGES[edge].normal_axis for edge in edges}) == 2
-    if not adjacent:
-        return OPPOSITE
-    return ADJACENT if method == CALIBRATION else ADJACENT_MEMBRANE
+def expected_error(
+    scene: Scene, lattice: Candidate, solution: Solution, solve: Callable[[Candidate], Solution | None]
+) -> ExpectedError | None:
+    """The grid error to expect of a lattice's solution of a scene, None where nothing is said (see above).
+
+    lattice: what was solved; solve: answers the finer lattice, None where that takes too much memory.
+    """
+    settings = solution.settings
+    if lattice.model != "lumped" or solution.status is not Status.CONVERGED:
+        return None
+    nx, ny, deep = settings["grid"]
+    finer = finer_grid((nx, ny, deep))
+    if not (converges(str(settings.get("calibration")), finer, lattice.settings) and resolves(scene, finer)):
+        return None
+    same = {"calibration": settings["calibration"], "grading": of_settings(settings) or None}
+    fine = solve(lattice.but(grid=finer, **same))
+    if fine is None or fine.status is not Status.CONVERGED or len(fine.snaps) != len(solution.snaps):
+        return None
+    points = scene.probe_points()
+    ratio = prod(n - 1 for n in finer[:2]) / ((nx - 1) * (ny - 1))
+    value = estimate(
+        solution.displacement(points), fine.displacement(points), ratio, largest_stretch(scene, fine)
+    )
+    return None if value is None else ExpectedError(value, finer, fine.solve_seconds)
 
 
-def _point_share(scene: Scene) -> float:
-    """The share of point loads in the load."""
-    whole = scales(scene).load * prod(scene.sheet.lengths)
-    points = [load for load in scene.loads if isinstance(load, PointLoad)]
-    pulled = sum(abs(load.last_factor) * float(np.linalg.norm(load.force)) for load in points)
-    return pulled / whole if whole else 0.0
+def estimate(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: float) -> float | None:
+    """e of displacements (n, 3) on grids with `ratio` times as many cells in plan on the finer; None where
+    they are alike but for rounding, too far apart, or `stretch` makes the laws of strain weigh more."""
+    size = float(np.max(np.abs(fine)))
+    difference = float(np.max(np.abs(coarse - fine)))
+    if not difference > ROUNDING * size:
+        return None
+    value = difference / (1.0 - 1.0 / ratio) / size
+    return value if LAW * stretch < value < FAR else None
+
+
+def largest_stretch(scene: Scene, solution: Solution) -> float:
+    """The largest elongation of the mid-surface between neighbours on a lattice's grid, along its lines and
+    diagonals."""
+    lines = [
+        np.linspace(0.0, a, n) for a, n in zip(scene.sheet.lengths, solution.settings["grid"], strict=False)
+    ]
+    flat = np.stack([*np.meshgrid(*lines, indexing="ij"), np.zeros([len(line) for line in lines])], axis=-1)
+    moved = flat + solution.displacement(flat[..., :2].reshape(-1, 2)).reshape(flat.shape)
+    on, to, all_ = slice(1, None), slice(None, -1), slice(None)
+    ways = [((on, all_), (to, all_)), ((all_, on), (all_, to)), ((on, on), (to, to)), ((on, to), (to, on))]
+    found = []
+    for one, other in ways:
+        rest, now = (np.linalg.norm(at[one] - at[other], axis=-1) for at in (flat, moved))
+        found.append(float(np.max(now / rest)) - 1.0)
+    return max(found)

@@ -2,8 +2,9 @@
 
 bent edge   a sheet clamped to a rod (or a chain) of curvature κ keeps its stretching within
             δ = √(h/κ)/(12 (1 − ν²))^¼ of it (e.g. Calladine, Theory of Shell Structures, 1983)
-load        q per area bends the sheet within δ = (D/q)^⅓ of a clamp, D = E h³/12(1 − ν²): the length in
-            which a heavy elastica turns
+load        q per area along the normal bends the sheet within δ = (D/q)^⅓ of a clamp,
+            D = E h³/12(1 − ν²): the length in which a heavy elastica turns; loads in a flat sheet's plane
+            bend nothing
 """
 
 from __future__ import annotations
@@ -39,9 +40,10 @@ def layers(scene: Scene) -> list[Layer]:
             width = np.sqrt(sheet.thickness / abs(curvature)) / (12.0 * (1.0 - material.poisson**2)) ** 0.25
             cause = f"edge {edge}, bent by {curvature:g} 1/m, stretches the sheet"
             found.append(Layer(float(width), cause, bent_edge=True))
-    if numbers.load > 0.0:
-        width = min(sheet.lengths) * numbers.load_number ** (-1.0 / 3.0)
-        found.append(Layer(width, f"its load of {numbers.load:.3g} Pa bends the sheet", bent_edge=False))
+    if numbers.normal_load > 0.0:
+        width = min(sheet.lengths) * numbers.bending_number ** (-1.0 / 3.0)
+        cause = f"its load of {numbers.normal_load:.3g} Pa bends the sheet"
+        found.append(Layer(width, cause, bent_edge=False))
     return found
 
 

@@ -6,8 +6,8 @@ hides chords taken for arcs, which err the other way and are all that `consisten
 anything is solved the second is chosen
 
 - where one edge alone holds the sheet: nothing makes it stretch as a whole;
-- of two adjacent edges where the load is large for the thickness, (q a³/D)(a/h) above FAR, q a⁴/D h being
-  the deflection in thicknesses but for a factor;
+- of two adjacent edges where the load is large for the thickness, (q a³/D)(a/h) above FAR, q the load along
+  the normal and q a⁴/D h the deflection in thicknesses but for a factor;
 - for ν above INCOMPRESSIBLE, whatever holds the sheet: there the links on a cell's sides are least too stiff,
   and what else errs, stiff, is more than chords for arcs;
 
@@ -70,7 +70,7 @@ def method_for(scene: Scene) -> tuple[str, str]:
         return MEMBRANE, f"{next(iter(held))} alone holds the sheet"
     if len(held) == 2 and len({EDGES[edge].normal_axis for edge in held}) == 2:
         numbers = scales(scene)
-        far = numbers.load_number / numbers.slenderness
+        far = numbers.bending_number / numbers.slenderness
         one, other = sorted(held)
         beside = f"{'above' if far > FAR else 'not above'} {FAR:g}"
         said = f"{one} and {other} hold the sheet, (q a³/D)(a/h) = {far:.3g} is {beside}"

@@ -4,6 +4,7 @@
     load number   q a³/D, q the load per area (weight; point and edge loads spread over the sheet) and
                   D = E h³/12(1 − ν²): a strip held at one end would slope by about a sixth of it, in radians
     strain        q a/(E h), how much the load would stretch a strip that it hangs from
+    normal load   the part of q that bends a flat sheet: along its normal, pressure and moments
 
 The moduli report of a calibration says how far a lattice's own stiffness is from the sheet's.
 """
@@ -19,12 +20,18 @@ from sheetbench.scenes import EDGES, EdgeLoad, PointLoad, Pressure, Scene
 
 @dataclass(frozen=True)
 class Scales:
-    """The dimensionless numbers of a scene; load: per area [Pa]."""
+    """The dimensionless numbers of a scene; load, normal_load: per area [Pa]."""
 
     slenderness: float
     load: float
     load_number: float
     strain: float
+    normal_load: float
+
+    @property
+    def bending_number(self) -> float:
+        """The load number of the part of the load that bends a flat sheet."""
+        return self.load_number * self.normal_load / self.load if self.load > 0.0 else 0.0
 
     def as_dict(self) -> dict[str, float]:
         """For JSON."""
@@ -36,23 +43,26 @@ def scales(scene: Scene) -> Scales:
     sheet, material = scene.sheet, scene.material
     side, area = min(sheet.lengths), float(np.prod(sheet.lengths))
     rigidity = material.young * sheet.thickness**3 / (12.0 * (1.0 - material.poisson**2))
-    load = 0.0
+    load = normal = 0.0
     if scene.gravity is not None:
-        acceleration = float(np.linalg.norm(scene.gravity.last_acceleration))
-        load += material.density * sheet.thickness * acceleration
+        per_area = material.density * sheet.thickness * np.asarray(scene.gravity.last_acceleration)
+        load, normal = float(np.linalg.norm(per_area)), abs(float(per_area[2]))
     for acting in scene.loads:
         factor = abs(acting.last_factor)
         if isinstance(acting, PointLoad):
-            load += factor * float(np.linalg.norm(acting.force)) / area
+            force = factor * np.asarray(acting.force) / area
         elif isinstance(acting, EdgeLoad):
             length = sheet.lengths[EDGES[acting.edge].along_axis]
-            load += factor * float(np.linalg.norm(acting.force_per_length)) * length / area
-            load += factor * abs(acting.moment_per_length) * length / area / side
+            force = factor * np.asarray(acting.force_per_length) * length / area
+            turning = factor * abs(acting.moment_per_length) * length / area / side
+            load, normal = load + turning, normal + turning
         elif isinstance(acting, Pressure):
-            load += factor * abs(acting.value)
+            force = np.array([0.0, 0.0, factor * acting.value])
+        load, normal = load + float(np.linalg.norm(force)), normal + abs(float(force[2]))
     return Scales(
         slenderness=sheet.thickness / side,
         load=load,
         load_number=load * side**3 / rigidity,
         strain=load * side / (material.young * sheet.thickness),
+        normal_load=normal,
     )

@@ -9,20 +9,23 @@ Modes are listed lowest first; those of two models are paired by shape (`compari
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast, get_args, overload
 
 import numpy as np
 
 from comparisons.models.candidate import Candidate
+from comparisons.models.expected_error import converges, finer_grid
 from comparisons.models.grading import Grading
 from comparisons.models.grids import Asked, Elements
 from comparisons.models.registry import check, check_reference
 from comparisons.models.sizes import size
 from comparisons.models.springs import LatticeSpec
 from comparisons.modes import tables
+from comparisons.modes.expected import expected_errors
 from comparisons.modes.kinds import kinds
 from comparisons.modes.pairing import CELLS, Pair, assurance, cell_centres, matched
 from comparisons.report.report import Report
@@ -30,7 +33,7 @@ from comparisons.report.work import Progress, Work, silent
 from sheetbench.choices import ELEMENTS, MASSES, REFERENCE
 from sheetbench.clock import now
 from sheetbench.scenes import About, Scene, free_rigid_motions, load, summary
-from sheetbench.scenes.errors import BadInput, require_choice
+from sheetbench.scenes.errors import BadInput, NoEquilibrium, require_choice
 from sheetbench.scenes.grading import as_settings
 
 if TYPE_CHECKING:
@@ -40,7 +43,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Spectrum:
     """A model's lowest natural frequencies (count,) [Hz]; rigid: rigid motions left out; shapes: plan points
-    (n, 2) [m] → displacement of the mid-surface in every mode, (count, n, 3), of any scale."""
+    (n, 2) [m] → displacement of the mid-surface in every mode, (count, n, 3), of any scale; expected: the
+    relative error to expect of each, where that is estimated."""
 
     model: str
     label: str
@@ -50,6 +54,7 @@ class Spectrum:
     unknowns: int
     seconds: float
     shapes: Callable[[np.ndarray], np.ndarray]
+    expected: tuple[float | None, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -61,6 +66,7 @@ class Spectrum:
             "rigid_modes": self.rigid,
             "unknowns": self.unknowns,
             "solve_seconds": self.seconds,
+            **({"expected_errors": list(self.expected)} if self.expected else {}),
         }
 
 
@@ -183,7 +189,8 @@ def spectra(
 
     starting(asked[0])
     springs, because = lattice.springs(scene)
-    found = [_lattice(scene, count, springs, because, around, masses)]
+    first = _lattice(scene, count, springs, because, around, masses)
+    found = [first if around == "flat" else _with_expected(scene, lattice, springs, first)]
     for candidate in asked[1:]:
         starting(candidate)
         found.append(_reference(scene, candidate.model, count, elements, around))
@@ -231,6 +238,22 @@ def _lattice(
         seconds=seconds,
         shapes=modes.displacement,
     )
+
+
+def _with_expected(scene: Scene, lattice: LatticeSpec, springs: Calibration, first: Spectrum) -> Spectrum:
+    """The lattice's spectrum about its equilibrium, with the errors to expect of it where they are known."""
+    finer = finer_grid(springs.grid)
+    if not converges(springs.method, finer, lattice.candidate.settings):
+        return first
+    spec = LatticeSpec(finer, springs.method, grading=springs.grading or None)
+    masses, count = first.settings["masses"], len(first.frequencies)
+    try:
+        fine = _lattice(scene, count, spec.springs(scene)[0], {}, "deformed", masses)
+    except NoEquilibrium:
+        return first
+    plan, cells = cell_centres(scene.sheet), [prod(n - 1 for n in g[:2]) for g in (finer, springs.grid)]
+    both = [(one.frequencies, one.shapes(plan)) for one in (first, fine)]
+    return replace(first, expected=tuple(expected_errors(both[0], both[1], cells[0] / cells[1])))
 
 
 def _reference(scene: Scene, model: str, count: int, elements: Elements, about: About) -> Spectrum:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from comparisons.models.grading import told
 from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
-from comparisons.report.table import Column, Table
+from comparisons.report.table import Column, Table, number
 
 if TYPE_CHECKING:
     from comparisons.modes.pairing import Pair
@@ -49,6 +49,7 @@ def table(found: Spectra) -> Table:
         if references:
             first = references[0][1][i]
             row += [first.relative, first.mac]
+        row += found[0].expected[i : i + 1]
         rows.append(tuple(row))
     hertz: dict[str, Any] = {"unit": "Hz", "shown_unit": "Hz", "scale": 1.0, "form": ".4g"}
     columns = [Column("mode", form="d"), *([Column("kind")] if found.kinds[0] else [])]
@@ -57,6 +58,7 @@ def table(found: Spectra) -> Table:
         columns += [Column(f"{spectrum.model}'s mode", form="d"), Column(spectrum.model, **hertz)]
     if references:
         columns += [Column("off by", "", "%", 100.0, "+.2f"), Column("MAC", form=".3f")]
+    columns += [Column("expected", "", "%", 100.0, "+.2f")] if found[0].expected else []
     return Table(f"Natural frequencies about the {found.about} sheet", tuple(columns), tuple(rows), "modes")
 
 
@@ -68,10 +70,10 @@ def write_shapes(found: Spectra, path: Path) -> None:
     plan = plan_mesh(found.scene.sheet)
     largest = 0.1 * max(found.scene.sheet.lengths)
     for spectrum in found:
-        for number, shape in enumerate(spectrum.shapes(plan.points[:, :2]), 1):
+        for mode, shape in enumerate(spectrum.shapes(plan.points[:, :2]), 1):
             shape = largest / (abs(shape).max() or 1.0) * shape
             plan.point_data.setdefault("displacement", shape)
-            plan.point_data[f"{spectrum.model}_mode_{number}"] = shape
+            plan.point_data[f"{spectrum.model}_mode_{mode}"] = shape
     write_mesh(path, plan)
 
 
@@ -96,6 +98,13 @@ def complaints(found: Spectra) -> list[str]:
 def notes(found: Spectra) -> list[str]:
     """What the table does not say: labels, rigid motions left out, actuators left out."""
     said = [" · ".join(spectrum.label for spectrum in found), *told(found[0].settings)]
+    known = [100.0 * error for error in found[0].expected if error is not None]
+    if known:
+        of, low, high = found[0].model, number(min(known), "+.2g"), number(max(known), "+.2g")
+        said.append(
+            f"{of}: expected grid error of the frequencies {low} to {high} %, from a second solve "
+            "on a finer grid"
+        )
     for spectrum in found[1:]:
         said += _paired(found.against(spectrum.model))
     if found[0].rigid:

@@ -64,7 +64,7 @@ def serve() -> None:
     import fem_reference
     from fem_reference.shell import statics
     from fem_reference.shell.structure import ShellStructure
-    from fem_reference.solving.linear import DirectSolver, Factor
+    from sheetbench.numerics.direct import DirectSolver, Factor
     from sheetbench.scenes import load
 
     clock, scene = Clock(), load("two-edges-clamped")

@@ -31,10 +31,10 @@ from keeping import keep
 
 import fem_reference
 import lumped
-from fem_reference.solving.linear import DirectSolver
-from lumped.linear import banded
-from lumped.linear.threads import one_blas_thread
 from lumped.statics.solver import equilibrium
+from sheetbench.numerics import banded
+from sheetbench.numerics.direct import DirectSolver
+from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import load
 
 SCENE = load("two-edges-clamped")

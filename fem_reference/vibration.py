@@ -35,11 +35,11 @@ from fem_reference.shell import statics as shell
 from fem_reference.shell.oscillation import about_equilibrium
 from fem_reference.solid import statics as solid
 from fem_reference.solid import supports as column_supports
-from fem_reference.solving.linear import DirectSolver
-from fem_reference.solving.threads import one_blas_thread
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
 from sheetbench.clock import now
+from sheetbench.numerics.direct import DirectSolver
+from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import About, AnyScene, Scene, require_static, scene_of, summary
 from sheetbench.scenes.errors import BadInput
 

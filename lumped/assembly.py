@@ -60,8 +60,8 @@ class Assembly:
         else:
             own = self.coupling.pairs()
             pairs = neighbours(self.lattice.columns())
-            both = (np.concatenate(part) for part in zip(pairs, own, strict=True))
-            self.pattern = Pattern(self.coupling.size, *both)
+            rows, columns = (np.concatenate(part) for part in zip(pairs, own, strict=True))
+            self.pattern = Pattern(self.coupling.size, rows, columns)
             self.coupling_slots = self.pattern.slots(*own)
         self.springs = families(self.lattice, self.pattern, calibration.springs)
         self.links = next(family for family in self.springs if isinstance(family, Links))

@@ -31,13 +31,13 @@ from scipy.sparse.linalg import splu
 
 from lumped.calibration import Calibration, default
 from lumped.dynamics.system import System
-from lumped.linear.threads import one_blas_thread
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
 from lumped.sensitivity import rates
 from lumped.state_space import StateSpace
 from lumped.statics.problem import Problem
 from lumped.statics.solver import pose, settle
+from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import (
     About,
     AnyScene,

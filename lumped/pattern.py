@@ -6,6 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from sheetbench.numerics.fronts import Cells
 from sheetbench.scenes.grid import Grid
 
 KEPT = 3000  # masses up to which what is the same for all sheets on a grid is kept for the next one
@@ -13,13 +14,16 @@ ASKED = 32  # sets of masses whose blocks a small pattern keeps
 
 
 class Pattern:
-    """Sorted pairs (row, column) of masses that act on each other, stored as in BSR."""
+    """Sorted pairs (row, column) of masses that act on each other, stored as in BSR.
 
-    def __init__(self, size: int, rows: np.ndarray, columns: np.ndarray):
+    cells: the masses of every cell and its place in the grid, where no others act on each other.
+    """
+
+    def __init__(self, size: int, rows: np.ndarray, columns: np.ndarray, cells: Cells | None = None):
         keys = rows.astype(np.int64) * size + columns
         keys.sort()
         keys = keys[np.append(True, keys[1:] != keys[:-1])]  # np.unique takes ten times as long
-        self.size, self._keys = size, keys
+        self.size, self._keys, self.cells = size, keys, cells
         self.rows, self.indices = keys // size, (keys % size).astype(np.int32)
         self.indptr = np.searchsorted(self.rows, np.arange(size + 1)).astype(np.int32)
         self._found: dict[tuple[tuple[int, ...], bytes], np.ndarray] = {}
@@ -60,7 +64,9 @@ def of_grid(grid: Grid) -> Pattern:
 def _of_grid(grid: Grid) -> Pattern:
     nx, ny, layers = grid
     columns = np.arange(nx * ny * layers).reshape(ny, nx, layers)
-    return Pattern(columns.size, *neighbours(columns))
+    masses = _of_cells(columns)
+    j, i = np.divmod(np.arange(len(masses)), nx - 1)
+    return Pattern(columns.size, *neighbours(columns), Cells(masses, np.stack([i, j], axis=1).astype(float)))
 
 
 _kept = lru_cache(maxsize=16)(_of_grid)
@@ -69,7 +75,12 @@ _kept = lru_cache(maxsize=16)(_of_grid)
 def neighbours(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Ordered pairs of masses that may act on each other: any two in the four columns of one cell of the
     plan, columns: (ny, nx, layers)."""
-    around = np.stack([columns[:-1, :-1], columns[:-1, 1:], columns[1:, 1:], columns[1:, :-1]], axis=2)
-    nodes = around.reshape(-1, 4 * columns.shape[2])
+    nodes = _of_cells(columns)
     p = nodes.shape[1]
     return np.repeat(nodes, p, axis=1).ravel(), np.tile(nodes, (1, p)).ravel()
+
+
+def _of_cells(columns: np.ndarray) -> np.ndarray:
+    """The masses of the four columns of every cell of the plan, (cells, 4 layers)."""
+    around = np.stack([columns[:-1, :-1], columns[:-1, 1:], columns[1:, 1:], columns[1:, :-1]], axis=2)
+    return around.reshape(-1, 4 * columns.shape[2])

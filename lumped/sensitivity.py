@@ -23,13 +23,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from lumped.calibration import CLOSED, Calibration
-from lumped.linear.solver import Factor
-from lumped.linear.threads import one_blas_thread
 from lumped.mid_surface import MidSurface
 from lumped.springs import constants
 from lumped.statics.equilibrium import State
 from lumped.statics.problem import Problem
 from lumped.statics.solver import pose, settle
+from sheetbench.numerics.reduced import Factor
+from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene, Status, require_static
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.parameters import parameter, put

@@ -21,7 +21,7 @@ from functools import cached_property
 import numpy as np
 import scipy.linalg
 
-from lumped.linear.threads import one_blas_thread
+from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes.errors import BadInput
 
 MOST = 1000  # states that dense Gramians are found for: some ten seconds

@@ -21,11 +21,11 @@ from scipy.sparse.linalg import splu
 
 from lumped.actuators import Coupling
 from lumped.lattice import Lattice
-from lumped.linear.maps import Rows, rows
-from lumped.linear.solver import ReducedSystem, reduced
 from lumped.pattern import KEPT, Pattern
 from lumped.springs.rest import Itself
 from sheetbench.numerics.kept import frozen
+from sheetbench.numerics.maps import Rows, rows
+from sheetbench.numerics.reduced import ReducedSystem, reduced
 from sheetbench.scenes import Scene, Sheet, Support, held_axes, holds_tilt
 from sheetbench.scenes.kinematics import bent_or_tilted, shifts
 

@@ -16,12 +16,12 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from lumped.calibration import Calibration, default
 from lumped.lattice import Lattice
-from lumped.linear.threads import one_blas_thread
 from lumped.masses import Inertia, mass_matrix, masses
 from lumped.mid_surface import MidSurface
 from lumped.springs import constants
 from lumped.statics.problem import Problem
 from lumped.statics.solver import pose, settle
+from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import (
     About,
     AnyScene,

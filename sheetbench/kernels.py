@@ -56,7 +56,7 @@ from numba.core.runtime import rtsys  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
 SHIPPED = Path(__file__).resolve().parent / "compiled"
-OURS = ("lumped", "fem_reference")
+OURS = ("lumped", "fem_reference", "sheetbench.numerics")
 IMPORTS = re.compile(rf"^from ((?:{'|'.join(OURS)})[\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
 COMPILED = re.compile(r"\b(njit|NamedTuple|intrinsic|OPTIONS)\b")
 SAID = "compiling for this machine, once: a minute or two …"
@@ -154,7 +154,7 @@ def _resolved(file: str) -> Path:
 @cache
 def _ours(file: str) -> bool:
     path = _resolved(file)
-    return path.is_relative_to(ROOT) and path.relative_to(ROOT).parts[0] in OURS
+    return any(path.is_relative_to(ROOT.joinpath(*package.split("."))) for package in OURS)
 
 
 class _Announcement(event.Listener):  # type: ignore[misc]

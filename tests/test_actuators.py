@@ -12,9 +12,9 @@ import lumped
 from lumped.actuators import Drive
 from lumped.actuators.chain import Chain
 from lumped.lattice import build
-from lumped.linear.threads import one_blas_thread
 from lumped.statics.solver import pose, settle
 from sheetbench import scenes
+from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Chain as ChainData
 from sheetbench.scenes import Sheet
 

@@ -18,7 +18,7 @@ GROUND = ("sheetbench.scenes", "sheetbench.choices", "sheetbench.files", "sheetb
 GROUND += ("sheetbench.numerics", "sheetbench.clock")
 ALLOWED = {
     "sheetbench/scenes": {"sheetbench.scenes"},
-    "sheetbench/numerics": {"sheetbench.numerics"},
+    "sheetbench/numerics": {"sheetbench.kernels", "sheetbench.numerics"},
     "lumped": {*GROUND, "lumped"},
     "fem_reference": {*GROUND, "fem_reference"} - {"sheetbench.files"},
     "comparisons": {*GROUND, "lumped", "fem_reference", "comparisons"},

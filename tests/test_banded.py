@@ -5,10 +5,10 @@ import pytest
 import scipy.sparse as sp
 
 import lumped
-from lumped.linear import banded
-from lumped.linear.reduction import reduction
-from lumped.linear.solver import BandedFactor
 from lumped.statics.problem import Problem
+from sheetbench.numerics import banded
+from sheetbench.numerics.reduced import BandedFactor
+from sheetbench.numerics.reduction import reduction
 from sheetbench.scenes import load
 from sheetbench.scenes.supports import Hinged
 

@@ -14,7 +14,7 @@ def counts_as_large(monkeypatch):
     """Lattices of a few hundred unknowns count as large."""
     monkeypatch.setattr(solver, "FROM", 500)
     monkeypatch.setattr(problems, "ITERATED", 500)
-    monkeypatch.setattr("lumped.linear.solver.BANDED_LIMIT", 0.0)
+    monkeypatch.setattr("sheetbench.numerics.reduced.BANDED_LIMIT", 0.0)
 
 
 def softer(scene, times):

@@ -7,8 +7,8 @@ from dynamic_cases import ROD, run, scene, system
 from lumped.dynamics import INTEGRATORS, State
 from lumped.dynamics.compiled_newton import CONVERGED, STALE, CompiledNewton
 from lumped.dynamics.sampling import Sampling
-from lumped.linear import banded
 from sheetbench import scenes
+from sheetbench.numerics import banded
 
 HINGED = [{"edge": "x0", "kind": "hinged"}, {"edge": "x1", "kind": "held", "components": ["z"]}]
 MOVED = [

@@ -7,10 +7,11 @@ from dynamic_cases import scene
 from scipy.sparse.linalg import splu
 
 import lumped
-from lumped.linear import solver
-from lumped.linear.solver import Factor
 from lumped.statics import energy_descent
 from lumped.statics.equilibrium import StepFailed
+from sheetbench.numerics import direct
+from sheetbench.numerics.direct import DirectSolver, Factor
+from sheetbench.numerics.fronts import Cells, fronts_of
 from sheetbench.numerics.stability import nearest_to_zero, negative_real
 
 
@@ -23,19 +24,19 @@ def indefinite():
     return sp.csc_array(matrix)
 
 
-def test_an_unknown_inertia_of_the_symmetric_part_is_not_taken_for_stability(monkeypatch, indefinite):
-    monkeypatch.setattr(solver, "rslab", None)
-    assert solver._negative(sp.csc_array((indefinite + indefinite.T) / 2.0)) is None
-    assert Factor(indefinite, splu(indefinite).solve, None).negative_real() == 1
-
-
-def test_factors_that_fail_tell_no_inertia(monkeypatch, indefinite):
-    class Failing:
-        def ldlt(self, matrix):
-            raise RuntimeError("no factors")
-
-    monkeypatch.setattr(solver, "rslab", Failing())
-    assert Factor(indefinite, splu(indefinite).solve, None).negative_real() == 1
+@pytest.mark.parametrize("known", [True, False], ids=["by fronts", "without"])
+@pytest.mark.parametrize("library", ["rslab", "superlu"])
+def test_a_symmetric_part_that_has_no_factors_is_not_taken_for_stability(
+    monkeypatch, indefinite, library, known
+):
+    """Neither where it has none, nor where nothing is known of it."""
+    if library == "superlu":
+        monkeypatch.setattr(direct, "rslab", None)
+    for matrix, expected in ((indefinite, 1), (sp.csc_array(indefinite + 2.0 * sp.eye_array(60)), 0)):
+        matrix.sort_indices()
+        fronts = fronts_of(matrix.indices, matrix.indptr, Cells(np.arange(60)[None, :], np.zeros((1, 2))))
+        solver = DirectSolver(symmetric=False, fronts=(lambda of=fronts: of) if known else None)
+        assert solver.factor(matrix).negative_real() == expected
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])

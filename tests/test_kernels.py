@@ -18,22 +18,22 @@ from numba.core import event
 
 import lumped
 from lumped.dynamics.explicit_steps import march
-from lumped.linear.maps import rows
 from sheetbench.kernels import MONTH, ROOT, SAID, X86_64_V3, _remove_old, made_of
+from sheetbench.numerics.maps import rows
 
 ASK = """
 import logging, sys
 logging.basicConfig(level=logging.INFO, format="%(message)s")
 import numpy as np
-import lumped.linear.threads
-from lumped.linear.maps import Rows, product
+import sheetbench.numerics.threads
+from sheetbench.numerics.maps import Rows, product
 product(Rows(np.array([0, 1]), np.array([0]), np.array([2.0])), np.array([3.0]))
 """
 
 
 def test_a_kernel_is_made_of_the_files_whose_kernels_it_calls():
     found = {str(path.relative_to(ROOT)) for path in made_of(ROOT / "lumped/statics/fused.py")}
-    assert {"lumped/springs/together.py", "lumped/springs/cells.py", "lumped/linear/banded.py"} <= found
+    assert {"lumped/springs/together.py", "lumped/springs/cells.py", "sheetbench/numerics/banded.py"} <= found
     tuples = {path.name for path in made_of(ROOT / "lumped/springs/all_forces.py")}
     assert {"packing.py", "tiles.py", "cell_tiles.py"} <= tuples  # a tuple's fields count too
     assert "assembly.py" not in {path.name for path in made_of(ROOT / "lumped/dynamics/compiled_newton.py")}
@@ -106,15 +106,15 @@ def test_the_processor_is_the_common_one_unless_numba_is_there_before():
 
 
 def test_kernels_of_former_sources_go_after_a_month(tmp_path: Path):
-    folders = [tmp_path / f"lumped.linear.maps-{digest}" for digest in ("new", "old", "young")]
+    folders = [tmp_path / f"sheetbench.numerics.maps-{digest}" for digest in ("new", "old", "young")]
     for folder in folders:
         folder.mkdir()
-    (tmp_path / "lumped.linear.banded-old").mkdir()
-    for name in ("lumped.linear.maps-old", "lumped.linear.banded-old"):
+    (tmp_path / "sheetbench.numerics.banded-old").mkdir()
+    for name in ("sheetbench.numerics.maps-old", "sheetbench.numerics.banded-old"):
         os.utime(tmp_path / name, (0.0, time.time() - 1.01 * MONTH))
     _remove_old(folders[0])
     assert {path.name for path in tmp_path.iterdir()} == {
-        "lumped.linear.maps-new", "lumped.linear.maps-young", "lumped.linear.banded-old",
+        "sheetbench.numerics.maps-new", "sheetbench.numerics.maps-young", "sheetbench.numerics.banded-old",
     }  # fmt: skip
 
 

@@ -278,8 +278,8 @@ def test_thin_to_thick_and_rigid_to_hanging(name, slenderness, load_number):
 def test_scipy_alone_gives_the_same_answer(monkeypatch):
     scene = softer(SEED["one-edge-clamped"], 10)
     usual = solve(scene, (17, 17))
-    monkeypatch.setattr("lumped.linear.solver.rslab", None)
-    monkeypatch.setattr("lumped.linear.solver.BANDED_LIMIT", 0.0)
+    monkeypatch.setattr("sheetbench.numerics.direct.rslab", None)
+    monkeypatch.setattr("sheetbench.numerics.reduced.BANDED_LIMIT", 0.0)
     fallback = solve(scene, (17, 17))
     assert fallback.status is Status.CONVERGED and fallback.iterations == usual.iterations
     assert vertical(scene, fallback) == pytest.approx(vertical(scene, usual), rel=1e-9)

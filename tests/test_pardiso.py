@@ -11,8 +11,8 @@ import scipy.sparse as sp
 
 import lumped
 from lumped import supports
-from lumped.linear import pardiso, solver
 from sheetbench import scenes
+from sheetbench.numerics import direct, pardiso, reduced
 
 pytestmark = pytest.mark.skipif(pardiso.library() is None, reason="needs the extra sheetbench[mkl]")
 
@@ -66,7 +66,8 @@ def test_a_handle_is_used_again_and_let_go() -> None:
 def test_a_lattice_comes_to_rest_where_it_does_without_it(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = scenes.load("two-edges-clamped")
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 5))
-    monkeypatch.setattr(solver, "BANDED_LIMIT", 0.0)
+    monkeypatch.setattr(reduced, "BANDED_LIMIT", 0.0)
+    monkeypatch.setattr(direct, "LARGE", 0)
     _forget_systems()
     asked: list[int] = []
     factor = pardiso.Analysis.factor
@@ -90,4 +91,4 @@ def test_a_lattice_comes_to_rest_where_it_does_without_it(monkeypatch: pytest.Mo
 def _forget_systems() -> None:
     """Of small lattices, which are kept with what factorises them."""
     supports._kept.cache_clear()
-    solver._kept.cache_clear()
+    reduced._reduced.forget()

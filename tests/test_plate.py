@@ -10,9 +10,9 @@ from skfem import Functional, MeshQuad
 
 from fem_reference.plate import statics as plate
 from fem_reference.plate.element import TILT_X, TILT_Y, UX, UY, W
-from fem_reference.solving.linear import solve_free
 from fem_reference.verification.manufactured_plate import share
 from sheetbench import scenes
+from sheetbench.numerics.direct import solve_free
 from sheetbench.scenes import EDGES, Material, Scene, Sheet, Status
 
 MATERIAL = Material(young=1.0e7, poisson=0.3, density=1000.0)

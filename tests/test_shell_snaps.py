@@ -14,13 +14,13 @@ from fem_reference.shell.state import State
 from fem_reference.shell.structure import ShellStructure
 from fem_reference.solving import pseudo_transient
 from fem_reference.solving.equilibrium import trace
-from fem_reference.solving.linear import DirectSolver, SingularMatrix
 from fem_reference.solving.path import Path, StepFailed
 from fem_reference.solving.pseudo_transient import relax, settler
 from fem_reference.surface.loads import point_force
 from fem_reference.surface.mesh import rectangle
 from fem_reference.surface.supports import Driven
 from sheetbench import scenes
+from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
 from sheetbench.scenes import Chain, Curved, Hinged, Material, Scene, Sheet, Status
 from sheetbench.scenes.kinematics import Placed
 
@@ -141,7 +141,7 @@ def test_the_arch_is_the_elastica(arch):
 
 def test_a_matrix_that_is_singular_ends_the_creep_with_that_status(arch, monkeypatch):
     def factor(self: DirectSolver, matrix: object) -> None:
-        raise SingularMatrix("the matrix is singular")
+        raise SingularMatrixError("the matrix is singular")
 
     monkeypatch.setattr(DirectSolver, "factor", factor)
     with pytest.raises(StepFailed) as caught:

@@ -7,8 +7,8 @@ import pytest
 from scipy.sparse import csr_matrix
 
 from fem_reference.solving.equilibrium import SNAPS, trace
-from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.path import Path, StepFailed
+from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Status
 
 

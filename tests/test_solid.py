@@ -11,9 +11,9 @@ from fem_reference.shell import statics as shell
 from fem_reference.solid import statics as solid
 from fem_reference.solid.element import reference, shape
 from fem_reference.solid.materials import LAWS, lame
-from fem_reference.solving.linear import solve_free
 from fem_reference.surface.mesh import rectangle
 from sheetbench import scenes
+from sheetbench.numerics.direct import solve_free
 from sheetbench.scenes import Material, Scene, Sheet, Status
 
 TABLE = {  # probe → component → millimetres: this project's own, converged; P4 of the first is CalculiX's too

@@ -14,8 +14,8 @@ from fem_reference.solid.element import Bricks, geometric, reference, shape
 from fem_reference.solid.materials import LAWS, PAIRS, lame
 from fem_reference.solid.structure import State
 from fem_reference.solid.supports import into_forces, vectors
-from fem_reference.solving.linear import solve_free
 from fem_reference.surface.mesh import rectangle
+from sheetbench.numerics.direct import solve_free
 from sheetbench.scenes import Material, Scene, Sheet
 
 

@@ -1,18 +1,17 @@
-"""The factors of large lattices: what stands in memory beside them in the making, and what they solve."""
+"""The factors of large lattices: by fronts, without any library, in little more memory than they take."""
 
 import tracemalloc
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import lumped
-from lumped.linear import pardiso, solver
+from lumped.statics.energy_descent import disturbed
+from lumped.statics.solver import settle
+from sheetbench.numerics import direct, pardiso
 from sheetbench.scenes import load
 
-pytestmark = pytest.mark.skipif(
-    solver.rslab is None or pardiso.library() is not None, reason="lattices are not factorised by rslab"
-)
+pytestmark = pytest.mark.skipif(pardiso.library() is not None, reason="PARDISO factorises large lattices")
 
 
 @pytest.fixture(scope="module")
@@ -22,25 +21,38 @@ def problem():
     return lumped.pose(scene, lumped.calibrate(scene.sheet, scene.material, grid=(41, 41)))
 
 
-def test_no_matrix_stands_beside_factors_in_the_making(problem, monkeypatch):
-    # but one triangle's entries, which are what rslab needs; the matrix takes three times that
+def test_factors_of_a_large_lattice_take_no_library(problem, monkeypatch):
+    monkeypatch.setattr(direct, "rslab", None)
+    monkeypatch.setattr(direct, "splu", None)
     blocks = problem.tangent(np.zeros_like(problem.loads.dead), 0.0)
     assert problem.system.band is None
-    matrix = problem.system.matrix(blocks)
-    triangle = 4 * (matrix.nnz + matrix.shape[0])
-    analysis, held = solver._analysis(matrix, symmetric=True), []
-
-    def factor(given):
-        held.append(tracemalloc.get_traced_memory()[0])
-        return analysis.factor(given)
-
-    monkeypatch.setattr(problem.system, "_analysis", SimpleNamespace(factor=factor))
+    problem.factor(blocks)  # compiled, the fronts found
     tracemalloc.start()
     try:
         factors = problem.factor(blocks)
+        held, peak = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
-    assert held[0] < 1.05 * triangle
+    matrix = factors.matrix
+    # the factors and the matrix; in the making what fronts leave waits beside them, and the widest front
+    assert held < 8 * problem.system._fronts().kept[-1] + 1.1 * matrix.data.nbytes
+    assert peak < 2.5 * held
     b = np.random.default_rng(3).standard_normal(matrix.shape[0])
     assert np.abs(matrix @ factors.solve(b) - b).max() < 1e-9
     assert factors.negative == 0
+
+
+def test_factors_of_an_unstable_lattice_tell_its_negative_eigenvalues_and_lead_off_it(monkeypatch):
+    """A compressed strip stays straight, and beside it the energy falls along the one direction told."""
+    scene = load("two-edges-clamped").replace(
+        gravity=None, supports=({"edge": "x0", "kind": "clamped"},),
+        loads=({"kind": "edge", "edge": "x1", "force_per_length": (-30.0, 0.0, 0.0)},),
+    )  # fmt: skip
+    monkeypatch.setattr("sheetbench.numerics.reduced.BANDED_LIMIT", 0.0)
+    monkeypatch.setattr(direct, "rslab", None)
+    monkeypatch.setattr(direct, "splu", None)
+    problem = lumped.pose(scene, lumped.calibrate(scene.sheet, scene.material, grid=(10, 8)))
+    outcome = settle(scene, problem, "path")
+    assert outcome.status == "unstable" and outcome.state.negative == 1
+    beside = disturbed(problem, outcome.state)
+    assert problem.potential(beside, 1.0) < problem.potential(outcome.state.u, 1.0)

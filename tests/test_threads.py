@@ -10,9 +10,9 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 import fem_reference
 import lumped
-from fem_reference.solving import linear
 from lumped.fitting import methods
 from sheetbench import scenes
+from sheetbench.numerics import direct as linear
 
 SCENE = scenes.load("one-edge-clamped")
 

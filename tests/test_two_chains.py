@@ -8,7 +8,7 @@ import scipy.sparse as sp
 
 import fem_reference
 import lumped
-from lumped.linear.saddle_point import CORRECTIONS, minimal_residual
+from sheetbench.numerics.saddle_point import CORRECTIONS, minimal_residual
 from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet, Status
 
 WEIGHT = Gravity(acceleration=(0.0, 0.0, -9.81))

@@ -31,9 +31,6 @@ from fem_reference.plate.balance import Solved, balance
 from fem_reference.plate.element import TILT_X, PlateElements, W
 from fem_reference.plate.rods import PlateRods
 from fem_reference.plate.validity import judge
-from fem_reference.solving.linear import SingularMatrix, solve_free
-from fem_reference.solving.sparsity import Pattern
-from fem_reference.solving.threads import one_blas_thread
 from fem_reference.surface import loads, rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import Held, exerted, on_edges
@@ -46,6 +43,9 @@ from fem_reference.surface.mesh import Elements, divisions, mesh_of, quarters, r
 from fem_reference.surface.rod import Rod
 from fem_reference.surface.supports import Supports
 from sheetbench.clock import now
+from sheetbench.numerics.direct import SingularMatrixError, solve_free
+from sheetbench.numerics.sparsity import Pattern
+from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import (
     EDGES,
     FieldMesh,
@@ -147,7 +147,7 @@ def _solved(
         stiffness = stiffness_matrix(scene, plate, section, rods)
         try:
             u = solve_free(stiffness, force, u, free)
-        except SingularMatrix as error:
+        except SingularMatrixError as error:
             status, notes = Status.SINGULAR, (str(error),)
     done = now()
     solved = Solved(stiffness, force, u, free)

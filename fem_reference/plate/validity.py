@@ -22,10 +22,10 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
 from fem_reference.plate.element import UX, UY, PlateElements, W
-from fem_reference.solving.linear import DirectSolver
-from fem_reference.solving.sparsity import Pattern
 from fem_reference.surface.biquadratic import NODES
 from fem_reference.surface.materials import Section
+from sheetbench.numerics.direct import DirectSolver
+from sheetbench.numerics.sparsity import Pattern
 from sheetbench.scenes import Scene, Status, outside_model
 
 TURN_LIMIT = 1.0

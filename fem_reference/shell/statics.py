@@ -23,7 +23,6 @@ from fem_reference.shell.state import State
 from fem_reference.shell.structure import UP, ShellStructure
 from fem_reference.shell.validity import STRETCHED, inspector, judge, membrane_strain
 from fem_reference.solving.equilibrium import Start, trace
-from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.path import FACTORISATIONS, Path, Progress
 from fem_reference.solving.pseudo_transient import settler
 from fem_reference.surface import loads, rod
@@ -36,6 +35,7 @@ from fem_reference.surface.materials import Section, section_of
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, nodes_of, on_boundary, quarters
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
+from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 from sheetbench.scenes.errors import BadInput, require_choice
 from sheetbench.scenes.rigid_motions import require_static

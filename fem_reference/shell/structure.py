@@ -28,12 +28,12 @@ from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
 from fem_reference.shell.element import Element, forces_of, strain_of, tangents, weighed
 from fem_reference.shell.reduction import projected
 from fem_reference.shell.state import Forces, State
-from fem_reference.solving.fronts import Fronts
-from fem_reference.solving.sparsity import Pattern, pattern_of
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surface
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.rod_elements import Strained
 from fem_reference.surface.supports import Supports
+from sheetbench.numerics.fronts import Fronts
+from sheetbench.numerics.sparsity import Pattern, pattern_of
 
 UP = np.array([0.0, 0.0, 1.0])
 

@@ -25,10 +25,10 @@ import numpy as np
 from fem_reference.shell.element import BENDING, MEMBRANE
 from fem_reference.shell.state import State
 from fem_reference.shell.structure import ShellStructure
-from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.path import Fault, Path
 from fem_reference.solving.stability import stability
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
+from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, Status, outside_model
 
 STRETCH_LIMIT = 5.0

@@ -28,7 +28,6 @@ from fem_reference.solid.mesh import Columns
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.structure import Forces, SolidStructure, State
 from fem_reference.solving.equilibrium import trace
-from fem_reference.solving.linear import DirectSolver
 from fem_reference.solving.path import Progress
 from fem_reference.surface import loads, rod
 from fem_reference.surface.actuator_forces import Held, OnEdge, exerted
@@ -36,6 +35,7 @@ from fem_reference.surface.mesh import Elements, divisions, mesh_of, require_upr
 from fem_reference.surface.stretch import largest_stretch
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
+from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, Solution, Status, outside_model
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.rigid_motions import require_static

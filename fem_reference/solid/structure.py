@@ -24,10 +24,10 @@ from fem_reference.solid.element import NODES, Bricks, geometric
 from fem_reference.solid.mesh import Columns
 from fem_reference.solid.rods import DIRECTORS
 from fem_reference.solid.supports import ColumnSupports, components, into_forces, vectors
-from fem_reference.solving.sparsity import Pattern
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.rod_elements import Strained
+from sheetbench.numerics.sparsity import Pattern
 
 
 @dataclass(frozen=True)

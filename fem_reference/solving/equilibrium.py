@@ -30,11 +30,11 @@ from typing import Generic
 
 import numpy as np
 
-from fem_reference.solving.linear import DirectSolver, Factor, SingularMatrix
 from fem_reference.solving.path import FACTORISATIONS, Fault, Path, Progress, StepFailed
 from fem_reference.solving.stability import stability
 from fem_reference.solving.structure import Forces, State, Structure
-from fem_reference.solving.threads import one_blas_thread
+from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
+from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Status
 
 TOLERANCE = 5e-9  # residual, relative to the forces that balance
@@ -225,7 +225,7 @@ class _Predictor(Generic[State, Forces]):
                 path.factorisations += 1
                 self.factor = solver.factor(matrix)
             step = self.factor.solve(rows, SOLVED)
-        except SingularMatrix as error:
+        except SingularMatrixError as error:
             raise StepFailed(Status.SINGULAR, str(error), FIRST_REACH) from None
         self.state = structure.advance(path.state, forces, self.target, step)
         self.length = structure.length(path.state, self.state)
@@ -265,7 +265,7 @@ def newton(
             matrix, rows = structure.system(state, forces, target)
             factor = solver.factor(matrix)
             step = factor.solve(rows, SOLVED)
-        except SingularMatrix as error:
+        except SingularMatrixError as error:
             raise StepFailed(Status.SINGULAR, str(error), first.length) from None
         following = structure.advance(state, forces, target, step)
         lengths.append(structure.length(state, following))

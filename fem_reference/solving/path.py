@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Generic, NamedTuple
 
-from fem_reference.solving.linear import Factor
 from fem_reference.solving.structure import State
+from sheetbench.numerics.direct import Factor
 from sheetbench.scenes import Iteration, Status
 
 FACTORISATIONS = 400  # in all

@@ -25,9 +25,9 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from fem_reference.solving.equilibrium import TOLERANCE, Start, newton
-from fem_reference.solving.linear import DirectSolver, Factor, SingularMatrix
 from fem_reference.solving.path import Path, StepFailed
 from fem_reference.solving.structure import Creeping, Forces, State
+from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
 from sheetbench.scenes import Status
 
 FACTORISATIONS = 300  # of one relaxation
@@ -66,7 +66,7 @@ def relax(
     path.limit = min(limit, path.factorisations + FACTORISATIONS)
     try:
         return _Creep(structure, solver, path, load_factor).end()
-    except SingularMatrix as error:
+    except SingularMatrixError as error:
         raise StepFailed(Status.SINGULAR, str(error), 0.0) from None
     finally:
         path.limit = limit
@@ -92,7 +92,7 @@ class _Creep(Generic[State, Forces]):
         self.nearly = NEARLY
 
     def end(self) -> State:
-        """The stable equilibrium. Raises StepFailed, SingularMatrix."""
+        """The stable equilibrium. Raises StepFailed, SingularMatrixError."""
         while True:
             self._step()
             residual = self._residual(self.state)

@@ -5,10 +5,9 @@ from __future__ import annotations
 
 from scipy.sparse import csr_matrix
 
-from fem_reference.solving.linear import DirectSolver, SingularMatrix
 from fem_reference.solving.path import Path
 from fem_reference.solving.structure import Forces, State, Structure
-from sheetbench.numerics.stability import nearest_to_zero, negative_real
+from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
 from sheetbench.scenes import Status
 
 
@@ -25,12 +24,11 @@ def stability(
                 return Status.CONVERGED, "stability not known: the factors do not tell the inertia"
             negative, zero = inertia.negative, inertia.zero
         else:
-            tangent = _tangent(structure, path)
-            lowest = nearest_to_zero(tangent, solver.factor(tangent).solve)
-            if lowest is None:
+            found = solver.factor(_tangent(structure, path)).negative_real()
+            if found is None:
                 return Status.CONVERGED, "stability not known: no eigenvalues of the tangent were found"
-            negative, zero = negative_real(lowest), 0
-    except SingularMatrix as error:
+            negative, zero = found, 0
+    except SingularMatrixError as error:
         return Status.SINGULAR, str(error)
     if zero:
         return Status.SINGULAR, f"the tangent has {zero} zero eigenvalues"

@@ -22,10 +22,10 @@ from fem_reference.solid import statics as solid
 from fem_reference.solid.element import shape
 from fem_reference.solid.materials import lame
 from fem_reference.solid.mesh import Columns
-from fem_reference.solving.linear import solve_free
 from fem_reference.surface.biquadratic import areas
 from fem_reference.surface.loads import area_force
 from fem_reference.verification.rows import Row, relatively
+from sheetbench.numerics.direct import solve_free
 from sheetbench.scenes import Material, Scene, Sheet
 
 TOLERANCE = 1e-2

@@ -21,9 +21,9 @@ from skfem import Basis, Functional, LinearForm
 
 from fem_reference.plate import statics as plate
 from fem_reference.shell import statics as shell
-from fem_reference.solving.linear import DirectSolver, solve_free
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification.rows import THEORY, Row, absolutely
+from sheetbench.numerics.direct import DirectSolver, solve_free
 from sheetbench.scenes import EDGES, Clamped, Material, Scene, Sheet
 
 SOURCE = "Chinosi & Lovadina 1995"

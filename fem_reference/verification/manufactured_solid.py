@@ -18,9 +18,9 @@ import numpy as np
 from fem_reference.solid import statics as solid
 from fem_reference.solid.element import reference, shape
 from fem_reference.solid.materials import lame
-from fem_reference.solving.linear import solve_free
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification.rows import EXACT, THEORY, Row, absolutely
+from sheetbench.numerics.direct import solve_free
 from sheetbench.scenes import Material, Scene, Sheet
 
 ORDER, SLACK = 3.0, 0.15

@@ -14,11 +14,11 @@ from numba import njit
 
 from lumped.dynamics.compiled_tangent import factorised, tangent_of
 from lumped.dynamics.system import System
-from lumped.linear import banded
-from lumped.linear.maps import Rows, rows
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import YES
+from sheetbench.numerics import banded
+from sheetbench.numerics.maps import Rows, rows
 
 CONVERGED, STALE, LOST = range(3)
 

@@ -15,9 +15,9 @@ import numpy as np
 from numba import njit
 
 from lumped.dynamics.system import System
-from lumped.linear import banded
 from lumped.springs import together
 from lumped.springs.together import Springs
+from sheetbench.numerics import banded
 
 
 class Tangent(NamedTuple):

@@ -25,7 +25,7 @@ from lumped.dynamics.integrator import Advance, DenseIntegrator, Passed, StepFai
 from lumped.dynamics.newton import Motion, Newton
 from lumped.dynamics.system import State, System
 from lumped.dynamics.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSES, STAGES
-from lumped.linear.solver import SingularMatrixError
+from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.scenes.errors import BadInput
 
 ERROR = 3e-5  # of a step

@@ -20,7 +20,7 @@ import numpy as np
 from lumped.dynamics.integrator import Advance, Integrator, StepFailed
 from lumped.dynamics.newton import Motion, Newton
 from lumped.dynamics.system import State, System
-from lumped.linear.solver import SingularMatrixError
+from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.scenes.errors import BadInput
 
 ERROR = 1e-6  # of a step, relative to the largest displacement so far

@@ -24,6 +24,7 @@ from lumped.dynamics.explicit_steps import (
 )
 from lumped.springs.all_forces import add_at_places, add_damping_again
 from lumped.springs.tiles import NO, OPTIONS, YES
+from sheetbench.numerics import banded
 
 CLOSE = 1e-8  # what corrections leave of the velocity, relative to the largest
 STALE = 0.1  # ratio of successive corrections above which the factors are made anew
@@ -31,12 +32,13 @@ MEASURED = 32  # steps at most from one measurement of that ratio to the next
 CORRECTIONS = 12
 
 
-class Band(NamedTuple):
-    """Factors L of a matrix of m unknowns: rows (m, b) left of the diagonal, and its inverse (m,). place,
-    unknown, value: (e,) entries of T."""
+class Factors(NamedTuple):
+    """Banded factors of a matrix of m unknowns (`sheetbench.numerics.banded`). place, unknown, value: (e,)
+    entries of T, unknowns in the band's order."""
 
-    rows: np.ndarray
-    inverse: np.ndarray
+    band: np.ndarray
+    unknowns: int
+    width: int
     place: np.ndarray
     unknown: np.ndarray
     value: np.ndarray
@@ -47,7 +49,7 @@ def march(
     steps: int,
     h: float,
     motion: Motion,
-    band: Band,
+    matrix: Factors,
     factors: np.ndarray,
     place: np.ndarray,
     place_rate: np.ndarray,
@@ -60,7 +62,8 @@ def march(
     solved: np.ndarray,
 ) -> tuple[bool, int, float, float]:
     """As `lumped.dynamics.explicit_steps.march`, but for steps that it ends early, whole, once corrections
-    shrink slowly, and that it cannot take without new factors. guess, last: (3 s,); solved: (b + m,)."""
+    shrink slowly, and that it cannot take without new factors. guess, last: (3 s,); solved: as long as the
+    band, and its width."""
     packing, driven, rate = motion.packing, motion.driven, motion.rate
     x, w, force, damping, load = room.x, room.w, room.force, room.damping, room.load
     count = packing.layers * packing.plane
@@ -107,7 +110,7 @@ def march(
             add_damping_again(x, w, packing, damping, room.tile)
             resist(rate, w, damping)
             before = size
-            size, largest = _correct(0.5 * h, motion, band, v, load, force, damping, guess, solved)
+            size, largest = _correct(0.5 * h, motion, matrix, v, load, force, damping, guess, solved)
             if not np.isfinite(size):
                 return False, n, taken, work
             if k > 0:
@@ -148,7 +151,7 @@ def march(
 def _correct(
     half: float,
     motion: Motion,
-    band: Band,
+    matrix: Factors,
     w: np.ndarray,
     load: np.ndarray,
     force: np.ndarray,
@@ -158,36 +161,17 @@ def _correct(
 ) -> tuple[float, float]:
     """Add (M + ½ h C)⁻¹ [M (w − v) + ½ h (load − force − damping)] to the velocity guessed, v; the largest of
     that and of v."""
-    width = band.rows.shape[1]
     solved[:] = 0.0
-    for e in range(len(band.place)):
-        p = band.place[e]
+    for e in range(len(matrix.place)):
+        p = matrix.place[e]
         pull = motion.mass[p] * (w[p] - guess[p]) + half * (load[p] - force[p] - damping[p])
-        solved[width + band.unknown[e]] += band.value[e] * pull
-    _solve(band, solved)
+        solved[matrix.unknown[e]] += matrix.value[e] * pull
+    banded.substitute(matrix.band, matrix.unknowns, matrix.width, solved)
     size = largest = 0.0
-    for e in range(len(band.place)):
-        p = band.place[e]
-        move = band.value[e] * solved[width + band.unknown[e]]
+    for e in range(len(matrix.place)):
+        p = matrix.place[e]
+        move = matrix.value[e] * solved[matrix.unknown[e]]
         guess[p] += move
         size += move * move
         largest += guess[p] * guess[p]
     return np.sqrt(size), np.sqrt(largest)
-
-
-@njit(**OPTIONS)
-def _solve(band: Band, x: np.ndarray) -> None:
-    """L Lᵀ x = b in place, after as many zeros as a row is long."""
-    unknowns, width = band.rows.shape
-    for i in range(unknowns):
-        row = band.rows[i]
-        total = 0.0
-        for j in range(width):
-            total += row[j] * x[i + j]
-        x[width + i] = (x[width + i] - total) * band.inverse[i]
-    for back in range(unknowns):
-        i = unknowns - 1 - back
-        row, value = band.rows[i], x[width + i] * band.inverse[i]
-        x[width + i] = value
-        for j in range(width):
-            x[i + j] -= row[j] * value

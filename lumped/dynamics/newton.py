@@ -20,7 +20,7 @@ from lumped.dynamics.compiled_newton import CONVERGED, CompiledNewton
 from lumped.dynamics.compiled_stages import Stages, Step, solve_stages
 from lumped.dynamics.integrator import StepFailed
 from lumped.dynamics.system import System
-from lumped.linear.solver import Factor
+from sheetbench.numerics.reduced import Factor
 
 CORRECTIONS = 20
 STALE = 0.2  # ratio of successive corrections above which the factors are made anew

@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.linear.maps import Rows
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import YES
+from sheetbench.numerics.maps import Rows
 
 
 class Observed(NamedTuple):

@@ -6,8 +6,8 @@ import numpy as np
 
 from lumped.dynamics.observation import Observed, observe
 from lumped.dynamics.system import State, System
-from lumped.linear.maps import rows
 from lumped.mid_surface import MidSurface
+from sheetbench.numerics.maps import rows
 from sheetbench.scenes.history import ENERGIES
 
 

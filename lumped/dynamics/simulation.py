@@ -26,11 +26,11 @@ from lumped.dynamics.sampling import Sampling
 from lumped.dynamics.store import FolderStore, MemoryStore
 from lumped.dynamics.system import System
 from lumped.lattice import Weights
-from lumped.linear.threads import one_blas_thread
 from lumped.statics.fields import field_mesh
 from lumped.statics.solver import pose
 from sheetbench.choices import INTEGRATOR
 from sheetbench.clock import now
+from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import AnyScene, History, scene_of
 from sheetbench.scenes.grading import as_settings
 from sheetbench.scenes.quantities import require_positive

@@ -9,8 +9,8 @@ from lumped.calibration.calibration import Calibration
 from lumped.calibration.methods import MAKERS, described
 from lumped.fitting.fits import fit_modal, fit_static
 from lumped.fitting.targets import Target
-from lumped.linear.threads import one_blas_thread
 from sheetbench import choices
+from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Material, Sheet
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grading import Graded

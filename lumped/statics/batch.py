@@ -13,10 +13,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.linear import banded
 from lumped.springs.together import CellArrays, LinkArrays, Springs
 from lumped.statics import fused_path
 from lumped.statics.fused import Posed, Work
+from sheetbench.numerics import banded
 
 OWN = ("dead", "placed", "link_stiffness", "positions", "areas", "size")  # of `Posed`
 Cells = tuple[np.ndarray, ...]  # of the two families of `Springs` after the links

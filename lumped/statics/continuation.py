@@ -18,13 +18,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from lumped.calibration import Calibration
-from lumped.linear.solver import Factor, SingularMatrixError
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
 from lumped.statics.equilibrium import State, StepFailed, all_rounding, at_rest, follow
 from lumped.statics.limits import COARSE
 from lumped.statics.problem import Problem
 from lumped.statics.solver import Branch, pose, settle
+from sheetbench.numerics.reduced import Factor, SingularMatrixError
 from sheetbench.scenes import AnyScene, Iteration, Load, Status, require_static, scene_of
 
 CORRECTIONS = 10

@@ -13,10 +13,10 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
-from lumped.linear.solver import Factor, SingularMatrixError
 from lumped.statics.equilibrium import State, StepFailed, polish
 from lumped.statics.limits import COARSE
 from lumped.statics.problem import Problem
+from sheetbench.numerics.reduced import Factor, SingularMatrixError
 
 STEPS = 300
 PROJECTED_RUN = 4  # steps with the projected tangent before the true one is tried again

@@ -22,7 +22,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lumped.linear.solver import Factor, SingularMatrixError
 from lumped.springs.together import Stresses
 from lumped.statics.faults import broken
 from lumped.statics.limits import (
@@ -41,6 +40,7 @@ from lumped.statics.limits import (
     SHORTEST_STEP,
 )
 from lumped.statics.problem import Problem, Tangent
+from sheetbench.numerics.reduced import Factor, SingularMatrixError
 
 
 @dataclass

@@ -13,11 +13,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.linear import banded
-from lumped.linear.banded import Band
-from lumped.linear.maps import Rows, product, transposed_product
 from lumped.springs import together
 from lumped.springs.together import Springs, Stresses
+from sheetbench.numerics import banded
+from sheetbench.numerics.banded import Band
+from sheetbench.numerics.maps import Rows, product, transposed_product
 
 NOT_REFINED: Any = np.int64(0)  # corrections of a solution; Python's own numba would compile for once more
 

@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.linear.banded import BACKWARD_ERROR
 from lumped.springs import together
 from lumped.springs.tiles import NO, YES
 from lumped.springs.together import Stresses
@@ -34,6 +33,7 @@ from lumped.statics.limits import (
     SETTLED,
 )
 from lumped.statics.soundness import long_enough, upright
+from sheetbench.numerics.banded import BACKWARD_ERROR
 
 NONE: Any = np.int64(0)  # for Python's own numba would compile what it is handed to once more
 LINES = 200  # of history: room for ten load steps and more

@@ -16,8 +16,6 @@ from typing import Any
 
 from lumped.calibration import Calibration, default
 from lumped.lattice import Weights
-from lumped.linear.solver import BandedFactor
-from lumped.linear.threads import one_blas_thread
 from lumped.statics.answer import Outcome, solution
 from lumped.statics.batch import alike, batch, paths
 from lumped.statics.equilibrium import State
@@ -25,6 +23,8 @@ from lumped.statics.fused import Posed
 from lumped.statics.problem import Problem
 from lumped.statics.solver import compile_kernels, judged, pose, solve
 from sheetbench.clock import now
+from sheetbench.numerics.reduced import BandedFactor
+from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import AnyScene, Iteration, Scene, Solution, require_static, scene_of
 from sheetbench.scenes.errors import BadInput
 

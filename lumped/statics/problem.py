@@ -14,9 +14,6 @@ import numpy as np
 
 from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
-from lumped.linear.iterated import iterated
-from lumped.linear.maps import product, transposed_product
-from lumped.linear.solver import BandedFactor, Factor, ReducedSystem, checked
 from lumped.loads import Loads
 from lumped.springs.together import Stresses
 from lumped.statics import fused
@@ -24,11 +21,15 @@ from lumped.statics.faults import Fault
 from lumped.statics.fused import Posed
 from lumped.statics.fused_path import Followed, followed
 from lumped.supports import Constraints
+from sheetbench.numerics.iterated import iterated
+from sheetbench.numerics.maps import product, transposed_product
+from sheetbench.numerics.reduced import BandedFactor, Factor, ReducedSystem, checked
 from sheetbench.scenes import Iteration
 
 Progress = Callable[[Iteration], None]
 
 
+SOLVED = 1e-14  # backward error of a correction that is not refined: the next one is its refinement
 ITERATED = 5000  # unknowns from which a factorisation costs as much as ten solutions
 
 
@@ -223,7 +224,7 @@ class Problem:
         if found is None or near is None:
             near = None  # whose memory the new factors may need
             near = self.factor(blocks)
-            found = near.solve(right)
+            found = near.solve(right, SOLVED)
         step, factor = self.expand(found), near
         left, residual = self.residual(u + step, load_factor)
         following = self.assembly.extrapolated(u, step) if stresses is not None else None
@@ -282,7 +283,7 @@ class Problem:
         self, factor: Factor, u: np.ndarray, load_factor: float, unbalanced: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, float]:
         """A correction (n, 3) [m] with factors at hand, the unbalanced force behind it, and its residual."""
-        step = self.expand(factor.solve(self.reduce(unbalanced)))
+        step = self.expand(factor.solve(self.reduce(unbalanced), SOLVED))
         return step, *self.residual(u + step, load_factor)
 
     def note(self, load_factor: float, residual: float, step: float) -> None:

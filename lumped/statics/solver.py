@@ -14,8 +14,6 @@ from lumped.assembly import Assembly, Precision
 from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
 from lumped.lattice import Weights
-from lumped.linear.solver import SingularMatrixError
-from lumped.linear.threads import one_blas_thread
 from lumped.loads import Loads
 from lumped.statics import validity
 from lumped.statics.answer import Outcome, solution
@@ -36,6 +34,8 @@ from lumped.statics.polygon import polygons
 from lumped.statics.problem import Problem
 from lumped.supports import constrain
 from sheetbench.clock import now
+from sheetbench.numerics.reduced import SingularMatrixError
+from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import (
     AnyScene,
     Clamped,

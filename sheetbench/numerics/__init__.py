@@ -1,1 +1,3 @@
-"""Numerical algebra that both solvers use: equations, no mechanics."""
+"""Linear algebra that both solvers use: equations, no mechanics."""
+
+import sheetbench.kernels  # noqa: F401  # before numba: where compiled kernels are kept

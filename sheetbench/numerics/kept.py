@@ -26,7 +26,7 @@ def frozen(shared: Found) -> Found:
 
 def kept(last: int, most: int) -> Callable[[Callable[Given, Found]], Callable[Given, Found]]:
     """For a function of arrays and of what can be hashed: its last results, read-only, are given again where
-    all arguments are the same; of arguments beyond `most` bytes none is kept."""
+    all arguments are the same; of arguments beyond `most` bytes none is kept. `forget` drops them."""
 
     def decorate(function: Callable[Given, Found]) -> Callable[Given, Found]:
         found: OrderedDict[object, Found] = OrderedDict()
@@ -44,6 +44,7 @@ def kept(last: int, most: int) -> Callable[[Callable[Given, Found]], Callable[Gi
                 found.popitem(last=False)
             return out
 
+        remembering.forget = found.clear  # type: ignore[attr-defined]
         return remembering
 
     return decorate

@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 from scipy.sparse import csr_matrix
 
-from fem_reference.solving.fronts import Cells, Fronts, fronts_of
+from sheetbench.numerics.fronts import Cells, Fronts, fronts_of
 from sheetbench.numerics.kept import kept
 
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-LEAF = 2  # cells in a part that is not halved
+LEAF = 6  # cells in a part that is not halved
 
 
 class Cells(NamedTuple):

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, cg
 
-from lumped.linear.solver import Factor
+from sheetbench.numerics.reduced import Factor
 
 ACCURACY = 1e-4  # residual over the right-hand side: a Newton correction gains few digits more than that
 MOST = 20  # iterations: each costs a solution with the factors

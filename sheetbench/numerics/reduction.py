@@ -7,13 +7,24 @@ weights are one, as without hinges and actuators, none are kept, nor starts wher
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 import scipy.sparse as sp
 from numba import njit
 
-from lumped.pattern import Pattern
+from sheetbench.numerics.fronts import Cells
+
+
+class BlockPattern(Protocol):
+    """Blocks (b,) of a symmetric pattern over n nodes, as in BSR: rows, indices (b,), indptr (n + 1,). cells:
+    sets of nodes in the plane such that each block has both its nodes in one of them, if there are such."""
+
+    size: int
+    rows: np.ndarray
+    indices: np.ndarray
+    indptr: np.ndarray
+    cells: Cells | None
 
 
 class Reduction(NamedTuple):
@@ -40,7 +51,7 @@ class Reduction(NamedTuple):
         return sp.csc_array((data, self.rows, self.pointers), shape=(size, size))
 
 
-def reduction(pattern: Pattern, transform: sp.csr_array) -> Reduction:
+def reduction(pattern: BlockPattern, transform: sp.csr_array) -> Reduction:
     """Of a pattern and T (3n, m)."""
     by_column = np.argsort(pattern.indices, kind="stable").astype(np.int32)
     block_pointers = np.searchsorted(pattern.indices[by_column], np.arange(pattern.size + 1))

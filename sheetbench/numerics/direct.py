@@ -1,0 +1,213 @@
+"""Sparse direct solution of A x = b: analyse a pattern once, factorise many times, know the inertia.
+
+A symmetric matrix has factors L S Lᵀ by fronts where those of its pattern are known (`multifrontal`); where
+it is large and the extra `mkl` is installed, L D Lᵀ by PARDISO. What has none by fronts, as may be far from
+definite, goes to PARDISO's or rslab's L D Lᵀ with Bunch–Kaufman pivots, to SciPy's SuperLU where neither is:
+its U is D Lᵀ without row exchanges and tells the inertia too. Unsymmetric ones have L U by rslab or SciPy.
+Solutions are refined, their residuals checked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.linalg import LinearOperator, onenormest, splu
+
+from sheetbench.numerics import pardiso
+from sheetbench.numerics.banded import BACKWARD_ERROR
+from sheetbench.numerics.fronts import Fronts
+from sheetbench.numerics.multifrontal import NoFactorsError, SignedFactors
+from sheetbench.numerics.stability import nearest_to_zero, negative_real
+
+rslab: Any
+try:
+    import rslab
+except ImportError:  # SciPy always works
+    rslab = None
+
+Matrix = Any  # by rows or, where it is symmetric or so by pattern, by columns
+Solve = Callable[[np.ndarray], np.ndarray]
+
+LARGE = 20_000  # unknowns from which PARDISO is quicker than the fronts
+
+
+class SingularMatrixError(ArithmeticError):
+    """The matrix has no usable factors, or they do not solve the system."""
+
+
+class Inertia(NamedTuple):
+    """Numbers of positive, negative and zero eigenvalues of a symmetric matrix."""
+
+    positive: int
+    negative: int
+    zero: int
+
+
+class Factor:
+    """One factorisation. inertia: None where it is not known, and of unsymmetric matrices."""
+
+    def __init__(
+        self,
+        matrix: Matrix,
+        solve: Solve,
+        inertia: Inertia | None = None,
+        dissipative: Callable[[], bool] = lambda: False,
+    ):
+        """solve: x with A x = b, as the factors have it; dissipative: of an unsymmetric matrix, whether its
+        symmetric part is known to be positive definite."""
+        self.matrix, self.inertia = matrix, inertia
+        self._solve, self._dissipative, self._largest = solve, dissipative, _largest(matrix)
+
+    @property
+    def negative(self) -> int | None:
+        """How many eigenvalues are below zero; None where that is not known, and of unsymmetric matrices."""
+        return None if self.inertia is None else self.inertia.negative
+
+    def negative_real(self) -> int | None:
+        """Real eigenvalues below zero of an unsymmetric matrix (`stability`); None where they are not found.
+        None are sought where the symmetric part is positive definite, for then no real part is negative."""
+        if self._dissipative():
+            return 0
+        found = nearest_to_zero(self.matrix, self._solve)
+        return None if found is None else negative_real(found)
+
+    def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
+        """x (n,) with A x = b, refined once where its backward error exceeds `enough`. Raises
+        SingularMatrixError if the residual stays large."""
+        x = self._solve(b)
+        left, error = self._backward(x, b)
+        if not error <= enough:  # also catches nan
+            x = x + self._solve(left)
+            left, error = self._backward(x, b)
+        return checked(x, error)
+
+    def once(self, b: np.ndarray) -> np.ndarray:
+        """x with A x = b as the factors have it, neither refined nor checked."""
+        return self._solve(b)
+
+    def _backward(self, x: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, float]:
+        """b − A x (n,), and how large it is relative to ‖A‖‖x‖ + ‖b‖ (largest entries)."""
+        left = b - self.matrix @ x
+        size = self._largest * np.abs(x).max(initial=0.0) + np.abs(b).max(initial=0.0)
+        gap = np.abs(left).max(initial=0.0)
+        return left, float(gap / size) if gap else 0.0
+
+    def condition(self) -> float:
+        """Condition number ‖A‖₁ ‖A⁻¹‖₁, the latter estimated with the factors (Hager 1984, Higham 1988)."""
+        n = self.matrix.shape[0]
+        if n == 0:
+            return 1.0
+
+        def columns(b: np.ndarray) -> np.ndarray:
+            return np.column_stack([self._solve(column) for column in b.reshape(n, -1).T])
+
+        # of an unsymmetric matrix the solver with the transpose is missing: its symmetric part is close by
+        inverse = LinearOperator(
+            (n, n), matvec=lambda b: self._solve(b.ravel()), rmatvec=lambda b: self._solve(b.ravel()),
+            matmat=columns, rmatmat=columns, dtype=float,
+        )  # fmt: skip
+        largest = float(abs(self.matrix).sum(axis=0).max())
+        return largest * float(onenormest(inverse, t=min(2, n)))
+
+
+def checked(x: np.ndarray, miss: float) -> np.ndarray:
+    """x, unless its residual relative to the matrix and the vectors is large."""
+    if not miss <= BACKWARD_ERROR:  # also catches nan
+        raise SingularMatrixError(f"residual {miss:.1e} after refinement: singular to working precision")
+    return x
+
+
+class DirectSolver:
+    """Factorises matrices of one sparsity pattern, with sorted indices; the analysis is done once.
+
+    symmetric: the matrices are symmetric (both triangles stored), and the factors tell the inertia; fronts:
+    gives those of the pattern, where they are known.
+    """
+
+    def __init__(self, symmetric: bool = True, fronts: Callable[[], Fronts] | None = None):
+        self.symmetric, self._fronts = symmetric, fronts
+        self._analysis: Any = None
+
+    def factor(self, matrix: Matrix) -> Factor:
+        """Factors of a matrix (n, n) that has the pattern of the first one given.
+
+        Raises SingularMatrixError on a zero pivot or an entry that is not finite.
+        """
+        n = matrix.shape[0]
+        if self.symmetric and self._fronts is not None and (n < LARGE or pardiso.library() is None):
+            try:
+                factors = SignedFactors(matrix.data, self._fronts())
+                return Factor(matrix, factors.solve, Inertia(n - factors.negative, factors.negative, 0))
+            except NoFactorsError:
+                pass  # the pivots of others may do
+        if not np.isfinite(_largest(matrix)):
+            raise SingularMatrixError("an entry of the matrix is not finite")
+        try:
+            return self._by_library(matrix)
+        except RuntimeError as error:
+            raise SingularMatrixError(str(error)) from None
+
+    def _by_library(self, matrix: Matrix) -> Factor:
+        columns = _columns(matrix, self.symmetric)
+        if self._analysis is None:
+            if self.symmetric and pardiso.library() is not None:
+                self._analysis = pardiso.Analysis(columns)
+            elif rslab is not None:
+                self._analysis = rslab.analyze(columns, path="ldlt" if self.symmetric else "lu")
+        if self._analysis is not None:
+            factors = self._analysis.factor(columns)
+            if self.symmetric:
+                return Factor(matrix, factors.solve, Inertia(*factors.inertia))
+            return Factor(matrix, factors.solve, dissipative=lambda: self._dissipative(columns))
+        if self.symmetric:
+            return _superlu(matrix, columns)
+        return Factor(matrix, splu(columns).solve, dissipative=lambda: self._dissipative(columns))
+
+    def _dissipative(self, columns: sp.csc_array) -> bool:
+        """Whether the fronts tell that the symmetric part of a matrix, of symmetric pattern, is definite."""
+        if self._fronts is None:
+            return False
+        try:
+            both = 0.5 * (columns.data + columns.T.tocsc().data)
+            return SignedFactors(both, self._fronts()).negative == 0
+        except NoFactorsError:
+            return False
+
+
+def solve_free(matrix: sp.csr_matrix, force: np.ndarray, u: np.ndarray, free: np.ndarray) -> np.ndarray:
+    """K u = f solved for the free unknowns (k,) of u (n,), the others as they are. Raises
+    SingularMatrixError."""
+    out = u.copy()
+    out[free] = 0.0
+    out[free] = DirectSolver().factor(matrix[free][:, free]).solve((force - matrix @ out)[free])
+    return out
+
+
+def _largest(matrix: Matrix) -> float:
+    """Of the entries' magnitudes; nan or infinite where one is."""
+    return float(max(matrix.data.max(initial=0.0), -matrix.data.min(initial=0.0)))
+
+
+def _superlu(matrix: Matrix, columns: sp.csc_array) -> Factor:
+    """Factors of a symmetric matrix, scaled to entries of up to one, by SuperLU without pivoting."""
+    largest = abs(columns).max(axis=0).toarray().ravel()
+    scale = 1.0 / np.sqrt(np.maximum(largest, np.finfo(float).tiny))
+    scaled = sp.csc_array(sp.diags_array(scale) @ columns @ sp.diags_array(scale))
+    factors = splu(scaled, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    inertia = None
+    if np.array_equal(factors.perm_r, factors.perm_c):
+        pivots = factors.U.diagonal()
+        inertia = Inertia(*(int(np.sum(sign)) for sign in (pivots > 0, pivots < 0, pivots == 0)))
+    return Factor(matrix, lambda b: scale * factors.solve(scale * b), inertia)
+
+
+def _columns(matrix: Matrix, symmetric: bool) -> sp.csc_array:
+    """The matrix by columns; the rows of a symmetric one are its columns."""
+    if matrix.format == "csc" or not symmetric:
+        return sp.csc_array(matrix)
+    columns = sp.csc_array((matrix.data, matrix.indices, matrix.indptr), shape=matrix.shape)
+    columns.has_canonical_format = matrix.has_canonical_format
+    return columns

@@ -38,8 +38,8 @@ def command(
         str,
         typer.Option(
             metavar="NAMES",
-            help="young, poisson, density, thickness, curvature_EDGE, tilt_EDGE (of a clamp), damping_time, "
-            "damping_rate; several with commas.",
+            help="young (or E), poisson (nu), density (rho), thickness (h), curvature_EDGE, tilt_EDGE (of a "
+            "clamp), damping_time, damping_rate; several with commas.",
         ),
     ] = "young",
     model: Annotated[str, typer.Option(metavar="MODEL", help="lumped, shell or solid.")] = "lumped",
@@ -61,7 +61,9 @@ def command(
 ) -> None:
     """Find the values with which a model comes nearest to what was measured, with 95 % intervals.
 
-    The search starts from the scene's own values. All lengths are in metres and in the scene's axes.
+    The search starts from the scene's own values, and from others where these lead to no fit. Unless --lumped
+    is given, the fit makes the lattice's cells smaller until they move the values less than the noise does.
+    Lengths are in metres unless a column's header says otherwise (uz [mm]), in the scene's axes.
     """
     from comparisons.cli.finish import finish
     from comparisons.comparison.comparison import load_static

@@ -8,7 +8,10 @@ Least squares in the unknowns' x (`comparisons.identification.unknowns`),
 by a trust region (SciPy's `least_squares`), from the values that the scene gives. Every measured component
 weighs the same: the noise is taken to be independent and equally large in all of them. Then x ± t s √C_ii,
 with s² = r·r/(m − n), C = (Jᵀ J)⁻¹ and Student's t, is a 95 % interval. It does not know of the model's own
-errors; of a lattice's, one Gauss–Newton step on cells half as large gives the measure (`refined`).
+errors, but for that of a lattice's grid, which `comparisons.identification.refinement` adds to it.
+
+The search is made from several starts, and over growing parts of a motion (`starts`); what is left is tested
+for being noise (`residual_test`) and for rows that do not fit (`outliers`).
 
 A pull of PULL towards the scene's own values holds what the data do not see at all (only E/ρ shows in a sheet
 under its own weight), or rounding would walk off with it; what they see it moves by PULL², 1e-12.
@@ -18,46 +21,70 @@ Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
-from math import inf
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from comparisons.identification import law as strain_law
-from comparisons.identification import surface
+from comparisons.identification import remarks
 from comparisons.identification.found import Found, Identification
 from comparisons.identification.measurements import Displacements, Measured, Surface, read
-from comparisons.identification.misfit import Misfit, require_same_way
-from comparisons.identification.prediction import (
-    NotReached,
-    Prediction,
-    Predictor,
-    lattice,
-    motion,
-    reference,
-    set_in,
-)
-from comparisons.identification.search import search
+from comparisons.identification.misfit import require_same_way
+from comparisons.identification.model import Model, lattice_model, reference_model
+from comparisons.identification.outliers import Outlier, outliers
+from comparisons.identification.prediction import NotReached, Prediction, set_in
+from comparisons.identification.refinement import GRID_ERROR, refined
+from comparisons.identification.residual_test import explained, runs
+from comparisons.identification.search import Nearest
+from comparisons.identification.starts import Fit, nearest
 from comparisons.identification.unknowns import DAMPING, Unknown, unknown
 from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading
 from comparisons.models.grids import Asked, Elements
 from comparisons.models.registry import check, check_reference, solve_reference
-from comparisons.models.sizes import has_room
-from comparisons.models.springs import LatticeSpec, resolve
-from comparisons.report.table import quantity
-from comparisons.report.work import Progress, Work, silent
-from lumped import CALIBRATIONS, Identifiability, identifiability
+from comparisons.models.springs import LatticeSpec
+from comparisons.report.work import Work
+from lumped import CALIBRATIONS, identifiability
 from sheetbench.choices import ELEMENTS, REFERENCES, method_of
-from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
+from sheetbench.scenes import AnyScene, Scene, SpringTable, require_static, scene_of
 from sheetbench.scenes.errors import BadInput
-from sheetbench.scenes.grading import as_settings, of_settings
-from sheetbench.scenes.grid import near_square
 
+__all__ = ["NotReached", "identify"]
 MODELS = ("lumped", *(name for name in REFERENCES if name != "plate"))  # whose large displacements hold
-POOR = 0.05  # standard deviation of the residuals, of the largest measurement: more than noise usually is
+
+
+@dataclass(frozen=True)
+class _Question:
+    """What is asked of measurements: the arguments of `identify`."""
+
+    scene: Scene
+    unknowns: tuple[Unknown, ...]
+    model: str
+    lattice: LatticeSpec
+    elements: Elements
+    law: str | None
+    offset: float
+    refine: bool
+    large: bool
+    progress: Callable[[str | Work], None]
+
+    @property
+    def of_law(self) -> dict[str, Any]:
+        return {} if self.law is None else {"law": self.law}
+
+    @property
+    def free_grid(self) -> bool:
+        """Whether the fit chooses the lattice's cells."""
+        own = isinstance(self.scene.springs, SpringTable) and self.scene.springs.grid
+        return self.lattice.grid is None and not own
+
+    def fitted(self) -> Model:
+        """The model that is fitted first."""
+        if self.model == "lumped":
+            return lattice_model(self.scene, self.lattice)
+        return reference_model(self.scene, self.model, self.elements, self.progress, **self.of_law)
 
 
 def identify(
@@ -80,10 +107,11 @@ def identify(
 ) -> Identification:
     """The unknowns of these names, from measurements or a file of them (`measurements.read`).
 
-    grid (as `comparisons.models.grids` reads it), calibration, grading (a number, or "auto" by the scene's
-    own values, see `comparisons.models.grading`): of the lattice; elements: of a reference;
-    law: its law of strain (`sheetbench.choices.STRAIN_LAWS`); offset [m]: where a cloud was taken along the
-    surface's normal, 0 on the mid-surface. refine: whether to look at a finer lattice too (not for motions).
+    grid (as `comparisons.models.grids` reads it; unless given, cells become smaller until the grid moves the
+    unknowns less than the noise does), calibration, grading (a number, or "auto" by the scene's own values,
+    see `comparisons.models.grading`): of the lattice; elements: of a reference; law: its law of strain
+    (`sheetbench.choices.STRAIN_LAWS`); offset [m]: where a cloud was taken along the surface's normal, 0 on
+    the mid-surface. refine: whether to look at finer lattices too (not for motions).
     large: even where a model takes more memory than there is.
     progress: told of every evaluation, and of a reference's solves.
 
@@ -96,127 +124,95 @@ def identify(
     names = [names] if isinstance(names, str) else names
     unknowns = tuple(unknown(scene, name) for name in names)
     lattice = LatticeSpec(grid, calibration, k, layer_distance, grading)
-    _check(measured, unknowns, model, lattice, elements, law)
-    check(scene, lattice.candidate if model == "lumped" else Candidate(model, {"elements": elements}), large)
-    if offset and not isinstance(measured, Surface):
-        raise BadInput(
-            f"offset = {offset:g} m: of the points of a cloud from the mid-surface; displacements are its own"
-        )
-    predict, settings, axes = _predictor(scene, measured, model, lattice, elements, law, progress)
-    misfit = Misfit(measured, axes, offset)
+    asked = _Question(scene, unknowns, model, lattice, elements, law, offset, refine, large, progress)
+    _check(measured, asked)
+    return _answer(asked, measured)
 
-    def first(predicted: Prediction) -> None:
+
+def _answer(asked: _Question, measured: Measured, look: bool = True) -> Identification:
+    """The answer; look: whether for rows that do not fit."""
+    unknowns, model = asked.unknowns, asked.fitted()
+    fit = Fit(measured, unknowns, model.axes, model.predictor, asked.offset, asked.progress)
+    odd: tuple[Outlier, ...] = ()
+
+    def require_sense(part: Measured, predicted: Prediction) -> None:
         if not any(u.turns for u in unknowns):
-            require_same_way(measured, predicted, axes)
-        count = len(misfit.of(predicted)[0])
-        if count <= len(unknowns):
-            raise BadInput(f"{count} measured numbers cannot give intervals of {len(unknowns)} unknowns")
+            require_same_way(part, predicted, fit.axes)
 
-    best = search(predict, unknowns, misfit, first=first, progress=progress)
-    final, slopes = best.residuals, best.slopes
-    known = identifiability([u.name for u in unknowns], slopes, final)
-    steps: Sequence[float | None] = [None] * len(unknowns)
-    unseen = []
-    if refine and model == "lumped" and not _moving(measured):
-        nx, ny, layers = settings["grid"]
-        finer = (2 * nx - 1, 2 * ny - 1, layers)
-        if large or has_room(scene, Candidate(model, {"grid": finer})):
-            progress("looking at cells half as large")
-            finer_lattice = replace(
-                lattice, grid=finer, calibration=settings["calibration"], grading=of_settings(settings)
-            )
-            steps = _refinement(scene, measured, unknowns, best.x, finer_lattice, offset)
-        else:
-            unseen = ["cells half as large take more memory than is free: the grid's error is not known"]
+    def enough(one: Nearest) -> bool:
+        nonlocal odd
+        odd = outliers(fit, one) if look else ()
+        return bool(odd) or explained(one.noise, runs(measured, fit.misfit().per_point(one.residuals)))
+
+    best, starts = nearest(fit, require_sense, enough)
+    step, grids = np.full(len(unknowns), np.nan), [model.settings.get("grid")]
+    if asked.refine and asked.model == "lumped" and not _moving(measured):
+        end = refined(asked.scene, asked.lattice, model, fit, best, asked.free_grid, asked.large)
+        model, fit, best, step, grids = end.model, end.fit, end.best, end.step, [*end.grids]
+    known = identifiability([u.name for u in unknowns], best.slopes, best.residuals)
     found = {
-        u.name: Found(
-            u.value(x),
-            u.interval(x, known.half_widths[u.name]),
-            u.start,
-            u.unit,
-            None if step is None else u.value(float(np.clip(x + step, *u.bounds()))),
-        )
-        for u, x, step in zip(unknowns, best.x, steps, strict=True)
+        u.name: _found(u, x, known.half_widths[u.name], one)
+        for u, x, one in zip(unknowns, best.x, step.tolist(), strict=True)
     }
-    noise = float(np.sqrt(final @ final / (len(final) - len(unknowns))))
+    residuals = fit.misfit().per_point(best.residuals)
+    left = runs(measured, residuals)
+    without: dict[str, Found] = {}
+    if odd and isinstance(measured, Displacements):
+        asked.progress("without the rows that do not fit")
+        without = _answer(asked, measured.without([one.row for one in odd]), look=False).unknowns
     warnings = [
+        *remarks.on_outliers(odd, without),
         *known.warnings,
-        *unseen,
-        *(
-            f"{u.name} ended at {quantity(u.value(x), u.unit)}, as far from the scene's own value as the "
-            "search goes: the data pull it further"
-            for u, x, active in zip(unknowns, best.x, best.against_bounds, strict=True)
-            if active
-        ),
+        *([] if odd else remarks.on_residuals(fit, best, left, starts)),
+        *remarks.on_bounds(fit, best),
+        *remarks.on_grid(found, asked.refine and asked.model == "lumped", _moving(measured)),
     ]
-    warnings += [
-        f"{u.name} would be {quantity(refined, u.unit)} on cells half as large: the grid's error is not "
-        "small beside the interval"
-        for u, step in zip(unknowns, steps, strict=True)
-        if step is not None
-        and (refined := found[u.name].refined) is not None
-        and known.half_widths[u.name] < inf
-        and abs(step) > known.half_widths[u.name] / 3.0
-    ]
-    if noise > POOR:
-        turned = " and ".join(misfit.turned(final))
-        warnings.append(
-            f"a poor fit, off by {100 * noise:.2g} % of the largest measurement: no value of "
-            f"{', '.join(names)} explains these data; look at frame, supports and model"
-            + (turned and f": the measured {turned} point the other way than the model's")
-        )
-    if model != "lumped":
-        last = set_in(scene, unknowns, best.x)
-        solved = solve_reference(last, model=model, elements=elements, large=True, **_of_law(law))
-        warnings += strain_law.said(last, law, solved.stretch)
+    if asked.model != "lumped":
+        last = set_in(asked.scene, unknowns, best.x)
+        solved = solve_reference(last, model=asked.model, elements=asked.elements, large=True, **asked.of_law)
+        warnings += strain_law.said(last, asked.law, solved.stretch)
     return Identification(
-        scene=scene,
+        scene=asked.scene,
         measured=measured,
-        model=model,
-        settings=settings,
+        model=asked.model,
+        settings=model.settings,
         unknowns=found,
-        residuals=misfit.per_point(final),
-        noise=measured.scale * noise,
-        relative=float(np.abs(final).max()),
+        residuals=residuals,
+        noise=measured.scale * best.noise,
+        relative=float(np.abs(best.residuals).max()),
         evaluations=best.evaluations,
         converged=best.converged,
         warnings=tuple(warnings),
+        runs=left,
+        explained=not odd and explained(best.noise, left),
+        starts=starts,
+        grids=tuple(tuple(one) for one in grids if one),
+        outliers=odd,
+        without=without,
     )
 
 
-def _refinement(
-    scene: Scene,
-    measured: Measured,
-    unknowns: tuple[Unknown, ...],
-    x: np.ndarray,
-    finer: LatticeSpec,
-    offset: float,
-) -> list[float | None]:
-    """The Gauss–Newton step of x on a finer lattice, of what the data see; None where that lattice has no
-    answer."""
-    predict, _, axes = _predictor(scene, measured, "lumped", finer, 0)
-    misfit = Misfit(measured, axes, offset)
-    try:
-        residuals, slopes = misfit.of(predict(unknowns, x, misfit.asked))
-    except NotReached:
-        return [None] * len(unknowns)
-    step, *_ = np.linalg.lstsq(slopes, -residuals, rcond=Identifiability.threshold)
-    return list(step.tolist())
+def _found(u: Unknown, x: float, noise: float, step: float) -> Found:
+    """An unknown's value at x; noise: half-width of its interval; step: of x on cells half as large, nan
+    where it is not known."""
+    known = bool(np.isfinite(step))
+    return Found(
+        value=u.value(x),
+        interval=u.interval(x, noise + (GRID_ERROR * abs(step) if known else 0.0)),
+        start=u.start,
+        unit=u.unit,
+        refined=u.value(float(np.clip(x + step, *u.bounds()))) if known else None,
+        noise_interval=u.interval(x, noise),
+        determined=bool(np.isfinite(noise)),
+    )
 
 
 def _moving(measured: Measured) -> bool:
     return isinstance(measured, Displacements) and measured.time is not None
 
 
-def _check(
-    measured: Measured,
-    unknowns: tuple[Unknown, ...],
-    model: str,
-    lattice: LatticeSpec,
-    elements: Elements,
-    law: str | None,
-) -> None:
-    names = [u.name for u in unknowns]
+def _check(measured: Measured, asked: _Question) -> None:
+    names, model, law = [u.name for u in asked.unknowns], asked.model, asked.law
     repeated = {name for name in names if names.count(name) > 1}
     if not names or repeated:
         raise BadInput(f"unknown = '{','.join(names)}': name each once, and at least one")
@@ -225,6 +221,7 @@ def _check(
     if model == "lumped":
         if law is not None:
             raise BadInput(f"law = '{law}': of a shell or solid; the lattice's is that of its springs")
+        lattice = asked.lattice
         if CALIBRATIONS[method_of(lattice.calibration, lattice.k)].fitted:
             raise BadInput(
                 f"calibration = '{lattice.calibration}': its springs do not follow from what is sought"
@@ -235,7 +232,7 @@ def _check(
                 "leave k out"
             )
     else:
-        check_reference(model, elements, _of_law(law))
+        check_reference(model, asked.elements, asked.of_law)
     moving = _moving(measured)
     still = [name for name in names if name in DAMPING]
     if still and not moving:
@@ -245,31 +242,13 @@ def _check(
         )
     if moving and model != "lumped":
         raise BadInput(f"model = '{model}': a measured motion (column time) is followed by the lattice only")
-
-
-def _predictor(
-    scene: Scene,
-    measured: Measured,
-    model: str,
-    asked: LatticeSpec,
-    elements: Elements,
-    law: str | None = None,
-    progress: Progress = silent,
-) -> tuple[Predictor, dict[str, Any], tuple[np.ndarray, np.ndarray]]:
-    """The predictor, its settings, and the plan grid on which it gives a whole surface."""
-    if model == "lumped":
-        chosen = resolve(scene, asked, own=False)
-        settings = {"grid": list(chosen.grid), "calibration": chosen.calibration, **chosen.options}
-        settings |= {**as_settings(chosen.grading or 0.0), **chosen.reasons}
-        axes = surface.plan_grid(scene.sheet.lengths, chosen.grid[:2])
-        if isinstance(measured, Displacements) and measured.time is not None:
-            return motion(scene, chosen.springs, measured.time), settings, axes
-        return lattice(scene, chosen.springs), settings, axes
-    along_x, along_y = near_square(scene.sheet, elements) if isinstance(elements, int) else elements
-    axes = surface.plan_grid(scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
-    settings = {"elements": [along_x, along_y], **_of_law(law)}
-    return reference(scene, model, elements, progress, **_of_law(law)), settings, axes
-
-
-def _of_law(law: str | None) -> dict[str, Any]:
-    return {} if law is None else {"law": law}
+    size = Candidate(model, {"elements": asked.elements})
+    check(asked.scene, asked.lattice.candidate if model == "lumped" else size, asked.large)
+    if asked.offset and not isinstance(measured, Surface):
+        raise BadInput(
+            f"offset = {asked.offset:g} m: of the points of a cloud from the mid-surface; displacements are "
+            "its own"
+        )
+    count = int(measured.measured.sum()) if isinstance(measured, Displacements) else len(measured.points)
+    if count <= len(names):
+        raise BadInput(f"{count} measured numbers cannot give intervals of {len(names)} unknowns")

@@ -15,7 +15,8 @@ them is need not be known.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from math import isfinite
 from pathlib import Path
 
@@ -35,12 +36,14 @@ FARTHEST = 2.0  # a displacement of so many sides is a wrong unit
 @dataclass(frozen=True)
 class Displacements:
     """points: (n, 2) [m] of the flat sheet; displacement: (n, 3) [m], nan where not measured; time: (n,) [s]
-    of each row, or None for an equilibrium; source: where they come from, to be named in a refusal."""
+    of each row, or None for an equilibrium; source: where they come from, to be named in a refusal; lines: of
+    the file that each row was read from."""
 
     points: np.ndarray
     displacement: np.ndarray
     time: np.ndarray | None = None
     source: str = "measured"
+    lines: tuple[str, ...] = ()
 
     @property
     def measured(self) -> np.ndarray:
@@ -51,6 +54,23 @@ class Displacements:
     def scale(self) -> float:
         """The largest measured component [m]."""
         return float(np.nanmax(np.abs(self.displacement)))
+
+    def without(self, rows: Sequence[int]) -> Displacements:
+        """The measurements with nothing measured in some rows."""
+        displacement = self.displacement.copy()
+        displacement[list(rows)] = np.nan
+        return replace(self, displacement=displacement)
+
+    def until(self, end: float) -> Displacements:
+        """The rows of a motion up to a time [s]."""
+        assert self.time is not None
+        rows = np.flatnonzero(self.time <= end)
+        lines = tuple(self.lines[i] for i in rows) if self.lines else ()
+        return Displacements(self.points[rows], self.displacement[rows], self.time[rows], self.source, lines)
+
+    def name_of(self, row: int) -> str:
+        """A row's name in a sentence: its line in the file, else its number."""
+        return self.lines[row] if self.lines else f"row {row}, counted from 0,"
 
 
 @dataclass(frozen=True)
@@ -94,7 +114,7 @@ def _table(path: Path, scene: Scene) -> Measured:
 
 
 def _displacements(path: Path, columns: Columns, scene: Scene, named: bool) -> Displacements:
-    rows, times = [], []
+    rows, times, lines = [], [], []
     for row in columns.rows:
         if named:
             point = _probe(row, scene)
@@ -104,6 +124,7 @@ def _displacements(path: Path, columns: Columns, scene: Scene, named: bool) -> D
         moved = [row.measured(name) if name in columns.names else np.nan for name in MOVED]
         _require_metres(moved, scene.sheet, row.where)
         rows.append([*point, *moved])
+        lines.append(row.where)
         if "time" in columns.names:
             times.append(row.number("time"))
     values = np.array(rows, dtype=float).reshape(-1, 5)
@@ -111,7 +132,9 @@ def _displacements(path: Path, columns: Columns, scene: Scene, named: bool) -> D
         raise BadInput(f"{path}: no displacement in it")
     if times and (min(times) < 0.0 or max(times) == 0.0):
         raise BadInput(f"{path}: time: the motion starts at 0 and goes on to later times")
-    return Displacements(values[:, :2], values[:, 2:], np.array(times) if times else None, str(path))
+    return Displacements(
+        values[:, :2], values[:, 2:], np.array(times) if times else None, str(path), tuple(lines)
+    )
 
 
 def _heights(path: Path, columns: Columns, sheet: Sheet) -> Surface:

@@ -1,8 +1,8 @@
 """The search for the unknowns with which a model comes nearest to what was measured.
 
-Least squares in the unknowns' x by a trust region (SciPy's `least_squares`), from x = 0 on, with a pull of
-PULL towards it that holds what the data do not see at all. Where the model has no answer the residuals are
-REFUSED, and the step is shortened.
+Least squares in the unknowns' x by a trust region (SciPy's `least_squares`), with a pull of PULL towards
+the scene's own values, x = 0, that holds what the data do not see at all. Where the model has no answer the
+residuals are REFUSED, and the step is shortened.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from comparisons.identification.prediction import NotReached, Prediction, Predic
 from comparisons.identification.unknowns import Unknown
 
 REFUSED = 1e3  # residual, in units of the data, where the model has no answer: the step is shortened
-SMALLEST = 1e-10  # change of x, or of the sum of squares, that ends the search
+SMALLEST = 1e-8  # change of x, or of the sum of squares, that ends the search
 PULL = 1e-6  # residual, in units of the data, that a unit of x is worth
 EVALUATIONS = 60
 
@@ -36,6 +36,11 @@ class Nearest:
     evaluations: int
     converged: bool
 
+    @property
+    def noise(self) -> float:
+        """The standard deviation of the residuals, in units of the largest measurement."""
+        return float(np.sqrt(self.residuals @ self.residuals / max(len(self.residuals) - len(self.x), 1)))
+
 
 def search(
     predict: Predictor,
@@ -44,13 +49,15 @@ def search(
     smallest: float = SMALLEST,
     evaluations: int = EVALUATIONS,
     first: Callable[[Prediction], None] = lambda predicted: None,
+    start: np.ndarray | None = None,
+    pull: float = PULL,
     progress: Callable[[str], None] = lambda what: None,
 ) -> Nearest:
     """The unknowns' x with which a predictor comes nearest to the measurements of the misfit.
 
     smallest: change of x, or of the sum of squares, that ends the search, as do so many evaluations; first:
-    called with what is predicted at the start, to refuse it. Raises NotReached where the model has no answer
-    there.
+    called with what is predicted at the start, to refuse it; start: x to begin at, the scene's own values
+    unless given; pull: towards those. Raises NotReached where the model has no answer at the start.
     """
     kept: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
 
@@ -68,17 +75,18 @@ def search(
 
     def residuals(x: np.ndarray) -> np.ndarray:
         try:
-            return np.concatenate([at(x)[0], PULL * x])
+            return np.concatenate([at(x)[0], pull * x])
         except NotReached as error:
             progress(f"no answer there: {error}")
-            return np.concatenate([np.full(count, REFUSED), PULL * x])
+            return np.concatenate([np.full(count, REFUSED), pull * x])
 
-    count = len(at(np.zeros(len(unknowns)))[0])
     low, high = np.array([u.bounds() for u in unknowns]).T
+    start = np.zeros(len(unknowns)) if start is None else np.clip(start, low, high)
+    count = len(at(start)[0])
     best = least_squares(
         residuals,
-        np.zeros(len(unknowns)),
-        jac=lambda x: np.vstack([at(x)[1], PULL * np.eye(len(x))]),
+        start,
+        jac=lambda x: np.vstack([at(x)[1], pull * np.eye(len(x))]),
         bounds=(low, high),
         xtol=smallest,
         ftol=smallest,

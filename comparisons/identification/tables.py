@@ -50,14 +50,16 @@ def _picture(found: Identification, paths: Sequence[Path], look: Look) -> None:
 
 
 def unknowns(found: Identification) -> Table:
-    """A row per unknown; values in the unit of the row."""
+    """A row per unknown; values in the unit of the row, none of what the data do not determine."""
     rows = tuple(
-        (name, unit(u.unit), u.value, *u.interval, u.refined, u.start) for name, u in found.unknowns.items()
+        (name, unit(u.unit), *((u.value, *u.interval, u.refined) if u.determined else [None] * 4), u.start)
+        for name, u in found.unknowns.items()
     )
     names = ("value", "from", "to", "on finer cells", "started at")
     shown = tuple(Column(name, form=".6g") for name in names)
     columns = (Column("unknown"), Column("unit"), *shown)
-    return Table("What was sought, with its 95 % interval", columns, rows, "unknowns")
+    contains = "of the noise only" if found.noise_only else "of noise and grid"
+    return Table(f"Values and their 95 % intervals, {contains}", columns, rows, "unknowns")
 
 
 def residuals(found: Identification) -> Table:
@@ -97,12 +99,17 @@ def _residuals(found: Identification, rows: np.ndarray, caption: str) -> Table:
 
 def explanation(found: Identification) -> str:
     """What was fitted with what, how well, and what the interval assumes."""
-    largest = found.measured.scale
     size = "×".join(map(str, found.settings.get("grid") or found.settings["elements"]))
+    tried = " → ".join("×".join(map(str, grid)) for grid in found.grids)
+    cells = f" (cells chosen by the fit: {tried})" if len(found.grids) > 1 else ""
+    leaves_out = (
+        "leaves out model error"
+        if found.noise_only
+        else "contains the grid's error, twice the step to finer cells; it leaves out other model error"
+    )
     return (
-        f"{found.model} {size}: residuals have a standard deviation of {1e3 * found.noise:.3g} mm, "
-        f"{100 * found.noise / largest:.3g} % of the largest measurement, and reach "
-        f"{100 * found.relative:.3g} %. The interval takes them for independent noise of one size; "
-        "it does not know of the model's own errors. on finer cells: about where a lattice with cells half "
-        "as large would put the value."
+        f"{found.model} {size}{cells}: residuals have a standard deviation of {1e3 * found.noise:.3g} mm, "
+        f"{100 * found.noise / found.measured.scale:.3g} % of the largest measurement, and reach "
+        f"{100 * found.relative:.3g} %. The interval assumes independent noise of equal variance and "
+        f"{leaves_out}."
     )

@@ -8,14 +8,18 @@ x = (value − start) · longer side.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import exp, log
+from math import exp, log, pi
 
 from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput, SceneError
+from sheetbench.scenes.grid import grid_of
 from sheetbench.scenes.parameters import parameter, put
 from sheetbench.scenes.supports import LARGEST_TILT
 
 DAMPING = ("damping_time", "damping_rate")
+SYMBOLS = {"E": "young", "nu": "poisson", "ν": "poisson", "rho": "density", "ρ": "density", "h": "thickness"}
+FIRST_RATIO = 0.02  # of critical damping, in the lowest mode: where a search starts from a scene without any
+COARSE = 5  # masses of the lattice whose lowest mode that is
 FARTHEST = 1e6  # times the scene's own value, up or down, that a parameter above zero is sought
 
 
@@ -59,7 +63,9 @@ class Unknown:
 
 
 def unknown(scene: Scene, name: str) -> Unknown:
-    """A parameter of this scene. Raises BadInput where there is none of that name, or it has no value yet."""
+    """A parameter of this scene, by its name or its SYMBOLS. A damping that the scene has at 0 is sought from
+    FIRST_RATIO on. Raises BadInput where there is none of that name, or another is 0."""
+    name = SYMBOLS.get(name, name)
     try:
         found = parameter(scene, name)
         if name.startswith("tilt_"):
@@ -72,8 +78,20 @@ def unknown(scene: Scene, name: str) -> Unknown:
     if found.low < 0.0:
         step = 1.0 / max(scene.sheet.lengths) if name.startswith("curvature_") else 1.0
         return Unknown(name, found.unit, found.value, found.low, found.high, step)
+    if found.value == 0.0 and name in DAMPING:
+        return Unknown(name, found.unit, _first_damping(scene, name), found.low, found.high)
     if found.value == 0.0:
         raise BadInput(
             f"unknown = '{name}': scene '{scene.name}' has it at 0; give a first guess above 0 there"
         )
     return Unknown(name, found.unit, found.value, found.low, found.high)
+
+
+def _first_damping(scene: Scene, name: str) -> float:
+    """FIRST_RATIO of critical damping in the flat sheet's lowest mode, ζ = c ω/2 of a damping time c and
+    ζ = c/2ω of a damping rate."""
+    import lumped
+
+    springs = lumped.calibrate(scene.sheet, scene.material, grid_of(scene.sheet, COARSE))
+    omega = 2.0 * pi * float(lumped.modes(scene, springs, count=1).frequencies[0])
+    return 2.0 * FIRST_RATIO / omega if name == "damping_time" else 2.0 * FIRST_RATIO * omega

@@ -1,0 +1,95 @@
+"""How fine a lattice's cells must be for the unknowns: until the grid moves them less than the noise does.
+
+A Gauss–Newton step on cells half as large says by how much those would move an unknown. The grid's error is
+of second order inside the sheet and nearer to first at held edges (E of the shell's own data: 0.94 % low on
+9 masses a side, 0.44 % on 17), so that GRID_ERROR times the step bounds what the grid does to the value;
+half-widths of intervals contain it. Where cells are not given, the fit is made again on cells half as large
+until the step, or half of the last one, is below SHARE of the noise's half-width, or below NEGLIGIBLE. The
+budget is a size, not a time, so that the answer does not depend on the machine: FITTED and CHECKED unknowns
+take a second or two a solve. Where it ends the search, the next step is taken to be half the last.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from comparisons.identification.model import Model, lattice_model
+from comparisons.identification.prediction import NotReached
+from comparisons.identification.search import Nearest
+from comparisons.identification.starts import Fit
+from comparisons.models.candidate import Candidate
+from comparisons.models.sizes import has_room
+from comparisons.models.springs import LatticeSpec
+from lumped import Identifiability, identifiability
+from sheetbench.scenes import Scene
+from sheetbench.scenes.grading import of_settings
+
+SHARE = 1.0 / 3.0
+NEGLIGIBLE = 2e-3  # of x
+GRID_ERROR = 2.0
+FITTED, CHECKED = 20_000, 30_000  # unknowns of a lattice that is fitted, and of one that gives a step
+
+
+@dataclass(frozen=True)
+class Refined:
+    """The last fit, its model and the best of its searches; step: of x on cells half as large, nan where it
+    is not known; grids: all that were fitted, (nx, ny, layers) each."""
+
+    model: Model
+    fit: Fit
+    best: Nearest
+    step: np.ndarray
+    grids: tuple[tuple[int, ...], ...]
+
+
+def refined(
+    scene: Scene, lattice: LatticeSpec, model: Model, fit: Fit, best: Nearest, free: bool, large: bool
+) -> Refined:
+    """The fit on cells that are small enough where the grid is free, else on those given, with its step.
+
+    lattice: as it was asked for; model, fit, best: on the first grid; large: even where a lattice takes more
+    memory than there is.
+    """
+    names = [u.name for u in fit.unknowns]
+    grids = [tuple(model.settings["grid"])]
+    step = np.full(len(names), np.nan)
+    while True:
+        nx, ny, layers = grids[-1]
+        finer = (2 * nx - 1, 2 * ny - 1, layers)
+        room = large or has_room(scene, Candidate("lumped", {"grid": finer}))
+        unknowns = 3 * finer[0] * finer[1] * layers
+        widths = np.array([*identifiability(names, best.slopes, best.residuals).half_widths.values()])
+        enough = np.maximum(SHARE * widths, NEGLIGIBLE)
+        foretold = step / 2.0  # nan on the first grid
+        if not room or (len(grids) > 1 and (unknowns > CHECKED or (np.abs(foretold) <= enough).all())):
+            return Refined(model, fit, best, foretold, tuple(grids))
+        settings = model.settings
+        chosen = {"calibration": settings["calibration"], "grading": of_settings(settings)}
+        halved = lattice_model(scene, replace(lattice, grid=finer, **chosen))
+        fit.progress(f"looking at cells half as large, {finer[0]} × {finer[1]} masses")
+        on_halved = replace(fit, axes=halved.axes, predictor=halved.predictor)
+        step = _step(on_halved, best.x)
+        small = (np.abs(step) <= enough).all()
+        if not free or unknowns > FITTED or not np.isfinite(step).all() or small:
+            return Refined(model, fit, best, step, tuple(grids))
+        try:
+            best = on_halved.search(best.x + step)
+        except NotReached:
+            return Refined(model, fit, best, step, tuple(grids))
+        model = replace(halved, settings={**settings, "grid": list(finer)})
+        fit = on_halved
+        grids.append(finer)
+
+
+def _step(fit: Fit, x: np.ndarray) -> np.ndarray:
+    """The Gauss–Newton step of x, of what the data see; nan where the model has no answer."""
+    misfit = fit.misfit()
+    try:
+        residuals, slopes = misfit.of(fit.predictor(fit.measured)(fit.unknowns, x, misfit.asked))
+    except NotReached:
+        return np.full(len(x), np.nan)
+    step, *_ = np.linalg.lstsq(slopes, -residuals, rcond=Identifiability.threshold)
+    found: np.ndarray = step
+    return found

@@ -1,0 +1,74 @@
+"""What is said of a fit that is not what it should be, a sentence each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from comparisons.identification.found import Found
+from comparisons.identification.outliers import Outlier
+from comparisons.identification.residual_test import POOR, Runs, explained
+from comparisons.identification.search import Nearest
+from comparisons.identification.starts import Fit
+from comparisons.report.table import quantity
+
+
+def on_outliers(odd: Sequence[Outlier], without: Mapping[str, Found]) -> list[str]:
+    """The rows that do not fit, and the values without them."""
+    if not odd:
+        return []
+    values = "; ".join(
+        f"{name} = {quantity(u.value, u.unit)}, 95 % {quantity(u.interval[0], u.unit)} to "
+        f"{quantity(u.interval[1], u.unit)}"
+        for name, u in without.items()
+    )
+    rows = "this row" if len(odd) == 1 else "these rows"
+    return [f"{'; '.join(map(str, odd))}. Is it a slip? Without {rows}: {values}"]
+
+
+def on_residuals(fit: Fit, best: Nearest, left: Runs, starts: int) -> list[str]:
+    """Why residuals are more than noise, and what may be done."""
+    names = ", ".join(u.name for u in fit.unknowns)
+    tried = f"the best of {starts} starts" if starts > 1 else "the search"
+    deviation = quantity(fit.measured.scale * best.noise, "m", ".3g")
+    size = f"{tried} leaves residuals of {deviation}, {100 * best.noise:.2g} % of the largest measurement"
+    if best.noise > POOR:
+        turned = " and ".join(fit.misfit().turned(best.residuals))
+        return [
+            f"a poor fit: {size}: no value of {names} explains these data; look at frame, supports and model"
+            + (f": the measured {turned} point the other way than the model's" if turned else "")
+        ]
+    if explained(best.noise, left):
+        return []
+    return [
+        f"not explained: {size}, and are not noise: {left}. The model lacks something (supports, loads, an "
+        " unknown, finer cells), and the interval, which assumes noise, is too narrow",
+    ]
+
+
+def on_bounds(fit: Fit, best: Nearest) -> list[str]:
+    """The unknowns that ended at a bound of the search."""
+    return [
+        f"{u.name} hit its search bound {quantity(u.value(x), u.unit)}: the data do not constrain it"
+        for u, x, active in zip(fit.unknowns, best.x, best.against_bounds, strict=True)
+        if active
+    ]
+
+
+def on_grid(found: Mapping[str, Found], looked: bool, moving: bool) -> list[str]:
+    """What the lattice's cells do to the values."""
+    if looked and not moving and all(u.refined is None for u in found.values()):
+        return ["cells half as large could not be solved: the grid's error is not known, nor in the interval"]
+    return [
+        f"{name} would be {quantity(u.refined, u.unit)} on cells half as large: most of its interval is the "
+        "grid's error; take more masses (--lumped), or leave the grid to the fit"
+        for name, u in found.items()
+        if u.determined and u.refined is not None and _wide(u)
+    ]
+
+
+def _wide(found: Found) -> bool:
+    """Whether the grid widens an interval to more than twice the noise's."""
+    whole, noise = np.ptp(found.interval), np.ptp(found.noise_interval)
+    return bool(whole > 2.0 * noise and whole > 1e-2 * abs(found.value))

@@ -48,9 +48,14 @@ GROWTH = 4.0
 FIRST_REACH = 8.0  # sizes of the structure that the first linear step may move it
 SMALLEST_STEP = 2.0**-10
 FARTHEST = 1e3  # a step beyond so many sizes of the structure has diverged
+DOUBTFUL = 16  # factorisations from which on a load step may have jumped over a fold
+CAREFUL_REACH = 0.1  # sizes of the structure that a careful linear step may move it
+CONTINUOUS = 0.5  # of a careful linear step: what its equilibrium may be off it
+BRANCHING = 1e-3  # sizes of the structure: linear steps so short may cross a bifurcation
 NEAR = 0.25  # of a start's displacement: an equilibrium farther from it may be on another branch
 SNAPS = 12  # of one path
 SNAP_STEP = 0.01  # in load factor, past the limit point
+CAREFUL = FACTORISATIONS  # more of them, where the path is followed with care
 SNAPPING = 4 * FACTORISATIONS  # in all, where the structure snaps
 
 
@@ -76,14 +81,20 @@ def trace(
     with one_blas_thread():
         path = Path(structure.rest(), limit=limit, progress=progress, alike=ALIKE * slenderness**2)
         ended: StepFailed | Fault | None = None
+        careful = False
         if near is None or not _arrived(structure, solver, path, inspect, near):
             ended = _follow(structure, solver, path, inspect)
+            careful = not isinstance(ended, Fault) and _doubtful(structure, solver, path)
+            if careful:
+                path.state, path.load_factor, path.factor = structure.rest(), 0.0, None
+                path.limit += CAREFUL
+                ended = _follow(structure, solver, path, inspect, careful)
         while isinstance(ended, StepFailed):
             tried = ""
             if settle is not None and structure.symmetric and _at_limit_point(path, ended):
                 left_at, doubt = path.load_factor, _doubt(structure, solver, path)
                 try:
-                    following = _snap(structure, solver, path, inspect, settle)
+                    following = _snap(structure, solver, path, inspect, settle, careful)
                 except StepFailed as failure:
                     tried = f"; relaxed at a load factor {SNAP_STEP:g} higher, {failure}"
                 else:
@@ -125,9 +136,12 @@ def _follow(
     solver: DirectSolver,
     path: Path[State],
     inspect: Callable[[Path[State]], Fault | None],
+    careful: bool = False,
 ) -> StepFailed | Fault | None:
-    """Lead a path on to load factor 1: what has ended it before, if anything."""
-    size, reach = 1.0, FIRST_REACH
+    """Lead a path on to load factor 1: what has ended it before, if anything. careful: no load step may leave
+    the branch that it begins on."""
+    farthest = CAREFUL_REACH if careful else np.inf
+    size, reach, negative = 1.0, min(FIRST_REACH, farthest), 0
     factor: Factor | None = None
     while path.load_factor < 1.0:
         before = path.factorisations
@@ -135,6 +149,8 @@ def _follow(
             first = _Predictor(structure, solver, path, min(1.0, path.load_factor + size), reach, factor)
             factor = first.factor if structure.symmetric else None
             state, found = newton(structure, solver, path, first)
+            if careful:
+                found, negative = _continuous(structure, solver, path, first, state, found, negative)
         except StepFailed as failure:
             size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
             if size < SMALLEST_STEP or path.factorisations >= path.limit:
@@ -146,8 +162,43 @@ def _follow(
         if (fault := inspect(path)) is not None:
             return fault
         easy = path.factorisations - before <= EASY
-        size, reach = (GROWTH * grown, GROWTH * reach) if easy else (grown, reach)
+        size, reach = (GROWTH * grown, min(GROWTH * reach, farthest)) if easy else (grown, reach)
     return None
+
+
+def _doubtful(structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> bool:
+    """Whether large load steps may have led to another branch: where the equilibrium is unstable, or took
+    long to find."""
+    if not structure.symmetric or path.load_factor == 0.0:
+        return False
+    return path.factorisations > DOUBTFUL or stability(structure, solver, path)[0] is Status.UNSTABLE
+
+
+def _continuous(
+    structure: Structure[State, Forces],
+    solver: DirectSolver,
+    path: Path[State],
+    first: _Predictor[State, Forces],
+    state: State,
+    found: Factor | None,
+    negative: int,
+) -> tuple[Factor | None, int]:
+    """The factors at an equilibrium and their negative eigenvalues. Raises StepFailed where it is on another
+    branch than the one that the step set out from: far from where the linear step led, or past a change of
+    stability by more than a short step."""
+    if structure.length(first.state, state) > max(CONTINUOUS * first.length, TOLERANCE):
+        raise StepFailed(Status.STEP_LIMIT, "the path folds", first.length)
+    if found is None:
+        path.factorisations += 1
+        forces = structure.forces(state, first.target)
+        try:
+            found = solver.factor(structure.system(state, forces, first.target, mixed=False)[0])
+        except SingularMatrix as error:
+            raise StepFailed(Status.SINGULAR, str(error), first.length) from None
+    now = found.inertia.negative if found.inertia is not None else 0
+    if now > negative and first.length > BRANCHING:
+        raise StepFailed(Status.STEP_LIMIT, "the path loses stability", first.length)
+    return found, now
 
 
 def _at_limit_point(path: Path[State], failure: StepFailed) -> bool:
@@ -172,6 +223,7 @@ def _snap(
     path: Path[State],
     inspect: Callable[[Path[State]], Fault | None],
     settle: Callable[[Path[State], float], State],
+    careful: bool,
 ) -> StepFailed | Fault | None:
     """Lead a path past its limit point and on: what has ended it then. Raises StepFailed, the path as it was,
     if nothing stable was found."""
@@ -179,7 +231,7 @@ def _snap(
     path.limit = min(path.factorisations + FACTORISATIONS, SNAPPING)
     path.state, path.load_factor, path.factor = settle(path, beyond), beyond, None
     path.limit = min(path.factorisations + FACTORISATIONS, SNAPPING)
-    return inspect(path) or _follow(structure, solver, path, inspect)
+    return inspect(path) or _follow(structure, solver, path, inspect, careful)
 
 
 @dataclass(frozen=True)

@@ -25,8 +25,11 @@ import numpy as np
 from lumped.springs.together import Stresses
 from lumped.statics.faults import broken
 from lumped.statics.limits import (
+    BRANCHING,
+    CAREFUL_REACH,
     CLOSE,
     COARSE,
+    CONTINUOUS,
     CORRECTIONS,
     EASY,
     FACTORISATIONS,
@@ -92,11 +95,13 @@ def follow(
     *,
     reach: float | None = None,
     step: float | None = None,
+    careful: bool = False,
 ) -> tuple[State, str]:
     """The equilibrium at load factor `target` along the path from `start`, or the last one before it, with
     the reason why the path ended ("" when it did not). reach: how far [m] the first load step may go, and by
-    what load, unless it starts anew."""
-    state, reach = start, reach or FIRST_REACH * problem.size
+    what load, unless it starts anew. careful: no load step may leave the branch that it begins on."""
+    farthest_reach = CAREFUL_REACH * problem.size if careful else np.inf
+    state, reach = start, min(reach or FIRST_REACH * problem.size, farthest_reach)
     step = step or target - start.load_factor
     shortest = abs(step) * SHORTEST_STEP
     while abs(target - state.load_factor) > 1e-12:
@@ -110,7 +115,10 @@ def follow(
         try:
             before = problem.factorisations
             last = abs(target - state.load_factor - step) < 1e-12
-            state = _correct(problem, state, state.load_factor + step, predicted, FINE if last else COARSE)
+            found = _correct(problem, state, state.load_factor + step, predicted, FINE if last else COARSE)
+            if careful:
+                _require_continuous(problem, state, found, predicted)
+            state = found
         except (StepFailed, SingularMatrixError) as failure:
             step /= 2.0
             reach = min(reach, farthest) / 2.0
@@ -123,9 +131,19 @@ def follow(
         if problem.factorisations > FACTORISATIONS:
             return state, f"{FACTORISATIONS} factorisations were not enough"
         if problem.factorisations - before <= EASY:
-            reach *= 1.5
+            reach = min(1.5 * reach, farthest_reach)
         step *= 4.0
     return state, ""
+
+
+def _require_continuous(problem: Problem, start: State, end: State, predicted: np.ndarray) -> None:
+    """Raise StepFailed where an equilibrium is on another branch than the one that a step (n, 3) [m] set out
+    from: far from where the step led, or past a change of stability by more than a short step."""
+    length = float(np.abs(predicted).max())
+    if float(np.abs(end.u - start.u - predicted).max()) > max(CONTINUOUS * length, SETTLED * problem.size):
+        raise StepFailed("the path folds")
+    if (end.negative or 0) > (start.negative or 0) and length > BRANCHING * problem.size:
+        raise StepFailed("the path loses stability")
 
 
 def predictor(problem: Problem, state: State, step: float) -> np.ndarray:

@@ -21,7 +21,7 @@ from lumped.statics.batch import alike, batch, paths
 from lumped.statics.equilibrium import State
 from lumped.statics.fused import Posed
 from lumped.statics.problem import Problem
-from lumped.statics.solver import compile_kernels, judged, pose, solve
+from lumped.statics.solver import compile_kernels, doubtful, judged, pose, solve
 from sheetbench.clock import now
 from sheetbench.numerics.reduced import BandedFactor
 from sheetbench.numerics.threads import one_blas_thread
@@ -129,6 +129,8 @@ def _solutions(
         state = State(u, 1.0, problem.assembly.stresses(u), done.blocks[place], factor, factor.negative)
         problem.factorisations = int(done.factorisations[place])
         problem.history = [Iteration(*line) for line in done.history[place, : done.lines[place]].tolist()]
+        if doubtful(problem, state):
+            continue
         outcome: Outcome = judged(scene, problem, state)
         seconds = setup, share + now() - began
         found[at] = solution(scene, springs, problem, outcome, seconds, asked)

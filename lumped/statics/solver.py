@@ -29,7 +29,7 @@ from lumped.statics.equilibrium import (
     predictor,
 )
 from lumped.statics.faults import broken
-from lumped.statics.limits import FACTORISATIONS
+from lumped.statics.limits import DOUBTFUL, FACTORISATIONS
 from lumped.statics.polygon import polygons
 from lumped.statics.problem import Problem
 from lumped.supports import constrain
@@ -169,6 +169,9 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
         state, why = from_flat(problem)
     except SingularMatrixError as error:
         return _singular(problem, error)
+    careful = problem.fault is None and doubtful(problem, state)
+    if careful:
+        state, why = follow(problem, at_rest(problem), careful=True)
     snaps: list[float] = []
     notes: list[str] = []
     while why and problem.fault is None and problem.descends and len(snaps) < SNAPS:
@@ -181,7 +184,7 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
             why = f"{why}; then {error}"
             break
         snaps.append(state.load_factor)
-        state, why = follow(problem, landed)
+        state, why = follow(problem, landed, careful=careful)
     if not why and branch == "stable" and state.negative and problem.descends:
         try:
             state = descend(problem, disturbed(problem, state), 1.0)
@@ -195,6 +198,12 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
         notes = [f"load factor {state.load_factor:.4g} of 1 reached: {why}"]
         return Outcome(status, state, tuple(snaps), tuple(notes))
     return judged(scene, problem, state, snaps, notes)
+
+
+def doubtful(problem: Problem, state: State) -> bool:
+    """Whether large load steps may have led to another branch: where the equilibrium is unstable, or took
+    long to find."""
+    return problem.conservative and (bool(state.negative) or problem.factorisations > DOUBTFUL)
 
 
 def equilibrium(

@@ -1,0 +1,66 @@
+"""Paths that large load steps would leave: a column that is not quite straight, a fold jumped over."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+import fem_reference
+import lumped
+from lumped.statics.continuation import trace
+from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, Status
+
+STRIP = Sheet(length_x=0.2, length_y=0.05, thickness=0.001)
+SOFT = Material(young=5e6, poisson=0.0, density=1100.0)
+PRESS, ACROSS = 0.0334127, 0.002  # N/m: 1.3 of Euler's load, and a little upwards
+COLUMN = Scene(
+    name="column", sheet=STRIP, material=SOFT, supports=(Clamped(edge="x0"),),
+    loads=(EdgeLoad(edge="x1", force_per_length=(-PRESS, 0.0, ACROSS)),), probes={"tip": (0.2, 0.025)},
+)  # fmt: skip
+
+
+def elastica_tip() -> np.ndarray:
+    """Displacement (ux, uz) [m] of the tip, bent up: E I θ'' = −P sin θ − q cos θ, θ(0) = 0, θ'(a) = 0."""
+    rigidity, length = 5e6 * 0.001**3 / 12.0, 0.2
+
+    def end(curvature: float) -> np.ndarray:
+        def slopes(_: float, y: np.ndarray) -> list[float]:
+            turn = -(PRESS * np.sin(y[0]) + ACROSS * np.cos(y[0])) / rigidity
+            return [y[1], turn, np.cos(y[0]), np.sin(y[0])]
+
+        return solve_ivp(slopes, (0.0, length), [0.0, curvature, 0.0, 0.0], rtol=1e-10, atol=1e-12).y[:, -1]
+
+    found = end(brentq(lambda curvature: end(curvature)[1], 8.0, 40.0, xtol=1e-10))
+    return np.array([found[2] - length, found[3]])
+
+
+@pytest.mark.parametrize("model", ["lumped", "shell"])
+def test_a_column_bends_the_way_it_is_pushed(model) -> None:
+    if model == "lumped":
+        springs = lumped.calibrate(STRIP, SOFT, grid=(33, 3), method="consistent")
+        found = lumped.solve(COLUMN, springs)
+    else:
+        found = fem_reference.solve(COLUMN, model="shell", elements=(16, 2))
+    assert found.status is Status.CONVERGED, found.message
+    assert not found.snaps
+    tip = found.displacement([(0.2, 0.025)])[0, [0, 2]]
+    np.testing.assert_allclose(tip, elastica_tip(), atol=5e-3 * 0.148)
+
+
+def test_a_fold_that_large_steps_jump_over_is_told_with_its_load() -> None:
+    """Where arc-length continuation finds it."""
+    sheet = Sheet(length_x=0.15, length_y=0.15, thickness=0.002)
+    material = Material(young=1e7, poisson=0.45, density=1200.0)
+    scene = Scene(
+        name="fold", sheet=sheet, material=material,
+        gravity=Gravity(acceleration=(0.0, 0.0, -0.78 * 9.81)),
+        supports=(Curved(edge="x0", curvature=-8.0),), probes={"P": (0.15, 0.075)},
+    )  # fmt: skip
+    springs = lumped.calibrate(sheet, material, grid=(9, 9), method="consistent")
+    found = lumped.solve(scene, springs)
+    path = trace(scene, springs, points=150)
+    turning = np.flatnonzero(np.diff(path.load_factors) < 0.0)[0]
+    assert found.status is Status.CONVERGED
+    assert found.snaps == pytest.approx([path.load_factors[turning]], rel=0.01)

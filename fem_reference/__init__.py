@@ -11,6 +11,8 @@ from importlib import import_module
 from inspect import Parameter, signature
 from typing import Any
 
+import numpy as np
+
 from sheetbench.choices import REFERENCE, REFERENCES, STRAIN_LAWS
 from sheetbench.scenes import AnyScene, Iteration, Solution, scene_of
 from sheetbench.scenes.errors import BadInput, require_choice
@@ -24,18 +26,25 @@ def solve(
     scene: AnyScene,
     model: str = REFERENCE,
     *,
+    near: Callable[[np.ndarray], np.ndarray] | None = None,
     progress: Callable[[Iteration], None] | None = None,
     **asked: Any,
 ) -> Solution:
     """The static answer of a reference model; `elements` along the shorter side, or a pair (nx, ny).
 
-    progress: called once an iteration; the plate, which is linear, has none.
+    near: of the shell, the displacement (n, 3) [m] of what lies at (n, 3) [m] in the flat sheet, in an
+    equilibrium to be sought from first. progress: called once an iteration; the plate, which is linear, has
+    none.
     Raises BadInput for an unknown model or option, scenes.SceneError for a scene that no support holds.
     """
     check(model, asked)
     solver = _solver(model)
     if "progress" in signature(solver).parameters:
         asked["progress"] = progress
+    if near is not None:
+        if model != "shell":
+            raise BadInput(f"{model}: is not begun near a shape; the shell is")
+        asked["near"] = near
     return solver(scene_of(scene), **asked)
 
 

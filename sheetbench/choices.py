@@ -53,6 +53,11 @@ MASSES = {
     "gregory": "end-corrected weights along each side, cells of one size",
 }
 
+BRANCHES = {
+    "path": "the equilibrium on the load path, stable or not",
+    "buckled": "where that is unstable, the stable one begun along its buckling mode",
+}
+
 INTEGRATOR = AUTO  # esdirk, or generalised-alpha where the sheet has chains
 INTEGRATORS = {
     "generalised-alpha": "implicit, steps by their error",

@@ -21,7 +21,7 @@ from comparisons.cli.options import (
     Scene,
     Symmetry,
 )
-from sheetbench.choices import ELEMENTS, REFERENCE, REFERENCES, listed
+from sheetbench.choices import BRANCHES, ELEMENTS, REFERENCE, REFERENCES, listed
 
 
 @with_lattice
@@ -41,6 +41,10 @@ def command(
             show_default=False,
         ),
     ] = None,
+    branch: Annotated[
+        str,
+        typer.Option(metavar="NAME", help=f"{listed(BRANCHES)}: leave unstable equilibria or not."),
+    ] = "path",
     auto: Annotated[
         bool,
         typer.Option("--auto", help="Let the advisor choose the model shown first.", show_default=False),
@@ -95,6 +99,7 @@ def command(
             law=law,
             uncertainty=uncertainty,
             symmetry=symmetry,
+            branch=branch,
             choice=advice.choice if advice is not None else None,
             others=others,
             large=large,

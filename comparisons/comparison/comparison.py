@@ -18,7 +18,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from comparisons.comparison import far_apart, strain_law, tables
+from comparisons.comparison import branches, far_apart, strain_law, tables
+from comparisons.comparison.differences import error, relative
 from comparisons.comparison.error_bar import CHEAP, ErrorBar, error_bar
 from comparisons.comparison.model_error import ModelError, model_error
 from comparisons.models.candidate import Candidate
@@ -41,22 +42,6 @@ COMPANION = "lumped-uniform"
 ROUND_OFF = 1e-9  # of the largest displacement at a probe
 
 
-def error(displacement: np.ndarray, reference: np.ndarray) -> float | None:
-    """The error of displacements (n, 3) against a reference's (n, 3), as the module defines it."""
-    return _ratio(float(np.max(np.abs(displacement - reference))), float(np.max(np.abs(reference))))
-
-
-def relative(displacement: np.ndarray, reference: np.ndarray, least: float = 0.0) -> float | None:
-    """The relative difference of a displacement (3,) from the reference's (3,), if that exceeds `least`."""
-    size = float(np.linalg.norm(reference))
-    return _ratio(float(np.linalg.norm(displacement - reference)), size) if size > least else None
-
-
-def _ratio(difference: float, size: float) -> float | None:
-    ratio = difference / size if size > 0 else np.nan
-    return ratio if np.isfinite(ratio) else None
-
-
 @dataclass(frozen=True)
 class Difference:
     """How far one model is from another at one probe, as a fraction of the other's displacement there.
@@ -77,8 +62,9 @@ class Comparison(summary.Summarised):
 
     Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
     reference's mesh leaves uncertain, where that was asked for; laws: a sentence where lattice and reference
-    have laws of strain that differ by more. apart: a sentence where both are at rest and more than 100 %
-    apart. expected: the error to expect of the chosen lattice's grid, where an estimate holds.
+    have laws of strain that differ by more. apart: a sentence where both are at rest and far apart.
+    expected: the error to expect of the chosen lattice's grid, where an estimate holds. several: whether more
+    than one equilibrium is known.
     """
 
     scene: Scene
@@ -87,6 +73,7 @@ class Comparison(summary.Summarised):
     laws: str = ""
     apart: str = ""
     expected: ExpectedError | None = None
+    several: bool = False
 
     @property
     def reference(self) -> Solution:
@@ -108,9 +95,18 @@ class Comparison(summary.Summarised):
         """The displacement [m] of the reference at a probe up to which it is rounding, as at a support."""
         return ROUND_OFF * max(float(np.linalg.norm(u)) for u in self.probes(self.reference).values())
 
+    def measurable(self, solution: Solution) -> bool:
+        """Whether a solution and the reference are both stable, and not known to be on different branches."""
+        pair = (solution, self.reference)
+        stable = all(one.comparable and one.status is not Status.UNSTABLE for one in pair)
+        if not stable or not self.several or solution in self.solutions[:2]:
+            return stable
+        points = self.scene.probe_points()
+        return not branches.far(*(one.displacement(points) for one in pair))
+
     def error(self, solution: Solution) -> float | None:
         """The solution's error against the reference."""
-        if solution is self.reference or not (solution.comparable and self.reference.comparable):
+        if solution is self.reference or not self.measurable(solution):
             return None
         points = self.scene.probe_points()
         return error(solution.displacement(points), self.reference.displacement(points))
@@ -123,7 +119,7 @@ class Comparison(summary.Summarised):
         for solution in self.solutions:
             if solution is self.reference:
                 continue
-            both = solution.comparable and self.reference.comparable
+            both = self.measurable(solution)
             for name, value in self.probes(solution).items():
                 off = relative(value, truth[name], least) if both else None
                 told_apart = None
@@ -142,7 +138,7 @@ class Comparison(summary.Summarised):
         """By how much a solution says that it may be off: its largest bar over its largest displacement."""
         if solution is self.reference and self.bar is not None:
             return self.bar.error
-        if solution.bar is None:
+        if solution.bar is None or solution.status is Status.UNSTABLE:
             return None
         points = self.scene.probe_points()
         u = solution.displacement(points)
@@ -157,6 +153,14 @@ class Comparison(summary.Summarised):
         """Whether a solution's error is above the reference's own; None where either is not known."""
         off = self.error(solution)
         return None if self.bar is None or off is None else off > self.bar.error
+
+    def branch(self, solution: Solution) -> str:
+        """Which equilibrium it is, where several are known: "path", "buckled", or the model in whose shape it
+        was begun."""
+        if "begun" in solution.settings:
+            return f"of {solution.settings['begun']}"
+        several = solution.snaps or solution.status is Status.UNSTABLE or self.several
+        return str(solution.settings.get("branch", "path" if several else ""))
 
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench compare`: metres, newtons, seconds."""
@@ -209,6 +213,7 @@ class Comparison(summary.Summarised):
             "settings": solution.settings,
             "status": str(solution.status),
             "advice": solution.status.advice,
+            **({"branch": branch} if (branch := self.branch(solution)) else {}),
             "message": solution.message,
             "stretch": solution.stretch,
             "snaps": list(solution.snaps),
@@ -239,6 +244,7 @@ def compare(
     law: str | None = None,
     uncertainty: bool | None = None,
     symmetry: bool = False,
+    branch: str = "path",
     companion: bool = True,
     choice: Candidate | None = None,
     others: Sequence[Candidate] = (),
@@ -258,7 +264,8 @@ def compare(
     shorter side, or (nx, ny). law: of strain, where the reference is a shell or solid
     (`sheetbench.choices.STRAIN_LAWS`). uncertainty: find the reference's error bar on coarser meshes too; for
     plate and shell it is unless False, for others if True. symmetry: solve a half or a quarter where scene
-    and grid mirror themselves; solids are solved whole.
+    and grid mirror themselves; solids are solved whole. branch: "path", or "buckled", which leaves unstable
+    equilibria along their buckling mode; of lattice and shell.
     choice: a model that takes the lattice's place (`comparisons.advice.advisor`); others: models that stand
     in the table too, plug-ins or our own. A name that is taken is changed. large: even where a model takes
     more memory than there is. progress: told what is being done, and of every iteration
@@ -273,10 +280,14 @@ def compare(
     require_static(scene)
     own_law = {} if law is None else {"law": law}
     check_reference(reference, elements, own_law)
-    mirrored = {"symmetry": True} if symmetry else {}
+    mirrored: dict[str, Any] = {"symmetry": True} if symmetry else {}
     cut = mirrored if reference != "solid" else {}
     judge = Candidate(reference, {"elements": elements, **own_law, **cut})
     lattice = LatticeSpec(grid, calibration, k, layer_distance, grading)
+    if branch != "path":
+        mirrored["branch"] = branch
+        check_reference(reference, elements, {**own_law, "branch": branch})
+        judge = judge.but(branch=branch)
     first = lattice.candidate.but(**mirrored) if choice is None else choice
     for candidate in (first, judge, *others):
         check(scene, candidate, large)
@@ -293,6 +304,12 @@ def compare(
         starting(name)
         solutions.append(answer(scene, candidate, name, progress=progress))
         finished(solutions[-1])
+    laws = apart = ""
+    several = begun = False
+    one_branch = branches.joined(scene, first, judge, *solutions[:2])
+    if one_branch is not None:
+        several, begun = True, one_branch[1] is not solutions[1]
+        solutions[0], solutions[1], apart = one_branch
 
     def also(other: Candidate) -> Solution | None:
         if not (large or has_room(scene, other)):
@@ -301,19 +318,20 @@ def compare(
 
     expected = expected_error(scene, first, solutions[0], also)
     bar = None
-    if (reference in CHEAP if uncertainty is None else uncertainty) and solutions[1].comparable:
+    alone = begun or solutions[1].status is Status.UNSTABLE  # coarser meshes may be on another branch
+    asked = reference in CHEAP if uncertainty is None else uncertainty
+    if asked and solutions[1].comparable and not alone:
         starting(f"{reference} on coarser meshes")
 
         def coarser(n: Elements) -> Solution:
             return answer(scene, judge.but(elements=n), progress=progress)
 
         bar = error_bar(scene, solutions[1], elements, coarser)
-    laws = apart = ""
     if first.model == "lumped":
         laws = strain_law.said(scene, first, tuple(solutions), None if bar is None else bar.error)
         within = None if bar is None else bar.error
-        apart = far_apart.said(scene, first, tuple(solutions), error, within, also)
-    return Comparison(scene, tuple(solutions), bar, laws, apart, expected)
+        apart = apart or far_apart.said(scene, first, tuple(solutions), error, within, also)
+    return Comparison(scene, tuple(solutions), bar, laws, apart, expected, several)
 
 
 def _unlike(name: str, taken: Collection[str]) -> str:

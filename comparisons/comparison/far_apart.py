@@ -83,7 +83,7 @@ def reasons(scene: Scene, lattice: Candidate, first: Solution, reference: Soluti
     layer = min(layers(scene), default=None)
     if layer is not None and layer.width < cell:
         found.append(f"{layer}, {layer.width / cell:.2g} cells of {1e3 * cell:.3g} mm")
-    asked = {k: v for k, v in lattice.settings.items() if k not in ("linear", "symmetry")}
+    asked = {k: v for k, v in lattice.settings.items() if k not in ("linear", "symmetry", "branch")}
     moduli = scene_springs(scene, **asked)[0].as_dict()["moduli"]
     off = [(abs(row["got"] / row["asked"] - 1.0), row["name"]) for row in moduli if row["asked"]]
     if (missed := max(off, default=(0.0, "")))[0] > MISSED:

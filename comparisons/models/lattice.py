@@ -12,8 +12,9 @@ from comparisons.models.grading import fixed
 from comparisons.models.grids import scene_grid
 from comparisons.models.springs import calibrate, check_lattice, has_own_springs, scene_springs
 from comparisons.models.symmetry import by_parts, cut_axes
+from sheetbench.choices import BRANCHES
 from sheetbench.scenes import Iteration, Scene, Solution
-from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.errors import BadInput, require_choice
 from sheetbench.scenes.grading import mirrored
 
 ASIDE = ("training", "large", "progress")  # of `calibrate`, but no settings
@@ -22,22 +23,26 @@ Watch = Callable[[Iteration], None]  # called once an iteration
 Solve = Callable[[Watch | None], Solution]
 
 
-def lattice(scene: Scene, *, linear: bool = False, symmetry: bool = False, **settings: Any) -> Solve:
+def lattice(
+    scene: Scene, *, linear: bool = False, symmetry: bool = False, branch: str = "path", **settings: Any
+) -> Solve:
     """The lattice with the settings of `scene_springs`, ready to be solved.
 
     linear: one step with the flat sheet's tangent. symmetry: solve a half or a quarter where scene and grid
-    allow it (see `comparisons.models.symmetry`).
+    allow it (see `comparisons.models.symmetry`). branch: one of `choices.BRANCHES`.
     """
     import lumped
 
     springs, because = scene_springs(scene, **settings)
-    axes = cut_axes(scene, springs.grid, masses=True) if symmetry else []
+    axes = cut_axes(scene, springs.grid, masses=True) if symmetry and branch == "path" else []
     axes = [axis for axis in axes if mirrored(springs.grading, axis)]
     for axis in axes:
         springs = springs.halved(axis)
 
     def answer(part: Scene, watch: Watch | None) -> Solution:
-        solution = lumped.solve(part, springs, linear=linear, progress=watch)
+        solution = lumped.solve(
+            part, springs, linear=linear, branch="stable" if branch == "buckled" else "path", progress=watch
+        )
         return replace(solution, settings={**solution.settings, **because})
 
     return lambda watch: by_parts(scene, axes, partial(answer, watch=watch))
@@ -46,6 +51,7 @@ def lattice(scene: Scene, *, linear: bool = False, symmetry: bool = False, **set
 def check_settings(scene: Scene, settings: Mapping[str, Any]) -> None:
     """Raise BadInput for settings of a lattice that it does not have or cannot use on this scene."""
     require_known("lumped", settings, calibrate, lattice)
+    require_choice("branch", settings.get("branch", "path"), BRANCHES)
     check_lattice(*(settings.get(name) for name in ("calibration", "k", "layer_distance", "grading")))
     grid = scene_grid(scene, settings.get("grid"))
     if has_own_springs(scene, **settings):

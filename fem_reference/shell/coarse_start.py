@@ -8,6 +8,8 @@ the end, where the path from the flat sheet takes five.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from skfem import MeshQuad
 
@@ -19,6 +21,8 @@ from fem_reference.solving.equilibrium import Start
 from fem_reference.solving.path import Path
 from fem_reference.surface.location import interpolate
 from sheetbench.scenes import Scene, Status
+
+Shape = Callable[[np.ndarray], np.ndarray]
 
 COARSER = 4  # times as many elements along a side
 FINE = 8  # elements along the shorter side, from which on a coarse one saves more than it takes
@@ -56,4 +60,17 @@ def start(
     change = np.array([displacement, director - UP])
     rest, no_rods = structure.rest(), np.zeros_like(structure.rods.elements.stiffness)
     found = State(change, rest.aside, finer.stress(stretched), no_rods)
+    return Start(found, 1.0, structure.length(rest, found), structure.potential(found, 1.0)[1])
+
+
+def shaped(shape: Shape, structure: ShellStructure, nodes: np.ndarray) -> Start[State]:
+    """The state of a shell without membrane stress in a shape: the displacement (k, 3) [m] of what lies at
+    (k, 3) [m] in the flat sheet, on its normals; nodes: (n, 2) [m]."""
+    flat, over = (np.column_stack([nodes, np.full(len(nodes), height)]) for height in (0.0, 1.0))
+    displacement = shape(flat)
+    rest, element = structure.rest(), structure.element
+    no_rods = np.zeros_like(structure.rods.elements.stiffness)
+    no_stress = np.zeros(element.stiffness.shape[:2])
+    change = np.array([displacement, shape(over) - displacement])
+    found = State(change, rest.aside, element.stress(no_stress), no_rods)
     return Start(found, 1.0, structure.length(rest, found), structure.potential(found, 1.0)[1])

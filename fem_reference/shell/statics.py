@@ -16,6 +16,7 @@ from skfem import MeshQuad
 
 from fem_reference.shell import coarse_start
 from fem_reference.shell.balance import balance
+from fem_reference.shell.coarse_start import Shape
 from fem_reference.shell.element import Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
@@ -33,7 +34,7 @@ from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, nodes_of, on_boundary, quarters
-from sheetbench.choices import STRAIN_LAW
+from sheetbench.choices import BRANCHES, STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
@@ -47,7 +48,9 @@ def solve(
     graded: bool = True,
     section: Section | None = None,
     law: str = STRAIN_LAW,
+    branch: str = "path",
     *,
+    near: Shape | None = None,
     progress: Progress | None = None,
 ) -> Solution:
     """The static equilibrium of a scene; elements along the shorter side (near-square), or (nx, ny).
@@ -56,19 +59,28 @@ def solve(
     stretched elements stand, it is divided evenly after all, and `fallback` says so. section: stiffness per
     width, from material and thickness unless given. law: one of `laws.LAWS`. Past limit points under
     conservative loads the path goes on (see `pseudo_transient`), and `snaps` has the load factors at which
-    the sheet snapped. progress: called once an iteration.
+    the sheet snapped. branch: one of `choices.BRANCHES`; "buckled" leaves an unstable equilibrium along its
+    lowest mode for a stable one. near: the shape, as `coarse_start.shaped` takes it, of an equilibrium to be
+    sought from first; where it leads to no stable one, from flat. progress: called once an iteration.
     Raises scenes.SceneError if the supports leave a rigid motion free, BadInput for an unknown law.
     """
     require_static(scene)
+    require_choice("branch", branch, BRANCHES)
+    buckled = branch == "buckled"
     counts = divisions(scene.sheet, elements)
-    run, *spent = _runs(scene, counts, section, law, graded, progress)
+    if near is None:
+        run, *spent = _runs(scene, counts, section, law, graded, progress, buckled=buckled)
+    else:
+        run, spent = _run(mesh_of(scene, counts, graded), scene, section, law, graded, progress, near), []
     fallback = ""
     if run.path.fault is STRETCHED:
         fallback, spent, graded = "divided evenly, for it bends much", [run, *spent], False
-        run = _run(mesh_of(scene, counts, graded), scene, section, law, graded, progress)
+        run = _run(mesh_of(scene, counts, graded), scene, section, law, graded, progress, buckled=buckled)
     settings: dict[str, Any] = {"elements": list(counts), "graded": graded, "law": law}
     if section is not None:
         settings["section"] = section._asdict()
+    if buckled:
+        settings["branch"] = branch
     return _solution(scene, run, f"shell {counts[0]} × {counts[1]}", settings, fallback, spent)
 
 
@@ -100,13 +112,14 @@ def _runs(
     graded: bool,
     progress: Progress | None,
     limit: int = FACTORISATIONS,
+    buckled: bool = False,
 ) -> list[_Run]:
     """The run on a mesh of so many elements, then those on coarser ones that it has begun with."""
     few = coarse_start.coarse(counts, scene)
     begun = [] if few is None else _runs(scene, few, section, law, graded, progress, coarse_start.ENOUGH)
     near = begun[0] if begun and coarse_start.plain(begun[0].path) else None
     mesh = mesh_of(scene, counts, graded)
-    return [_run(mesh, scene, section, law, graded, progress, near, limit), *begun]
+    return [_run(mesh, scene, section, law, graded, progress, near, limit, buckled), *begun]
 
 
 def _run(
@@ -116,21 +129,24 @@ def _run(
     law: str = STRAIN_LAW,
     graded: bool = False,
     progress: Progress | None = None,
-    near: _Run | None = None,
+    near: _Run | Shape | None = None,
     limit: int = FACTORISATIONS,
+    buckled: bool = False,
 ) -> _Run:
     """graded: give up where stretched elements bend too much (see `validity`); near: where to begin; limit:
-    of factorisations."""
+    of factorisations; buckled: as `trace` has it."""
     begin = now()
     structure, nodes = discretise(mesh, scene, section, law)
     solver = DirectSolver(structure.symmetric, fronts=structure.fronts)
     ready = now()
     begin_at: Start[State] | None = None
-    if near is not None:
+    if callable(near):
+        begin_at = coarse_start.shaped(near, structure, nodes)
+    elif near is not None:
         begin_at = coarse_start.start(near.mesh, near.structure, near.path.state, structure, nodes)
     inspect, settle = inspector(scene, structure, solver, graded), settler(structure, solver)
     slenderness = scene.sheet.thickness / structure.lever
-    path = trace(structure, solver, inspect, settle, progress, begin_at, slenderness, limit)
+    path = trace(structure, solver, inspect, settle, progress, begin_at, slenderness, limit, buckled)
     return _Run(mesh, structure, nodes, path, ready - begin, now() - ready)
 
 

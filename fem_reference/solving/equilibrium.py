@@ -30,6 +30,7 @@ from typing import Generic
 
 import numpy as np
 
+from fem_reference.solving.careful import continuous, doubtful
 from fem_reference.solving.path import FACTORISATIONS, Fault, Path, Progress, StepFailed
 from fem_reference.solving.stability import stability
 from fem_reference.solving.structure import Forces, State, Structure
@@ -48,10 +49,7 @@ GROWTH = 4.0
 FIRST_REACH = 8.0  # sizes of the structure that the first linear step may move it
 SMALLEST_STEP = 2.0**-10
 FARTHEST = 1e3  # a step beyond so many sizes of the structure has diverged
-DOUBTFUL = 16  # factorisations from which on a load step may have jumped over a fold
 CAREFUL_REACH = 0.1  # sizes of the structure that a careful linear step may move it
-CONTINUOUS = 0.5  # of a careful linear step: what its equilibrium may be off it
-BRANCHING = 1e-3  # sizes of the structure: linear steps so short may cross a bifurcation
 NEAR = 0.25  # of a start's displacement: an equilibrium farther from it may be on another branch
 SNAPS = 12  # of one path
 SNAP_STEP = 0.01  # in load factor, past the limit point
@@ -68,6 +66,7 @@ def trace(
     near: Start[State] | None = None,
     slenderness: float = 0.0,
     limit: int = FACTORISATIONS,
+    buckled: bool = False,
 ) -> Path[State]:
     """The equilibrium at load factor 1, or the last one on the way with the reason it is the last.
 
@@ -77,6 +76,7 @@ def trace(
     progress: called once an iteration. near: a state close to the equilibrium, to begin at; where that leads
     to none that is stable, the path begins at rest. slenderness: thickness over size; where it is given, the
     factors of a last correction that is next to nothing tell the stability. limit: of factorisations.
+    buckled: leave an unstable equilibrium for the stable one that `settle` leads to.
     """
     with one_blas_thread():
         path = Path(structure.rest(), limit=limit, progress=progress, alike=ALIKE * slenderness**2)
@@ -84,7 +84,7 @@ def trace(
         careful = False
         if near is None or not _arrived(structure, solver, path, inspect, near):
             ended = _follow(structure, solver, path, inspect)
-            careful = not isinstance(ended, Fault) and _doubtful(structure, solver, path)
+            careful = not isinstance(ended, Fault) and doubtful(structure, solver, path)
             if careful:
                 path.state, path.load_factor, path.factor = structure.rest(), 0.0, None
                 path.limit += CAREFUL
@@ -105,6 +105,14 @@ def trace(
             ended = _give_up(structure, solver, path, ended, tried)
         path.fault = ended
         path.status, said = ended or stability(structure, solver, path)
+        if buckled and settle is not None and ended is None and path.status is Status.UNSTABLE:
+            try:
+                path.limit = path.factorisations + FACTORISATIONS
+                path.state, path.factor = settle(path, 1.0), None
+                path.notes.append("begun along the buckling mode of an unstable equilibrium")
+                path.status, said = stability(structure, solver, path)
+            except StepFailed as failure:
+                said = f"{said}; beside it {failure}"
         path.notes.extend([said] if said else [])
         path.factor = None  # an answer is kept longer than that
         return path
@@ -150,7 +158,9 @@ def _follow(
             factor = first.factor if structure.symmetric else None
             state, found = newton(structure, solver, path, first)
             if careful:
-                found, negative = _continuous(structure, solver, path, first, state, found, negative)
+                found, negative = continuous(
+                    structure, solver, path, first, state, found, negative, TOLERANCE
+                )
         except StepFailed as failure:
             size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
             if size < SMALLEST_STEP or path.factorisations >= path.limit:
@@ -164,41 +174,6 @@ def _follow(
         easy = path.factorisations - before <= EASY
         size, reach = (GROWTH * grown, min(GROWTH * reach, farthest)) if easy else (grown, reach)
     return None
-
-
-def _doubtful(structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> bool:
-    """Whether large load steps may have led to another branch: where the equilibrium is unstable, or took
-    long to find."""
-    if not structure.symmetric or path.load_factor == 0.0:
-        return False
-    return path.factorisations > DOUBTFUL or stability(structure, solver, path)[0] is Status.UNSTABLE
-
-
-def _continuous(
-    structure: Structure[State, Forces],
-    solver: DirectSolver,
-    path: Path[State],
-    first: _Predictor[State, Forces],
-    state: State,
-    found: Factor | None,
-    negative: int,
-) -> tuple[Factor | None, int]:
-    """The factors at an equilibrium and their negative eigenvalues. Raises StepFailed where it is on another
-    branch than the one that the step set out from: far from where the linear step led, or past a change of
-    stability by more than a short step."""
-    if structure.length(first.state, state) > max(CONTINUOUS * first.length, TOLERANCE):
-        raise StepFailed(Status.STEP_LIMIT, "the path folds", first.length)
-    if found is None:
-        path.factorisations += 1
-        forces = structure.forces(state, first.target)
-        try:
-            found = solver.factor(structure.system(state, forces, first.target, mixed=False)[0])
-        except SingularMatrix as error:
-            raise StepFailed(Status.SINGULAR, str(error), first.length) from None
-    now = found.inertia.negative if found.inertia is not None else 0
-    if now > negative and first.length > BRANCHING:
-        raise StepFailed(Status.STEP_LIMIT, "the path loses stability", first.length)
-    return found, now
 
 
 def _at_limit_point(path: Path[State], failure: StepFailed) -> bool:

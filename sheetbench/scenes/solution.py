@@ -46,7 +46,10 @@ class Status(StrEnum):
 _FINER = "more masses (--lumped) or elements (--elements) may help, or a lighter load"
 _ADVICE = {
     Status.CONVERGED: "a stable equilibrium",
-    Status.UNSTABLE: "an equilibrium, but not a stable one: a disturbed sheet moves on to another",
+    Status.UNSTABLE: (
+        "an equilibrium, but not a stable one: a disturbed sheet moves on to another, which "
+        "`compare --branch buckled` seeks"
+    ),
     Status.SINGULAR: "the tangent is singular: a limit point, a bifurcation or an unresisted motion",
     Status.STEP_LIMIT: f"no equilibrium within the steps allowed: {_FINER}; the last converged load is kept",
     Status.DIVERGED: f"no equilibrium found: {_FINER}; the last converged load is kept",

@@ -1,0 +1,104 @@
+"""Lattice and reference on the same branch of equilibria, where the scene has several.
+
+Where both are at rest and far apart, the lattice is begun once more in the shell's shape, and else the shell
+in the lattice's: what lies at the height z over the mid-surface is on its normal,
+
+    u(x, y, z) = u(x, y) + z (n − e_z).
+
+The model that stays near there has both equilibria, and that answer takes the place of the one on its own
+load path. Where neither does, there is no such equilibrium on this grid, or the answers are apart for another
+reason (`far_apart`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from comparisons.models.candidate import Candidate
+from comparisons.models.springs import scene_springs
+from sheetbench.scenes import Scene, Solution, Status
+
+FAR = 0.2  # of the largest displacement, from which on another branch is looked for
+SAME = 0.5  # of the difference, by which an answer begun elsewhere must come nearer
+STEP = 1e-3  # of the shorter side, over which the mid-surface's slope is taken
+
+
+def joined(
+    scene: Scene, lattice: Candidate, judge: Candidate, first: Solution, reference: Solution
+) -> tuple[Solution, Solution, str] | None:
+    """Both answers on one branch, and a sentence; None where they are near each other, where one is not a
+    stable equilibrium, or where neither model has the other's."""
+    if lattice.model != "lumped":
+        return None
+    plain = not ({"linear", "symmetry"} & lattice.settings.keys()) and not scene.actuators
+    points = scene.probe_points()
+    own, right = first.displacement(points), reference.displacement(points)
+    if not far(own, right) or not plain or not first.status is reference.status is Status.CONVERGED:
+        return None
+    import fem_reference
+    import lumped
+
+    asked = {key: value for key, value in lattice.settings.items() if key != "branch"}
+    springs, _ = scene_springs(scene, **asked)
+    again = lumped.solve(scene, springs, near=shape(scene, reference, first.mesh.points))
+    if _on_branch(again, points, right, own):
+        return _begun(again, first, reference), reference, _said(first, reference, own, right)
+    if reference.model != "shell" or "symmetry" in judge.settings:
+        return None
+    asked = {key: value for key, value in judge.settings.items() if key != "branch"}
+    again = fem_reference.solve(
+        scene, model="shell", near=lambda places: shape(scene, first, places), **asked
+    )
+    if _on_branch(again, points, own, right):
+        return first, _begun(again, reference, first), _said(reference, first, right, own)
+    return None
+
+
+def far(u: np.ndarray, other: np.ndarray) -> bool:
+    """Whether displacements at the probes (n, 3) [m] are so far from others that branches may differ."""
+    return bool(np.abs(u - other).max() > FAR * np.abs(other).max())
+
+
+def _on_branch(again: Solution, points: np.ndarray, there: np.ndarray, here: np.ndarray) -> bool:
+    """Whether an answer is stable, and nearer to one set of displacements at the probes than to another."""
+    u = again.displacement(points)
+    gap = np.abs(there - here).max()
+    return again.status is Status.CONVERGED and bool(np.abs(u - there).max() < SAME * gap)
+
+
+def _begun(again: Solution, before: Solution, other: Solution) -> Solution:
+    """A model's answer begun in another's shape, in the place of its own."""
+    settings = {**before.settings, "begun": other.model}
+    return replace(again, model=before.model, settings=settings, setup_seconds=before.setup_seconds)
+
+
+def _said(moved: Solution, kept: Solution, own: np.ndarray, other: np.ndarray) -> str:
+    own_path = f"on its own load path {moved.model} comes to {_largest(own)} mm"
+    return (
+        f"{moved.model} and {kept.model} came to different branches of equilibria: "
+        f"{own_path} where {kept.model} comes to {_largest(other)} mm. "
+        f"Begun in the shape of {kept.model}, {moved.model} has that equilibrium too, and is shown there."
+    )
+
+
+def shape(scene: Scene, reference: Solution, places: np.ndarray) -> np.ndarray:
+    """Displacement (n, 3) [m] of what lies at (n, 3) [m] in the flat sheet, in a solution's shape."""
+    plan, lengths = places[:, :2], np.array(scene.sheet.lengths)
+    step = STEP * lengths.min()
+    slopes = []
+    for axis in range(2):
+        low, high = plan.copy(), plan.copy()
+        low[:, axis] = np.maximum(plan[:, axis] - step, 0.0)
+        high[:, axis] = np.minimum(plan[:, axis] + step, lengths[axis])
+        change = reference.displacement(high) - reference.displacement(low)
+        slopes.append(change / (high - low)[:, axis, None] + np.eye(3)[axis])
+    normal = np.cross(*slopes)
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    moved: np.ndarray = reference.displacement(plan) + places[:, 2:] * (normal - [0.0, 0.0, 1.0])
+    return moved
+
+
+def _largest(u: np.ndarray) -> str:
+    return f"{1e3 * float(u.flat[np.abs(u).argmax()]):.3g}"

@@ -1,0 +1,47 @@
+"""Several equilibria in one comparison: one branch for all, unstable answers, buckled branches."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from comparisons.comparison.comparison import compare
+from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, Status
+
+BENT = Scene(
+    name="bent", sheet=Sheet(length_x=0.15, length_y=0.15, thickness=0.002),
+    material=Material(young=1e7, poisson=0.45, density=912.0),
+    gravity=Gravity(acceleration=(0.0, 0.0, -9.81)), supports=(Curved(edge="x0", curvature=-8.0),),
+    probes={"P3": (0.15, 0.075)},
+)  # fmt: skip
+COLUMN = Scene(
+    name="column", sheet=Sheet(length_x=0.1, length_y=0.05, thickness=0.001),
+    material=Material(young=5e6, poisson=0.0, density=1100.0), supports=(Clamped(edge="x0"),),
+    loads=(EdgeLoad(edge="x1", force_per_length=(-0.13, 0.0, 0.0)),), probes={"tip": (0.1, 0.025)},
+)  # fmt: skip
+
+
+def test_the_model_that_has_both_equilibria_is_shown_on_the_others_branch() -> None:
+    found = compare(BENT, grid=9, elements=8, uncertainty=False, companion=False)
+    lattice, shell = found.solutions
+    assert lattice.status is shell.status is Status.CONVERGED
+    assert found.several and "different branches of equilibria" in found.apart
+    assert found.error(lattice) < 0.5
+    document = found.as_dict()["solutions"]
+    assert {one["branch"] for one in document} == {"path", "of lumped"}
+    assert np.abs(found.probes(shell)["P3"][2]) < 0.015  # not hanging down
+
+
+@pytest.mark.parametrize("branch", ["path", "buckled"])
+def test_a_perfect_column_has_no_error_until_it_is_let_buckle(branch) -> None:
+    found = compare(COLUMN, grid=3, elements=2, branch=branch, companion=False)
+    lattice, shell = found.solutions
+    assert {one["branch"] for one in found.as_dict()["solutions"]} == {branch} or branch == "buckled"
+    if branch == "path":
+        assert lattice.status is shell.status is Status.UNSTABLE
+        assert found.error(lattice) is None and found.bar is None
+        assert all(difference.relative is None for difference in found.differences)
+        assert "--branch buckled" in lattice.status.advice
+    else:
+        assert lattice.status is shell.status is Status.CONVERGED
+        assert found.error(lattice) < 0.2

@@ -14,18 +14,21 @@ import pytest
 from campaigns import Here, rows_in
 from commands import one_line, run
 
+import lumped
 from comparisons.models import candidate as candidates
 from comparisons.models.candidate import Candidate, lattices, parse_model, series
+from comparisons.models.springs import LatticeSpec
 from comparisons.report import table as tables
 from comparisons.report.files import to_json
+from comparisons.runs import load
 from comparisons.runs.campaign import campaign
 from comparisons.runs.store import FILE
 from comparisons.tradeoff import timing
-from comparisons.tradeoff.motion import dynamic_tradeoff
-from comparisons.tradeoff.motion_row import oscillation
+from comparisons.tradeoff.motion import SHARES, dynamic_tradeoff, explicit_limit, folded
+from comparisons.tradeoff.motion_row import MotionRow, oscillation
 from comparisons.tradeoff.pareto import front, grouped, order
 from sheetbench import scenes
-from sheetbench.scenes import Scene, Sheet
+from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
 from sheetbench.scenes.errors import BadInput
 
 SMALL = [
@@ -185,7 +188,7 @@ def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path: Path
             scene,
             0.6,
             store,
-            grid=(3, 3, 2),
+            lattice=LatticeSpec(grid=(3, 3, 2)),
             integrators=("generalised-alpha", "midpoint"),
             divisions=(40, 80, 160),
             reference=800,
@@ -230,3 +233,66 @@ def test_a_scheduler_is_asked_for_a_motion_too(capsys: pytest.CaptureFixture[str
     address = ("--scheduler", "tcp://127.0.0.1:9")
     assert run("tradeoff", "two-edges-settling", "--duration", "0.1", *address) == 2
     assert "no scheduler there" in one_line(capsys)
+
+
+def test_the_trade_of_a_motion_is_of_one_lattice(tmp_path: Path) -> None:
+    """The scene's own springs, four times as stiff: limit, period and runs are all of them."""
+    scene = scenes.load("two-edges-settling")
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=3)
+    stiff = {name: 4.0 * k for name, k in springs.as_dict()["springs"].items() if isinstance(k, float)}
+    table = {**stiff, "layer_distance": springs.layer_distance, "grid": [3, 3, 2]}
+    own = scene.replace(springs=table)
+    names = ("verlet-implicit-damping",)
+    options = {"integrators": names, "reference": 400, "pool": Here}
+    with campaign(tmp_path) as store:
+        found = dynamic_tradeoff(own, 0.02, store, **options)
+        k_given = dynamic_tradeoff(scene, 0.02, store, lattice=LatticeSpec(3, k=800.0), **options)
+    limit = explicit_limit(names[0], own, lumped.given(own))
+    assert limit < 0.7 * explicit_limit(names[0], own, springs)
+    assert [row.step for row in found.rows] == [pytest.approx(share * limit) for share in SHARES]
+    assert all(row.status == "converged" for row in (*found.rows, *k_given.rows))
+    assert k_given.lattice == "lumped 3×3×2 uniform"
+
+
+def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until_a_row_converges(
+    tmp_path: Path,
+) -> None:
+    """A soft strip of 120 by 40 mm swings in 1.8 s while it is flat, in a quarter of that where it hangs."""
+    sheet = Sheet(length_x=0.12, length_y=0.04, thickness=0.002)
+    material = Material(young=0.6e6, poisson=0.45, density=1100.0)
+    strip = Scene(
+        name="strip",
+        sheet=sheet,
+        material=material,
+        gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
+        support=(Clamped(edge="x0"),),
+    )
+    springs = lumped.calibrate(sheet, material, grid=3)
+    flat = 1.0 / float(lumped.modes(strip, springs, 1, springs.masses).frequencies[0])
+    options = {"lattice": LatticeSpec(3), "integrators": ("esdirk",), "reference": 800, "pool": Here}
+    with campaign(tmp_path) as store:
+        found = dynamic_tradeoff(strip, 0.1, store, divisions=(4,), **options)
+    assert found.lowest_period < 0.5 * flat
+    assert any(row.status == "converged" for row in found.rows)
+    assert len(found.rows) == 1 or found.rows[0].status != "converged"
+
+
+def test_equal_complaints_are_one_line() -> None:
+    ended = [
+        MotionRow("esdirk", step, "diverged", f"at {time} s: use smaller steps")
+        for step, time in ((0.02, 0.1), (0.01, 0.2))
+    ]
+    fine = MotionRow("esdirk", 0.005, "converged", "")
+    other = MotionRow("midpoint", 0.02, "diverged", "use smaller steps")
+    assert folded([*ended, fine, other]) == (
+        "esdirk, steps 20, 10 ms: diverged: use smaller steps",
+        "midpoint, step 20 ms: diverged: use smaller steps",
+    )
+
+
+def test_times_under_load_and_samples_that_scatter_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("os.cpu_count", lambda: 2)
+    assert load.warnings([0.5, 2.0, None], [(1.0, 1.9), (1.0,)]) == []
+    busy, wide = load.warnings([0.5, 20.0], [(1.0, 3.0), (1.0, 1.1)])
+    assert busy.startswith("1 of 2 times were taken under a load of up to 20 on 2 processors")
+    assert wide.startswith("samples of 1 of 2 times scatter by more than 2, by up to 3")

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from comparisons.tradeoff.statics import Tradeoff
 
 GRIDS, PAIRS = "3,5,9,17,33", "5:9,9:17"
+USUAL = f"{CALIBRATION},uniform"
 
 
 def command(
@@ -57,11 +58,24 @@ def command(
     ] = None,
     grading: Grading = None,
     calibration: Annotated[
-        str,
+        str | None,
         typer.Option(
-            metavar="NAMES", help=f"Calibrations of every grid: {listed(CALIBRATIONS)}; auto: by the scene."
+            metavar="NAMES",
+            help=f"Calibrations of every grid: {listed(CALIBRATIONS)}; auto: by the scene. {USUAL} unless "
+            "given; with --duration one.",
+            show_default=False,
         ),
-    ] = f"{CALIBRATION},uniform",
+    ] = None,
+    k: Annotated[
+        float | None,
+        typer.Option("--k", metavar="N/M", help="With --duration: stiffness of every spring; means uniform."),
+    ] = None,
+    layer_distance: Annotated[
+        float | None,
+        typer.Option(
+            "--layer-distance", metavar="M", help="With --duration: distance of the lattice's layers."
+        ),
+    ] = None,
     plate: Annotated[
         str,
         typer.Option(metavar="ELEMENTS", help="Elements of the linear plate along the shorter side, or NxM."),
@@ -121,15 +135,23 @@ def command(
     from comparisons.cli.finish import finish
     from comparisons.comparison.comparison import load_static
     from comparisons.models.candidate import items
+    from comparisons.models.springs import LatticeSpec
     from comparisons.tradeoff.asked import of_motion, of_statics
     from sheetbench.scenes import load
+    from sheetbench.scenes.errors import BadInput
 
     measure: Callable[..., Tradeoff | DynamicTradeoff]
     if duration is not None:
         asked = load(scene)
-        measure = of_motion(asked, duration, lumped, integrator, grading)
+        lattice = LatticeSpec(lumped, calibration, k, layer_distance, grading)
+        measure = of_motion(asked, duration, lattice, integrator)
     else:
+        if k is not None or layer_distance is not None:
+            raise BadInput(
+                "--k, --layer-distance: go with --duration; else give --model lumped:k=550"
+            )
         asked = load_static(scene)
+        calibration = calibration or USUAL
         grids = GRIDS if lumped is None else lumped
         if lumped_pair is None:
             usual = lumped is None and not {CALIBRATION, AUTO}.isdisjoint(items(calibration))

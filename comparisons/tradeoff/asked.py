@@ -9,6 +9,7 @@ from comparisons.models.candidate import Candidate, items, lattices, pairs, pars
 from comparisons.models.grading import Grading, graded
 from comparisons.models.grids import parse_elements
 from comparisons.models.method import named
+from comparisons.models.springs import LatticeSpec
 from comparisons.tradeoff.motion import DynamicTradeoff, dynamic_tradeoff
 from comparisons.tradeoff.statics import Tradeoff, tradeoff
 from sheetbench.choices import REFERENCE
@@ -59,10 +60,8 @@ def _halved_too(text: str) -> int | list[int]:
 
 
 def of_motion(
-    scene: Scene, duration: float, grid: str | None, integrators: str, grading: Grading = None
+    scene: Scene, duration: float, lattice: LatticeSpec, integrators: str
 ) -> Callable[..., DynamicTradeoff]:
     """The trade of a motion over `duration` [s]: integrators and steps, on one lattice. Raises BadInput."""
     require_positive("--duration", duration, "s")
-    return partial(
-        dynamic_tradeoff, scene, duration, grid=grid, grading=grading, integrators=items(integrators)
-    )
+    return partial(dynamic_tradeoff, scene, duration, lattice=lattice, integrators=items(integrators))

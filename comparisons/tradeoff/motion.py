@@ -7,40 +7,45 @@ Of P4 (or the probe that moves most), over the whole run and against the finest 
     damping   ratio ζ from the logarithmic decrement of successive maxima above the mean, ln(a₁/aₙ)/2π(n − 1)
 
 Cost is the solver's time per simulated second. The reference is the energy-conserving midpoint rule with
-`REFERENCE` steps in the lowest period; its uncertainty its distance from half as many, an upper bound for any
-order above one. Steps are the lowest period over `divisions`; the explicit integrator takes shares of its
-stability limit instead.
+`REFERENCE` steps in the period; its uncertainty its distance from half as many, an upper bound for any order
+above one. Steps are the period over `divisions`, the period being the lowest mode's about the flat sheet or
+about its equilibrium, the shorter of the two: a sheet that hangs is stiffer than it was flat. Where an
+integrator converges with none of them its steps are halved until it does, down to the reference's. Explicit
+integrators take shares of their stability limit instead. Springs, period, limit and runs are of one lattice.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from math import inf
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from comparisons.models.candidate import Candidate
-from comparisons.models.grading import Grading, grading_of, plain
-from comparisons.models.grids import Asked, scene_grid
+from comparisons.models.grading import plain
 from comparisons.models.registry import check, simulate
+from comparisons.models.springs import LatticeSpec, resolve
 from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
-from comparisons.runs import manifest
+from comparisons.runs import load, manifest
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
-from comparisons.runs.store import Store
+from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff.motion_row import MotionRow, measured_row
 from comparisons.tradeoff.pareto import error_order, front, grouped
 from sheetbench.choices import INTEGRATORS
-from sheetbench.scenes import Scene, Status
-from sheetbench.scenes.errors import require_choice
-from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.grid import Grid
+from sheetbench.scenes import Scene, SceneError, Status
+from sheetbench.scenes.errors import NoEquilibrium
 from sheetbench.scenes.quantities import require_positive
+
+if TYPE_CHECKING:
+    from lumped import Calibration
 
 DIVISIONS = (20, 40, 100, 200, 400)  # steps in the lowest period
 SHARES = (0.9, 0.45)  # of the explicit integrator's limit
@@ -50,7 +55,8 @@ SAMPLES = 20  # in the lowest period; no step is longer than the time between sa
 
 @dataclass(frozen=True)
 class DynamicTradeoff:
-    """A row per integrator and step, the reference that they are measured against; lowest period [s]."""
+    """A row per integrator and step, the reference that they are measured against; lowest_period [s]: about
+    the flat sheet or its equilibrium, the shorter; lattice: what all runs are of."""
 
     scene: Scene
     duration: float
@@ -59,6 +65,12 @@ class DynamicTradeoff:
     reference: MotionRow
     uncertainty: float | None
     reasons: tuple[str, ...] = ()
+    lattice: str = ""
+
+    @property
+    def warnings(self) -> list[str]:
+        """What to hold against the times."""
+        return load.warnings([row.load_average for row in self.rows])
 
     @property
     def front(self) -> list[int]:
@@ -81,6 +93,8 @@ class DynamicTradeoff:
             "scene": self.scene.document(),
             "duration": self.duration,
             "lowest_period": self.lowest_period,
+            "lattice": self.lattice,
+            "warnings": self.warnings,
             "rows": [row.as_dict() for row in self.rows],
             "front": self.front,
             "orders": [{"series": name, "error_order": slope} for name, slope in self.orders.items()],
@@ -97,17 +111,15 @@ class DynamicTradeoff:
             document=self.as_dict(),
             tables=(self.table(),),
             notes=(
+                f"{self.lattice}; lowest period {self.lowest_period:.4g} s; uncertainty of the reference "
+                f"{known}",
                 *self.reasons,
-                f"lowest period {self.lowest_period:.4g} s; uncertainty of the reference {known}",
+                *self.warnings,
             ),
             pictures=(Picture(("motion.png", "motion.pdf"), self._draw),)
             if any(r.error for r in self.rows)
             else (),
-            complaints=tuple(
-                f"{row.integrator}, step {row.step:.3g} s: {row.status}: {row.message}"
-                for row in self.rows
-                if row.status != Status.CONVERGED
-            ),
+            complaints=folded([*self.rows, self.reference]),
             scene=self.scene,
             settings={"duration": self.duration},
         )
@@ -151,19 +163,32 @@ class DynamicTradeoff:
         return Table(caption, columns, found, "motion")
 
 
+def folded(rows: Sequence[MotionRow]) -> tuple[str, ...]:
+    """A line for all steps of an integrator that ended alike."""
+    ends: dict[tuple[str, str, str], list[MotionRow]] = {}
+    for row in rows:
+        if row.status != Status.CONVERGED:
+            why = re.sub(r"^at [\d.e+-]+ s: ", "", row.message)
+            ends.setdefault((row.integrator, row.status, why), []).append(row)
+    return tuple(
+        f"{integrator}, {'steps' if len(alike) > 1 else 'step'} "
+        f"{', '.join(f'{1e3 * row.step:.3g}' for row in alike)} ms: {status}: {why}"
+        for (integrator, status, why), alike in ends.items()
+    )
+
+
 def measure(
     scene: dict[str, Any],
-    grid: list[int],
+    lattice: dict[str, Any],
     integrator: str,
     step: float,
     duration: float,
     every: float,
-    grading: Grading = None,
 ) -> dict[str, Any]:
     """Task: one run and what it cost; the history of the probes included."""
     asked = Scene.model_validate(scene)
-    common: dict[str, Any] = {"grid": (grid[0], grid[1], grid[2]), "integrator": integrator, "every": every}
-    common |= {"grading": grading, "large": True}  # `dynamic_tradeoff` has looked at the size
+    common: dict[str, Any] = {**lattice, "integrator": integrator, "every": every}
+    common |= {"large": True}  # `dynamic_tradeoff` has looked at the size
     simulate(asked, 2.0 * every, **common, step=step)  # warm
     history = simulate(asked, duration, **common, step=step)
     return {
@@ -173,6 +198,7 @@ def measure(
         "solve_seconds": history.solve_seconds,
         "time": history.time,
         "probes": history.probes,
+        "load_average": load.average(),
         "machine": manifest.machine(),
         "versions": {"sheetbench": manifest.version(), **manifest.versions()},
     }
@@ -183,8 +209,7 @@ def dynamic_tradeoff(
     duration: float,
     store: Store,
     *,
-    grid: Asked = None,
-    grading: Grading = None,
+    lattice: LatticeSpec = LatticeSpec(),  # noqa: B008  # frozen
     integrators: Sequence[str] = tuple(sorted(INTEGRATORS)),
     divisions: Sequence[int] = DIVISIONS,
     reference: int = REFERENCE,
@@ -194,33 +219,32 @@ def dynamic_tradeoff(
     large: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> DynamicTradeoff:
-    """Measure every integrator at every step on a lattice of consistent springs.
+    """Measure every integrator at every step on one lattice.
 
     retry: what failed or was lost before is run again. large: even if it takes more memory than there is.
     Raises BadInput for an integrator that does not exist. A run that diverges is a row with its status.
     """
     import lumped
+    from lumped.dynamics.integrators import require_integrator
 
     require_positive("duration", duration, "s")
     for name in integrators:
-        require_choice("integrator", name, INTEGRATORS)
-    shape = scene_grid(scene, grid)
-    check(scene, Candidate("lumped", {"grid": shape, "grading": grading}), large)
-    number, why = grading_of(scene, shape, grading)
-    graded = number or 0.0
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=shape, grading=graded)
-    period = 1.0 / float(lumped.modes(scene, springs, 1).frequencies[0])
-    every = period / SAMPLES
+        require_integrator(name)
+    check(scene, lattice.candidate, large)
+    meant = resolve(scene, lattice)
+    springs = meant.springs(scene)
+    period = shortest_period(scene, springs)
+    kept: dict[str, Any] = {"grid": list(meant.grid), "calibration": meant.calibration, **meant.options}
+    kept |= {} if meant.grading is None else {"grading": plain(meant.grading)}
 
     def run(integrator: str, step: float, timed: bool) -> Run:
         arguments = {
             "scene": scene.document(),
-            "grid": list(shape),
+            "lattice": kept,
             "integrator": integrator,
             "step": step,
             "duration": duration,
-            "every": every,
-            **({"grading": plain(graded)} if graded else {}),
+            "every": period / SAMPLES,
         }
         return Run("motion", arguments, f"{integrator} {step:.3g} s", timed)
 
@@ -228,26 +252,56 @@ def dynamic_tradeoff(
     asked = []
     for name in integrators:
         if lumped.INTEGRATORS[name].explicit:
-            limit = explicit_limit(name, scene, shape, graded)
+            limit = explicit_limit(name, scene, springs)
             asked += [run(name, share * limit, True) for share in SHARES]
         else:
             asked += [run(name, period / n, True) for n in divisions]
-    found = carry_out([*judges, *asked], store, workers=workers, pool=pool, retry=retry, progress=progress)
-    truth = found[0]
-    rows = tuple(
-        measured_row(r, outcome, truth, duration) for r, outcome in zip(asked, found[2:], strict=True)
+    carried = partial(carry_out, store=store, workers=workers, pool=pool, progress=progress)
+    truth, half, *found = carried([*judges, *asked], retry=retry)
+    finer = 2 * max(divisions)
+    while finer <= reference and (names := _unsolved(asked, found)):
+        more = [run(name, period / finer, True) for name in names]
+        found += carried(more)
+        asked += more
+        finer *= 2
+    rows = [measured_row(r, outcome, truth, duration) for r, outcome in zip(asked, found, strict=True)]
+    return DynamicTradeoff(
+        scene,
+        duration,
+        period,
+        tuple(sorted(rows, key=lambda row: integrators.index(row.integrator))),
+        measured_row(judges[0], truth, truth, duration),
+        measured_row(judges[1], half, truth, duration).error,
+        tuple(f"{name.removesuffix('_reason')}: {why}" for name, why in meant.reasons.items()),
+        f"lumped {springs.title}",
     )
-    uncertainty = measured_row(judges[1], found[1], truth, duration).error
-    judge = measured_row(judges[0], truth, truth, duration)
-    reasons = (f"grading {graded:g}: {why}",) if why else ()
-    return DynamicTradeoff(scene, duration, period, rows, judge, uncertainty, reasons)
 
 
-def explicit_limit(integrator: str, scene: Scene, grid: Grid, grading: Graded = 0.0) -> float:
+def _unsolved(asked: Sequence[Run], found: Sequence[Finished]) -> list[str]:
+    """The implicit integrators that converged with no step so far."""
+    import lumped
+
+    ended: dict[str, set[str]] = {}
+    for one, outcome in zip(asked, found, strict=True):
+        ended.setdefault(one.arguments["integrator"], set()).add(outcome.status)
+    implicit = [name for name in ended if not lumped.INTEGRATORS[name].explicit]
+    return [name for name in implicit if not ended[name] & {Status.CONVERGED, Status.REFUSED}]
+
+
+def shortest_period(scene: Scene, springs: Calibration) -> float:
+    """The lowest mode's period [s] about the flat sheet or about its equilibrium, the shorter."""
+    import lumped
+
+    found = [lumped.modes(scene, springs, 1, springs.masses)]
+    with suppress(NoEquilibrium, SceneError):  # where there is none, the flat sheet's it is
+        found.append(lumped.modes(scene, springs, 1, springs.masses, "deformed"))
+    return 1.0 / max(float(modes.frequencies[0]) for modes in found)
+
+
+def explicit_limit(integrator: str, scene: Scene, springs: Calibration) -> float:
     """Stability limit [s] of an explicit integrator about the flat sheet."""
     import lumped
 
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=grid, grading=grading)
     problem = lumped.pose(scene, springs)
     system, flat = lumped.System(scene, problem), np.zeros_like(problem.loads.dead)
     limit = lumped.INTEGRATORS[integrator].limit(system, flat)

@@ -34,6 +34,7 @@ class MotionRow:
     period_error: float | None = None
     damping: float | None = None
     damping_error: float | None = None
+    load_average: float | None = None
     machine: Mapping[str, Any] | None = None
     versions: Mapping[str, Any] | None = None
 
@@ -69,6 +70,7 @@ def measured_row(run: Run, outcome: Finished, truth: Finished, duration: float) 
         period_error=None if period is None or true_period is None else period / true_period - 1.0,
         damping=damping,
         damping_error=None if damping is None or true_damping is None else damping - true_damping,
+        load_average=outcome.row.get("load_average"),
         machine=outcome.row["machine"],
         versions=outcome.row["versions"],
     )

@@ -13,7 +13,14 @@ from comparisons.runs.campaign import Run
 from comparisons.runs.store import Finished
 from sheetbench.scenes import Scene
 
-_OF_AN_ANSWER = ("load_factor", "probes", "machine", "versions", "traceback")  # told where they are known
+_OF_AN_ANSWER = (
+    "load_factor",
+    "load_average",
+    "probes",
+    "machine",
+    "versions",
+    "traceback",
+)  # told where they are known
 
 
 @dataclass(frozen=True)
@@ -44,6 +51,7 @@ class TradeoffRow:
     bar: float | None = None
     load_factor: float | None = None
     probes: Mapping[str, Any] | None = None
+    load_average: float | None = None
     machine: Mapping[str, Any] | None = None
     versions: Mapping[str, Any] | None = None
     traceback: str | None = None

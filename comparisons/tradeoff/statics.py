@@ -23,6 +23,7 @@ from comparisons.comparison.comparison import error as probe_error
 from comparisons.models.candidate import Candidate
 from comparisons.models.registry import check
 from comparisons.report.report import Report
+from comparisons.runs import load
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
@@ -86,9 +87,17 @@ class Tradeoff:
             time_order=order([row.unknowns or 0 for row in rows], [row.seconds or 0.0 for row in rows]),
         )
 
+    @property
+    def warnings(self) -> list[str]:
+        """What to hold against the times."""
+        return load.warnings(
+            [row.load_average for row in self.rows], [row.solve_seconds for row in self.rows]
+        )
+
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench tradeoff`."""
         return {
+            "warnings": self.warnings,
             "scene": self.scene.document(),
             "rows": [row.as_dict() for row in self.rows],
             "front": self.front,

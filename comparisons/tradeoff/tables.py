@@ -33,7 +33,7 @@ def report(found: Tradeoff) -> Report:
         subtitle=found.scene.title,
         document=found.as_dict(),
         tables=(rows(found), orders(found)),
-        notes=(*found.reasons, explanation(found)),
+        notes=(*found.reasons, explanation(found), *found.warnings),
         complaints=tuple(complaints),
         pictures=tuple(pictures if any(row.error for row in found.rows) else ()),
         scene=found.scene,

@@ -23,7 +23,7 @@ import numpy as np
 from comparisons.comparison.comparison import error
 from comparisons.models import plugins
 from comparisons.models import registry as models
-from comparisons.runs import manifest
+from comparisons.runs import load, manifest
 from comparisons.runs.campaign import Run
 from sheetbench.scenes import Scene, Sheet, Solution, Status
 
@@ -90,6 +90,7 @@ def measure(
         "bar": None if solution.bar is None else error(probes + solution.bar(points), probes),
         "probes": dict(zip(asked.probes, probes, strict=True)),
         "field": solution.displacement(field_points(asked.sheet)[0]),
+        "load_average": load.average(),
         "machine": manifest.machine(),
         "versions": {"sheetbench": manifest.version(), **manifest.versions()},
     }

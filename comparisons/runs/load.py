@@ -1,0 +1,38 @@
+"""Whether times were taken on a busy machine: its load, and how far samples of one time scatter."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+
+SCATTER = 2.0  # largest over smallest sample of one time
+
+
+def average() -> float | None:
+    """Return how many processes wanted a processor in the last minute, on average; None where unknown."""
+    try:
+        return os.getloadavg()[0]
+    except (OSError, AttributeError):
+        return None
+
+
+def warnings(loads: Iterable[float | None], samples: Iterable[Sequence[float]] = ()) -> list[str]:
+    """Return sentences on times that are doubtful: taken under a load above the processors' number, or with
+    samples [s] that scatter by more than SCATTER."""
+    cores = os.cpu_count() or 1
+    known = [load for load in loads if load is not None]
+    busy = [load for load in known if load > cores]
+    found = []
+    if busy:
+        found.append(
+            f"{len(busy)} of {len(known)} times were taken under a load of up to {max(busy):.3g} on {cores} "
+            "processors: they are longer than on an idle machine; measure again there"
+        )
+    ratios = [max(times) / min(times) for times in samples if len(times) > 1 and min(times) > 0.0]
+    wide = [ratio for ratio in ratios if ratio > SCATTER]
+    if wide:
+        found.append(
+            f"samples of {len(wide)} of {len(ratios)} times scatter by more than {SCATTER:g}, by up to "
+            f"{max(wide):.3g}: something else ran beside them"
+        )
+    return found

@@ -1,0 +1,109 @@
+"""Combinations of options: every pair of values of any two dimensions in one row at least; and a row's run.
+
+`pairwise` is greedy: a row starts with a pair that no row has yet, and every other dimension takes the value
+that brings most new pairs. It needs about as many rows as the product of the two largest dimensions.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from itertools import combinations
+from typing import Any
+
+import pytest
+from commands import run
+
+from comparisons.cli.finish import End
+from comparisons.report.report import Report
+
+Row = tuple[tuple[str, ...], ...]
+
+
+def pairwise(dimensions: Sequence[Sequence[tuple[str, ...]]]) -> list[Row]:
+    """Rows that have every pair of values of two dimensions."""
+    left = {
+        (i, a, j, b)
+        for i, j in combinations(range(len(dimensions)), 2)
+        for a in range(len(dimensions[i]))
+        for b in range(len(dimensions[j]))
+    }
+    rows = []
+    while left:
+        i, a, j, b = min(left)
+        taken = {i: a, j: b}
+        for k, values in enumerate(dimensions):
+            if k not in taken:
+                gains = [sum(_pair(k, v, m, w) in left for m, w in taken.items()) for v in range(len(values))]
+                taken[k] = gains.index(max(gains))
+        left -= {_pair(m, taken[m], n, taken[n]) for m, n in combinations(taken, 2)}
+        rows.append(tuple(dimensions[k][taken[k]] for k in range(len(dimensions))))
+    return rows
+
+
+def _pair(i: int, a: int, j: int, b: int) -> tuple[int, int, int, int]:
+    return (i, a, j, b) if i < j else (j, b, i, a)
+
+
+def named(row: Row) -> str:
+    """A row as a test's name."""
+    return " ".join(part for options in row for part in options) or "-"
+
+
+@dataclass
+class Tally:
+    """What the runs of a file were: how many, by exit status, and the CPU seconds."""
+
+    seconds: float = 0.0
+    ended: dict[int, int] = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        ends = ", ".join(f"{count} with {status}" for status, count in sorted(self.ended.items()))
+        return f"{sum(self.ended.values())} command lines ended, {ends}; {self.seconds:.0f} s of CPU"
+
+
+@contextmanager
+def tally(monkeypatch: pytest.MonkeyPatch | None = None) -> Iterator[Tally]:
+    """Count runs, and print the sum at the end (seen with `pytest -s`)."""
+    counted = Tally()
+    began = time.process_time()
+    yield counted
+    counted.seconds = time.process_time() - began
+    print(f"\n{counted}")
+
+
+def check(
+    arguments: Sequence[str],
+    counted: Tally,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> int:
+    """Run a command line: no traceback, exit status 0, 2 or 3, and each converged answer in balance."""
+    reports: list[Report] = []
+    show = End.__call__
+
+    def shown(self: End, report: Report, instead: str | None = None) -> None:
+        reports.append(report)
+        show(self, report, instead)
+
+    monkeypatch.setattr(End, "__call__", shown)
+    status = run(*arguments)
+    said = capsys.readouterr()
+    counted.ended[status] = counted.ended.get(status, 0) + 1
+    assert "Traceback" not in said.err, said.err[-3000:]
+    assert status in (0, 2, 3), said.err
+    if status == 2:
+        assert said.err.strip() and not reports
+    for report in reports:
+        for solution in report.document.get("solutions", ()):
+            require_balanced(solution)
+    return status
+
+
+def require_balanced(solution: Mapping[str, Any]) -> None:
+    """Fail where a converged answer's forces or moments do not balance."""
+    balance = solution.get("balance")
+    if solution.get("status") == "converged" and balance is not None:
+        assert balance["holds"], f"{solution['label']}: converged, and {balance}"

@@ -35,7 +35,7 @@ from lumped.vibration import Modes, modes, usual_masses
 if TYPE_CHECKING:
     from lumped.dynamics import watchdog
     from lumped.dynamics.integrator import Integrator, StepFailed
-    from lumped.dynamics.integrators import INTEGRATORS
+    from lumped.dynamics.integrators import INTEGRATORS, require_integrator
     from lumped.dynamics.simulation import simulate
     from lumped.dynamics.step_limit import StepLimit, step_limit, turn_limit
     from lumped.dynamics.system import State, System
@@ -81,6 +81,7 @@ __all__ = [
     "moduli",
     "polygons",
     "pose",
+    "require_integrator",
     "sensitivity",
     "simulate",
     "solve",

@@ -46,18 +46,22 @@ def command(
     from comparisons.cli.finish import finish
     from comparisons.linearisation.linearisation import linearise
     from sheetbench import scenes
+    from sheetbench.scenes.errors import NoEquilibrium
 
     asked = scenes.load(scene)
     with finish(
         "linearise", json, out, overwrite, scene=asked, figure=figure, pictures=not no_pictures
     ) as end:
-        found = linearise(
-            asked,
-            **lattice,
-            modes=modes or None,
-            reduce=reduce,
-            about=about,
-            large=large,
-            progress=end.progress,
-        )
+        try:
+            found = linearise(
+                asked,
+                **lattice,
+                modes=modes or None,
+                reduce=reduce,
+                about=about,
+                large=large,
+                progress=end.progress,
+            )
+        except NoEquilibrium as error:
+            end.stop(f"no linear form about the equilibrium: {error}; --about flat has one")
         end(found.report())

@@ -147,9 +147,7 @@ def command(
         measure = of_motion(asked, duration, lattice, integrator)
     else:
         if k is not None or layer_distance is not None:
-            raise BadInput(
-                "--k, --layer-distance: go with --duration; else give --model lumped:k=550"
-            )
+            raise BadInput("--k, --layer-distance: go with --duration; else give --model lumped:k=550")
         asked = load_static(scene)
         calibration = calibration or USUAL
         grids = GRIDS if lumped is None else lumped

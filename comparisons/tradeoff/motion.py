@@ -225,11 +225,10 @@ def dynamic_tradeoff(
     Raises BadInput for an integrator that does not exist. A run that diverges is a row with its status.
     """
     import lumped
-    from lumped.dynamics.integrators import require_integrator
 
     require_positive("duration", duration, "s")
     for name in integrators:
-        require_integrator(name)
+        lumped.require_integrator(name)
     check(scene, lattice.candidate, large)
     meant = resolve(scene, lattice)
     springs = meant.springs(scene)

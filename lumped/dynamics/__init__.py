@@ -2,7 +2,7 @@
 
 from lumped.dynamics import watchdog
 from lumped.dynamics.integrator import Integrator, StepFailed
-from lumped.dynamics.integrators import INTEGRATORS
+from lumped.dynamics.integrators import INTEGRATORS, require_integrator
 from lumped.dynamics.simulation import simulate
 from lumped.dynamics.step_limit import StepLimit, step_limit, turn_limit
 from lumped.dynamics.system import State, System
@@ -14,6 +14,7 @@ __all__ = [
     "StepFailed",
     "StepLimit",
     "System",
+    "require_integrator",
     "simulate",
     "step_limit",
     "turn_limit",

@@ -42,8 +42,8 @@ def live(browser: Browser) -> None:
         assert server.stdout is not None
         shown = browser.new_page(viewport={"width": 1280, "height": 800})
         shown.goto(server.stdout.readline().strip())
-        shown.wait_for_selector(".shown:not(.pale)")
-        shown.wait_for_timeout(5000)
+        shown.locator("#error").filter(has_text="%").wait_for(timeout=300_000)
+        shown.wait_for_timeout(2000)
         shown.screenshot(path=IMAGES / "live.png")
         server.terminate()
 

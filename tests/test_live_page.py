@@ -77,16 +77,53 @@ def test_another_grid_is_another_lattice(page):
 
 def test_what_is_beyond_the_bounds_is_refused_in_a_line(page):
     page, _ = page
-    start = page.input_value(".slider:has(#slider-poisson) input[type=text]")
     box = page.locator(".slider:has(#slider-poisson) input[type=text]")
+    start = box.input_value()
     box.fill("0.7")
     box.press("Enter")
-    until(page, "document.getElementById('refused').textContent !== ''")
-    assert "poisson = 0.7: from 0 to 0.495" in page.inner_text("#refused")
-    box.fill(start)
+    assert "Poisson's ratio ν: 0.7 is beyond this page, which goes from 0 to 0.495" in page.inner_text(
+        "#refused"
+    )
+    assert box.input_value() == start  # the value that the picture is of
+    box.press("Enter")
+    box.fill("0.4")
     box.press("Enter")
     until(page, ANSWERED)
     assert page.inner_text("#refused") == ""
+    box.fill(start)
+    box.press("Enter")
+    until(page, ANSWERED)
+
+
+def test_values_are_typed_in_the_units_of_the_box_or_in_others(page):
+    page, _ = page
+    box = page.locator(".slider:has(#slider-young) input[type=text]")
+    start = box.input_value()
+    for text, shown in (
+        ("60 MPa", "60"),
+        ("70000 kPa", "70"),
+        ("0,08 GPa", "80"),
+        ("9e7 Pa", "90"),
+        (start, start),
+    ):
+        box.fill(text)
+        box.press("Enter")
+        assert (box.input_value(), page.inner_text("#refused")) == (shown, ""), text
+    for text, said in (
+        ("2 GPa", "2000 MPa is beyond this page"),
+        ("abc", "cannot be read"),
+        ("3 mm", "cannot be read"),
+    ):
+        box.fill(text)
+        box.press("Enter")
+        assert said in page.inner_text("#refused") and "Pa" in page.inner_text("#refused")
+        assert box.input_value() == start
+    box.fill("")
+    box.press("Enter")
+    assert box.input_value() == start
+    box.fill(f"{start} MPa")
+    box.press("Enter")
+    until(page, ANSWERED)
 
 
 def test_springs_and_scene_are_copied(page):

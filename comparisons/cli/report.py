@@ -33,8 +33,12 @@ def command(
     from comparisons.pages.page import memory_of, page
     from comparisons.pages.studies import read
     from comparisons.report.files import write_text
+    from sheetbench.scenes.errors import BadInput
 
     found = read(folder)
+    if not found.studies:
+        said = f"'{folder}': holds no study: no verb wrote here with --out."
+        raise BadInput(" ".join([said, *found.troubles[:1]]))
     text = page(found, folder.resolve().name)
     target = folder / "report.html" if out is None else out
     write_text(target, text)

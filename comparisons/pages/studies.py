@@ -20,6 +20,7 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput
 
 LARGEST = 64_000_000  # bytes of a file that a page reads
+SHEETS = (".vtu", ".pvd")
 OURS = ("report.html", MANIFEST)
 Say = Callable[[str], None]
 
@@ -28,9 +29,9 @@ Say = Callable[[str], None]
 class Study:
     """A run's answer.
 
-    folder: where its files are; place: that as the reader knows it; verb: of the run; run: its entry in the
-    manifest; record: the manifest. troubles: a sentence for everything that cannot be read; faults: of the
-    program.
+    folder: where its files are; place: that as the reader knows it; verb: of the run, "" of sheets without
+    one; run: its entry in the manifest; record: the manifest. troubles: a sentence for everything that cannot
+    be read; faults: of the program.
     """
 
     folder: Path
@@ -74,7 +75,8 @@ class Study:
         """What the study is about."""
         asked = self.run.get("scene")
         named = self.words.get("title") or (asked.get("name") if isinstance(asked, dict) else None)
-        return str(named or self.place or self.folder.resolve().name)
+        alone = self.files[0] if not self.verb and len(self.files) == 1 else ""
+        return str(named or alone or self.place or self.folder.resolve().name)
 
     @property
     def date(self) -> str:
@@ -159,9 +161,9 @@ class Found:
     troubles: list[str]
 
 
-def read(root: Path) -> Found:
-    """Every study in a folder and those below it. Raises BadInput where there is no such folder, or none in
-    it."""
+def read(root: Path, loose: bool = False) -> Found:
+    """Every study in a folder and those below it; loose: sheets in folders without a manifest, too. Raises
+    BadInput where there is no such folder."""
     if not root.is_dir():
         raise BadInput(f"'{root}': there is no such folder")
     studies: list[Study] = []
@@ -175,11 +177,12 @@ def read(root: Path) -> Found:
             names = tuple(name for name in run.get("files", ()) if isinstance(name, str))
             claimed.update(names)
             studies.append(Study(folder, place, verb, names, run, record))
+        sheets = tuple(path.name for path in sorted(folder.iterdir()) if path.suffix in SHEETS)
+        if loose and sheets and not record:
+            studies.append(Study(folder, place, "", sheets))
         if record:
             beside = [path for path in sorted(folder.iterdir()) if _counts(path) and path.name not in claimed]
             others += [(f"{place}/{path.name}".lstrip("/"), path.stat().st_size) for path in beside]
-    if not studies:
-        raise BadInput(" ".join([f"'{root}': holds no study: no verb wrote here with --out.", *troubles[:1]]))
     return Found(studies, others, troubles)
 
 

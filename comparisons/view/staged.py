@@ -29,7 +29,7 @@ class Staged:
 def of_folder(folder: Path) -> tuple[list[Staged], list[str]]:
     """The studies with sheets in a folder and those below it, and a sentence for everything that cannot be
     read. Raises BadInput where there is nothing to show."""
-    found = read(folder)
+    found = read(folder, loose=True)
     shown = [one for one in map(_staged, found.studies) if one is not None]
     troubles = [*found.troubles, *(said for study in found.studies for said in study.troubles)]
     if not shown:

@@ -20,10 +20,17 @@ export class Legend {
       brush.fillRect(i, 0, 1, 1);
     }
     this.scale.replaceChildren();
-    for (const tick of ticks(low, high)) {
+    for (const tick of ended(ticks(low, high), low, high)) {
       const mark = element("span", {}, this.scale);
       mark.textContent = number(tick);
       mark.style.left = `${high > low ? (100 * (tick - low)) / (high - low) : 50}%`;
     }
   }
+}
+
+// The ticks with both ends of the bar, but for those that would stand on an end's number.
+function ended(marks, low, high) {
+  if (!(high > low)) return marks;
+  const near = 0.12 * (high - low);
+  return [low, ...marks.filter((mark) => mark - low > near && high - mark > near), high];
 }

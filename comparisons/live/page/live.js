@@ -38,6 +38,17 @@
   // The same without them, as people type it.
   const typed = (value) => String(Number(value.toPrecision(5))).replace("-", "−");
 
+  // Units that may be typed, in SI.
+  const SCALES = {
+    Pa: { of: "pressure", si: 1 }, kPa: { of: "pressure", si: 1e3 }, MPa: { of: "pressure", si: 1e6 }, GPa: { of: "pressure", si: 1e9 },
+    "µm": { of: "length", si: 1e-6 }, um: { of: "length", si: 1e-6 }, mm: { of: "length", si: 1e-3 }, cm: { of: "length", si: 1e-2 }, m: { of: "length", si: 1 },
+  };
+
+  function refuse(said) {
+    at("refused").textContent = said;
+    return null;
+  }
+
   // ---- what is asked
 
   class Slider {
@@ -59,11 +70,29 @@
         ask(event.timeStamp);
       });
       this.text.addEventListener("change", (event) => {
-        const read = Number(this.text.value.trim().replace("−", "-").replace(",", "."));
-        if (this.text.value.trim() === "" || Number.isNaN(read)) return this.write();
-        this.put(read / this.factor);
+        const value = this.read(this.text.value);
+        if (value === null) return this.write(); // the value that the picture is of
+        this.put(value);
         ask(event.timeStamp);
       });
+    }
+
+    // The value that a text says, in SI units; null, with a sentence said, for one that is none or beyond the bounds.
+    read(text) {
+      const said = text.trim();
+      const [, digits, unit] = said.replace("−", "-").replace(",", ".").match(/^([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(.*)$/i) ?? [];
+      const factor = unit ? (this.unit in SCALES && SCALES[unit]?.of === SCALES[this.unit].of ? SCALES[unit].si : unit === this.unit ? 1 / this.factor : NaN) : 1 / this.factor;
+      const value = Number(digits) * factor;
+      const shown = (number) => `${typed(number * this.factor)}${this.unit ? ` ${this.unit}` : ""}`;
+      if (Number.isNaN(value)) {
+        const hint = this.unit in SCALES ? `a number in ${this.unit}, or with another unit of ${SCALES[this.unit].of}` : "a number";
+        return refuse(`${this.label}: “${said}” cannot be read; write ${hint}. It stays ${shown(this.value)}.`);
+      }
+      const round = 1e-9 * Math.abs(value);
+      if (value < this.low - round || value > this.high + round) {
+        return refuse(`${this.label}: ${shown(value)} is beyond this page, which goes from ${shown(this.low)} to ${shown(this.high)}. It stays ${shown(this.value)}.`);
+      }
+      return Math.min(Math.max(this.whole ? Math.round(value) : value, this.low), this.high);
     }
 
     // The value at a place of the range: where it starts, exactly the scene's.

@@ -10,7 +10,6 @@ Poisson's ratio of its own.
 import matplotlib.pyplot as plt
 
 import sheetbench as sb
-from comparisons.comparison.comparison import error
 
 scene = sb.load("two-edges-clamped")
 probes = scene.probe_points()  # (n, 2) [m]
@@ -22,7 +21,7 @@ for calibration in ("consistent", "cauchy", "uniform"):
     errors = []
     for grid in grids:
         lattice = sb.solve(scene, grid=grid, calibration=calibration)
-        errors.append(100 * error(lattice.displacement(probes), truth))
+        errors.append(100 * sb.error(lattice.displacement(probes), truth))
     print(
         f"{calibration:12s}", "  ".join(f"{grid}: {e:5.2f} %" for grid, e in zip(grids, errors, strict=True))
     )

@@ -9,7 +9,6 @@ lattice is good.
 import matplotlib.pyplot as plt
 
 import sheetbench as sb
-from comparisons.comparison.comparison import error
 
 scene = sb.load("one-edge-clamped")
 probes = scene.probe_points()
@@ -21,7 +20,7 @@ for thickness in thicknesses:
         sheet=scene.sheet.replace(thickness=thickness), gravity=sb.Gravity(acceleration=(0.0, 0.0, -g))
     )
     truth = sb.solve(thin, "shell", elements=8).displacement(probes)
-    errors.append(100 * error(sb.solve(thin).displacement(probes), truth))
+    errors.append(100 * sb.error(sb.solve(thin).displacement(probes), truth))
 
 figure, axes = plt.subplots(figsize=(5.6, 3.4), layout="constrained")
 axes.semilogx([1e3 * h for h in thicknesses], errors, "o-")

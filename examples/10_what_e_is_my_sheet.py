@@ -11,21 +11,20 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import sheetbench as sb
-from comparisons.identification.measurements import Displacements
 
 scene = sb.load("two-edges-clamped")
-made = scene.replace(material=scene.material.replace(young=40e6))  # Pa
+made = scene.replace(young=40e6)  # Pa
 points = np.array([(0.03 + 0.04 * i, 0.03 + 0.04 * j) for i in range(4) for j in range(4)])
 measured = sb.solve(made, "shell", elements=8).displacement(points)
 measured = measured + np.random.default_rng(1).normal(0.0, 0.05e-3, measured.shape)
 
-found = sb.identify(scene, Displacements(points, measured), "young", refine=False)
+found = sb.identify(scene, sb.Displacements(points, measured), "young", refine=False)
 print(found)
 
 # %%
 # What was measured against what the fitted lattice answers:
 
-fitted = scene.replace(material=scene.material.replace(young=found.unknowns["young"].value))
+fitted = scene.replace(young=found.unknowns["young"].value)
 answered = sb.solve(fitted).displacement(points)
 figure, axes = plt.subplots(figsize=(4.4, 4.0), layout="constrained")
 axes.plot(1e3 * measured[:, 2], 1e3 * answered[:, 2], "o")

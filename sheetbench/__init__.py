@@ -5,22 +5,26 @@
     both = sb.compare(scene, grid=9)          # the lattice beside the shell
     both.report().save("results")
 
-Every verb takes a scene, a name or a path, and is loaded when it is first used. What stands behind them:
+A function takes a scene, a name or a path, and is loaded when it is first used. What stands behind them:
 `sheetbench.scenes` (what is asked), `lumped` (the lattice), `fem_reference` (the references), `comparisons`.
 """
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from importlib import import_module as _import_module
+from typing import TYPE_CHECKING as _TYPE_CHECKING
 
-if TYPE_CHECKING:
+if _TYPE_CHECKING:
     import sheetbench.scenes as scenes
     from comparisons.advice.advisor import advise
     from comparisons.check.check import check
-    from comparisons.comparison.comparison import compare
+    from comparisons.comparison.comparison import compare, error
     from comparisons.identification.identification import identify
+    from comparisons.identification.measurements import Displacements
+    from comparisons.linearisation.linearisation import linearise
     from comparisons.modes.spectra import spectra as modes
+    from comparisons.reproduction.reproduction import reproduce
+    from comparisons.suite.tables import report as suite
     from sheetbench.face import calibrate, simulate, solve, tradeoff
     from sheetbench.scenes import (
         BadInput,
@@ -46,17 +50,31 @@ if TYPE_CHECKING:
         catalogue,
         load,
     )
+    from sheetbench.studies import crosscheck, export, report, schema, score, stability, transfer, verify
 
-VERBS = {  # name: module and the function there
+_ELSEWHERE = {  # name: module and what it is called there; all else is of sheetbench.scenes
+    "Displacements": ("comparisons.identification.measurements", "Displacements"),
     "advise": ("comparisons.advice.advisor", "advise"),
     "calibrate": ("sheetbench.face", "calibrate"),
     "check": ("comparisons.check.check", "check"),
     "compare": ("comparisons.comparison.comparison", "compare"),
+    "crosscheck": ("sheetbench.studies", "crosscheck"),
+    "error": ("comparisons.comparison.comparison", "error"),
+    "export": ("sheetbench.studies", "export"),
     "identify": ("comparisons.identification.identification", "identify"),
+    "linearise": ("comparisons.linearisation.linearisation", "linearise"),
     "modes": ("comparisons.modes.spectra", "spectra"),
+    "report": ("sheetbench.studies", "report"),
+    "reproduce": ("comparisons.reproduction.reproduction", "reproduce"),
+    "schema": ("sheetbench.studies", "schema"),
+    "score": ("sheetbench.studies", "score"),
     "simulate": ("sheetbench.face", "simulate"),
     "solve": ("sheetbench.face", "solve"),
+    "stability": ("sheetbench.studies", "stability"),
+    "suite": ("comparisons.suite.tables", "report"),
     "tradeoff": ("sheetbench.face", "tradeoff"),
+    "transfer": ("sheetbench.studies", "transfer"),
+    "verify": ("sheetbench.studies", "verify"),
 }
 
 __all__ = [
@@ -64,6 +82,7 @@ __all__ = [
     "Chain",
     "Clamped",
     "Curved",
+    "Displacements",
     "EdgeLoad",
     "EdgeMotion",
     "Gravity",
@@ -85,28 +104,40 @@ __all__ = [
     "catalogue",
     "check",
     "compare",
+    "crosscheck",
+    "error",
+    "export",
     "identify",
+    "linearise",
     "load",
     "modes",
+    "report",
+    "reproduce",
     "scenes",
+    "schema",
+    "score",
     "simulate",
     "solve",
+    "stability",
+    "suite",
     "tradeoff",
+    "transfer",
+    "verify",
 ]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     if name == "__version__":
         from importlib.metadata import version  # not needed for help
 
         return version("sheetbench")
     if name == "scenes":
-        return import_module("sheetbench.scenes")
+        return _import_module("sheetbench.scenes")
     if name not in __all__:
         raise AttributeError(f"module 'sheetbench' has no attribute {name!r}")
-    module, function = VERBS.get(name, ("sheetbench.scenes", name))
-    return getattr(import_module(module), function)
+    module, function = _ELSEWHERE.get(name, ("sheetbench.scenes", name))
+    return getattr(_import_module(module), function)
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *__all__])
+    return sorted([*__all__, *(name for name in globals() if name.startswith("__"))])

@@ -16,17 +16,26 @@ from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading
 from comparisons.models.grids import Asked, scene_grid
 from sheetbench.choices import CALIBRATION, REFERENCES
-from sheetbench.scenes import AnyScene, History, Solution, scene_of
+from sheetbench.scenes import AnyScene, Clamped, History, Material, Scene, Sheet, Solution, scene_of
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.template import EARTH
 
 if TYPE_CHECKING:
     from comparisons.runs.campaign import Progress
     from comparisons.tradeoff.statics import Tradeoff
     from lumped import Calibration
 
+DENSITY = 1000.0  # kg/m³, unless given
+
 
 def calibrate(
-    scene: AnyScene,
+    scene: AnyScene | None = None,
     *,
+    young: float | str | None = None,
+    poisson: float | None = None,
+    thickness: float | str | None = None,
+    side: float | str | Sequence[float | str] | None = None,
+    density: float | str | None = None,
     grid: Asked = None,
     method: str | None = None,
     k: float | None = None,
@@ -34,8 +43,11 @@ def calibrate(
     grading: Grading = None,
     large: bool = False,
 ) -> Calibration:
-    """Spring constants of a lattice for the scene's sheet and material, with the moduli that they meet.
+    """Return the spring constants of a lattice for a sheet and material, with the moduli that they meet.
 
+    The sheet and material are the scene's, with young [Pa], poisson, thickness [m], side [m] (one number, or
+    along x and y) and density [kg/m³] in place of its own; without a scene those alone, 1000 kg/m³ unless
+    given. Text may have a unit, as "2 mm".
     grid: 9 along the shorter side with near-square cells unless given; (nx, ny), (nx, ny, layers). method: a
     name of `lumped.CALIBRATIONS`, consistent unless given, or "auto", as the scene's edges and load have it
     and as goes with the grading "auto"; the fitted ones train on the scene. k [N/m] and layer_distance [m]
@@ -43,13 +55,38 @@ def calibrate(
     as the scene's layers need. Raises BadInput for what does not exist or go together, and unless `large` for
     a fit that takes more memory than there is.
     """
-    asked = scene_of(scene)
+    asked = _sheet_of(scene, young, poisson, thickness, side, density)
     spec = springs.LatticeSpec(grid, method, k, layer_distance, grading)
     springs.check_lattice(method, k, layer_distance, grading)
     found = springs.resolve(asked, spec, own=False)
     if not large and springs.is_fitted(found.calibration):
         springs.require_room_to_fit(asked, found.grid)
-    return found.springs(asked, training=[asked])
+    return found.springs(asked, training=None if scene is None else [asked])
+
+
+def _sheet_of(
+    scene: AnyScene | None,
+    young: float | str | None,
+    poisson: float | None,
+    thickness: float | str | None,
+    side: float | str | Sequence[float | str] | None,
+    density: float | str | None,
+) -> Scene:
+    """The scene with what is given in place of its own, or the sheet clamped at one edge."""
+    given = {"young": young, "poisson": poisson, "thickness": thickness, "density": density}
+    values: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    if side is not None:
+        both = (side, side) if isinstance(side, float | int | str) else tuple(side)
+        values |= {"length_x": both[0], "length_y": both[-1]}
+    if scene is not None:
+        return scene_of(scene).replace(**values) if values else scene_of(scene)
+    needed = {"young": "young", "poisson": "poisson", "thickness": "thickness", "length_x": "side"}
+    if missing := [f"{name}=" for key, name in needed.items() if key not in values]:
+        raise BadInput(f"calibrate: missing {', '.join(missing)}; give them, or a scene to take them from")
+    values = {"density": DENSITY, **values}
+    sheet = Sheet(**{key: values[key] for key in Sheet.model_fields})
+    material = Material(**{key: values[key] for key in Material.model_fields if key in values})
+    return Scene(name="sheet", sheet=sheet, material=material, gravity=EARTH, supports=(Clamped("x0"),))
 
 
 def solve(scene: AnyScene, model: str = "lumped", **settings: Any) -> Solution:

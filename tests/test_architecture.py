@@ -141,7 +141,7 @@ SLOW = ("lumped", "fem_reference", "scipy", "matplotlib", "vtkmodules", "pyvista
 SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "pypardiso", "comparisons.models.training")
 SLOW += ("numba.core.extending", "numba.np")  # what compiles, where nothing is compiled
 DRAWS = ("figure", "probes_figure", "motion_figure", "animation", "offscreen", "locking", "vtk", "toml")
-AT_ONCE = ("comparisons/cli/", "sheetbench/face.py", "sheetbench/__init__.py", "sheetbench/__main__.py")
+AT_ONCE = ("comparisons/cli/", *(f"sheetbench/{n}.py" for n in ("face", "studies", "__init__", "__main__")))
 
 
 def test_imports_within_functions_are_for_a_quick_start_alone():

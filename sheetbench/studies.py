@@ -1,0 +1,180 @@
+"""Functions of `import sheetbench` for the verbs that keep rows, write files or read folders.
+
+Each takes what its verb takes and returns what the verb reports on: an object with `report()`, a Report, or
+the path of what was written. Those with `workers` compute in processes of their own: a script calls them
+under `if __name__ == "__main__":`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+from comparisons.models.grading import Grading
+from comparisons.models.grids import Asked
+from comparisons.models.springs import LatticeSpec
+from sheetbench.choices import REFERENCES
+from sheetbench.scenes import AnyScene, Scene, scene_of
+from sheetbench.scenes.errors import require_choice
+from sheetbench.scenes.schema import for_editors
+
+if TYPE_CHECKING:
+    from comparisons.crosscheck.study import Crosscheck
+    from comparisons.report.report import Report
+    from comparisons.runs.store import Store
+    from comparisons.scoring.score import Score
+    from comparisons.transfer.study import Transfer
+    from lumped import Calibration
+
+
+def export(
+    scene: AnyScene,
+    folder: str | Path,
+    *,
+    grid: Asked = None,
+    calibration: str | None = None,
+    k: float | None = None,
+    layer_distance: float | None = None,
+    grading: Grading = None,
+    springs: Calibration | None = None,
+    simulators: Sequence[str] = (),
+    overwrite: bool = False,
+) -> Path:
+    """Write the scene's lattice into a folder, for another simulator, and return the folder.
+
+    The lattice is that of `solve` with the same settings, or has the `springs` that `calibrate` returned.
+    simulators: "mujoco" and "sofa" have a file of their own as well. Raises BadInput for a folder that holds
+    another scene's lattice, unless `overwrite`, and for lattices that files cannot hold.
+    """
+    from comparisons.export.export import export as write
+
+    scene = scene_of(scene)
+    found = springs or LatticeSpec(grid, calibration, k, layer_distance, grading).springs(scene)[0]
+    write(folder, scene, found, ["sheetbench.export"], overwrite, simulators)
+    return Path(folder)
+
+
+def crosscheck(
+    scenes: AnyScene | Sequence[AnyScene],
+    *,
+    lumped: Sequence[int] = (9, 13, 17),
+    calibration: str | None = None,
+    grading: Grading = None,
+    plate: Sequence[int] = (8, 12, 16),
+    shell: Sequence[int] = (8, 12, 16),
+    solid: Sequence[int] = (6, 8, 12),
+    programs: Sequence[str] | None = None,
+    meshes: Sequence[int] | None = None,
+    workers: int = 1,
+    out: str | Path | None = None,
+    large: bool = False,
+) -> Crosscheck:
+    """Solve scenes by every model and by the other finite-element programs that are installed.
+
+    lumped: masses, plate to solid: elements along the shorter side, rising; none leaves a model out.
+    programs: names of other programs, all that are found unless given; meshes: their elements. out: a folder
+    that keeps the rows, so that the same call goes on where an earlier one was stopped.
+    """
+    from comparisons.crosscheck import asked
+    from comparisons.crosscheck.study import crosscheck as check
+    from comparisons.judges.found import look
+
+    def listed(numbers: Sequence[int] | None) -> str:
+        return ",".join(map(str, numbers or ()))
+
+    many = [scenes] if isinstance(scenes, Scene | str | Path) else list(scenes)
+    found = look(programs)
+    counts = dict(zip(REFERENCES, map(listed, (plate, shell, solid)), strict=True))
+    of_programs = None if meshes is None else listed(meshes)
+    models = asked.models(listed(lumped), calibration, grading, counts, found, of_programs)
+    with _store(out) as store:
+        return check(
+            [scene_of(one) for one in many], store, models=models, judges=found, workers=workers, large=large
+        )
+
+
+def stability(
+    studies: Sequence[str] | None = None,
+    *,
+    full: bool = False,
+    grading: Grading = None,
+    workers: int = 1,
+    out: str | Path | None = None,
+    large: bool = False,
+) -> Report:
+    """Map where each solver is accurate, degrades, refuses or fails; all studies unless some are named.
+
+    full: every cell of the published maps. out: a folder that keeps the rows of an interrupted call.
+    """
+    from comparisons.stability import STUDIES, survey
+    from comparisons.stability.texts import report
+
+    for name in studies or ():
+        require_choice("studies", name, STUDIES)
+    chosen = [STUDIES[name] for name in studies or STUDIES]
+    with _store(out) as store:
+        return report(chosen, survey(chosen, store, full=full, grading=grading, workers=workers, large=large))
+
+
+def transfer(*, out: str | Path | None = None, workers: int = 1, **settings: Any) -> Transfer:
+    """Measure calibrations on scenes that they were not made on, as the grid is refined.
+
+    settings: `methods`, `grids`, `grading`, `scenes`, `parts`, `elements`, `large` of
+    `comparisons.transfer.study.transfer`. out: a folder that keeps the rows of an interrupted call.
+    """
+    from comparisons.transfer.study import transfer as measure
+
+    with _store(out) as store:
+        return measure(store, workers=workers, **settings)
+
+
+def verify(cases: Sequence[str] | None = None) -> Report:
+    """Check the references against published values, all cases unless some are named.
+
+    The report's `met` says whether all pass. Raises BadInput for a case that does not exist.
+    """
+    from comparisons.verification.tables import report
+    from fem_reference.verification import run
+
+    return report(list(run(cases)))
+
+
+def report(folder: str | Path, out: str | Path | None = None) -> Path:
+    """Write one HTML page of the studies in a folder and return its path, FOLDER/report.html unless given."""
+    from comparisons.pages.page import page
+    from comparisons.pages.studies import read
+    from comparisons.report.files import write_text
+
+    folder = Path(folder)
+    target = folder / "report.html" if out is None else Path(out)
+    write_text(target, page(read(folder), folder.resolve().name))
+    return target
+
+
+def score(answers: str | Path, suite: str = "statics", case: str | Sequence[str] = ()) -> Score:
+    """Score a CSV of answers to the reference set, of all its cases unless some are named."""
+    from comparisons.scoring.score import score as rate
+    from comparisons.suite.cases import SUITES
+
+    require_choice("suite", suite, SUITES)
+    return rate(Path(answers), suite, case)
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON Schema of a scene, for editors."""
+    return for_editors(Scene)
+
+
+@contextmanager
+def _store(out: str | Path | None) -> Iterator[Store]:
+    """The rows of a campaign: in a folder, or passing."""
+    from comparisons.runs.campaign import campaign
+
+    with TemporaryDirectory() as passing:
+        folder = Path(passing if out is None else out)
+        folder.mkdir(parents=True, exist_ok=True)
+        with campaign(folder) as store:
+            yield store

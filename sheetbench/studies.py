@@ -119,16 +119,34 @@ def stability(
         return report(chosen, survey(chosen, store, full=full, grading=grading, workers=workers, large=large))
 
 
-def transfer(*, out: str | Path | None = None, workers: int = 1, **settings: Any) -> Transfer:
+def transfer(
+    methods: Sequence[str] | None = None,
+    grids: Sequence[int] = (9, 17, 33),
+    *,
+    scenes: Sequence[str] | None = None,
+    parts: Sequence[str] | None = None,
+    grading: Grading = None,
+    elements: int = 24,
+    workers: int = 1,
+    out: str | Path | None = None,
+    large: bool = False,
+) -> Transfer:
     """Measure calibrations on scenes that they were not made on, as the grid is refined.
 
-    settings: `methods`, `grids`, `grading`, `scenes`, `parts`, `elements`, `large` of
-    `comparisons.transfer.study.transfer`. out: a folder that keeps the rows of an interrupted call.
+    grids: masses along the shorter side, 4 n + 1 and rising. methods, scenes, parts: all of the study's
+    unless named. out: a folder that keeps the rows of an interrupted call.
     """
+    from comparisons.transfer import asked
     from comparisons.transfer.study import transfer as measure
 
+    settings: dict[str, Any] = {
+        "methods": asked.methods(None if methods is None else ",".join(methods)),
+        "grids": asked.grids(",".join(map(str, grids))),
+        "scenes": asked.scenes(None if scenes is None else ",".join(scenes)),
+        "parts": asked.parts(parts),
+    }
     with _store(out) as store:
-        return measure(store, workers=workers, **settings)
+        return measure(store, **settings, grading=grading, elements=elements, workers=workers, large=large)
 
 
 def verify(cases: Sequence[str] | None = None) -> Report:

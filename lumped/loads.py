@@ -22,6 +22,7 @@ import numpy as np
 from lumped.assembly import Assembly
 from lumped.masses import masses
 from lumped.mid_surface import MidSurface
+from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import EDGES, EdgeLoad, FactorTable, PiecewiseLinear, PointLoad, Pressure, Scene
 
 
@@ -79,6 +80,7 @@ class Loads:
                 part.pressure += load.value
         self.conservative = not any(part.moments or part.pressure for part in self._parts.values())
         self.potential = self.conservative and len(self._parts) == 1
+        frozen(tuple(part.dead for part in self._parts.values()))
 
     @property
     def parts(self) -> tuple[Part, ...]:
@@ -100,7 +102,9 @@ class Loads:
 
     def force(self, u: np.ndarray, time: float | None = None) -> np.ndarray:
         """External force (n, 3) [N] on the masses displaced by u, at a time [s]; without a time, as statics
-        have it: with the last factor of every history. An array of its own."""
+        have it: with the last factor of every history. Not to be written to."""
+        if self.potential:
+            return self.dead
         force = self.dead.copy()
         for part in self._parts.values():
             if part.history is not None:

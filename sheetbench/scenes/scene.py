@@ -117,10 +117,10 @@ class Scene(Frozen):
         Probes that nobody chose go with the sheet's sides. Raises SceneError for what makes no sense.
         """
         for part in ("sheet", "material"):
-            kept = values.get(part, getattr(self, part))
-            own = {key: values.pop(key) for key in list(values) if key in type(kept).model_fields}
+            kind = type(getattr(self, part))
+            own = {key: values.pop(key) for key in list(values) if key in kind.model_fields}
             if own:
-                values[part] = kept.replace(**own)
+                values[part] = kind.model_validate(values.get(part, getattr(self, part))).replace(**own)
         resized = values.get("sheet", self.sheet) != self.sheet and "probes" not in values
         if resized and self.probes == super().replace(probes={}).probes:
             values["probes"] = {}

@@ -8,6 +8,7 @@ from commands import run
 from comparisons.models import training as targets
 from comparisons.models.springs import calibrate
 from sheetbench import scenes
+from sheetbench.scenes.errors import BadInput
 
 SCENE = scenes.load("two-edges-clamped")
 
@@ -45,3 +46,9 @@ def test_calibrate_shows_what_the_data_tell(capsys: pytest.CaptureFixture[str]) 
 def test_bad_options_of_a_fit(option, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("calibrate", "two-edges-clamped", "--method", "fit-modal", *option) == 2
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_scene_in_which_nothing_moves_is_nothing_to_train_on():
+    still = SCENE.replace(gravity=None)
+    with pytest.raises(BadInput, match="nothing moves"):
+        calibrate(SCENE.sheet, SCENE.material, grid=3, calibration="fit-static", training=[still])

@@ -160,3 +160,10 @@ def test_the_verb_leaves_matrices_for_numpy_and_matlab(
     assert (tmp_path / "responses.png").stat().st_size > 10_000
     assert run("linearise", "one-edge-clamped", "--about", "moving") == 2
     assert "about = moving" in one_line(capsys).replace("'", "")
+
+
+def test_a_lattice_without_an_equilibrium_ends_with_3(capsys: pytest.CaptureFixture[str]) -> None:
+    springs = ("--k", "550", "--layer-distance", "0.004", "--grid", "3x3x3")
+    assert run("linearise", "curved-edge-down", *springs) == 3
+    said = capsys.readouterr().err
+    assert "no linear form about the equilibrium" in said and "Traceback" not in said

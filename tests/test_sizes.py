@@ -228,3 +228,12 @@ def test_without_any_word_of_memory_nothing_is_refused(monkeypatch: pytest.Monke
 
 def test_amounts_as_people_say_them() -> None:
     assert [amounts.memory(x) for x in (5.4e9, 269e9, 8e6, 2.5e12)] == ["5.4 GB", "269 GB", "8 MB", "2.5 TB"]
+
+
+def test_an_export_too_large_for_the_memory_is_refused_before_its_first_array(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    wanted = ("--grid", "100000", "--method", "uniform", "--export", str(tmp_path / "out"))
+    assert run("calibrate", "two-edges-clamped", *wanted) == 2
+    said = capsys.readouterr().err
+    assert "lumped 100000x100000x2" in said and "--grid" in said and not (tmp_path / "out").exists()

@@ -79,8 +79,10 @@ def command(
     """
     from comparisons.calibration import asked, tables
     from comparisons.cli.finish import finish
+    from comparisons.models.candidate import Candidate
     from comparisons.models.grids import parse_grid
     from comparisons.models.quantities import sides
+    from comparisons.models.sizes import require_room
     from comparisons.models.springs import calibrate
     from sheetbench.scenes.errors import BadInput
     from sheetbench.scenes.grid import MASSES, grid_of
@@ -97,6 +99,9 @@ def command(
     about = {"sheet": sheet.model_dump(mode="json"), "material": material.model_dump(mode="json")}
     with finish("calibrate", json, out, overwrite, about=about) as end:
         masses = parse_grid(sheet, grid) if grid is not None else grid_of(sheet, MASSES)
+        if export is not None and not large:
+            lattice = Candidate("lumped", {"grid": masses})
+            require_room(asked.exported(scene, sheet, material), lattice, "--grid")
         own = {"k": k, "layer_distance": layer_distance}
         method, because = asked.method(scene, sheet, material, masses, method, grading, own)
         method = method or CALIBRATION

@@ -98,7 +98,10 @@ def _displacements(text: str) -> np.ndarray:
     solution = fem_reference.solve(scene, model="shell", elements=ELEMENTS)
     if solution.status is not Status.CONVERGED:
         raise BadInput(f"scene '{scene.name}': nothing to train on, the shell's answer is {solution.status}")
-    return solution.displacement(training_points(scene))
+    displacement = solution.displacement(training_points(scene))
+    if not displacement.any():
+        raise BadInput(f"scene '{scene.name}': nothing to train on, nothing moves; give it a load or weight")
+    return displacement
 
 
 @lru_cache(maxsize=64)

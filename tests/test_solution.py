@@ -31,7 +31,7 @@ def test_advice_names_options_that_compare_has():
         for option in parameter.opts
     }
     named = {option for status in Status for option in re.findall(r"--[a-z-]+", status.advice)}
-    assert named == {"--lumped", "--elements"} and named <= known
+    assert named == {"--lumped", "--elements", "--branch"} and named <= known
     assert not any("steps" in status.advice for status in (Status.DIVERGED, Status.INVERTED))
 
 

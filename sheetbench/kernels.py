@@ -11,6 +11,8 @@ Kernels are compiled for x86-64-v3 (AVX2, FMA, BMI2) where the processor has tha
 imported before: results do not depend on the processor then, and a wheel may carry its kernels, in the folder
 `compiled`, which is looked into before the user's cache and never written to (`make wheel`).
 
+What is compiled is code that runs here, so the folder must be the user's own and nobody else may write it.
+
 To be imported before numba is. Whoever wants to know that something is compiled listens to the logger
 "sheetbench"; nothing is said where all is in the cache.
 """
@@ -23,9 +25,11 @@ import os
 import platform
 import re
 import shutil
+import stat
 import sys
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -53,6 +57,8 @@ target_common_processor()
 
 from numba.core import caching, event  # noqa: E402  # after its settings are made
 from numba.core.runtime import rtsys  # noqa: E402
+
+from sheetbench.scenes.errors import BadInput
 
 ROOT = Path(__file__).resolve().parent.parent
 SHIPPED = Path(__file__).resolve().parent / "compiled"
@@ -82,6 +88,7 @@ class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]  # numba 
     def ensure_cache_path(self) -> None:
         """Once a folder, not once a kernel; what nobody compiled for a month of the same file goes."""
         if self.get_cache_path() not in _writable:
+            _make(Path(self.get_cache_path()))
             super().ensure_cache_path()
             _writable.add(self.get_cache_path())
             _remove_old(Path(self.get_cache_path()))
@@ -91,8 +98,33 @@ class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]  # numba 
         """The locator of a function of ours; None of others, which numba looks after."""
         if not _ours(file):
             return None
+        _make(Path(caching.config.CACHE_DIR))
         found: Locator | None = super().from_function(function, file)
+        if found is not None:
+            folder = Path(found.get_cache_path())
+            require_own(folder.parent)
+            require_own(folder)
         return found
+
+
+@cache
+def _make(folder: Path) -> None:
+    """Make a folder that the user alone can enter; where it cannot be made numba looks for another."""
+    with suppress(OSError):
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+
+
+@cache
+def require_own(folder: Path) -> None:
+    """Raise BadInput for a folder that another user may write to: numba unpickles what lies there, and that
+    may do anything."""
+    with suppress(FileNotFoundError):
+        found = folder.stat()
+        if found.st_uid not in (0, os.geteuid()) or found.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+            raise BadInput(
+                f"{folder}: other users may write here, and what is kept here is run: remove the folder (its "
+                "kernels are compiled anew), or name one of your own in NUMBA_CACHE_DIR"
+            )
 
 
 _writable: set[str] = set()

@@ -3,6 +3,7 @@
 import os
 import platform
 import shutil
+import stat
 import subprocess
 import sys
 import time
@@ -18,7 +19,8 @@ from numba.core import event
 
 import lumped
 from lumped.dynamics.explicit_steps import march
-from sheetbench.kernels import MONTH, ROOT, SAID, X86_64_V3, _remove_old, made_of
+from sheetbench.kernels import MONTH, ROOT, SAID, X86_64_V3, Locator, _remove_old, made_of
+from sheetbench.numerics import maps
 from sheetbench.numerics.maps import rows
 
 ASK = """
@@ -80,6 +82,36 @@ def ask(place: Path, cache: Path) -> str:
         text=True,
         check=True,
     ).stderr
+
+
+@pytest.mark.parametrize("at", ["the cache", "a kernel's folder"])
+def test_a_folder_that_others_may_write_to_is_refused(tmp_path: Path, at: str) -> None:
+    """What lies there is unpickled: somebody else's was executed."""
+    cache = tmp_path / "cache"
+    cache.mkdir(mode=0o755)
+    opened = cache if at == "the cache" else cache / Locator.get_suitable_cache_subpath(maps.__file__)
+    opened.mkdir(exist_ok=True)
+    opened.chmod(0o775)
+    done = subprocess.run(
+        [sys.executable, "-m", "sheetbench", "compare", "one-edge-clamped", "--lumped", "3"],
+        env={**os.environ, "NUMBA_CACHE_DIR": str(cache)},
+        capture_output=True,
+        text=True,
+    )
+    said = f"{opened}: other users may write here, and what is kept here is run: remove the folder"
+    assert (done.returncode, done.stdout) == (2, "")
+    assert said in done.stderr and "Traceback" not in done.stderr
+    assert not [path for path in cache.rglob("*") if path.is_file()]
+
+
+def test_folders_of_kernels_are_the_users_alone_whatever_the_umask(tmp_path: Path) -> None:
+    done = subprocess.run(
+        ["sh", "-c", 'umask 0 && exec "$0" -c "$1"', sys.executable, ASK],
+        env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache")},
+    )
+    made = [tmp_path / "cache", *(tmp_path / "cache").iterdir()]
+    assert done.returncode == 0 and len(made) > 1
+    assert {stat.S_IMODE(path.stat().st_mode) for path in made} == {0o700}
 
 
 def test_a_copy_of_the_checkout_finds_what_the_checkout_compiled_and_what_came_with_it(tmp_path: Path):

@@ -6,7 +6,10 @@ import asyncio
 import http.client
 import json
 import socket
-from urllib.parse import urlsplit
+import stat
+import webbrowser
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
 
 import numpy as np
 import pytest
@@ -16,6 +19,7 @@ from terminals import COMMAND, Terminal
 from websockets.exceptions import InvalidStatus
 
 import sheetbench as sb
+from comparisons.live import server
 from comparisons.live.newest import Newest
 from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
 from comparisons.live.server import MESSAGE
@@ -59,7 +63,9 @@ def test_the_page_is_there_with_a_policy(address):
     assert answer.headers["Referrer-Policy"] == "no-referrer"
 
 
-@pytest.mark.parametrize("path", ["/", "/wrong/", "/socket", "/%2e%2e/", "//", "http://127.0.0.1/"])
+@pytest.mark.parametrize(
+    "path", ["/", "/wrong/", "/socket", "/%2e%2e/", "//", "//[", "/[?]", "http://127.0.0.1/"]
+)
 def test_without_the_token_nothing_is_answered(address, path):
     assert got(address, path).status == 403
 
@@ -215,6 +221,24 @@ def test_bad_options_are_refused_in_a_line(capsys):
     assert "--port" in one_line(capsys)
     assert run("live", "two-edges-clamped", "--grid", "99") == 2
     assert "grid = 99" in one_line(capsys)
+
+
+def test_no_command_line_has_the_secret_address(capsys, monkeypatch):
+    """The browser's had it, which every user of the machine can read."""
+    told = {}
+
+    def browse(given):
+        file = Path(unquote(urlsplit(given).path))
+        told.update(given=given, text=file.read_text(), modes=[p.stat().st_mode for p in (file, file.parent)])
+
+    monkeypatch.setattr(webbrowser, "open", browse)
+    monkeypatch.setattr(server, "run", lambda panel, port, opened: opened("http://127.0.0.1:1/secret/"))
+    assert run("live", "two-edges-clamped") == 0
+    assert told["given"].startswith("file:///") and "secret" not in told["given"]
+    assert 'content="0;url=http://127.0.0.1:1/secret/"' in told["text"]
+    assert [stat.S_IMODE(mode) for mode in told["modes"]] == [0o600, 0o700]
+    assert not Path(urlsplit(told["given"]).path).parent.exists()
+    assert "http://127.0.0.1:1/secret/" in capsys.readouterr().out  # for who has no browser here
 
 
 def test_it_ends_by_ctrl_c():

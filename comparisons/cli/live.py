@@ -39,7 +39,7 @@ def command(
     """
     from comparisons.cli.console import note
     from comparisons.comparison.comparison import load_static
-    from comparisons.live import server
+    from comparisons.live import redirection, server
     from comparisons.live.panel import Panel
     from comparisons.models.grading import fixed
     from sheetbench.scenes.errors import BadInput
@@ -52,11 +52,13 @@ def command(
         raise BadInput(f"grading = {graded}: this page grades towards all edges; give a number")
     panel = Panel(asked, elements, grid=lumped, grading=graded, calibration=calibration)
 
-    def opened(address: str) -> None:
-        note(f"{address}\nCtrl-C ends it.")
-        if browser:
-            import webbrowser
+    with redirection.kept() as leads_to:
 
-            webbrowser.open(address)
+        def opened(address: str) -> None:
+            note(f"{address}\nCtrl-C ends it.")
+            if browser:
+                import webbrowser
 
-    server.run(panel, port, opened)
+                webbrowser.open(leads_to(address))
+
+        server.run(panel, port, opened)

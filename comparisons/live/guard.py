@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import secrets
 from http import HTTPStatus
-from urllib.parse import urlsplit
 
 from websockets.datastructures import Headers
 
@@ -34,14 +33,14 @@ class Guard:
         own = {f"http://{host}" for host in self._hosts}
         if len(origins) > 1 or (socket and not origins) or not own.issuperset(map(str.lower, origins)):
             return HTTPStatus.FORBIDDEN
-        given = urlsplit(path).path.split("/")[1:2]
+        given = _plain(path).split("/")[1:2]
         if not secrets.compare_digest((given or [""])[0].encode(), self.token.encode()):
             return HTTPStatus.FORBIDDEN
         return None
 
     def name(self, path: str) -> str:
         """What a path that was let in asks for, below the token."""
-        return urlsplit(path).path.removeprefix(f"/{self.token}").removeprefix("/")
+        return _plain(path).removeprefix(f"/{self.token}").removeprefix("/")
 
     @property
     def headers(self) -> dict[str, str]:
@@ -59,3 +58,8 @@ class Guard:
             "Cross-Origin-Opener-Policy": "same-origin",
             "Cache-Control": "no-store",
         }
+
+
+def _plain(path: str) -> str:
+    """A request's path without its query."""
+    return path.partition("?")[0]

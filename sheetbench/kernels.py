@@ -98,7 +98,7 @@ class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]  # numba 
         """The locator of a function of ours; None of others, which numba looks after."""
         if not _ours(file):
             return None
-        _make(Path(caching.config.CACHE_DIR))
+        _make(Path(os.environ["NUMBA_CACHE_DIR"]))
         found: Locator | None = super().from_function(function, file)
         if found is not None:
             folder = Path(found.get_cache_path())

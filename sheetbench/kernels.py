@@ -38,6 +38,7 @@ from llvmlite.binding import get_host_cpu_features
 from platformdirs import user_cache_path
 
 from sheetbench import clock
+from sheetbench.scenes.errors import BadInput
 
 X86_64_V3 = ("avx", "avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe", "xsave")  # beyond x86-64-v2
 
@@ -57,8 +58,6 @@ target_common_processor()
 
 from numba.core import caching, event  # noqa: E402  # after its settings are made
 from numba.core.runtime import rtsys  # noqa: E402
-
-from sheetbench.scenes.errors import BadInput
 
 ROOT = Path(__file__).resolve().parent.parent
 SHIPPED = Path(__file__).resolve().parent / "compiled"

@@ -49,3 +49,24 @@ def test_a_long_command_is_interrupted(
     assert terminal.end() == interruption.STATUS
     assert f"interrupted; {left}" in terminal.shown
     assert "Traceback" not in terminal.shown and "Error" not in terminal.shown
+
+
+LINGERS = """
+import atexit, sys, time
+from comparisons.cli import main
+atexit.register(lambda: (print("clearing up", flush=True), time.sleep(1.0)))
+main()
+"""
+
+
+def test_a_second_interrupt_shows_no_traceback(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It met what was being cleared up, and the end of the interpreter."""
+    monkeypatch.chdir(tmp_path)
+    terminal = Terminal(LINGERS, "stability", "--study", "mass", "--workers", "1", "--out", "kept")
+    terminal.wait_for("0/")
+    terminal.press(CTRL_C)
+    terminal.press(CTRL_C)
+    terminal.wait_for("clearing up")
+    terminal.press(CTRL_C)
+    assert terminal.end() == interruption.STATUS
+    assert "Traceback" not in terminal.shown and "Error" not in terminal.shown

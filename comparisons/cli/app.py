@@ -9,9 +9,13 @@ did not converge; 130 interrupted.
 
 from __future__ import annotations
 
+import errno
+import os
+import re
 import sys
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, MutableMapping
+from contextlib import suppress
 from functools import cache, wraps
 from importlib import import_module
 from shutil import get_terminal_size
@@ -50,6 +54,9 @@ VERBS = (
 FAULT = 1
 BAD_INPUT = 2
 NOT_CONVERGED = 3
+SIZE = re.compile("0*[1-9][0-9]{0,3}")  # of a terminal, in columns or lines
+SHOWN = 40  # characters of a name that is too long
+OUTPUT_FAULTS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 BOXES = 80  # columns; in narrower ones the boxes of a help page cut names off, and it is plain text
 
 app = typer.Typer(
@@ -114,10 +121,15 @@ def main(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit status."""
     for stream in (sys.stdout, sys.stderr):
         characters.adapt(stream)
+    _make_sound(os.environ)
     verbs = _group(get_terminal_size().columns >= BOXES)
     with interruption.heeded(), warned.in_a_line(), announced.in_a_line():
         try:
-            verbs(args=arguments, prog_name="sheetbench")
+            try:
+                verbs(args=arguments, prog_name="sheetbench")
+            finally:
+                if sys.stdout is not None:  # what cannot be written is said here, and not as the process ends
+                    sys.stdout.flush()
         except SystemExit as leaving:
             if leaving.code == interruption.STATUS:
                 interruption.say()
@@ -129,8 +141,30 @@ def main(arguments: list[str] | None = None) -> None:
             raise SystemExit(_explained(error)) from None
 
 
+def _make_sound(environment: MutableMapping[str, str]) -> None:
+    """Leave out sizes of a terminal that cannot be, and draw without a window whatever matplotlib is told."""
+    for name in ("COLUMNS", "LINES"):
+        if not SIZE.fullmatch(environment.get(name, "")):
+            environment.pop(name, None)
+    environment["MPLBACKEND"] = "agg"
+
+
+def _in_the_system(error: OSError) -> str | None:
+    """What is said of a name that is too long and of an output that cannot be written; None of all else."""
+    if error.errno == errno.ENAMETOOLONG:
+        return f"{str(error.filename)[:SHOWN]}…: a name that is too long; choose a shorter one"
+    if error.filename is None and error.errno in OUTPUT_FAULTS:
+        return f"the output cannot be written: {os.strerror(error.errno).lower()}"
+    return None
+
+
 def _explained(error: Exception) -> int:
     """Say what the user did wrong, or that we did; the exit status."""
+    if isinstance(error, OSError) and (said := _in_the_system(error)) is not None:
+        with suppress(OSError):  # what is left to be written has no place to go
+            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        print(f"sheetbench: {said}", file=sys.stderr)
+        return BAD_INPUT
     from sheetbench.scenes.errors import BadInput  # with numpy and pydantic: help must not wait for them
 
     if isinstance(error, BadInput):

@@ -43,6 +43,8 @@ def heeded() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, _once)
     heard, wake = os.pipe()
     os.set_blocking(wake, False)
     before = signal.set_wakeup_fd(wake, warn_on_full_buffer=False)
@@ -54,6 +56,14 @@ def heeded() -> Iterator[None]:
         over.set()
         signal.set_wakeup_fd(before)
         os.close(wake)
+        if signal.getsignal(signal.SIGINT) is _once:  # else there was one, and the process ends
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def _once(number: int, frame: object) -> None:
+    """Interrupt, and be deaf to more of it: they would interrupt what is cleared up, to the last."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    raise KeyboardInterrupt
 
 
 def _end_in_time(heard: int, over: threading.Event) -> None:

@@ -18,7 +18,9 @@ from pathlib import Path
 
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.quantities import LARGEST
+from sheetbench.scenes.reading import read_text
 
+LARGEST_FILE = 2**28  # bytes
 SEPARATORS = ";\t,"
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "um": 1e-6, "s": 1.0, "ms": 1e-3}  # in m or s
 _COMMA, _POINT = (re.compile(rf"[+-]?(\d+{mark}\d*|{mark}\d+)([eE][+-]?\d+)?") for mark in (",", r"\."))
@@ -76,7 +78,7 @@ class Columns:
 def read_columns(path: Path) -> Columns:
     """The columns of a file. Raises BadInput naming the file, the line and what is wrong there."""
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
+        lines = read_text(path, LARGEST_FILE).splitlines()
     except OSError as error:
         raise BadInput(f"{path}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:

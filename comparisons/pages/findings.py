@@ -29,13 +29,18 @@ def findings(study: Study) -> list[str]:
 
 def notes(study: Study) -> list[str]:
     """What the run says of its own tables."""
-    return _joined(map(str, study.words.get("notes") or study.document.get("notes") or ()))
+    return _joined(study.words.get("notes") or texts(study.document.get("notes")))
 
 
 def complaints(study: Study) -> list[str]:
     """What went wrong, and what is doubtful about the scene."""
-    found = [*study.words.get("complaints", ()), *(study.document.get("warnings") or ())]
-    return list(dict.fromkeys(map(str, found)))
+    found = [*study.words.get("complaints", ()), *texts(study.document.get("warnings"))]
+    return list(dict.fromkeys(found))
+
+
+def texts(value: Any) -> list[str]:
+    """The texts of a document's list; none where it is something else."""
+    return [str(one) for one in value] if isinstance(value, list) else []
 
 
 def _joined(notes: Iterable[str]) -> list[str]:

@@ -33,8 +33,10 @@ def stage(study: Study) -> Options | None:
     sheets: list[Options] = []
     views: list[Options] = []
     for name, frames in moving.items():
-        sheets.append(_moving(name, frames, study.scene))
-        views.append({"name": name, "label": "Motion", "sheets": [name], "field": "displacement"})
+        sheet = study.attempt(name, lambda n=name, f=frames: _moving(n, f, study.scene))  # type: ignore[misc]
+        if sheet is not None:
+            sheets.append(sheet)
+            views.append({"name": name, "label": "Motion", "sheets": [name], "field": "displacement"})
     for name, mesh in meshes.items():
         parts = study.attempt(name, lambda n=name, m=mesh: _parts(n, m, study))  # type: ignore[misc]
         for sheet, view in parts or []:

@@ -14,12 +14,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from comparisons.pages.manifests import LARGEST, manifest
 from comparisons.report.files import digest
 from comparisons.runs.folder import MANIFEST
 from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput
 
-LARGEST = 64_000_000  # bytes of a file that a page reads
 SHEETS = (".vtu", ".pvd")
 OURS = ("report.html", MANIFEST)
 Say = Callable[[str], None]
@@ -46,8 +46,7 @@ class Study:
     @cached_property
     def words(self) -> Mapping[str, Any]:
         """What the run said of its answer; nothing of a run that has not ended."""
-        found = self.run.get("words")
-        return found if isinstance(found, dict) else {}
+        return self.run.get("words") or {}
 
     @cached_property
     def document(self) -> Mapping[str, Any]:
@@ -174,7 +173,7 @@ def read(root: Path, loose: bool = False) -> Found:
         record = _manifest(folder, place, troubles)
         claimed: set[str] = set()
         for verb, run in _runs(record).items():
-            names = tuple(name for name in run.get("files", ()) if isinstance(name, str))
+            names = tuple(run.get("files", ()))
             claimed.update(names)
             studies.append(Study(folder, place, verb, names, run, record))
         sheets = tuple(path.name for path in sorted(folder.iterdir()) if path.suffix in SHEETS)
@@ -204,7 +203,7 @@ def _folders(root: Path, troubles: list[str]) -> Iterator[Path]:
 
 
 def _names(run: Mapping[str, Any]) -> list[str]:
-    return [name for name in run.get("files", ()) if isinstance(name, str) and name.endswith("/")]
+    return [name for name in run.get("files", ()) if name.endswith("/")]
 
 
 def _counts(path: Path) -> bool:
@@ -213,16 +212,11 @@ def _counts(path: Path) -> bool:
 
 def _manifest(folder: Path, place: str, troubles: list[str]) -> Mapping[str, Any]:
     try:
-        found = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
-    except FileNotFoundError:
+        return manifest(folder)
+    except BadInput as error:
+        troubles.append(f"{place}/{MANIFEST}".lstrip("/") + f": damaged, cannot be read: {error}")
         return {}
-    except (OSError, ValueError, RecursionError) as error:
-        said = " ".join(str(error).split())
-        troubles.append(f"{place}/{MANIFEST}".lstrip("/") + f": damaged, cannot be read: {said[:160]}")
-        return {}
-    return found if isinstance(found, dict) else {}
 
 
 def _runs(record: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
-    runs = record.get("runs")
-    return {str(k): v for k, v in runs.items() if isinstance(v, dict)} if isinstance(runs, dict) else {}
+    return dict(record.get("runs", {}))

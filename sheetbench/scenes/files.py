@@ -9,8 +9,9 @@ from warnings import warn
 
 from pydantic import ValidationError
 
-from sheetbench.scenes.errors import Implausible, SceneError
+from sheetbench.scenes.errors import BadInput, Implausible, SceneError
 from sheetbench.scenes.plausibility import slips
+from sheetbench.scenes.reading import read_text
 from sheetbench.scenes.refusals import did_you_mean, in_one_line
 from sheetbench.scenes.scene import Scene
 
@@ -38,13 +39,15 @@ def load(scene: str | Path) -> Scene:
     known = catalogue()
     path = known.get(str(scene)) or Path(scene)
     try:
-        data = tomllib.loads(path.read_text(encoding="utf-8-sig"))  # some editors put a mark before the text
+        data = tomllib.loads(read_text(path))
     except FileNotFoundError:
         near = did_you_mean(str(scene), known)
         hint = f"did you mean {near}?" if near else f"those are {', '.join(known)}"
         raise SceneError(f"{scene}: no such file, and no catalogue scene of that name; {hint}") from None
     except (OSError, UnicodeDecodeError) as error:
         raise SceneError(f"{scene}: cannot be read as text: {error}") from None
+    except BadInput as error:
+        raise SceneError(str(error)) from None
     except tomllib.TOMLDecodeError as error:
         raise SceneError(f"{scene}: not a TOML file: {error}") from None
     except RecursionError:

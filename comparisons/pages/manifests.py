@@ -1,0 +1,85 @@
+"""The manifest of a folder as a page reads it: of the shape that verbs write it in, or refused.
+
+What a run was asked and found, under "settings" and "scene", may be anything: it is looked at where it is
+shown.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, TypeAdapter, ValidationError
+from typing_extensions import TypedDict
+
+from comparisons.runs.folder import MANIFEST
+from sheetbench.scenes.errors import BadInput
+
+LARGEST = 64_000_000  # bytes of a file that a page reads
+LONGEST = 255  # bytes of a file's name
+
+
+def _name(text: str) -> str:
+    if not text or "\0" in text or any(len(part.encode()) > LONGEST for part in text.split("/")):
+        raise ValueError("not the name of a file")
+    return text
+
+
+Name = Annotated[str, AfterValidator(_name)]
+
+
+class Words(TypedDict, total=False):
+    """What a run said of its answer (`comparisons.report.report.Report.words`)."""
+
+    title: str
+    subtitle: str | None
+    lead: str | None
+    document: Name
+    digest: str
+    tables: list[dict[str, Any]]
+    notes: list[str]
+    complaints: list[str]
+    met: bool
+
+
+class Run(TypedDict, total=False):
+    """A verb's latest run."""
+
+    command: list[str]
+    date: str | None
+    finished: bool
+    files: list[Name]
+    words: Words | None
+
+
+class Record(TypedDict, total=False):
+    """The manifest."""
+
+    sheetbench: str
+    source: str
+    machine: dict[str, Any]
+    versions: dict[str, str]
+    runs: dict[str, Run]
+
+
+SHAPE = TypeAdapter(Record)
+
+
+def manifest(folder: Path) -> dict[str, Any]:
+    """The folder's manifest, empty where there is none. Raises BadInput for one that cannot be read."""
+    path = folder / MANIFEST
+    if not path.exists():
+        return {}
+    try:
+        if not path.is_file() or path.stat().st_size > LARGEST:
+            raise BadInput("no file, or too large for a page")
+        found = json.loads(path.read_text(encoding="utf-8"))
+        SHAPE.validate_python(found, strict=True)
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(map(str, first["loc"]))
+        raise BadInput(f"{place}: {first['msg']}" if place else first["msg"]) from None
+    except (OSError, ValueError, RecursionError) as error:
+        raise BadInput(" ".join(str(error).split())[:160]) from None
+    return dict(found)

@@ -1,0 +1,60 @@
+"""The command line against a system that is against it: outputs, names, terminals' sizes, files."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from commands import one_line, run
+
+PROGRAM = (sys.executable, "-m", "sheetbench")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
+@pytest.mark.parametrize("asked", [("scenes",), ("scenes", "--json"), ("--help",), ("--version",)], ids=str)
+def test_an_output_that_cannot_be_written_is_said_in_a_line(asked: tuple[str, ...]) -> None:
+    with open("/dev/full", "wb") as full:
+        done = subprocess.run([*PROGRAM, *asked], stdout=full, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == 2
+    assert done.stderr == "sheetbench: the output cannot be written: no space left on device\n"
+
+
+@pytest.mark.parametrize(
+    "asked", [("report",), ("suite", "--out"), ("check", "one-edge-clamped", "--out")], ids=str
+)
+def test_a_name_that_is_too_long_is_said_in_a_line(
+    capsys: pytest.CaptureFixture[str], asked: tuple[str, ...]
+) -> None:
+    assert run(*asked, 300 * "a") == 2
+    assert "too long" in one_line(capsys)
+
+
+@pytest.mark.parametrize("size", ["0", "00", "", "²", "-3", "wide", "9" * 12])
+def test_a_size_of_the_terminal_that_cannot_be_counts_for_nothing(size: str) -> None:
+    usual, odd = (
+        subprocess.run([*PROGRAM, "scenes"], env=given, capture_output=True, text=True)
+        for given in (
+            {name: value for name, value in os.environ.items() if name != "COLUMNS"},
+            {**os.environ, "COLUMNS": size, "LINES": size},
+        )
+    )
+    assert (odd.returncode, odd.stdout, odd.stderr) == (0, usual.stdout, "")
+
+
+def test_a_drawing_needs_no_window_whatever_matplotlib_is_told(tmp_path: Path) -> None:
+    few = ["modes", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--out", str(tmp_path)]
+    environment = {**os.environ, "MPLBACKEND": "nope"}
+    done = subprocess.run([*PROGRAM, *few], env=environment, capture_output=True, text=True)
+    assert done.returncode == 0 and "nope" not in done.stderr and list(tmp_path.glob("*.png"))
+
+
+def test_a_file_without_an_end_is_refused_before_memory_ends(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("check", "/dev/zero") == 2
+    assert "/dev/zero: larger than 64 MB, which no such file is" in one_line(capsys)
+    assert run("score", "/dev/zero") == 2
+    assert "/dev/zero: larger than 256 MB, which no such file is" in one_line(capsys)

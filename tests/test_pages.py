@@ -300,56 +300,6 @@ def test_damage_costs_a_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[s
     assert "data:image/svg+xml;base64" in text
 
 
-RUN = {"files": ["comparison.json"], "words": {"title": "A", "document": "comparison.json"}}
-
-
-@pytest.mark.parametrize(
-    "damaged",
-    [
-        7,
-        [],
-        {"runs": [RUN]},
-        {"runs": {"compare": None}},
-        {"runs": {"compare": {"files": None}}},
-        {"runs": {"compare": {"files": 3}}},
-        {"runs": {"compare": {"files": ["a\0b.json"]}}},
-        {"runs": {"compare": {"files": ["x" * 300 + ".json"]}}},
-        {"runs": {"compare": {**RUN, "words": {"notes": 5}}}},
-        {"runs": {"compare": {**RUN, "words": {"complaints": None}}}},
-        {"runs": {"compare": {**RUN, "words": {"tables": ["a"]}}}},
-        {"runs": {"compare": {**RUN, "words": {"document": ["a"]}}}},
-        {"runs": {"compare": {**RUN, "command": 3}}},
-        {"runs": {"compare": RUN}, "machine": ["processor"]},
-        {"runs": {"compare": RUN}, "versions": "numpy"},
-    ],
-    ids=lambda value: str(value)[-40:],
-)
-def test_a_manifest_of_another_shape_costs_a_sentence(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], damaged: object
-) -> None:
-    for name, record in (("odd", damaged), ("sound", {"runs": {"compare": RUN}})):
-        (tmp_path / name).mkdir()
-        (tmp_path / name / "manifest.json").write_text(json.dumps(record))
-        (tmp_path / name / "comparison.json").write_text("{}")
-    assert run("report", str(tmp_path)) == 0
-    said = capsys.readouterr()
-    assert "1 study in" in said.out
-    assert "odd/manifest.json: damaged, cannot be read: " in said.err and "Traceback" not in said.err
-
-
-@pytest.mark.parametrize("key", ["notes", "warnings", "findings", "solutions", "scene", "errors"])
-@pytest.mark.parametrize(
-    "value", [5, "text", {"a": None}, [None], [[1]], 10**400], ids=lambda value: str(value)[:9]
-)
-def test_a_document_of_another_shape_costs_a_sentence_at_most(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], key: str, value: object
-) -> None:
-    (tmp_path / "manifest.json").write_text(json.dumps({"runs": {"compare": RUN}}))
-    (tmp_path / "comparison.json").write_text(json.dumps({"solutions": [], key: value}))
-    assert run("report", str(tmp_path)) == 0
-    assert "Traceback" not in capsys.readouterr().err
-
-
 def test_a_folder_that_is_none_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("report", str(tmp_path / "none")) == 2
     assert "there is no such folder" in capsys.readouterr().err

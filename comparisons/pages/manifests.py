@@ -22,7 +22,7 @@ LONGEST = 255  # bytes of a file's name
 
 def _name(text: str) -> str:
     if not text or "\0" in text or any(len(part.encode()) > LONGEST for part in text.split("/")):
-        raise ValueError("not the name of a file")
+        raise BadInput("not the name of a file")
     return text
 
 

@@ -62,10 +62,9 @@ class Fault:
     end: int
     text: str
 
-    @property
-    def digest(self) -> int:
-        """By which faults are drawn: as good as chance, and the same for the same name."""
-        return zlib.crc32(f"1 {self.name}".encode())
+    def digest(self, seed: int = 1) -> int:
+        """By which faults are drawn: as good as chance, and the same for the same name and seed."""
+        return zlib.crc32(f"{seed} {self.name}".encode())
 
     def put_into(self, source: bytes) -> bytes:
         """The file with the fault."""

@@ -25,9 +25,9 @@ from comparisons.runs.manifest import processor
 HEAD = """\
 # What the tests notice
 
-Faults put into the solvers one at a time, and the tests run against each until one fails. A fault is one
+Faults put into the packages one at a time, and the tests run against each until one fails. A fault is one
 comparison, operator, number, index, condition or sign written otherwise, or one statement left out; as many
-of `lumped` as of `fem_reference` are drawn, every one as likely as another. It is tried on the tests that
+of each package are drawn, every one as likely as another. It is tried on the tests that
 run the faulty function, the quick ones first, and on those that are near: that import the module, that speak
 of it or of its function; kernels before they are compiled, and after. What has not been noticed after
 {enough:.0f} seconds of processor time, or {compiled:.0f} where kernels are compiled, has survived, though

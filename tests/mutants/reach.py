@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Set
 from pathlib import Path
 from typing import Any
 
-PACKAGES = ("lumped", "fem_reference", "sheetbench/numerics")
+PACKAGES = ("lumped", "fem_reference", "sheetbench/numerics", "comparisons")
 
 
 class Reach:

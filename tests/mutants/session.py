@@ -1,4 +1,4 @@
-"""Faults put into the solvers one at a time, in a clone of the last commit, and the tests run against each.
+"""Faults put into the packages one at a time, in a clone of the last commit, and the tests run against each.
 
 The same faults are drawn from code that has not changed: each has a place by a digest of its name, and the
 first of each package are taken. What was tried is kept line by line in FOLDER/tried.jsonl and not tried again
@@ -140,7 +140,7 @@ class Session:
         source, written = path.read_bytes(), path.stat().st_mtime
         try:
             path.write_bytes(fault.put_into(source))
-            os.utime(path, (fault.digest, fault.digest))  # byte code goes by a file's time, to the second
+            os.utime(path, 2 * (fault.digest(),))  # byte code goes by a file's time, to the second
             yield
         finally:
             path.write_bytes(source)
@@ -205,16 +205,17 @@ class Session:
         return found["failed"], found["seconds"]
 
 
-def drawn(tree: Path, size: int) -> list[Fault]:
-    """``size`` faults, as many of each package in turn."""
+def drawn(tree: Path, size: int, seed: int, without: tuple[str, ...]) -> list[Fault]:
+    """``size`` faults, as many of each package in turn, none of files whose names begin so."""
     queues = []
     for package in PACKAGES:
         found = [
             fault
             for path in sorted((tree / package).rglob("*.py"))
-            for fault in faults(str(path.relative_to(tree)), path.read_bytes())
+            if not (name := str(path.relative_to(tree))).startswith(without)
+            for fault in faults(name, path.read_bytes())
         ]
-        queues.append(sorted(found, key=lambda fault: fault.digest))
+        queues.append(sorted(found, key=lambda fault: fault.digest(seed)))
     return [fault for row in zip_longest(*queues) for fault in row if fault is not None][:size]
 
 
@@ -224,11 +225,13 @@ def main() -> None:
     asked.add_argument("size", type=int)
     asked.add_argument("usual", nargs="*")
     asked.add_argument("--survivors", action="store_true")
+    asked.add_argument("--seed", type=int, default=1, help="of the draw")
+    asked.add_argument("--without", action="append", default=[], help="files whose names begin so; repeated")
     options = asked.parse_args()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended; to be gone on with"))
     session = Session(options.folder, options.usual)
     tried, reasons = session.tried(), tomllib.loads(EQUIVALENT.read_text())["equivalent"]
-    for number, fault in enumerate(drawn(session.tree, options.size), 1):
+    for number, fault in enumerate(drawn(session.tree, options.size, options.seed, tuple(options.without)), 1):
         row = tried.get(fault.name)
         survived = row and row["failed"] is None and row["commit"] != session.commit
         again = options.survivors and survived and fault.name not in reasons

@@ -197,3 +197,18 @@ def test_segments_share_the_force_and_the_moment_about_their_middles() -> None:
     on_segments = found[:, 3:] + np.cross(middles, found[:, :3])
     np.testing.assert_allclose(found[:, :3].sum(axis=0), nodal[:, :3].sum(axis=0), atol=1e-12)
     np.testing.assert_allclose(on_segments.sum(axis=0), on_nodes.sum(axis=0), atol=1e-12)
+
+
+def test_a_straight_rod_of_intrinsic_curvature_stores_what_straightening_takes() -> None:
+    """½ EI κ₀² L at full load, a quarter at half; EI and the length are 1."""
+    structure, _ = discretise(rectangle(STRIP, (1, 4), graded=False), alone(curvature=2.0))
+    assert structure.rod_energy(structure.rest()) == pytest.approx(2.0, rel=1e-9)
+    assert structure.potential(structure.rest(), 0.5)[0] == pytest.approx(0.5, rel=1e-9)
+
+
+@pytest.mark.parametrize(("edge", "across"), [("x1", (1.0, 0.0, 0.0)), ("y1", (0.0, 1.0, 0.0))])
+def test_a_rods_own_vectors_lie_in_the_sheet_across_its_edge(edge: str, across: tuple[float, ...]) -> None:
+    structure, _ = discretise(rectangle(SHEET, 2), driven(chain(edge=edge)))
+    own = structure.rods.own
+    assert len(own) == 5
+    np.testing.assert_allclose(np.abs(own), np.tile(across, (5, 1)), atol=1e-12)

@@ -231,7 +231,8 @@ def main() -> None:
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended; to be gone on with"))
     session = Session(options.folder, options.usual)
     tried, reasons = session.tried(), tomllib.loads(EQUIVALENT.read_text())["equivalent"]
-    for number, fault in enumerate(drawn(session.tree, options.size, options.seed, tuple(options.without)), 1):
+    chosen = drawn(session.tree, options.size, options.seed, tuple(options.without))
+    for number, fault in enumerate(chosen, 1):
         row = tried.get(fault.name)
         survived = row and row["failed"] is None and row["commit"] != session.commit
         again = options.survivors and survived and fault.name not in reasons

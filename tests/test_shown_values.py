@@ -1,0 +1,100 @@
+"""What tables, a picture and lists of cells hold, where nothing else would notice another number."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from comparisons.advice import probing
+from comparisons.calibration.tables import moduli
+from comparisons.linearisation.tables import poles
+from comparisons.models.candidate import Candidate
+from comparisons.report.look import PLAIN
+from comparisons.report.table import Table
+from comparisons.reproduction import figure
+from comparisons.reproduction.tables import nearest
+from comparisons.stability import STUDIES
+
+PUBLISHED = Path(__file__).parent.parent / "docs" / "stability"
+
+
+def shown(table: Table) -> dict[str, str]:
+    """The first row as people read it, by column."""
+    return dict(zip((column.name for column in table.columns), table.shown_rows()[0], strict=True))
+
+
+def test_a_modulus_is_off_its_target_by_the_difference() -> None:
+    modulus = {"name": "D11", "asked": 2.0, "got": 1.5}
+    calibration = {"moduli": [modulus], "springs": {}, "grid": [3, 3, 2]}
+    row = shown(moduli(calibration))
+    assert float(row["off target by"].replace("−", "-")) == -25.0
+
+
+def test_a_pole_is_shown_in_hertz_and_its_damping_in_percent() -> None:
+    found = SimpleNamespace(upper=np.array([-3.0 + 4.0j]), damping_ratios=np.array([0.6]))
+    row = shown(poles(found))  # type: ignore[arg-type]
+    assert float(row["frequency"]) == pytest.approx(5.0 / (2.0 * np.pi), rel=1e-4)
+    assert (float(row["damping ratio"]), float(row["imaginary"])) == (60.0, 4.0)
+
+
+def test_grading_changes_no_rate_and_a_calibration_does() -> None:
+    even, graded, other = (
+        Candidate("lumped", {"grid": [9, 9], "calibration": name, **more})
+        for name, more in (("consistent", {}), ("consistent", {"grading": 0.5}), ("uniform", {}))
+    )
+    assert probing._rate(even) == probing._rate(graded) != probing._rate(other)
+
+
+def test_a_fit_is_shown_in_the_tables_units() -> None:
+    sought = {"young": 2.5e6, "k": 321.0, "layer_distance": 1.5e-3, "tilt": np.pi / 6.0, "curvature": 4.0}
+    fit = SimpleNamespace(
+        tests=(1,), kind="sheet", source="model", sought=sought, by="misfit", rms=0.25, error=0.5, entries=12,
+        met=np.array([True, True, False]),
+    )  # fmt: skip
+    row = shown(nearest(SimpleNamespace(fits=[fit])))  # type: ignore[arg-type]
+    assert [float(row[name]) for name in ("E", "k", "lz", "tilt", "κ")] == [2.5, 321.0, 1.5, 30.0, 4.0]
+    assert (float(row["rms"]), float(row["error"]), row["met"]) == (25.0, 50.0, "2 of 12")
+
+
+def test_the_picture_of_settling_is_in_millimetres_over_the_static_answer() -> None:
+    run = SimpleNamespace(
+        time=np.array([0.0, 1.0]), probes={"P4": np.array([[0.0, 0.0, 0.0], [1e-3, 2e-3, 3e-3]])}
+    )
+    settling = SimpleNamespace(runs={"consistent": run}, rest={"consistent": np.array([4e-3, 5e-3, 6e-3])})
+    panels = figure.motion(settling, PLAIN).axes[:3]  # type: ignore[arg-type]
+    for axis, panel in enumerate(panels):
+        moved, rest = panel.lines[:2]
+        np.testing.assert_allclose(moved.get_ydata(), [0.0, 1.0 + axis])
+        np.testing.assert_allclose(rest.get_ydata(), 4.0 + axis)
+
+
+@pytest.mark.parametrize(
+    "name", ["stiffness", "grid", "load", "damping", "mass", "slenderness", "curved-edge"]
+)
+def test_full_maps_have_the_published_cells(name: str) -> None:
+    """Every published row is a cell, with as many samples of it."""
+    with (PUBLISHED / f"{name}.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    cells = STUDIES[name].cells(True)
+    heads = {head: head.partition(" [")[0].replace(" ", "_") for head in rows[0]}
+    keys = {key for cell in cells for key in cell} & set(heads.values())
+    assert keys
+
+    def values(row: Mapping[str, object]) -> tuple[str, ...]:
+        return tuple(plain(row.get(key)) for key in sorted(keys))
+
+    published = [{key: row[head] for head, key in heads.items()} for row in rows]
+    assert sorted(map(values, cells)) == sorted(map(values, published))
+
+
+def plain(value: object) -> str:
+    """A value of a cell, or of a file, as the same text; nothing where there is none."""
+    try:
+        return f"{float(value):g}"  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        return str(value or "")

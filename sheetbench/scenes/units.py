@@ -132,6 +132,8 @@ def _unit(text: str) -> tuple[Fraction, Dimension]:
         size *= one**power
         dimension = [have + power * more for have, more in zip(dimension, of, strict=True)]
         sign = 1
+    if sign < 0:
+        raise BadInput(f"'{text}' is no unit: nothing stands after the last /")
     m, kg, s, rad = dimension
     return size, (m, kg, s, rad)
 

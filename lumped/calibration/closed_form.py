@@ -14,7 +14,7 @@ z_k²/lz² and σ' = Σ z_g²/lz² of layers and gaps, a layer's form is
     C = (D − σ' lz² (G − δ))/(σ lz²),
 
 of which diagonals take the share f = min(1, 1/(r² − 1)) of C66 (r ≥ 1; more would ask for negative links
-along the cell, see `lumped.springs.strains`), shear springs the rest, area springs C12 − f C66, axial links
+along the cell, see `lumped.springs.laws`), shear springs the rest, area springs C12 − f C66, axial links
 what is left of C11 and C22. What the sheet's A has beyond L C + (L − 1)(G − δ) goes to the mid-surface: m to
 A12, the rest to strain springs, with lz the least for which none is negative. On square cells all of those
 vanish if P is G11/3. A cell of a graded grid has its layers as far apart as its neighbours: lz is then given,

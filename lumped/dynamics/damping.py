@@ -1,9 +1,9 @@
 """The dampers of a scene on a lattice: link dampers, area dampers, mass-proportional damping.
 
-Every link's damper acts along the link (`lumped.springs.link_dampers`). Its coefficient is that of the
+Every link's damper acts along the link (`lumped.springs.links`). Its coefficient is that of the
 scene's [dampers] table by family, or else damping_time × k; area and strain springs have dampers with
-damping_time only (`lumped.springs.area_dampers`, `lumped.springs.strain_dampers`), since the table has no
-entry for them. damping_rate × m v acts on every mass. What has a zero coefficient is not assembled.
+damping_time only (`lumped.springs.cells`), since the table has no entry for
+them. damping_rate × m v acts on every mass. What has a zero coefficient is not assembled.
 """
 
 from __future__ import annotations

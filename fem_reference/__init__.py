@@ -36,6 +36,11 @@ def solve(
     equilibrium to be sought from first. progress: called once an iteration; the plate, which is linear, has
     none.
     Raises BadInput for an unknown model or option, scenes.SceneError for a scene that no support holds.
+
+    >>> import fem_reference
+    >>> solution = fem_reference.solve("two-edges-clamped", "shell", elements=8)
+    >>> solution.status, solution.displacement([[0.188, 0.188]]).round(4)
+    (<Status.CONVERGED: 'converged'>, array([[-0.0004, -0.0004, -0.0135]]))
     """
     check(model, asked)
     solver = _solver(model)

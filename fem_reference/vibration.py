@@ -109,6 +109,11 @@ def modes(
 
     Raises BadInput for an unknown model or a count that the mesh cannot give, NoEquilibrium where there is
     none to be about.
+
+    >>> import fem_reference
+    >>> from sheetbench.scenes import load
+    >>> fem_reference.modes(load("one-edge-clamped"), "plate", elements=4, count=2).frequencies.round(1)
+    array([2.7, 6.1])
     """
     if model not in REST_STATES:
         raise BadInput(f"model = {model!r}: known are {', '.join(REST_STATES)}")

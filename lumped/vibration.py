@@ -77,6 +77,13 @@ def modes(
 
     Raises BadInput when the lattice has fewer modes than asked or the scene asks what has no modes,
     NoEquilibrium where there is none to be about.
+
+    >>> import lumped
+    >>> from sheetbench.scenes import load
+    >>> scene = load("one-edge-clamped")
+    >>> found = lumped.modes(scene, lumped.calibrate(scene.sheet, scene.material, grid=5), 2)
+    >>> found.frequencies.round(2)
+    array([2.72, 6.19])
     """
     scene = scene_of(scene)
     calibration = calibration or default(scene)

@@ -69,6 +69,14 @@ def simulate(
     Raises BadInput for an unknown integrator, a step above the limit of an explicit one, more than ten
     million default steps of it; for a folder that cannot be written to, that another process writes to, that
     holds another run, or whose files are damaged.
+
+    >>> import lumped
+    >>> from sheetbench.scenes import load
+    >>> scene = load("two-edges-settling")
+    >>> springs = lumped.calibrate(scene.sheet, scene.material, grid=3)
+    >>> history = lumped.simulate(scene, springs, 0.02)
+    >>> history.status, float(history.time[-1])
+    (<Status.CONVERGED: 'converged'>, 0.02)
     """
     require_integrator(integrator)
     for name, value in {"duration": duration, "step": step, "every": every}.items():

@@ -37,6 +37,13 @@ def calibrate(
     k [N/m] and layer_distance [m] are for the methods that take them; the fitted methods need targets.
     grading: how much smaller the cells are at the edges, 0 to 1 (`lumped.grid_lines`). Raises BadInput for an
     unknown method, a grid too small, an option that the method does not take or that is out of its bounds.
+
+    >>> import lumped
+    >>> from sheetbench.scenes import load
+    >>> scene = load("two-edges-clamped")
+    >>> springs = lumped.calibrate(scene.sheet, scene.material, grid=9)
+    >>> springs.method, springs.grid, round(springs.layer_distance, 6)
+    ('consistent', (9, 9, 2), 0.003706)
     """
     if method not in CALIBRATIONS:
         raise BadInput(f"calibration = {method!r}: unknown; choose from {', '.join(CALIBRATIONS)}")

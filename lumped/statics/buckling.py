@@ -22,6 +22,12 @@ def buckling_loads(scene: AnyScene, calibration: Calibration, count: int = 1) ->
 
     Meant for loads that leave the sheet flat. The state of small load is refined once, to a hundredth of
     the first estimate. Raises SceneError when nothing stops a rigid motion or no load factor is positive.
+
+    >>> import lumped
+    >>> from sheetbench.scenes import load
+    >>> scene = load("one-edge-clamped")
+    >>> lumped.buckling_loads(scene, lumped.calibrate(scene.sheet, scene.material, grid=5)).shape
+    (1,)
     """
     scene = scene_of(scene)
     require_static(scene)

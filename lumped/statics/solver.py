@@ -86,6 +86,11 @@ def solve(
     Raises scenes.SceneError when nothing stops a rigid motion, BadInput for linear with actuators and for
     `near` of another grid. Every other outcome is a status; where the full load was not reached, the last
     converged load is kept and `load_factor` says which.
+
+    >>> import lumped
+    >>> solution = lumped.solve("two-edges-clamped")
+    >>> solution.status, solution.displacement([[0.188, 0.188]]).round(5)
+    (<Status.CONVERGED: 'converged'>, array([[-0.0004 , -0.0004 , -0.01345]]))
     """
     require_static(scene := scene_of(scene))
     if linear and scene.actuators:

@@ -1,0 +1,22 @@
+"""The examples in the docstrings of public functions give what they say."""
+
+import doctest
+import importlib
+
+import pytest
+
+MODULES = [
+    "fem_reference",
+    "fem_reference.vibration",
+    "lumped.dynamics.simulation",
+    "lumped.fitting.methods",
+    "lumped.statics.buckling",
+    "lumped.statics.solver",
+    "lumped.vibration",
+]
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_examples_run_as_written(name):
+    found = doctest.testmod(importlib.import_module(name))
+    assert found.attempted > 0 and found.failed == 0

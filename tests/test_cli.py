@@ -125,7 +125,7 @@ def test_scene_that_floats_leaves_with_2_and_names_the_file(
         (("compare", "two-edges-clamped", "--layer-distance", "0"), ["layer-distance", "0"]),
         (("calibrate",), ["--young", "--poisson", "--thickness", "--side"]),
         (("calibrate", "two-edges-clamped", "--poisson", "0.5"), ["--poisson", "0.5"]),
-        (("calibrate", "two-edges-clamped", "--side", "18cm"), ["--side", "18cm"]),
+        (("calibrate", "two-edges-clamped", "--side", "18q"), ["--side", "18q"]),
         (("calibrate", "two-edges-clamped", "--side", "0.001"), ["thickness", "0.001"]),
         (("calibrate", "two-edges-clamped", "--method", "guess"), ["guess", "consistent"]),
         (("calibrate", "two-edges-clamped", "--k", "550"), ["k", "consistent", "uniform"]),

@@ -80,7 +80,7 @@ def test_new_writes_a_scene_that_check_explains(tmp_path: Path, capsys: pytest.C
     ("options", "named"),
     [
         (("--poisson", "0.5"), ["--poisson = 0.5", "less than 0.5"]),
-        (("--side", "3 cm"), ["--side = '3 cm'"]),
+        (("--side", "3 s"), ["--side = '3 s'", "length"]),
         (("--clamped", "x0,z1"), ["--clamped = 'z1'", "y1"]),
         (("--thickness", "2"), ["thickness = 2 m", "metres"]),
     ],

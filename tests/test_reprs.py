@@ -13,6 +13,7 @@ import pytest
 
 import fem_reference
 import lumped
+import sheetbench as sb
 from comparisons.comparison.comparison import Comparison
 from comparisons.modes.spectra import Spectra, Spectrum
 from sheetbench import scenes
@@ -120,3 +121,18 @@ def test_a_report_is_saved_as_the_command_line_leaves_it(tmp_path: Path) -> None
     names = {path.name for path in (tmp_path / "here").iterdir()}
     assert names >= {"comparison.json", "table.csv", "table.md", "lumped.vtu", "shell.vtu"}
     assert missing == ("not drawn",) or "comparison.png" in names
+
+
+def test_a_solution_knows_the_probes_of_its_scene() -> None:
+    solution = sb.solve(SCENE, grid=3)
+    assert list(solution.probes) == list(SCENE.probes)
+    at_p4 = solution.displacement(np.array([SCENE.probes["P4"]]))[0]
+    assert np.array_equal(solution.displacement("P4"), at_p4)
+    assert np.array_equal(solution.probes["P4"], at_p4)
+    with pytest.raises(sb.BadInput, match="no probe of this name; known are P1, P2"):
+        solution.displacement("P9")
+
+
+def test_reactions_are_shown_without_rounding() -> None:
+    named = {"x0": (4.16e-16, -2.0, 0.101), "y0": (0.0, 1e-7, 3.0)}
+    assert scenes.summary.forces(named) == "x0 (0, -2, 0.101) N, y0 (0, 1e-07, 3) N"

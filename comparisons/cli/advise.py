@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.options import Json, Large, Out, Overwrite, Scene
+from comparisons.cli.quantity import quantity_in
 
 
 def command(
@@ -16,7 +17,10 @@ def command(
         typer.Option(metavar="FRACTION", help="Error allowed; 0.01 unless a budget alone is given."),
     ] = None,
     budget: Annotated[
-        float | None, typer.Option(metavar="SECONDS", help="Time that a solve may take; setting up apart.")
+        float | None,
+        typer.Option(
+            metavar="SECONDS", parser=quantity_in("s"), help="Time that a solve may take; setting up apart."
+        ),
     ] = None,
     grading: Annotated[
         str | None,

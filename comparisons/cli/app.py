@@ -103,7 +103,7 @@ def _print_version(asked: bool) -> None:
 def _help_where_nothing_is_asked(
     context: typer.Context,
     _version: bool = typer.Option(
-        False, "--version", help="Print the version and stop.", is_eager=True, callback=_print_version
+        False, "-V", "--version", help="Print the version and stop.", is_eager=True, callback=_print_version
     ),
 ) -> None:
     if context.invoked_subcommand is None:
@@ -119,6 +119,9 @@ def _group(boxes: bool) -> Callable[..., None]:
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit status."""
+    arguments = sys.argv[1:] if arguments is None else arguments
+    if arguments[:1] == ["help"]:
+        arguments = [*arguments[1:], "--help"]
     for stream in (sys.stdout, sys.stderr):
         characters.adapt(stream)
     _make_sound(os.environ)

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.options import (
+    Density,
     Export,
     Grading,
     Grid,
@@ -21,6 +22,7 @@ from comparisons.cli.options import (
     Thickness,
     Young,
 )
+from comparisons.cli.quantity import quantity_in
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 
 
@@ -32,10 +34,7 @@ def command(
     young: Young = None,
     poisson: Poisson = None,
     thickness: Thickness = None,
-    density: Annotated[
-        float | None,
-        typer.Option(metavar="KG/M3", help="Density; 1000 kg/m³ unless given.", show_default=False),
-    ] = None,
+    density: Density = None,
     side: Side = None,
     grid: Grid = None,
     grading: Grading = None,
@@ -49,7 +48,10 @@ def command(
         ),
     ] = None,
     k: Annotated[
-        float | None, typer.Option(metavar="N/M", help="Stiffness of every spring (uniform only).")
+        float | None,
+        typer.Option(
+            metavar="N/M", parser=quantity_in("N/m"), help="Stiffness of every spring (uniform only)."
+        ),
     ] = None,
     layer_distance: LayerDistance = None,
     toml: Annotated[

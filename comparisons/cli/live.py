@@ -35,7 +35,7 @@ def command(
 ) -> None:
     """Open a page where one drags E, ν, h, load and grid, and lattice and shell answer beside their error.
 
-    The page listens on this machine alone, and only to who knows its address. Ctrl-C ends it.
+    The page is served on localhost only, at a secret URL. Ctrl-C ends it.
     """
     from comparisons.cli.console import note
     from comparisons.comparison.comparison import load_static

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import sys
+import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
+from warnings import warn
 
 import typer
 
-from comparisons.cli.options import Poisson, Side, Thickness, Young
+from comparisons.cli.options import Density, Poisson, Side, Thickness, Young
 
 if TYPE_CHECKING:
     from sheetbench.scenes import Material, Sheet
@@ -17,12 +19,13 @@ SHEET = {"length_x": 0.3, "length_y": 0.2, "thickness": 0.002}
 MATERIAL = {"young": 1.2e6, "poisson": 0.45, "density": 1100.0}
 USUAL = SHEET | MATERIAL  # unless given or answered
 QUESTIONS = {
-    "length_x": "Side along x [m]",
-    "length_y": "Side along y [m]",
-    "thickness": "Thickness [m]",
-    "young": "Young's modulus E [Pa]; 1 MPa is 1e6",
-    "poisson": "Poisson's ratio ν, below 0.5",
-    "density": "Density [kg/m³]; water's is 1000",
+    "length_x": ("Side along x [m], or as 300 mm", "m"),
+    "length_y": ("Side along y [m]", "m"),
+    "thickness": ("Thickness [m], or as 2 mm", "m"),
+    "young": ("Young's modulus E [Pa], or as 1.2 MPa", "Pa"),
+    "poisson": ("Poisson's ratio ν, below 0.5", ""),
+    "density": ("Density [kg/m³], or as 1.1 g/cm³; water's is 1000", "kg/m³"),
+    "pressure": ("Pressure besides the weight [Pa], upwards; 0 for none", "Pa"),
 }
 
 
@@ -32,7 +35,7 @@ def command(
     thickness: Thickness = None,
     young: Young = None,
     poisson: Poisson = None,
-    density: Annotated[float | None, typer.Option(metavar="KG/M3", help="Density.")] = None,
+    density: Density = None,
     clamped: Annotated[
         str | None,
         typer.Option(metavar="EDGES", help="x0, x1, y0, y1; several with commas. x0 unless given."),
@@ -49,10 +52,10 @@ def command(
     from comparisons.models.quantities import sides
     from comparisons.report.files import to_json, write_text
     from sheetbench.files import require_file
-    from sheetbench.scenes import Scene, load
-    from sheetbench.scenes.errors import BadInput, require_choice
+    from sheetbench.scenes import Pressure, Scene
+    from sheetbench.scenes.errors import BadInput, Implausible
+    from sheetbench.scenes.plausibility import slips
     from sheetbench.scenes.schema import for_editors
-    from sheetbench.scenes.sheet import EDGES
     from sheetbench.scenes.template import SCHEMA, template
 
     require_file(file)
@@ -62,15 +65,18 @@ def command(
         raise BadInput(f"{file}: there is no folder {file.parent}")
     given = {"thickness": thickness, "young": young, "poisson": poisson, "density": density}
     values = {key: value for key, value in {**given, **sides(side)}.items() if value is not None}
-    if not values and clamped is None and sys.stdin.isatty() and sys.stdout.isatty():
-        values, clamped = _asked()
-    edges = list(dict.fromkeys(edge.strip() for edge in (clamped or "x0").split(",")))
-    for edge in edges:
-        require_choice("--clamped", edge, EDGES)
-    text = template(file.stem, *_made({**USUAL, **values}), edges)
+    pressure, asking = 0.0, False
+    if not values and clamped is None and _at_a_terminal():
+        values, clamped, pressure = _asked()
+        asking = True
+    loads = [Pressure(pressure)] if pressure else []
+    text = template(file.stem, *_made({**USUAL, **values}), _edges(clamped or "x0"), loads)
+    for said in slips(Scene.model_validate(tomllib.loads(text))):
+        warn(Implausible(f"{file}: {said}"), stacklevel=2)
+        if asking and not typer.confirm("Write it all the same?", default=True):
+            return
     write_text(file, text)
     write_text(file.parent / SCHEMA, to_json(for_editors(Scene)))
-    load(file)  # warns of what is hardly meant
     console.note(f"{file} written, and {SCHEMA} beside it for editors")
     console.note(f"Next:  sheetbench check {file}")
 
@@ -83,8 +89,24 @@ def _made(values: dict[str, float]) -> tuple[Sheet, Material]:
     return sheet, checked(scenes.Material, {key: values[key] for key in MATERIAL})
 
 
-def _asked() -> tuple[dict[str, float], str]:
-    """The answers of whoever sits at the terminal, asked again until they make sense."""
+def _at_a_terminal() -> bool:
+    return sys.stdin.isatty() and sys.stdout.isatty()
+
+
+def _edges(text: str) -> list[str]:
+    """The edges named, with commas between them. Raises BadInput for what is none."""
+    from sheetbench.scenes.errors import require_choice
+    from sheetbench.scenes.sheet import EDGES
+
+    edges = list(dict.fromkeys(edge.strip() for edge in text.split(",")))
+    for edge in edges:
+        require_choice("--clamped", edge, EDGES)
+    return edges
+
+
+def _asked() -> tuple[dict[str, float], str, float]:
+    """Values, clamped edges and a pressure [Pa] of whoever sits at the terminal, each asked until it makes
+    sense."""
     from comparisons.cli import console
     from sheetbench import scenes
     from sheetbench.scenes.errors import BadInput
@@ -92,7 +114,7 @@ def _asked() -> tuple[dict[str, float], str]:
     values: dict[str, float] = {}
     for keys, kind in ((SHEET, scenes.Sheet), (MATERIAL, scenes.Material)):
         while True:
-            answers = {key: typer.prompt(QUESTIONS[key], default=keys[key], type=float) for key in keys}
+            answers = {key: _quantity(key, usual) for key, usual in keys.items()}
             try:
                 kind(**answers)
             except BadInput as error:
@@ -100,5 +122,27 @@ def _asked() -> tuple[dict[str, float], str]:
             else:
                 values |= answers
                 break
-    edges = ", ".join(scenes.EDGES)
-    return values, typer.prompt(f"Clamped edges, of {edges}; several with commas", default="x0")
+    while True:
+        edges = typer.prompt(
+            f"Clamped edges, of {', '.join(scenes.EDGES)}; several with commas", default="x0"
+        )
+        try:
+            _edges(edges)
+        except BadInput as error:
+            console.warn(str(error))
+        else:
+            return values, edges, _quantity("pressure", 0.0)
+
+
+def _quantity(key: str, usual: float) -> float:
+    """The answer to a question, in SI units."""
+    from comparisons.cli import console
+    from sheetbench.scenes.errors import BadInput
+    from sheetbench.scenes.units import quantity
+
+    question, unit = QUESTIONS[key]
+    while True:
+        try:
+            return quantity(typer.prompt(question, default=f"{usual:g}"), unit)
+        except BadInput as error:
+            console.warn(str(error))

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from comparisons.cli.quantity import quantity_in
 from sheetbench.choices import CALIBRATION, CALIBRATIONS, STRAIN_LAW, STRAIN_LAWS, listed
 
 Scene = Annotated[
@@ -111,15 +112,40 @@ Calibration = Annotated[
     ),
 ]
 K = Annotated[
-    float | None, typer.Option("--k", metavar="N/M", help="Stiffness of every spring; means uniform.")
+    float | None,
+    typer.Option(
+        "--k", metavar="N/M", parser=quantity_in("N/m"), help="Stiffness of every spring; means uniform."
+    ),
 ]
 LayerDistance = Annotated[
-    float | None, typer.Option("--layer-distance", metavar="M", help="Distance of the lattice's layers.")
+    float | None,
+    typer.Option(
+        "--layer-distance", metavar="M", parser=quantity_in("m"), help="Distance of the lattice's layers."
+    ),
 ]
-Side = Annotated[str | None, typer.Option("--side", metavar="M", help="Sides: 0.188 or 0.188x0.3 (x by y).")]
-Thickness = Annotated[float | None, typer.Option("--thickness", metavar="M", help="Thickness of the sheet.")]
-Young = Annotated[float | None, typer.Option("--young", metavar="PA", help="Young's modulus E.")]
-Poisson = Annotated[float | None, typer.Option("--poisson", metavar="NU", help="Poisson's ratio ν.")]
+Side = Annotated[
+    str | None, typer.Option("--side", metavar="M", help="Sides: 0.188, 0.188x0.3 (x by y) or 12cmx4cm.")
+]
+Thickness = Annotated[
+    float | None,
+    typer.Option("--thickness", metavar="M", parser=quantity_in("m"), help="Thickness: 0.002 or 2mm."),
+]
+Young = Annotated[
+    float | None,
+    typer.Option("--young", metavar="PA", parser=quantity_in("Pa"), help="Young's modulus E: 6e5 or 0.6MPa."),
+]
+Poisson = Annotated[
+    float | None, typer.Option("--poisson", metavar="NU", parser=quantity_in(""), help="Poisson's ratio ν.")
+]
+Density = Annotated[
+    float | None,
+    typer.Option(
+        metavar="KG/M3",
+        parser=quantity_in("kg/m³"),
+        help="Density: 1100 or 1.1g/cm3; 1000 kg/m³ unless given.",
+        show_default=False,
+    ),
+]
 Elements = Annotated[
     str,
     typer.Option(

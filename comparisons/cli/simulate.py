@@ -18,6 +18,7 @@ from comparisons.cli.options import (
     Overwrite,
     Scene,
 )
+from comparisons.cli.quantity import quantity_in
 from sheetbench.choices import INTEGRATOR, INTEGRATORS
 
 FRAMES = 100
@@ -27,11 +28,15 @@ FRAMES = 100
 def command(
     scene: Scene,
     lattice: Lattice,
-    duration: Annotated[float, typer.Option(metavar="S", help="How long to simulate.")] = 1.0,
+    duration: Annotated[
+        float, typer.Option(metavar="S", parser=quantity_in("s"), help="How long to simulate.")
+    ] = 1.0,
     step: Annotated[
         float | None,
         typer.Option(
-            metavar="S", help="Time step, never exceeded; from the stability limit or the error unless given."
+            metavar="S",
+            parser=quantity_in("s"),
+            help="Time step, never exceeded; from the stability limit or the error unless given.",
         ),
     ] = None,
     integrator: Annotated[
@@ -44,7 +49,11 @@ def command(
     ] = INTEGRATOR,
     every: Annotated[
         float | None,
-        typer.Option(metavar="S", help="Time between samples; 1/100 of the lowest period unless given."),
+        typer.Option(
+            metavar="S",
+            parser=quantity_in("s"),
+            help="Time between samples; 1/100 of the lowest period unless given.",
+        ),
     ] = None,
     measured: Annotated[
         Path | None,

@@ -45,7 +45,7 @@ def command(
     no_pictures: NoPictures = False,
     overwrite: Overwrite = False,
 ) -> None:
-    """Measure the cells of every study, in the order of docs/stability.md; an interrupted run can be resumed.
+    """Map where each solver is accurate, degrades, refuses or fails; an interrupted run can be resumed.
 
     Every cell ends in a status. With --out the maps, tables and texts are written there. --grading is of the
     studies curved-edge, load and slenderness; the others have cells of one size.

@@ -23,6 +23,7 @@ from comparisons.cli.options import (
     Wait,
     Workers,
 )
+from comparisons.cli.quantity import quantity_in
 from sheetbench.choices import AUTO, CALIBRATION, CALIBRATIONS, INTEGRATORS, REFERENCES, listed
 
 if TYPE_CHECKING:
@@ -107,6 +108,7 @@ def command(
         float | None,
         typer.Option(
             metavar="S",
+            parser=quantity_in("s"),
             help="Trade of the motion over so many seconds instead: integrators and steps, on one lattice.",
         ),
     ] = None,

@@ -8,6 +8,7 @@ from pydantic import BaseModel, ValidationError
 
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.refusals import in_one_line
+from sheetbench.scenes.units import quantity
 
 Quantities = TypeVar("Quantities", bound=BaseModel)
 
@@ -17,11 +18,11 @@ def sides(text: str | None) -> dict[str, float]:
     if text is None:
         return {}
     try:
-        lengths = [float(part) for part in text.lower().replace("×", "x").split("x")]
-    except ValueError:
-        lengths = []
-    if len(lengths) not in (1, 2):
-        raise BadInput(f"--side = '{text}': not a side; write 0.188 or 0.188x0.3, in metres")
+        lengths = [quantity(part, "m") for part in text.replace("×", "x").replace("X", "x").split("x")]
+    except BadInput as error:
+        raise BadInput(f"--side = '{text}': {error}") from None
+    if len(lengths) > 2:
+        raise BadInput(f"--side = '{text}': not a side; write 0.188, 0.188x0.3 or 12cmx4cm")
     return {"length_x": lengths[0], "length_y": lengths[-1]}
 
 

@@ -158,7 +158,8 @@ def answer(scene: Scene, candidate: Candidate, name: str = "", progress: Progres
     preparing = now() - started
     solution = ready(watch)
     called = name or solution.model
-    return replace(solution, model=called, setup_seconds=solution.setup_seconds + preparing)
+    spent = solution.setup_seconds + preparing
+    return replace(solution, model=called, setup_seconds=spent, points=dict(scene.probes))
 
 
 def _begun(scene: Scene, candidate: Candidate, name: str, progress: Progress) -> Watch:

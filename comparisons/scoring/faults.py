@@ -1,4 +1,4 @@
-"""What is wrong with answers, as far as the reference tells: units, signs, probes that stand for one another.
+"""What is wrong with answers, as far as the reference tells: units, signs, swapped probes.
 
 Each is looked for in what is left when those before it are mended, so that several at once are named:
 

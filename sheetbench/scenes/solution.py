@@ -15,6 +15,8 @@ import numpy as np
 
 from sheetbench.scenes import summary
 from sheetbench.scenes.balance import Balance
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.quantities import PlanPoint
 
 if TYPE_CHECKING:
     import meshio
@@ -130,7 +132,8 @@ class Solution(summary.Summarised):
     sheet left its load path for an equilibrium far away; fallback: what was solved in place of what was
     asked, and why; notes: what else there is to say, a clause each. stretch: the largest elongation of the
     mid-surface, None where a model does not tell. bar: plan points (n, 2) [m] → how far each component of
-    the displacement (n, 3) [m] may be off, None where a model does not tell.
+    the displacement (n, 3) [m] may be off, None where a model does not tell. points: plan points [m] of the
+    scene's probes by name, as far as a verb knows them.
     """
 
     model: str
@@ -154,6 +157,7 @@ class Solution(summary.Summarised):
     notes: tuple[str, ...] = ()
     stretch: float | None = None
     bar: Callable[[np.ndarray], np.ndarray] | None = None
+    points: dict[str, PlanPoint] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.status in _EQUILIBRIA and self.balance is not None and not self.balance.holds:
@@ -171,8 +175,19 @@ class Solution(summary.Summarised):
         """Whether it may be compared with others, as `comparable` has it."""
         return comparable(self.status, self.load_factor)
 
-    def displacement(self, points: np.ndarray) -> np.ndarray:
-        """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m] of the undeformed sheet."""
+    @property
+    def probes(self) -> dict[str, np.ndarray]:
+        """Displacement (3,) [m] at each of the scene's probes, by name."""
+        return {name: self.displacement(np.array([at]))[0] for name, at in self.points.items()}
+
+    def displacement(self, points: np.ndarray | str) -> np.ndarray:
+        """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m] of the undeformed sheet, or (3,) at
+        the probe of a name. Raises BadInput for a name that no probe has."""
+        if isinstance(points, str):
+            if points not in self.points:
+                known = ", ".join(self.points) or "none are kept here: give plan points (n, 2) [m]"
+                raise BadInput(f"displacement('{points}'): no probe of this name; known are {known}")
+            return self.probes[points]
         return self.sample(np.asarray(points, dtype=float).reshape(-1, 2))
 
     def to_pyvista(self) -> pyvista.UnstructuredGrid:

@@ -10,6 +10,7 @@ from typing import Any
 from sheetbench.scenes.errors import printable
 
 WIDEST = 100  # characters of a value
+ROUNDING = 1e-9  # of the largest force: equilibria are balanced to that
 Facts = Iterable[tuple[str, str]]
 
 
@@ -51,10 +52,13 @@ def milliseconds(seconds: float) -> str:
 
 
 def forces(named: Mapping[str, Any]) -> str:
-    """Forces (3,) [N] by name."""
-    return ", ".join(
-        f"{name} ({', '.join(f'{part:.3g}' for part in force)}) N" for name, force in named.items()
-    )
+    """Forces (3,) [N] by name; what is rounding beside the largest of them is 0."""
+    largest = max((abs(float(part)) for force in named.values() for part in force), default=0.0)
+
+    def shown(part: float) -> str:
+        return f"{part:.3g}" if abs(part) > ROUNDING * largest else "0"
+
+    return ", ".join(f"{name} ({', '.join(map(shown, force))}) N" for name, force in named.items())
 
 
 def energies(named: Mapping[str, float]) -> str:

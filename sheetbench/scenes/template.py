@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from textwrap import wrap
 from typing import Any
 
+from sheetbench.scenes.loads import Pressure
 from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.schema import branches, json_schema, kind
 from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
@@ -22,19 +23,26 @@ EARTH = Gravity(acceleration=(0.0, 0.0, -9.81))
 OPPOSITE = {"x0": "x1", "x1": "x0", "y0": "y1", "y1": "y0"}
 
 
-def template(name: str, sheet: Sheet, material: Material, clamped: Sequence[str] = ("x0",)) -> str:
-    """A sheet under its own weight, clamped at the named edges, as commented TOML."""
+def template(
+    name: str,
+    sheet: Sheet,
+    material: Material,
+    clamped: Sequence[str] = ("x0",),
+    loads: Sequence[Pressure] = (),
+) -> str:
+    """A sheet under its own weight and loads, clamped at the named edges, as commented TOML."""
     scene = Scene(
         name=name,
         sheet=sheet,
         material=material,
         gravity=EARTH,
         supports=tuple(Clamped.model_validate({"edge": edge}) for edge in clamped),
+        loads=tuple(loads),
     )
     given = keys(scene)
     parts = [
         f"#:schema {SCHEMA}\n"
-        "# A scene for sheetbench. All quantities are in SI units: m, N, Pa, kg, s, rad.\n"
+        '# A scene for sheetbench. Numbers are in SI units (m, N, Pa, kg, s, rad); others are text: "2 mm".\n'
         "# What it means, in words:  sheetbench check FILE\n"
         "# Both models, side by side:  sheetbench compare FILE\n",
         _block("", {"name": name, "title": ""}),
@@ -42,10 +50,11 @@ def template(name: str, sheet: Sheet, material: Material, clamped: Sequence[str]
         _block("[material]", given["material"]),
         _block("[gravity]", given["gravity"]),
         *(_block("[[support]]", one, about=n == 0) for n, one in enumerate(given.get("support", ()))),
+        *(_block("[[load]]", one, about=n == 0) for n, one in enumerate(given.get("load", ()))),
         '# What else there may be: take away the "# " of a block\'s lines.\n'
         "# All keys: sheetbench schema --markdown\n",
     ]
-    told = {"[[support]]"}
+    told = {"[[support]]", *(["[[load]]"] if loads else [])}
     for heading, table in _offered(sheet, _free_edge(clamped)):
         parts.append(_commented(_block(heading, table, about=heading not in told)))
         told.add(heading)

@@ -18,7 +18,10 @@ from comparisons.report.look import PLAIN
 from comparisons.report.table import Table
 from comparisons.reproduction import figure
 from comparisons.reproduction.tables import nearest
+from comparisons.runs.store import Finished
 from comparisons.stability import STUDIES
+from comparisons.tradeoff import statics
+from sheetbench import scenes
 
 PUBLISHED = Path(__file__).parent.parent / "docs" / "stability"
 
@@ -71,6 +74,19 @@ def test_the_picture_of_settling_is_in_millimetres_over_the_static_answer() -> N
         moved, rest = panel.lines[:2]
         np.testing.assert_allclose(moved.get_ydata(), [0.0, 1.0 + axis])
         np.testing.assert_allclose(rest.get_ydata(), 4.0 + axis)
+
+
+def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used() -> None:
+    scene, weights, sizes = scenes.load("one-edge-clamped"), np.ones(2), [1.0, 2.0, 4.0]
+
+    def solved(error: float, status: str = "converged") -> Finished:
+        moved = [[0.0, 0.0, 1.0 + error]] * 2
+        row = {"probes": dict(zip("ab", moved, strict=True)), "field": moved, "settings": {"elements": 4}}
+        return Finished("key", status, row | {"load_factor": 1.0}, "", "", "", 0.0)
+
+    fine, middle, coarse = solved(0.01), solved(0.04), solved(0.16)
+    assert None not in statics._bars(scene, [fine, middle, solved(0.16, "diverged")], sizes, weights)
+    assert statics._bars(scene, [solved(0.01, "diverged"), middle, coarse], sizes, weights) == (None, None)
 
 
 @pytest.mark.parametrize(

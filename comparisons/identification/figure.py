@@ -50,7 +50,10 @@ def compose(found: Identification, look: Look = PLAIN) -> Figure:
         right.legend(frameon=False, ncols=3)
     else:
         _map(figure, right, found)
-    values = [f"{name} = {quantity(u.value, u.unit, '.4g')}" for name, u in found.unknowns.items()]
+    values = [
+        f"{name} = {quantity(u.value, u.unit, '.4g')}" if u.determined else f"{name}: not determined"
+        for name, u in found.unknowns.items()
+    ]
     for axis, title in ((left, "\n".join(["Fit", *values])), (right, "Residuals")):
         axis.set_title(title, loc="left", fontsize=7.5, fontweight="bold")
         axis.spines[["top", "right"]].set_visible(False)

@@ -113,7 +113,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
     require_static(scene)
     calibration = calibration or default(scene)
     problem = pose(scene, calibration)
-    if not problem.conservative:
+    if problem.loads.follow or not problem.conservative:
         raise BadInput(
             "linearise: pressure, edge moments and per-direction springs have unsymmetric tangents"
         )

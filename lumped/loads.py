@@ -5,12 +5,13 @@ point          shared bilinearly among the columns of its cell, equally among th
 edge force     per undeformed length, by tributary lengths, equally among the layers
 edge moment    per undeformed length: a couple F = ±M (t × D)/|D|² on the outer layers of each column, D the
                vector between them, t the current edge tangent (central difference of the neighbours' mean)
-pressure       p ½ d1 × d2 on every mid-surface cell, a quarter at each corner column, equally among layers
+pressure       along the normal of every mid-surface cell, per current area (`lumped.pressure`)
 
 A load's `history` multiplies it by its factor at a time; statics take the last. A factor on a dead load makes
 its work depend on the path in time: only constant dead loads have a potential.
 
-Follower loads have unsymmetric tangents in general; see e.g. Schweizerhof and Ramm (1984).
+Follower loads have unsymmetric tangents, all but pressure on a sheet whose edges sweep no area
+(`scenes.encloses_volume`), which has a potential; see e.g. Schweizerhof and Ramm (1984).
 """
 
 from __future__ import annotations
@@ -22,8 +23,18 @@ import numpy as np
 from lumped.assembly import Assembly
 from lumped.masses import masses
 from lumped.mid_surface import MidSurface
+from lumped.pressure import add_forces, add_tangent
 from sheetbench.numerics.kept import frozen
-from sheetbench.scenes import EDGES, EdgeLoad, FactorTable, PiecewiseLinear, PointLoad, Pressure, Scene
+from sheetbench.scenes import (
+    EDGES,
+    EdgeLoad,
+    FactorTable,
+    PiecewiseLinear,
+    PointLoad,
+    Pressure,
+    Scene,
+    encloses_volume,
+)
 
 
 @dataclass
@@ -46,8 +57,8 @@ class Part:
 class Loads:
     """The external forces of a scene at load factor 1; every load scales with the load factor.
 
-    dead: (n, 3) [N], of the dead loads without a history; conservative: whether there are no follower
-    loads; potential: whether there is nothing but `dead`.
+    dead: (n, 3) [N], of the dead loads without a history; follow: whether some loads follow the sheet;
+    conservative: whether all have a potential at a given time; potential: whether `dead` is all there is.
     """
 
     def __init__(self, scene: Scene, assembly: Assembly):
@@ -78,8 +89,10 @@ class Loads:
                     part.moments.append((edge, length * load.moment_per_length, float(turn)))
             elif isinstance(load, Pressure):
                 part.pressure += load.value
-        self.conservative = not any(part.moments or part.pressure for part in self._parts.values())
-        self.potential = self.conservative and len(self._parts) == 1
+        turning = any(part.moments for part in self._parts.values())
+        self.follow = turning or any(part.pressure for part in self._parts.values())
+        self.conservative = not turning and (not self.follow or encloses_volume(scene.supports))
+        self.potential = not self.follow and len(self._parts) == 1
         frozen(tuple(part.dead for part in self._parts.values()))
 
     @property
@@ -109,12 +122,19 @@ class Loads:
         for part in self._parts.values():
             if part.history is not None:
                 force += part.factor(time) * part.dead
-        return force if self.conservative else force + self.followers(u, time)
+        return force + self.followers(u, time) if self.follow else force
+
+    def work(self, u: np.ndarray) -> float:
+        """Work [J] of conservative loads from the flat sheet to u (n, 3) [m]: of a pressure Σ z F_z."""
+        pressing = self.followers(u)
+        masses = self._assembly.lattice.mass_count
+        heights = self._assembly.lattice.positions[:, 2] + u[:masses, 2]
+        return float(np.sum((self.force(u) - pressing) * u) + heights @ pressing[:masses, 2])
 
     def followers(self, u: np.ndarray, time: float | None = None) -> np.ndarray:
         """The part (n, 3) [N] of the force that follows the sheet."""
         force = np.zeros_like(self.dead)
-        if self.conservative:
+        if not self.follow:
             return force
         x = self._assembly.lattice.positions + u[: self._assembly.lattice.mass_count]
         moments, pressure = self.at_time(time)
@@ -123,36 +143,28 @@ class Loads:
             force[top] += couple
             force[bottom] -= couple
         if pressure:
-            corners, d1, d2 = self._mid_cells(x)
-            share = pressure / 8.0 / corners.shape[2] * np.cross(d1, d2)
-            np.add.at(force, corners.reshape(len(corners), -1), share[:, None, :])
+            add_forces(x, self._mid_cells, pressure, force)
         return force
 
     def add_tangent(
         self, u: np.ndarray, load_factor: float, blocks: np.ndarray, time: float | None = None
     ) -> None:
         """Subtract the derivative of load_factor × force from the tangent's blocks (b, 3, 3)."""
-        if self.conservative:
+        if not self.follow:
             return
         x = self._assembly.lattice.positions + u[: self._assembly.lattice.mass_count]
         moments, pressure = self.at_time(time)
         for edge, moment, turn in moments:
             self._add_couple_tangent(x, edge, load_factor * moment, turn, blocks)
         if pressure:
-            corners, d1, d2 = self._mid_cells(x)
-            p = corners.shape[2]
-            # δ(d1 × d2) = −[d2]× δd1 + [d1]× δd2, and d1 = x2 − x0, d2 = x3 − x1
-            by_corner = np.stack([_spin(d2), -_spin(d1), -_spin(d2), _spin(d1)], axis=1)
-            by_corner *= load_factor * pressure / 8.0 / p**2
-            flat = corners.reshape(len(corners), -1)
-            slots = self._assembly.pattern.slots(flat[:, :, None], flat[:, None, :])
-            columns = np.repeat(by_corner, p, axis=1)
-            np.add.at(blocks, slots, -columns[:, None, :, :, :])
+            cells = self._mid_cells
+            slots = self._assembly.pattern.among(cells.reshape(len(cells), -1))
+            add_tangent(x, cells, slots, -load_factor * pressure, blocks)
 
-    def _mid_cells(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        (corners,) = (c.nodes for c in self._assembly.lattice.cells if c.name == "mid_area")
-        mean = x[corners].mean(axis=2)
-        return corners, mean[:, 2] - mean[:, 0], mean[:, 3] - mean[:, 1]
+    @property
+    def _mid_cells(self) -> np.ndarray:
+        """The columns of masses at the corners of the mid-surface's cells (c, 4, layers)."""
+        return next(cells.nodes for cells in self._assembly.lattice.cells if cells.name == "mid_area")
 
     def _couple(
         self, x: np.ndarray, edge: np.ndarray, moment: np.ndarray, turn: float
@@ -183,12 +195,12 @@ class Loads:
         projector = (np.eye(3) - tangent[:, :, None] * tangent[:, None, :]) * (turn / length)[:, None, None]
         by_chord = -scale * _spin(director) @ projector / edge.shape[1]
         slots = self._assembly.pattern.slots
-        for row, sign in ((top, -1.0), (bottom, 1.0)):
-            np.add.at(blocks, slots(row, top), sign * by_director)
-            np.add.at(blocks, slots(row, bottom), -sign * by_director)
+        for row, sign in ((top, -1.0), (bottom, 1.0)):  # no two of a row's blocks are the same
+            blocks[slots(row, top)] += sign * by_director
+            blocks[slots(row, bottom)] -= sign * by_director
             for layer in range(edge.shape[1]):
-                np.add.at(blocks, slots(row, edge[after, layer]), sign * by_chord)
-                np.add.at(blocks, slots(row, edge[before, layer]), -sign * by_chord)
+                blocks[slots(row, edge[after, layer])] += sign * by_chord
+                blocks[slots(row, edge[before, layer])] -= sign * by_chord
 
 
 def _spin(v: np.ndarray) -> np.ndarray:

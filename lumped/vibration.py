@@ -125,7 +125,7 @@ def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, np.nd
     """The problem of a scene, and its displacement (n, 3) [m] under the full load."""
     require_static(scene)
     problem = pose(scene, calibration)
-    if scene.actuators or not problem.conservative:
+    if scene.actuators or problem.loads.follow or not problem.conservative:
         raise BadInput(
             "--about = deformed: actuators are no part of modes, and pressure, edge moments and springs of a "
             "per-direction law have none"

@@ -106,3 +106,9 @@ def test_factors_that_grow_are_refused() -> None:
         assert DirectSolver(fronts=partial(fronts_of, matrix.indices, matrix.indptr, cells)).factor(
             matrix
         ).inertia == (1, 1, 0)
+
+
+def test_a_pattern_without_its_whole_diagonal_is_refused() -> None:
+    matrix = csr_matrix(np.array([[0.0, 1.0], [1.0, 2.0]]))
+    with pytest.raises(ValueError, match="diagonal"):
+        fronts_of(matrix.indices, matrix.indptr, Cells(np.array([[0, 1]]), np.zeros((1, 2))))

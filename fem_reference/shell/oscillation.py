@@ -29,12 +29,12 @@ def about_equilibrium(
 ) -> tuple[csr_matrix, csr_matrix, Sample]:
     """Stiffness and mass (unknowns, unknowns), and what samples a shape (unknowns,) at plan points (n, 2).
 
-    Raises BadInput for loads that follow the sheet, whose tangent is unsymmetric, NoEquilibrium where there
+    Raises BadInput for loads that follow the sheet, NoEquilibrium where there
     is no stable equilibrium under the full load.
     """
     mesh = mesh_of(scene, elements, graded, reach)
     structure, _ = discretise(mesh, scene, section)
-    if not structure.symmetric:
+    if structure.followers:
         raise BadInput("--about = deformed: pressure and edge moments follow the sheet: it has no modes then")
     state, status, notes = trace_on(scene, structure)
     if status is not Status.CONVERGED:

@@ -104,8 +104,8 @@ class ShellStructure:
 
     @property
     def symmetric(self) -> bool:
-        """Whether the tangent is: follower loads make it unsymmetric."""
-        return not self.followers
+        """Whether the tangent is: follower loads make it unsymmetric, unless they have a potential."""
+        return all(load.conservative for load in self.followers)
 
     @property
     def rest_positions(self) -> np.ndarray:
@@ -131,10 +131,12 @@ class ShellStructure:
         return self.rods.elements.energy(self._on_rods(state))
 
     def potential(self, state: State, load_factor: float) -> tuple[float, float]:
-        """Strain energy less the work of dead loads, and the sum of their magnitudes [J]."""
+        """Strain energy less the work of conservative loads, and the sum of their magnitudes [J]."""
         on_rods = self._on_rods(state)
         stored = sum(self.energies(state).values()) + self.rods.elements.energy(on_rods, load_factor)
         work = float(np.sum(self.dead * state.change[0]) + np.sum(self.rods.elements.weight * on_rods))
+        vectors = self.element.reference + self.gather(state.change)
+        work += sum(load.work(vectors[load.elements]) for load in self.followers)
         return stored - load_factor * work, stored + abs(load_factor * work)
 
     def dragged(self, state: State, load_factor: float, drag: float) -> ShellStructure:

@@ -13,7 +13,7 @@ the virtual work of a moment m t̂ on δd = δθ × d is δd · (m t̂ × d). Un
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 import numpy as np
 from skfem import MeshQuad
@@ -28,7 +28,7 @@ from fem_reference.surface.biquadratic import (
     side_shape,
 )
 from fem_reference.surface.location import locate
-from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene
+from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene, encloses_volume
 
 # Local nodes of the four sides, in scikit-fem's order of facets: corner, mid-side, corner.
 _SIDES = np.array([[0, 4, 1], [1, 5, 2], [2, 6, 3], [0, 7, 3]])
@@ -36,10 +36,14 @@ _LINE, _LINE_SLOPE = side_shape(THREE)  # (3 points, 3 nodes)
 
 
 class Follower(Protocol):
-    """A load that depends on the shape. elements: (k,) the elements it acts on."""
+    """A load that depends on the shape. elements: (k,) the elements it acts on; conservative: whether it has
+    a potential on the sheet as it is held, and so a symmetric tangent."""
 
     @property
     def elements(self) -> np.ndarray: ...
+
+    @property
+    def conservative(self) -> bool: ...
 
     def force(self, vectors: np.ndarray) -> np.ndarray:
         """Nodal force (k, 18, 3) at nodal vectors Q (k, 18, 3)."""
@@ -47,6 +51,10 @@ class Follower(Protocol):
 
     def tangent(self, vectors: np.ndarray) -> np.ndarray:
         """Derivative of the force (k, 18, 3, 18, 3)."""
+        ...
+
+    def work(self, vectors: np.ndarray) -> float:
+        """Of a conservative load, from the flat sheet to nodal vectors Q (k, 18, 3) [J]."""
         ...
 
 
@@ -57,10 +65,12 @@ def _cross_matrix(a: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class FollowerPressure:
-    """Pressure [Pa] on all elements; orientation: (m,) +1 where r, s run counter-clockwise, else −1."""
+    """Pressure [Pa] on all elements; orientation: (m,) +1 where r, s run counter-clockwise, else −1;
+    conservative: where the edges sweep no area (`scenes.encloses_volume`)."""
 
     value: float
     orientation: np.ndarray
+    conservative: bool = False
 
     @property
     def elements(self) -> np.ndarray:
@@ -84,6 +94,10 @@ class FollowerPressure:
         by_across = np.einsum("gi,egcd,gj->eicjd", weighted, _cross_matrix(along), slope[1], optimize=True)
         out[:, :9, :, :9] = self._strength[:, None, None, None, None] * (by_along + by_across)
         return out
+
+    def work(self, vectors: np.ndarray) -> float:
+        """p times the volume over the plan, ∫ z (φ,r × φ,s)·e_z dr ds = Σ z f_z/p of the nodes."""
+        return float(np.sum(vectors[:, :9, 2] * self.force(vectors)[:, :9, 2]))
 
     @property
     def _strength(self) -> np.ndarray:
@@ -127,6 +141,7 @@ class FollowerMoment:
 
     value: float
     line: Line
+    conservative: ClassVar[bool] = False
 
     @property
     def elements(self) -> np.ndarray:
@@ -157,6 +172,10 @@ class FollowerMoment:
             "egi,egcd,gj->eijcd", weighted, by_director, _LINE, optimize=True
         )
         return out
+
+    def work(self, vectors: np.ndarray) -> float:
+        """Zero: it has no potential."""
+        return 0.0
 
     @property
     def _weight(self) -> np.ndarray:
@@ -220,7 +239,8 @@ def of_scene(
                 if load.moment_per_length:
                     followers.append(FollowerMoment(factor * load.moment_per_length, line))
             case Pressure():
-                followers.append(FollowerPressure(factor * load.value, orientation(corners)))
+                closed = encloses_volume(scene.supports)
+                followers.append(FollowerPressure(factor * load.value, orientation(corners), closed))
     return dead, followers
 
 

@@ -74,7 +74,8 @@ class CompiledNewton:
     def serves(system: System) -> bool:
         """Whether forces are all compiled, and factors lie in a band."""
         plain = system.coupling is None and system.assembly.precision == "double"
-        return plain and system.problem.conservative and system.problem.system.band is not None
+        still = system.problem.conservative and not system.problem.loads.follow
+        return plain and still and system.problem.system.band is not None
 
     def factorise(self, u: np.ndarray, v: np.ndarray, time: float, by_u: float, by_v: float) -> bool:
         """Keep the factors of K + c₁ C + c₂ M at a state; False where it is not positive definite."""

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from lumped.pressure import WEIGHTS
 from lumped.springs.all_forces import average, clear, share_out
 from lumped.springs.packing import Packing
 from lumped.springs.tiles import OPTIONS
@@ -42,14 +43,14 @@ def add_followers(
     for part in range(len(factors)):
         pressure += factors[part] * followers.pressure[part]
     for c in range(len(cells)):
-        c0, c1, c2, c3 = cells[c]
-        ax, ay, az = _apart(x, u, c0, c2, size)
-        bx, by, bz = _apart(x, u, c1, c3, size)
-        by_corner = 0.125 * pressure
-        for p in cells[c]:
-            load[p] += by_corner * (ay * bz - az * by)
-            load[p + size] += by_corner * (az * bx - ax * bz)
-            load[p + size + size] += by_corner * (ax * by - ay * bx)
+        for b in range(4):  # as `lumped.pressure` has it
+            ax, ay, az = _apart(x, u, cells[c, b], cells[c, (b + 1) % 4], size)
+            bx, by, bz = _apart(x, u, cells[c, b], cells[c, (b + 3) % 4], size)
+            for a in range(4):
+                p, share = cells[c, a], pressure * WEIGHTS[(b - a) % 4]
+                load[p] += share * (ay * bz - az * by)
+                load[p + size] += share * (az * bx - ax * bz)
+                load[p + size + size] += share * (ax * by - ay * bx)
     for e in range(len(couples)):
         top, bottom, before, after = couples[e]
         ax, ay, az = _apart(x, u, before, after, size)

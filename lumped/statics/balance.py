@@ -30,7 +30,7 @@ def balance(
     at = np.zeros_like(state.u) if linear else state.u
     places = lattice.positions + at[:n]
     external = problem.external(at, share)
-    followers = 0.0 if problem.loads.conservative else problem.loads.followers(at)[:n].sum(axis=0)
+    followers = 0.0 if not problem.loads.follow else problem.loads.followers(at)[:n].sum(axis=0)
     force = sum(reactions.values(), share * (dead_force(scene) + followers))
     held = np.where(problem.constraints.held[:n], exerted[:n], 0.0)
     arms = places.T @ (held + external[:n])  # Σ x f, whose antisymmetric part is Σ x × f

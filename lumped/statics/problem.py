@@ -181,9 +181,10 @@ class Problem:
         return force if self.base is None else force + self.base.force(u)
 
     def potential(self, u: np.ndarray, load_factor: float) -> float:
-        """Elastic energy less the work of dead loads [J]; only conservative problems have one."""
+        """Elastic energy less the work of the loads [J]; only conservative problems have one."""
         energy, _ = self.internal(u, load_factor)
-        return energy - float(np.sum(self.external(u, load_factor) * u))
+        base = 0.0 if self.base is None else self.base.work(u)
+        return energy - load_factor * self.loads.work(u) - base
 
     def force_scale(self, u: np.ndarray, load_factor: float) -> float:
         """Norm of the external forces plus that of the supports' [N]: what residuals are relative to."""

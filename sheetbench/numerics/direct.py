@@ -3,7 +3,8 @@
 A symmetric matrix has factors L S Lᵀ by fronts where those of its pattern are known (`multifrontal`); where
 it is large and the extra `mkl` is installed, L D Lᵀ by PARDISO. What has none by fronts, as may be far from
 definite, goes to PARDISO's or rslab's L D Lᵀ with Bunch–Kaufman pivots, to SciPy's SuperLU where neither is:
-its U is D Lᵀ without row exchanges and tells the inertia too. Unsymmetric ones have L U by rslab or SciPy.
+its U is D Lᵀ without row exchanges and tells the inertia too. Unsymmetric ones are solved with the factors
+of their symmetric part where that is definite and close, else by L U of rslab or SciPy.
 Solutions are refined, their residuals checked.
 """
 
@@ -20,6 +21,7 @@ from sheetbench.numerics import pardiso
 from sheetbench.numerics.banded import BACKWARD_ERROR
 from sheetbench.numerics.fronts import Fronts
 from sheetbench.numerics.multifrontal import NoFactorsError, SignedFactors
+from sheetbench.numerics.saddle_point import ROUNDED, minimal_residual
 from sheetbench.numerics.stability import nearest_to_zero, negative_real
 
 rslab: Any
@@ -49,17 +51,10 @@ class Inertia(NamedTuple):
 class Factor:
     """One factorisation. inertia: None where it is not known, and of unsymmetric matrices."""
 
-    def __init__(
-        self,
-        matrix: Matrix,
-        solve: Solve,
-        inertia: Inertia | None = None,
-        dissipative: Callable[[], bool] = lambda: False,
-    ):
-        """solve: x with A x = b, as the factors have it; dissipative: of an unsymmetric matrix, whether its
-        symmetric part is known to be positive definite."""
+    def __init__(self, matrix: Matrix, solve: Solve, inertia: Inertia | None = None):
+        """solve: x with A x = b, as the factors have it."""
         self.matrix, self.inertia = matrix, inertia
-        self._solve, self._dissipative, self._largest = solve, dissipative, _largest(matrix)
+        self._solve, self._largest = solve, _largest(matrix)
 
     @property
     def negative(self) -> int | None:
@@ -67,10 +62,7 @@ class Factor:
         return None if self.inertia is None else self.inertia.negative
 
     def negative_real(self) -> int | None:
-        """Real eigenvalues below zero of an unsymmetric matrix (`stability`); None where they are not found.
-        None are sought where the symmetric part is positive definite, for then no real part is negative."""
-        if self._dissipative():
-            return 0
+        """Real eigenvalues below zero of an unsymmetric matrix (`stability`); None if they are not found."""
         found = nearest_to_zero(self.matrix, self._solve)
         return None if found is None else negative_real(found)
 
@@ -113,6 +105,30 @@ class Factor:
         return largest * float(onenormest(inverse, t=min(2, n)))
 
 
+class SymmetricPartFactor(Factor):
+    """Of an unsymmetric matrix the factors of its symmetric part, which is positive definite: no eigenvalue
+    then has a negative real part. They are corrected (`saddle_point`), and where that does not serve those of
+    the matrix itself are made."""
+
+    def __init__(self, matrix: Matrix, solve: Solve, otherwise: Callable[[], Factor]):
+        super().__init__(matrix, solve)
+        self._otherwise = otherwise
+        self._other: Factor | None = None
+
+    def negative_real(self) -> int:
+        """Zero: the symmetric part is positive definite."""
+        return 0
+
+    def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
+        """As of any factor."""
+        if self._other is None:
+            x, miss = minimal_residual(self.matrix, self._solve, b, max(enough, ROUNDED))
+            if miss <= BACKWARD_ERROR:
+                return x
+            self._other = self._otherwise()
+        return self._other.solve(b, enough)
+
+
 def checked(x: np.ndarray, miss: float) -> np.ndarray:
     """x, unless its residual relative to the matrix and the vectors is large."""
     if not miss <= BACKWARD_ERROR:  # also catches nan
@@ -130,6 +146,7 @@ class DirectSolver:
     def __init__(self, symmetric: bool = True, fronts: Callable[[], Fronts] | None = None):
         self.symmetric, self._fronts = symmetric, fronts
         self._analysis: Any = None
+        self._transposed: np.ndarray | None = None
 
     def factor(self, matrix: Matrix) -> Factor:
         """Factors of a matrix (n, n) that has the pattern of the first one given.
@@ -137,21 +154,36 @@ class DirectSolver:
         Raises SingularMatrixError on a zero pivot or an entry that is not finite.
         """
         n = matrix.shape[0]
-        if self.symmetric and self._fronts is not None and (n < LARGE or pardiso.library() is None):
+        if self._fronts is not None and (n < LARGE or not self.symmetric or pardiso.library() is None):
             try:
-                factors = SignedFactors(matrix.data, self._fronts())
-                return Factor(matrix, factors.solve, Inertia(n - factors.negative, factors.negative, 0))
+                data = matrix.data if self.symmetric else self._symmetric_part(matrix)
+                factors = SignedFactors(data, self._fronts())
+                if self.symmetric:
+                    return Factor(matrix, factors.solve, Inertia(n - factors.negative, factors.negative, 0))
+                if factors.negative == 0:
+                    return SymmetricPartFactor(matrix, factors.solve, lambda: self._by_library(matrix))
             except NoFactorsError:
                 pass  # the pivots of others may do
+        return self._by_library(matrix)
+
+    def _symmetric_part(self, matrix: Matrix) -> np.ndarray:
+        """The data of (A + Aᵀ)/2, whose pattern is that of A."""
+        if self._transposed is None:
+            places = sp.csc_array((np.arange(len(matrix.data)), matrix.indices, matrix.indptr), matrix.shape)
+            self._transposed = places.T.tocsc().data
+        part: np.ndarray = 0.5 * (matrix.data + matrix.data[self._transposed])
+        return part
+
+    def _by_library(self, matrix: Matrix) -> Factor:
         if not np.isfinite(_largest(matrix)):
             raise SingularMatrixError("an entry of the matrix is not finite")
+        columns = _columns(matrix, self.symmetric)
         try:
-            return self._by_library(matrix)
+            return self._analysed(matrix, columns)
         except RuntimeError as error:
             raise SingularMatrixError(str(error)) from None
 
-    def _by_library(self, matrix: Matrix) -> Factor:
-        columns = _columns(matrix, self.symmetric)
+    def _analysed(self, matrix: Matrix, columns: sp.csc_array) -> Factor:
         if self._analysis is None:
             if self.symmetric and pardiso.library() is not None:
                 self._analysis = pardiso.Analysis(columns)
@@ -159,22 +191,8 @@ class DirectSolver:
                 self._analysis = rslab.analyze(columns, path="ldlt" if self.symmetric else "lu")
         if self._analysis is not None:
             factors = self._analysis.factor(columns)
-            if self.symmetric:
-                return Factor(matrix, factors.solve, Inertia(*factors.inertia))
-            return Factor(matrix, factors.solve, dissipative=lambda: self._dissipative(columns))
-        if self.symmetric:
-            return _superlu(matrix, columns)
-        return Factor(matrix, splu(columns).solve, dissipative=lambda: self._dissipative(columns))
-
-    def _dissipative(self, columns: sp.csc_array) -> bool:
-        """Whether the fronts tell that the symmetric part of a matrix, of symmetric pattern, is definite."""
-        if self._fronts is None:
-            return False
-        try:
-            both = 0.5 * (columns.data + columns.T.tocsc().data)
-            return SignedFactors(both, self._fronts()).negative == 0
-        except NoFactorsError:
-            return False
+            return Factor(matrix, factors.solve, Inertia(*factors.inertia) if self.symmetric else None)
+        return _superlu(matrix, columns) if self.symmetric else Factor(matrix, splu(columns).solve)
 
 
 def solve_free(matrix: sp.csr_matrix, force: np.ndarray, u: np.ndarray, free: np.ndarray) -> np.ndarray:

@@ -29,7 +29,8 @@ class Fronts(NamedTuple):
     order: (n,) the unknown at each place; own, first: (F,) how many places a front eliminates, from where on;
     rows: places of all fronts' unknowns, own ones first, from `starts` (F + 1,) on; halves: (F, 2), −1 where
     there is none; target, source: of every entry of the lower triangle, where in its front it goes and where
-    in the matrix's data it is, by front from `entries` (F + 1,) on; kept: where the factors' columns start
+    in the matrix's data it is, by front from `entries` (F + 1,) on; diagonal: (n,) where in the data the
+    diagonal is, by places; kept: where the factors' columns start
     (F + 1,); widest: the largest front; waiting: room for what fronts leave.
     """
 
@@ -42,13 +43,15 @@ class Fronts(NamedTuple):
     target: np.ndarray
     source: np.ndarray
     entries: np.ndarray
+    diagonal: np.ndarray
     kept: np.ndarray
     widest: int
     waiting: int
 
 
 def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: Cells) -> Fronts:
-    """The fronts of a symmetric matrix by compressed rows, both triangles."""
+    """The fronts of a symmetric matrix by compressed rows, both triangles and the whole diagonal. Raises
+    ValueError where an entry of the diagonal is missing."""
     return _fronts(columns, starts, cells.unknowns, *_dissected(np.ascontiguousarray(cells.places)))
 
 
@@ -190,6 +193,7 @@ def _fronts(
 
     lower = (len(columns) + size) // 2
     target, source = np.empty(lower, np.int64), np.empty(lower, np.int64)
+    diagonal = np.full(size, -1)
     local, filled = np.empty(size, np.int64), 0
     for f in range(count):
         width = begin[f + 1] - begin[f]
@@ -198,10 +202,16 @@ def _fronts(
         for i in range(own[f]):
             u = order[first[f] + i]
             for at in range(starts[u], starts[u + 1]):
+                if columns[at] == u:
+                    diagonal[first[f] + i] = at
                 if place[columns[at]] >= first[f] + i:
                     target[filled] = i * width + local[place[columns[at]]]
                     source[filled] = at
                     filled += 1
         entries[f + 1] = filled
+    if np.any(diagonal < 0):
+        raise ValueError("the pattern lacks a part of its diagonal")
     rows = rows[: begin[count]].copy()
-    return Fronts(order, own, first, rows, begin, halves, target, source, entries, kept, widest, most)
+    return Fronts(
+        order, own, first, rows, begin, halves, target, source, entries, diagonal, kept, widest, most
+    )  # fmt: skip

@@ -50,13 +50,7 @@ def factor(data: np.ndarray, fronts: Fronts, factors: np.ndarray, signs: np.ndar
     """The factors of the matrix with this data into `factors` and `signs` (n,); False if there are none."""
     front = np.empty(fronts.widest**2)
     waiting, top = np.empty(fronts.waiting), 0
-    where, diagonal = np.empty(len(fronts.order), np.int64), np.empty(len(fronts.order))
-    for f in range(len(fronts.own)):
-        width = fronts.starts[f + 1] - fronts.starts[f]
-        for t in range(fronts.entries[f], fronts.entries[f + 1]):
-            column = fronts.target[t] // width
-            if fronts.target[t] == column * (width + 1):
-                diagonal[fronts.first[f] + column] = np.abs(data[fronts.source[t]])
+    where, diagonal = np.empty(len(fronts.order), np.int64), np.abs(data[fronts.diagonal])
     indefinite = False
     for f in range(len(fronts.own)):
         own, start, end = fronts.own[f], fronts.starts[f], fronts.starts[f + 1]

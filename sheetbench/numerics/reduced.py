@@ -17,7 +17,7 @@ from sheetbench.numerics.direct import DirectSolver, Factor, Inertia, SingularMa
 from sheetbench.numerics.fronts import Cells, Fronts, fronts_of
 from sheetbench.numerics.kept import kept
 from sheetbench.numerics.reduction import BlockPattern, Reduction, reduction
-from sheetbench.numerics.saddle_point import Saddle, minimal_residual
+from sheetbench.numerics.saddle_point import ROUNDED, Saddle, minimal_residual
 
 BANDED_LIMIT = 2.0e7  # n × bandwidth² below which the banded Cholesky is quicker than the sparse one
 
@@ -51,7 +51,7 @@ class SaddleFactor(Factor):
 
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
         """x with A x = b to rounding. Raises SingularMatrixError when the residual stays large."""
-        return checked(*minimal_residual(self.matrix, self._solve, b))
+        return checked(*minimal_residual(self.matrix, self._solve, b, max(enough, ROUNDED)))
 
 
 class ReducedSystem:

@@ -63,10 +63,10 @@ class Saddle:
 
 
 def minimal_residual(
-    matrix: sp.csc_array, solve: Callable[[np.ndarray], np.ndarray], b: np.ndarray
+    matrix: sp.csc_array, solve: Callable[[np.ndarray], np.ndarray], b: np.ndarray, enough: float = ROUNDED
 ) -> tuple[np.ndarray, float]:
     """x with A x = b, by corrections of least residual with the factors of a matrix close by, and the
-    residual relative to ‖A‖‖x‖ + ‖b‖ (largest entries)."""
+    residual relative to ‖A‖‖x‖ + ‖b‖ (largest entries), at which it is `enough`."""
     largest = np.abs(matrix.data).max(initial=0.0)
     x, left, miss = np.zeros_like(b), b, 1.0
     moves: list[tuple[np.ndarray, np.ndarray]] = []  # and what the matrix makes of them, orthonormal
@@ -83,6 +83,6 @@ def minimal_residual(
         x = x + float(moves[-1][1] @ left) * moves[-1][0]
         left = b - matrix @ x
         miss = float(np.abs(left).max() / (largest * np.abs(x).max() + np.abs(b).max()))
-        if miss <= ROUNDED:
+        if miss <= enough:
             break
     return x, miss if b.any() else 0.0

@@ -16,6 +16,7 @@ symmetric  not a support but a cut: the sheet goes on beyond the edge as its own
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import pi
 from typing import Annotated, Literal
 
@@ -116,6 +117,13 @@ def held_axes(support: AnySupport) -> tuple[int, ...]:
     if isinstance(support, Held):
         return tuple("xyz".index(component) for component in support.components)
     return (0, 1, 2)
+
+
+def encloses_volume(supports: Iterable[AnySupport]) -> bool:
+    """Whether the volume between the sheet and its plan is the sheet's alone to change: every edge is held
+    across itself, so that none sweeps an area. A pressure then has a potential, − p × that volume."""
+    held = {support.edge for support in supports if EDGES[support.edge].normal_axis in held_axes(support)}
+    return held == set(EDGES)
 
 
 def holds_director(support: AnySupport) -> bool:

@@ -17,7 +17,7 @@ CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogu
         advisor-study animations pictures notebooks reproduce crosscheck peers bench central simulators stability stability-full suite standing mutants viewer \
         wheel-check extras-check lint clean
 help:
-	@echo "make demo      set up and compare both models on the seed's test 1 (files in $(OUT)/)"
+	@echo "make demo      set up and compare both models on test 1 of the published study, Habibi et al. (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
 	@echo "make check     the linter and the part of the tests that finds most faults soonest (a minute and a half)"
 	@echo "make slow      the tests that take minutes"
@@ -34,9 +34,9 @@ help:
 	@echo "make transfer  every calibration on every scene of the transfer study: docs/transfer.md (ten minutes)"
 	@echo "make expected-errors  the expected error of a lattice's grid on a hundred scenes, beside the true one: a table of docs/theory.md (ten minutes; ARGS=--anew solves all again)"
 	@echo "make coarse    coarse grids, even and graded by the scene's layers, on the transfer study's scenes (files in $(OUT)/coarse*/)"
-	@echo "make tradeoff  error against time on the seed's test 1, with the picture (files in $(OUT)/)"
+	@echo "make tradeoff  error against time on test 1 of Habibi et al., with the picture (files in $(OUT)/)"
 	@echo "make advisor-study  the advisor on sixty random scenes (files in $(OUT)/advisor/; up to half an hour)"
-	@echo "make reproduce the seed's study again: docs/reproduction.md and its pictures (a minute and a half)"
+	@echo "make reproduce the study of Habibi et al. again: docs/reproduction.md and its pictures (a minute and a half)"
 	@echo "make crosscheck every model and other people's programs on eight scenes: docs/crosscheck.md (ten minutes)"
 	@echo "make peers     ours and other people's codes in one run: docs/peers.md and its picture (six minutes)"
 	@echo "make stability where each solver holds, degrades, refuses or breaks: eight maps (six minutes; files in $(OUT)/stability/)"

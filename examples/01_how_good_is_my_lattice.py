@@ -2,8 +2,8 @@
 1. How good is my lattice?
 ==========================
 
-The seed's test 1: a nitrile sheet with two adjacent edges clamped, under its own weight. Its 9 × 9 × 2
-lattice is solved beside a finite-element shell of the same sheet.
+Test 1 of the published study (Habibi et al.): a nitrile sheet with two adjacent edges clamped, under its
+own weight. Its 9 × 9 × 2 lattice is solved beside a finite-element shell of the same sheet.
 """
 
 import matplotlib.pyplot as plt

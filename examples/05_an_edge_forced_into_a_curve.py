@@ -2,10 +2,10 @@
 5. An edge forced into a curve
 ==============================
 
-The seed's test 2: one edge clamped to a rod bent to 4 1/m. The sheet has a layer there that is narrower
-than the cells of a 9 × 9 grid; with cells finer at that edge the same number of masses gets it right.
-``grading="auto"`` chooses so by the layer's width, and springs that suit such a layer, before anything is
-solved.
+Test 2 of the published study (Habibi et al.): one edge clamped to a rod bent to 4 1/m. The sheet has a
+layer there that is narrower than the cells of a 9 × 9 grid; with cells finer at that edge the same
+number of masses gets it right. ``grading="auto"`` chooses so by the layer's width, and springs that suit
+such a layer, before anything is solved.
 """
 
 import matplotlib.pyplot as plt

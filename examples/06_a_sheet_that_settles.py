@@ -2,8 +2,8 @@
 6. A sheet that settles
 =======================
 
-The seed's dynamics: the weight is switched on at t = 0, dampers bring the sheet to rest. Energies are
-accounted for, so a wrong step would show.
+The dynamics of Habibi et al., the published study: the weight is switched on at t = 0, dampers bring
+the sheet to rest. Energies are accounted for, so a wrong step would show.
 """
 
 import matplotlib.pyplot as plt

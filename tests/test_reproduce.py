@@ -193,7 +193,7 @@ def test_the_verb_writes_a_page_and_says_what_it_found(
     shown = " ".join(capsys.readouterr().out.split())
     assert "24 of 24 printed errors" in shown
     page = (tmp_path / "reproduction.md").read_text(encoding="utf-8")
-    assert page.startswith("# The seed's study, reproduced") and "model \\*" in page
+    assert page.startswith("# The study of Habibi et al., reproduced") and "model \\*" in page
     assert json.loads((tmp_path / "reproduction.json").read_text())["parts"] == ["errors"]
     assert (tmp_path / "errors.csv").read_text().count("\n") == 25
 

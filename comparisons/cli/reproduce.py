@@ -1,4 +1,4 @@
-"""`sheetbench reproduce`: the seed's study again."""
+"""`sheetbench reproduce`: Habibi et al.'s study again."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def command(
     no_pictures: NoPictures = False,
     overwrite: Overwrite = False,
 ) -> None:
-    """Reproduce the seed's study: tables beside our models, errors, the settling run, what fits best.
+    """Reproduce Habibi et al.'s study: tables beside our models, errors, the settling run, what fits best.
 
     With the published inputs; where they do not give the published tables, which sheets come nearest, and
     what in the tables no sheet can have.

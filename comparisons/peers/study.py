@@ -16,9 +16,9 @@ from comparisons.report.table import Column, Table
 QUESTIONS = {"statics": statics.rows, "settling": settling.rows}
 TEXTS = {
     "statics": (
-        "The seed's sheet, two adjacent edges clamped, under its own weight. Error at the probes, of the "
-        "largest displacement, against the shell on 32 × 32 elements; time of the solve alone, warm, on one "
-        "thread, of CalculiX as a whole program."
+        "The sheet of Habibi et al. (reproduction.md), two adjacent edges clamped, under its own weight. "
+        "Error at the probes, of the largest displacement, against the shell on 32 × 32 elements; "
+        "time of the solve alone, warm, on one thread, of CalculiX as a whole program."
     ),
     "settling": (
         "Two seconds of the same sheet on 9 × 9 × 2 masses after its weight comes on. The far corner's error "
@@ -45,7 +45,7 @@ def report(rows: Sequence[PeerRow]) -> Report:
     return Report(
         name="peers",
         title="Ours and other people's codes",
-        subtitle="error and time on the seed's sheet, in one run",
+        subtitle="error and time on Habibi et al.'s sheet, in one run",
         document={"rows": told},
         tables=tuple(table(name, rows) for name in asked),
         notes=NOTES,
@@ -65,7 +65,7 @@ def table(question: str, rows: Sequence[PeerRow]) -> Table:
     )
     kept = [row for row in rows if row.question == question]
     shown = tuple((r.code, r.size, r.error, r.median, faster(r, kept), r.status) for r in kept)
-    caption = f"{question.capitalize()} of the seed's sheet"
+    caption = f"{question.capitalize()} of Habibi et al.'s sheet"
     return Table(caption, columns, shown, question, text=TEXTS[question])
 
 

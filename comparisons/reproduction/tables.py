@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from comparisons.reproduction.reproduction import Reproduction
 
 SEED = (
-    "The seed: Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for large-deformation "
+    "Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for large-deformation "
     "continuum surfaces"
 )
 PERCENT = ("", "%", 100.0)
@@ -61,7 +61,7 @@ def report(found: Reproduction) -> Report:
         ]
     return Report(
         name="reproduction",
-        title="The seed's study, reproduced",
+        title="The study of Habibi et al., reproduced",
         subtitle="what was published, what the same inputs give, and what comes nearest to it",
         lead=_asked(),
         document=found.as_dict(),
@@ -79,7 +79,7 @@ def report(found: Reproduction) -> Report:
 
 
 def _asked() -> str:
-    """What the seed is, its tests and its sheet."""
+    """What was published, its tests and its sheet."""
     first, second = scene(1), scene(2)
     points = (
         "P1 is the centre, P2 and P3 the middles of two free sides, P4 the corner farthest from the support."

@@ -1,6 +1,6 @@
 """Study `load`: weights over nine decades, compression past buckling, links pulled to twice their length.
 
-weight       the seed's sheet, one edge clamped, from 1e-6 g to 1e3 g; ρ g a/E = 0.05 ends the model
+weight       Habibi et al.'s sheet, one edge clamped, from 1e-6 g to 1e3 g; ρ g a/E = 0.05 ends the model
 reversed     the same weight up and down: mirror images, to rounding
 compression  the clamped-free strip pressed along x up to ten times its Euler load π² E h³/48a² (per width),
              with a weight that chooses the side. In one load step both models come to the equilibrium that
@@ -88,7 +88,7 @@ def draw(figure: Figure, rows: list[Row]) -> None:
     """A panel a kind, a strip of tiles a model, the boundary drawn over."""
     limit = WEIGHT_LIMIT * 12.0 * (1.0 - POISSON**2) / SLENDERNESS**2 / ONE_G
     panels = (
-        ("weight", limit, "Weight [g] of the seed's sheet; beyond the line ρ g a/E > 0.05"),
+        ("weight", limit, "Weight [g] of Habibi et al.'s sheet; beyond the line ρ g a/E > 0.05"),
         ("compression", 1.0, "Compression / Euler load; band: between a beam's and a wide plate's"),
         ("pull", 0.5, "Pull on the edge / the pull that doubles the length; line: links half as long again"),
         ("tip", None, "Pull on a point / (E h a/10)"),

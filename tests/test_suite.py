@@ -17,15 +17,17 @@ from comparisons.suite.cases import SUITES, cases
 from comparisons.suite.reference import FILE, VERSION, document, references
 from sheetbench import scenes
 
-FROZEN = "dda79a5a326c25fe"  # of the values of version 1.0
+FROZEN = "a43fc4b07b6b059e"  # of scenes and values of version 1.0
 
 
 def values_digest() -> str:
-    """Of scenes and values alone: measured times and the machine may change."""
+    """Of scenes and values alone: titles, measured times and the machine may change."""
     kept = [
         {key: case[key] for key in ("name", "scene", "probes", "frequencies_hz", "time") if key in case}
         for case in document()["cases"]
     ]
+    for case in kept:
+        case["scene"] = {**case["scene"], "title": ""}
     return sha256(json.dumps(kept, sort_keys=True).encode()).hexdigest()[:16]
 
 

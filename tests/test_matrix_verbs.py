@@ -1,0 +1,96 @@
+"""Every other verb in every pair of its options, as test_matrix.py has it for `compare`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from matrix_rows import Row, Tally, check, named, pairwise, tally
+from test_matrix import GRIDS, OUTPUTS, SCENES, SPRINGS, places
+
+from sheetbench.choices import CALIBRATIONS, INTEGRATORS, MASSES
+
+assert places  # a fixture
+LITTLE = (("--json",), ("--out", "{folder}"), ())
+EVERY_SCENE = SCENES[1:]
+METHODS = tuple(("--method", name) for name in (*CALIBRATIONS, "auto"))
+VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
+    "modes": [
+        SPRINGS[::3],
+        EVERY_SCENE,
+        ((), ("--about", "deformed")),
+        ((), *(("--masses", name) for name in MASSES)),
+        (
+            ("--reference", "plate", "--elements", "2"),
+            ("--reference", "shell", "--elements", "2x3"),
+            ("--reference", "solid", "--elements", "2"),
+        ),
+        LITTLE,
+        (("--grid", "3"), ("--grid", "3x4"), ("--grid", "3x3x3")),
+        (("--count", "2"), ("--count", "40")),
+    ],
+    "linearise": [
+        SPRINGS[::2],
+        EVERY_SCENE,
+        (("--modes", "3"), ("--modes", "0"), ("--modes", "4", "--reduce", "balanced:2")),
+        ((), ("--about", "flat")),
+        LITTLE,
+        GRIDS[:3],
+    ],
+    "simulate": [
+        (*((("--integrator", name)) for name in (*INTEGRATORS, "auto", "reduced")),),
+        EVERY_SCENE,
+        SPRINGS[::3],
+        ((), ("--step", "1e-4"), ("--every", "1e-3")),
+        OUTPUTS[1:],
+        GRIDS[:3],
+    ],
+    "calibrate": [
+        METHODS,
+        (("two-edges-clamped",), ("curved-edge",), ("{springs}",), ("{weightless}",), ("--side", "0.1")),
+        (("--grid", "3"), ("--grid", "3x4"), ("--grid", "3x3x3")),
+        ((), ("--k", "550"), ("--layer-distance", "0.002"), ("--grading", "0.4"), ("--grading", "auto")),
+        (*OUTPUTS[1:3], ("--toml",), ("--export", "{export}", "--for", "mujoco")),
+    ],
+    "view": [
+        EVERY_SCENE,
+        SPRINGS[::3],
+        (("--reference", "plate"), ("--reference", "shell"), ("--reference", "solid")),
+        (("--out", "{folder}.html"), ("--out", "{folder}.html", "--json")),
+    ],
+    "advise": [
+        (("one-edge-clamped",), ("{weightless}",)),
+        (("--tolerance", "0.9"), ("--budget", "0.5"), ("--budget", "5ms")),
+        (("--json",), ()),
+    ],
+    "check": [EVERY_SCENE, LITTLE],
+}
+MORE = {
+    "simulate": ("--duration", "0.002"),
+    "calibrate": ("--young", "1e6", "--poisson", "0.4", "--thickness", "0.003"),
+    "view": ("--grid", "3", "--elements", "2"),
+}
+ROWS = [(verb, row) for verb, dimensions in VERBS.items() for row in pairwise(dimensions)]
+
+
+@pytest.fixture(scope="module")
+def counted() -> Iterator[Tally]:
+    with tally() as found:
+        yield found
+
+
+@pytest.mark.usefixtures("undrawn")
+@pytest.mark.parametrize(("verb", "row"), ROWS, ids=[f"{verb} {named(row)}" for verb, row in ROWS])
+def test_verb(
+    verb: str,
+    row: Row,
+    places: dict[str, str],
+    counted: Tally,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    known = {**places, "folder": str(tmp_path / "out"), "export": str(tmp_path / "export")}
+    options = [part.format(**known) for one in row for part in one]
+    check([verb, *options, *MORE.get(verb, ())], counted, monkeypatch, capsys)

@@ -6,12 +6,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from matrix_options import GRIDS, OUTPUTS, SCENES, SPRINGS, scene_files
 from matrix_rows import Row, Tally, check, named, pairwise, tally
-from test_matrix import GRIDS, OUTPUTS, SCENES, SPRINGS, places
 
 from sheetbench.choices import CALIBRATIONS, INTEGRATORS, MASSES
 
-assert places  # a fixture
 LITTLE = (("--json",), ("--out", "{folder}"), ())
 EVERY_SCENE = SCENES[1:]
 METHODS = tuple(("--method", name) for name in (*CALIBRATIONS, "auto"))
@@ -72,6 +71,11 @@ MORE = {
     "view": ("--grid", "3", "--elements", "2"),
 }
 ROWS = [(verb, row) for verb, dimensions in VERBS.items() for row in pairwise(dimensions)]
+
+
+@pytest.fixture(scope="module")
+def places(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    return scene_files(tmp_path_factory.mktemp("scenes"))
 
 
 @pytest.fixture(scope="module")

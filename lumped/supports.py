@@ -20,6 +20,7 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from lumped.actuators import Coupling
+from lumped.actuators.corners import Tie
 from lumped.lattice import Lattice
 from lumped.pattern import KEPT, Pattern
 from lumped.springs.rest import Itself
@@ -164,12 +165,15 @@ def _constrain(
     bindings = coupling.bindings() if coupling is not None else []
     for masses, _, _ in bindings:
         dependent[masses] = True
+    ties = coupling.ties if coupling is not None else []
+    for tie in ties:
+        dependent[tie.rows] = True
     if coupling is not None:
         fixed[lattice.mass_count :] = held[lattice.mass_count :] = ~coupling.free
     free = ~(fixed | dependent)
     transform = _selection(free)
     if mean_held or bindings:
-        transform = _with_dependent(free, mean_held, bindings)
+        transform = _with_dependent(free, mean_held, ties, bindings)
     driven = bent_or_tilted(supports, sheet)
 
     def turned(load_factor: float) -> np.ndarray:
@@ -203,10 +207,11 @@ def _selection(free: np.ndarray) -> sp.csr_array:
 def _with_dependent(
     free: np.ndarray,
     mean_held: dict[tuple[int, int], np.ndarray],
+    ties: Sequence[Tie],
     bindings: Sequence[tuple[np.ndarray, np.ndarray, int]],
 ) -> sp.csr_array:
-    """The transform where the last layer is minus the sum of the others (last mass, axis → its column), and
-    masses are bound to rows of actuators."""
+    """The transform where the last layer is minus the sum of the others (last mass, axis → its column), rows
+    of actuators are tied to rows of others, and masses are bound to rows of actuators."""
     n = len(free)
     number = np.full((n, 3), -1)
     number[free] = np.arange(free.sum())
@@ -217,12 +222,24 @@ def _with_dependent(
         rows.append(np.full(len(column) - 1, 3 * last + axis))
         columns.append(number[column[:-1], axis])
         values.append(np.full(len(column) - 1, -1.0))
-    for masses, binding, first in bindings:
-        at, row = np.nonzero(binding)
-        for axis in range(3):
-            can = number[first + row, axis] >= 0
-            rows.append(3 * masses[at[can]] + axis)
-            columns.append(number[first + row[can], axis])
-            values.append(binding[at[can], row[can]])
+    shape = (3 * n, int(free.sum()))
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-    return sp.csr_array(sp.coo_array(entries, shape=(3 * n, int(free.sum()))))
+    transform = sp.csr_array(sp.coo_array(entries, shape=shape))
+    linked = [
+        *((tie.rows, tie.others, tie.weights) for tie in ties),
+        *((masses, first + np.arange(binding.shape[1]), binding) for masses, binding, first in bindings),
+    ]
+    for targets, sources, weights in linked:
+        transform = transform + _link(n, targets, sources, weights) @ transform
+    transform = sp.csr_array(transform)
+    transform.sort_indices()
+    return transform
+
+
+def _link(n: int, targets: np.ndarray, sources: np.ndarray, weights: np.ndarray) -> sp.csr_array:
+    """The map (3n, 3n) of rows (k,) that are weights (k, s) @ other rows (s,)."""
+    at, source = np.nonzero(weights)
+    axes = np.arange(3)[:, None]
+    rows, columns = (3 * targets[at] + axes).ravel(), (3 * sources[source] + axes).ravel()
+    values = np.tile(weights[at, source], 3)
+    return sp.csr_array(sp.coo_array((values, (rows, columns)), shape=(3 * n, 3 * n)))

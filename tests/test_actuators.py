@@ -204,12 +204,16 @@ def test_interaction_forces_are_equal_and_opposite(case):
     )  # what the sheet asks of whoever holds its masses
     scale = np.abs(sheet).max()
     total = sheet[: len(coupling.moved)][coupling.moved].sum(axis=0)
+    missing = np.zeros((coupling.size, 3))
     for actuator, (masses, binding, first) in zip(coupling.bodies, coupling.bindings(), strict=True):
         y = u[first : first + actuator.rows]
         own = actuator.force(y, Drive())[1] - actuator.weight(np.array([0.0, 0.0, -9.81]))
-        missing = np.where(actuator.free, own + binding.T @ sheet[masses], 0.0)
-        assert np.abs(missing).max(initial=0.0) < 1e-8 * scale
+        missing[first : first + actuator.rows] = np.where(actuator.free, own + binding.T @ sheet[masses], 0.0)
         total += sheet[masses].sum(axis=0)
+    for tie in coupling.ties:  # what holds the second chain's end at a shared corner pulls at the first's
+        missing[tie.others] += tie.weights.T @ missing[tie.rows]
+        missing[tie.rows] = 0.0
+    assert np.abs(missing).max(initial=0.0) < 1e-8 * scale
     exerted = sheet.copy()
     coupling.add_force(u, Drive(), exerted)
     for chain, place, end, _ in coupling.corners():  # what a chain passes on to a corner that holds it

@@ -60,6 +60,10 @@ SCENES = {
         supports=[{"edge": "y0", "kind": "clamped"}],
         actuators=[{"edge": "x1", "face": "top", "curvature": 4.0}],
     ),
+    "chains that share a corner": scene(
+        supports=[CLAMP],
+        actuators=[{"edge": "y1", "face": "top", "curvature": 4.0}, {"edge": "x1", "curvature": -2.0}],
+    ),
     "unequal chains": sideways(
         scene(
             supports=[CLAMP],

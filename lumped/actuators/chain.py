@@ -11,12 +11,13 @@ What binds masses of the edge to them is in `lumped.actuators.binding`.
 
 Where an end is a corner whose position and director another edge holds, so are the chain's end point and, by
 a joint of half length, the bending and the twist of its end segment, which may turn about the director. The
-joint has the curvature of the one beside it.
+joint has the curvature of the one beside it. Where another chain shares the corner, the two have its point
+and director in common.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -32,8 +33,9 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 class Chain:
-    """One or several chains on one edge, as a `Body`. scale: σ [N/m], like the sheet's E h; corners: its
-    ends (0 the start, 1 the end) where another edge holds position and director."""
+    """One or several chains on one edge, as a `Body`. scale: σ [N/m], like the sheet's E h; held: its ends
+    (0 the start, 1 the end) where another edge holds position and director; shared: those where another
+    chain shares the corner, and whether the director's row is this chain's own."""
 
     def __init__(
         self,
@@ -43,7 +45,8 @@ class Chain:
         lattice: Lattice,
         masses: np.ndarray,
         scale: float,
-        corners: tuple[int, ...] = (),
+        held: tuple[int, ...] = (),
+        shared: Mapping[int, bool] | None = None,
     ):
         first = chains[0]
         self.edge: str = first.edge
@@ -55,8 +58,8 @@ class Chain:
         self.offset = float(offsets.mean())
         start = np.append(np.array(sheet.edge_ends(first.edge)[0]), self.offset)
         axes = np.array([along, UP, edge.outward])
-        self.frames = frames = Frames(first, start, sheet.lengths[edge.along_axis], axes, corners)
-        self.rest, self.axis, self.corners = frames.rest, frames.rest[: frames.points], frames.corners
+        self.frames = frames = Frames(first, start, sheet.lengths[edge.along_axis], axes, held, shared)
+        self.rest, self.axis, self.corners = frames.rest, frames.rest[: frames.points], frames.held
         self.multipliers = frames.constraints
         self.rows = frames.coordinates + frames.multiplier_rows
         multipliers = np.arange(3 * frames.multiplier_rows).reshape(-1, 3) < self.multipliers
@@ -215,9 +218,10 @@ class Chain:
         moment = np.einsum("sm,smq->sq", self.share, np.cross(arm, acting.on_masses[None, :, :]))
         total = np.concatenate([force, moment], axis=1)
         exerted = acting.on_rows + self.binding.T @ acting.on_masses
-        for end in self.corners:
+        for end in frames.corners:  # of a free row only another chain's part of the corner is left
             segment, row = frames.end_segment(end), frames.corner_row[end]
-            push, couple = self.corner_force(end, exerted), np.cross(place[row], exerted[row])
+            push = exerted[frames.end_point(end)] if end in frames.shared else self.corner_force(end, exerted)
+            couple = np.cross(place[row], exerted[row])
             lever = place[frames.end_point(end)] - middle[segment]
             total[segment] -= np.concatenate([push, np.cross(lever, push) + couple])
         return np.tile(total / len(self.names), (len(self.names), 1, 1))

@@ -2,11 +2,11 @@
 
 A mass of an edge moved rigidly follows the motion, whatever else acts on it: scenes refuse what the motion
 would contradict; where two motions share a corner they share its force. Any other mass that a support holds,
-in whichever component, stays with its support; one that two chains on neighbouring edges could bind stays
-with the first. A chain that ends at a corner whose director a support holds is held there too, unless the
-support moves over time: with an end that moves so the integrators do not keep the balance of energy. There,
-and beside an edge moved rigidly, the sheet alone holds it. Chains on one edge are one
-actuator model.
+in whichever component, stays with its support. Two chains on neighbouring edges have the corner in common
+(`lumped.actuators.corners`). A chain that ends at a corner whose director a support holds is held there too,
+unless the support moves over time: with an end that moves so the integrators do not keep the balance of
+energy. There, and beside an edge moved rigidly, the sheet alone holds it. Chains on one edge are one actuator
+model.
 """
 
 from __future__ import annotations
@@ -18,9 +18,10 @@ import numpy as np
 
 from lumped.actuators.actuator import Acting, Actuator, Body, Drive
 from lumped.actuators.chain import Chain
+from lumped.actuators.corners import SharedCorner, Tie, held_ends, shared_corners
 from lumped.actuators.edge_motion import RigidMotion
 from lumped.lattice import Lattice
-from sheetbench.scenes import EDGES, Scene, holds_director
+from sheetbench.scenes import EDGES, Scene
 
 
 class Coupling:
@@ -33,11 +34,13 @@ class Coupling:
         self.moved = np.zeros(lattice.mass_count, dtype=bool)  # masses of edges moved rigidly
         for motion in motions:
             self.moved[motion.masses] = True
-        chains = _chains(scene, lattice, self.moved)
+        chains, shared = _chains(scene, lattice, self.moved)
         ends = np.cumsum([lattice.mass_count, *(chain.rows for chain in chains)])
         places = [slice(int(a), int(b)) for a, b in pairwise(ends)]
         self._motions: tuple[RigidMotion, ...] = motions
         self._bodies: list[tuple[Body, slice]] = list(zip(chains, places, strict=True))
+        begin = {chain.edge: (chain, place.start) for chain, place in zip(chains, places, strict=True)}
+        self.ties = [_tie(corner, *(begin[edge] for edge in corner.edges)) for corner in shared]
         by_edge: dict[str, tuple[Actuator, slice]] = {motion.edge: (motion, slice(0)) for motion in motions}
         by_edge |= {body.edge: (body, place) for body, place in self._bodies}
         self._all = [by_edge[edge] for edge in dict.fromkeys(str(a.edge) for a in scene.actuators)]
@@ -241,24 +244,32 @@ def _motions(scene: Scene, lattice: Lattice) -> tuple[RigidMotion, ...]:
     )
 
 
-def _chains(scene: Scene, lattice: Lattice, moved: np.ndarray) -> list[Chain]:
+def _chains(scene: Scene, lattice: Lattice, moved: np.ndarray) -> tuple[list[Chain], list[SharedCorner]]:
     taken = moved.copy()
     for support in scene.supports:
         taken[lattice.edge_columns(support.edge)] = True
+    shared = shared_corners(scene, lattice, taken)
     found: list[Chain] = []
     for edge, here in scene.chains().items():
         masses = lattice.edge_columns(edge).ravel()
         masses = masses[~taken[masses]]
         taken[masses] = True
         scale = scene.material.young * scene.sheet.thickness
-        corners = tuple(end for end in (0, 1) if _corner_is_held(scene, edge, end))
-        found.append(Chain(list(here.values()), tuple(here), scene.sheet, lattice, masses, scale, corners))
-    return found
+        own = {c.ends[c.edges.index(edge)]: edge == c.edges[0] for c in shared if edge in c.edges}
+        held = held_ends(scene, edge)
+        chain = Chain(list(here.values()), tuple(here), scene.sheet, lattice, masses, scale, held, own)
+        found.append(chain)
+    return found, shared
 
 
-def _corner_is_held(scene: Scene, edge: str, end: int) -> bool:
-    """Whether a support on the neighbouring edge at an end of this one holds position and director there."""
-    beside = f"{'xy'[EDGES[edge].along_axis]}{end}"
-    moved = any(motion.edge == beside for motion in scene.motions().values())
-    here = [support for support in scene.supports if support.edge == beside and support.motion is None]
-    return not moved and any(holds_director(support) for support in here)
+def _tie(corner: SharedCorner, first: tuple[Chain, int], second: tuple[Chain, int]) -> Tie:
+    """Point and director of the second chain from those of the first; axes may lie at different heights."""
+    rows = [
+        begin + np.array([chain.frames.end_point(end), chain.frames.corner_row[end]])
+        for (chain, begin), end in zip((first, second), corner.ends, strict=True)
+    ]
+    (one, _), (other, _) = first, second
+    above = (other.offset - one.offset) / one.frames.length
+    weights = np.array([[1.0, above], [0.0, other.frames.length / one.frames.length]])
+    first_tied = 0 if corner.tied else 1
+    return Tie(rows[1][first_tied:], rows[0], weights[first_tied:])

@@ -17,12 +17,16 @@ multipliers, and a joint of half length (but for "inplane") between n_c and the 
 
     corner      n_c·b = 0;  "inplane": n_c·b = n_c·t = 0;   measures n_c·t, 0, n_c·n
 
-so that the segment may turn about n_c. Chains are inextensible, untwisted and, in a plane, straight across
+so that the segment may turn about n_c. A corner shared with another chain has the same joint; its n_c is free
+but of unit length, and for one of the two chains a multiple of the other's (`lumped.actuators.corners`).
+Chains are inextensible, untwisted and, in a plane, straight across
 it: what one anchor holds so, another must not hold again (`_slides`). Source: Betsch and Steinmann (2001),
 García de Jalón's natural coordinates.
 """
 
 from __future__ import annotations
+
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -48,7 +52,8 @@ class _Quantities:
 class Frames:
     """Geometry of one chain. axes: the undeformed t, n, b as rows of a (3, 3) matrix; start: (3,) [m].
 
-    corners: ends (0, 1) held at a corner.
+    held: ends (0, 1) held at a corner; shared: ends whose corner another chain shares, and whether n_c is
+    this chain's own.
 
     quantities: the constraints (first `constraints` of them), then three measures a joint.
     gradient and products below are with respect to the coordinate rows only, (coordinates, 3).
@@ -60,13 +65,16 @@ class Frames:
         start: np.ndarray,
         length: float,
         axes: np.ndarray,
-        corners: tuple[int, ...] = (),
+        held: tuple[int, ...] = (),
+        shared: Mapping[int, bool] | None = None,
     ):
         count = chain.segments
         self.segments, self.length, self.axes, self.base = count, length / count, axes, chain.base
         self.points = count + 1
         based = {"start": 0, "end": 1}.get(chain.base)
-        self.corners = tuple(end for end in corners if end != based)
+        self.held = tuple(end for end in held if end != based)
+        self.shared = dict(shared or {})
+        self.corners = (*self.held, *self.shared)
         self.corner_row = {end: self.points + 2 * count + k for k, end in enumerate(self.corners)}
         self.coordinates = self.points + 2 * count + len(self.corners)
         points = start + self.length * np.arange(self.points)[:, None] * axes[T]
@@ -74,10 +82,10 @@ class Frames:
         normals = np.tile(self.length * axes[N], (len(self.corners), 1))
         self.rest = np.concatenate([points, *directors, normals])
         self.free = np.ones((self.coordinates, 3), dtype=bool)
-        self.joints, held = self._joints(chain)
-        self.free[held] = False
-        self.base_points = [row for row in held if row < self.points]
-        for end in self.corners:
+        self.joints, fixed = self._joints(chain)
+        self.free[fixed] = False
+        self.base_points = [row for row in fixed if row < self.points]
+        for end in self.held:
             self.free[self.corner_row[end]] = False
             kinds = [kind for kind in (T, N, B) if not self._slides(chain, end, kind)]
             self.free[self.end_point(end), np.abs(axes[kinds]).argmax(axis=1)] = False
@@ -100,8 +108,8 @@ class Frames:
         self.command = np.array([*range(len(self.joints)), *ends], dtype=int)  # whose curvature a joint has
 
     def _constrain(self, chain: Chain, quantities: _Quantities) -> None:
-        """Rigid segments that are not held, joints of the plane, and the first corner of a chain without a
-        base."""
+        """Rigid segments that are not held, joints of the plane, the first corner of a chain without a base
+        and shared corners. An n_c that is shared takes one direction of each chain, never one twice."""
         for i in range(self.segments):
             if self._held(i):
                 continue
@@ -113,7 +121,12 @@ class Frames:
             for products in _JOINT_CONSTRAINTS[chain.plane]:
                 pairs = [(self._vector(before, p), self._vector(after, q), w) for p, q, w in products]
                 quantities.add(0.0, *pairs)
-        for end in self.corners[:1] if chain.base == "free" else ():
+        for end in self.corners:
+            if self.shared.get(end, False):
+                quantities.add(0.5, (self._corner(end), self._corner(end), 0.5))
+            first = chain.base == "free" and end == self.corners[0]
+            if not first and (end in self.held or chain.plane == "inplane"):
+                continue
             for kind in (T, B) if chain.plane == "inplane" else (B,):
                 pair = (self._corner(end), self._vector(self.end_segment(end), kind), 1.0)
                 quantities.add(0.0, pair)
@@ -209,8 +222,8 @@ class Frames:
         t both of two ends are, for symmetry."""
         based = chain.base != "free"
         if kind == T:
-            return based or len(self.corners) == 2
-        again = based or end != self.corners[0]
+            return based or len(self.held) == 2
+        again = based or end != self.held[0]
         return (chain.plane == "inplane" and kind == N and again) or (
             chain.plane == "normal" and kind == B and based
         )

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.linalg
+import scipy.sparse as sp
 
 from lumped.dynamics.system import System
 
@@ -24,18 +25,20 @@ class Projection:
         if not self.active or system.coupling is None:
             return
         masses, rows = system.coupling.masses, system.coupling.size - system.coupling.masses
-        picked = system.moving_part[3 * masses :].tocoo()
-        self._component, self._unknown = picked.row, picked.col  # identity on the rows that can move
+        rows_of = sp.csc_array(system.moving_part[3 * masses :])
+        self._unknown = np.flatnonzero(np.diff(rows_of.indptr))
+        self._map = rows_of[:, self._unknown].toarray()  # identity but for rows that follow others
         block = system.reduced_mass[self._unknown][:, self._unknown].toarray()
         self._inverse_mass = np.linalg.inv(block)
         self._rows = rows
         self._order = np.flatnonzero(system.coupling.algebraic[masses:].ravel())
 
     def jacobian(self, u: np.ndarray) -> np.ndarray:
-        """J on the actuators' free components, (multipliers, c)."""
+        """J on the actuators' unknowns, (multipliers, c)."""
         assert self._system.coupling is not None
         gradient = self._system.coupling.constraint_gradient(u)
-        return gradient.reshape(len(gradient), -1)[:, self._component]
+        reduced: np.ndarray = gradient.reshape(len(gradient), -1) @ self._map
+        return reduced
 
     def residual(self, u: np.ndarray, time: float) -> np.ndarray:
         """Φ, (multipliers,)."""
@@ -62,7 +65,7 @@ class Projection:
     def tangential(self, vector: np.ndarray, jacobian: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The vector (size, 3) less M⁻¹ Jᵀ μ, so that J times it vanishes; and μ in its rows (size, 3)."""
         weighted = self._inverse_mass @ jacobian.T
-        own = vector[-self._rows :].ravel()[self._component]
+        own = self._system.contract(vector)[self._unknown]
         multipliers = scipy.linalg.solve(jacobian @ weighted, jacobian @ own, assume_a="pos")
         rows = np.zeros(vector.size)
         rows[vector.size - 3 * self._rows + self._order] = multipliers

@@ -194,8 +194,11 @@ def test_loads_that_follow_the_sheet_balance_it_as_the_readme_says() -> None:
     unbalanced = lattice["state_force"][-1] - lattice["load"]
     corners = lattice["pressed_corners"]
     mean = x[corners].mean(axis=2)
-    push = lattice["pressure"] / 8 * np.cross(mean[:, 2] - mean[:, 0], mean[:, 3] - mean[:, 1])
-    np.subtract.at(unbalanced, corners.ravel(), np.repeat(push, 8, axis=0) / corners.shape[2])
+    turned = [np.cross(mean[:, (i + 1) % 4] - mean[:, i], mean[:, i - 1] - mean[:, i]) for i in range(4)]
+    for i in range(4):
+        beside = turned[(i + 1) % 4] + turned[i - 1]
+        push = lattice["pressure"] / 36 * (4 * turned[i] + 2 * beside + turned[(i + 2) % 4])
+        np.subtract.at(unbalanced, corners[:, i].ravel(), np.repeat(push, 2, axis=0) / corners.shape[2])
     top, bottom = lattice["couple_masses"].T
     along = x[lattice["couple_after"]].mean(axis=1) - x[lattice["couple_before"]].mean(axis=1)
     along /= np.linalg.norm(along, axis=1, keepdims=True)

@@ -50,7 +50,9 @@ mass is also dragged by {rate:g} 1/s × its mass × its velocity.
 
 - `supports.csv`: the mean displacement of the masses along one component is held.
 - `loads.csv`: dead forces on masses; where a mass is not named, none.
-- `followers.csv`: `pressure` p on a cell: p/8 d1 × d2 on each corner. `moment` M of an edge, its four
+- `followers.csv`: `pressure` p on a cell: with c the cross product, at every corner, of the side to the next
+  corner and the side to the one before, p/36 (4 c + 2 (c of the next + c of the one before) + c of the one
+  across) on each corner, p/2 d1 × d2 in all. `moment` M of an edge, its four
   columns a top mass, a bottom mass, and the columns before and after them: with D from bottom to top and t
   the unit vector from the mean of the one before to that of the one after, F = M (t × D)/|D|² on the top
   and −F on the bottom mass.

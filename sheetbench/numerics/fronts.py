@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-LEAF = 6  # cells in a part that is not halved
+LEAF = 128  # unknowns of its cells, together, up to which a part of more than two is not halved
 
 
 class Cells(NamedTuple):
@@ -52,13 +52,14 @@ class Fronts(NamedTuple):
 def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: Cells) -> Fronts:
     """The fronts of a symmetric matrix by compressed rows, both triangles and the whole diagonal. Raises
     ValueError where an entry of the diagonal is missing."""
-    return _fronts(columns, starts, cells.unknowns, *_dissected(np.ascontiguousarray(cells.places)))
+    leaf = max(2, LEAF // cells.unknowns.shape[1])
+    return _fronts(columns, starts, cells.unknowns, *_dissected(np.ascontiguousarray(cells.places), leaf))
 
 
 @njit(cache=True)
-def _dissected(places: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _dissected(places: np.ndarray, leaf: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Cells in line (m,), parts (F, 2) as ranges of the line, and every part's halves (F, 2), −1 for none;
-    halves before what they are halves of."""
+    halves before what they are halves of. leaf: cells in a part that is not halved."""
     line = np.arange(len(places))
     parts = np.empty((2 * len(places) + 1, 2), np.int64)
     halves = np.full((2 * len(places) + 1, 2), -1)
@@ -66,7 +67,7 @@ def _dissected(places: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     count, at = 1, 0
     while at < count:  # breadth first, to be turned over
         start, end = parts[at]
-        if end - start > LEAF:
+        if end - start > leaf:
             here = places[line[start:end]]
             spread_x = here[:, 0].max() - here[:, 0].min()
             spread_y = here[:, 1].max() - here[:, 1].min()

@@ -132,23 +132,29 @@ def _eliminate(dense: np.ndarray, diagonal: np.ndarray, signs: np.ndarray) -> bo
 def _update(panel: np.ndarray, signs: np.ndarray, dense: np.ndarray, start: int, limit: int) -> None:
     """Take the products of PANEL columns of the factor off the columns start … limit."""
     l0, l1, l2, l3, l4, l5 = panel[0], panel[1], panel[2], panel[3], panel[4], panel[5]
-    s0, s1, s2, s3, s4, s5 = signs[0], signs[1], signs[2], signs[3], signs[4], signs[5]
     width = len(l0)
+    if signs.min() < 0.0:  # seldom: a column at a time
+        for k in range(PANEL):
+            for j in range(start, limit):
+                share, one = signs[k] * panel[k, j], dense[j]
+                for i in range(j, width):
+                    one[i] -= share * panel[k, i]
+        return
     for j in range(start, limit - 1, 2):
-        f0, f1, f2, f3, f4, f5 = s0 * l0[j], s1 * l1[j], s2 * l2[j], s3 * l3[j], s4 * l4[j], s5 * l5[j]
-        q = j + 1
-        g0, g1, g2, g3, g4, g5 = s0 * l0[q], s1 * l1[q], s2 * l2[q], s3 * l3[q], s4 * l4[q], s5 * l5[q]
-        one, two = dense[j], dense[q]  # what is above the second's diagonal is never looked at
+        f0, f1, f2, f3, f4, f5 = l0[j], l1[j], l2[j], l3[j], l4[j], l5[j]
+        g0, g1, g2, g3, g4, g5 = l0[j + 1], l1[j + 1], l2[j + 1], l3[j + 1], l4[j + 1], l5[j + 1]
+        one, two = dense[j], dense[j + 1]  # what is above the second's diagonal is never looked at
         for i in range(j, width):
             m0, m1, m2, m3, m4, m5 = l0[i], l1[i], l2[i], l3[i], l4[i], l5[i]
             one[i] -= f0 * m0 + f1 * m1 + f2 * m2 + f3 * m3 + f4 * m4 + f5 * m5
             two[i] -= g0 * m0 + g1 * m1 + g2 * m2 + g3 * m3 + g4 * m4 + g5 * m5
     if (limit - start) % 2:
         j = limit - 1
-        f0, f1, f2, f3, f4, f5 = s0 * l0[j], s1 * l1[j], s2 * l2[j], s3 * l3[j], s4 * l4[j], s5 * l5[j]
         one = dense[j]
         for i in range(j, width):
-            one[i] -= (f0 * l0[i] + f1 * l1[i] + f2 * l2[i]) + (f3 * l3[i] + f4 * l4[i] + f5 * l5[i])
+            one[i] -= (l0[j] * l0[i] + l1[j] * l1[i] + l2[j] * l2[i]) + (
+                l3[j] * l3[i] + l4[j] * l4[i] + l5[j] * l5[i]
+            )
 
 
 @njit(cache=True, nogil=True, fastmath=REORDERED)

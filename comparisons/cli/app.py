@@ -25,6 +25,7 @@ import typer
 from typer.main import get_command
 
 from comparisons.cli import announced, characters, interruption, warned
+from comparisons.cli.everywhere import with_everywhere
 from comparisons.runs import interrupts
 
 VERBS = (
@@ -54,6 +55,7 @@ VERBS = (
 FAULT = 1
 BAD_INPUT = 2
 NOT_CONVERGED = 3
+UsageError: Any = typer.BadParameter.__base__  # click's, or typer's own copy of it
 SIZE = re.compile("0*[1-9][0-9]{0,3}")  # of a terminal, in columns or lines
 SHOWN = 40  # characters of a name that is too long
 OUTPUT_FAULTS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
@@ -88,7 +90,8 @@ def _with_promise(verb: str, command: Callable[..., None]) -> Callable[..., None
 
 
 for _verb in VERBS:
-    app.command(_verb)(_with_promise(_verb, import_module(f"comparisons.cli.{_verb}").command))
+    _command = with_everywhere(import_module(f"comparisons.cli.{_verb}").command)
+    app.command(_verb)(_with_promise(_verb, _command))
 
 
 def _print_version(asked: bool) -> None:
@@ -111,7 +114,7 @@ def _help_where_nothing_is_asked(
 
 
 @cache
-def _group(boxes: bool) -> Callable[..., None]:
+def _group(boxes: bool) -> Callable[..., int | None]:
     """All verbs with their options, whose reading from the signatures takes a tenth of a second."""
     app.rich_markup_mode = "rich" if boxes else None
     return get_command(app)
@@ -129,7 +132,8 @@ def main(arguments: list[str] | None = None) -> None:
     with interruption.heeded(), warned.in_a_line(), announced.in_a_line():
         try:
             try:
-                verbs(args=arguments, prog_name="sheetbench")
+                status = verbs(args=arguments, prog_name="sheetbench", standalone_mode=False)
+                raise SystemExit(status or 0)
             finally:
                 if sys.stdout is not None:  # what cannot be written is said here, and not as the process ends
                     sys.stdout.flush()
@@ -138,7 +142,7 @@ def main(arguments: list[str] | None = None) -> None:
                 interruption.say()
             raise
         except Exception as error:
-            if interrupts.is_behind(error):
+            if isinstance(error, typer.Abort) or interrupts.is_behind(error):
                 interruption.say()
                 raise SystemExit(interruption.STATUS) from None
             raise SystemExit(_explained(error)) from None
@@ -168,11 +172,16 @@ def _explained(error: Exception) -> int:
             os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         print(f"sheetbench: {said}", file=sys.stderr)
         return BAD_INPUT
+    from comparisons.report.escape import terminal
+
+    if isinstance(error, UsageError):
+        of = error.ctx.command_path if error.ctx else "sheetbench"
+        said = terminal(" ".join(error.format_message().split()).rstrip("."))
+        print(f"sheetbench: {said}; see {of} --help", file=sys.stderr)
+        return BAD_INPUT
     from sheetbench.scenes.errors import BadInput  # with numpy and pydantic: help must not wait for them
 
     if isinstance(error, BadInput):
-        from comparisons.report.escape import terminal
-
         print(f"sheetbench: {terminal(' '.join(str(error).split()))}", file=sys.stderr)
         return BAD_INPUT
     traceback.print_exception(error)

@@ -21,6 +21,18 @@ if TYPE_CHECKING:
 
 out = Console(highlight=False)
 err = Console(stderr=True, highlight=False)
+_quiet = False
+
+
+@contextmanager
+def quietly() -> Iterator[None]:
+    """Without progress and notes on standard error meanwhile."""
+    global _quiet
+    _quiet = True
+    try:
+        yield
+    finally:
+        _quiet = False
 
 
 def _said(text: str, keep: str = "") -> str:
@@ -31,6 +43,9 @@ def _said(text: str, keep: str = "") -> str:
 @contextmanager
 def progress() -> Iterator[Callable[[Work | str], None]]:
     """A function that says on standard error what is being done: a spinner on a terminal, else lines."""
+    if _quiet:
+        yield lambda what: None
+        return
     if not err.is_terminal:
         with Lines(tell) as lines:
             yield lines.say
@@ -42,6 +57,9 @@ def progress() -> Iterator[Callable[[Work | str], None]]:
 @contextmanager
 def campaign_progress() -> Iterator[Callable[[Progress], None]]:
     """A function that shows how far a campaign is: a bar with the time left on a terminal, else lines."""
+    if _quiet:
+        yield lambda progress: None
+        return
     if not err.is_terminal:
         with Lines(tell) as lines:
             yield lambda progress: _reported(progress, lines)
@@ -83,8 +101,9 @@ def _going(progress: Progress) -> str:
 
 
 def tell(text: str) -> None:
-    """A line on standard error."""
-    err.print(Text(spelled(terminal(text), err.encoding)), soft_wrap=True)
+    """A line on standard error, unless quiet."""
+    if not _quiet:
+        err.print(Text(spelled(terminal(text), err.encoding)), soft_wrap=True)
 
 
 def document(content: Mapping[str, Any]) -> None:

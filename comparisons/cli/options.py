@@ -63,6 +63,17 @@ NoPictures = Annotated[
     bool,
     typer.Option("--no-pictures", help="With --out: all files but the pictures.", show_default=False),
 ]
+NoPicturesAnyway = Annotated[  # of verbs that draw none, for scripts that give it to all
+    bool, typer.Option("--no-pictures", hidden=True)
+]
+Quiet = Annotated[
+    bool,
+    typer.Option(
+        "--quiet",
+        help="No progress and no notes on standard error; results, warnings and errors stay.",
+        show_default=False,
+    ),
+]
 Overwrite = Annotated[
     bool,
     typer.Option(

@@ -3,7 +3,7 @@
 A worker process starts fresh (spawn), keeps to one thread (BLAS, OpenMP, numba and rslab alike), so that as
 many workers as cores do not fight for them, and ends when the process that started it does, killed or not.
 
-A scheduler's address is trusted with code: what connects to it may run anything here, and there.
+Use only a scheduler you trust: it can run arbitrary code on both machines.
 """
 
 from __future__ import annotations

@@ -1,0 +1,83 @@
+"""--quiet and --no-pictures: every verb takes them; quiet leaves results, warnings and errors."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+
+import pytest
+from commands import one_line, run
+from typer.main import get_command
+
+from comparisons.cli import console, everywhere
+from comparisons.cli import lines as cli_lines
+from comparisons.cli.app import VERBS, app
+from comparisons.report import work
+from comparisons.runs.campaign import Progress
+from sheetbench.scenes.errors import BadInput
+
+SMALL = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_every_verb_can_be_quiet_and_without_pictures(
+    verb: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def quietly() -> None:
+        raise BadInput("it is asked to be quiet")
+
+    monkeypatch.setattr(console, "quietly", quietly)  # the verb itself does not begin
+    params = get_command(app).commands[verb].params  # type: ignore[attr-defined]
+    needed = []
+    for one in params:
+        if one.required:
+            needed += [one.opts[0]] if one.param_type_name == "option" else []
+            needed.append("one-edge-clamped")
+    assert run(verb, *needed, "--no-pictures", "--quiet") == 2
+    assert one_line(capsys) == "sheetbench: it is asked to be quiet\n"
+
+
+@pytest.fixture
+def chatty(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+    """A command that says all that there is to say."""
+    monkeypatch.setattr(cli_lines, "QUIET", 0.0)
+    monkeypatch.setattr(work, "LONG", 0.0)
+
+    def command() -> None:
+        with console.campaign_progress() as show:
+            show(Progress(1, 2, "a run", "converged", None))
+        console.tell("kernels are compiled first")
+        console.note("the result")
+        console.warn("a warning")
+
+    return everywhere.with_everywhere(command)
+
+
+@pytest.mark.parametrize("quiet", [False, True])
+def test_quiet_leaves_results_and_warnings(
+    chatty: Callable[..., None], quiet: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    chatty(quiet=quiet, no_pictures=False)
+    printed = capsys.readouterr()
+    assert printed.out == "the result\n"
+    progress = [] if quiet else ["1/2 a run: converged", "kernels are compiled first"]
+    assert printed.err.splitlines() == [*progress, "a warning"]
+
+
+def test_a_quiet_comparison_prints_its_result_alone(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(work, "LONG", 0.0)
+    assert run(*SMALL, "--quiet") == 0
+    quiet = capsys.readouterr()
+    assert quiet.err == "" and quiet.out.startswith("{")
+    assert run(*SMALL) == 0  # it is over with the command
+    assert "solving shell" in capsys.readouterr().err
+
+
+def test_quiet_is_quiet_of_what_the_packages_log(capsys: pytest.CaptureFixture[str]) -> None:
+    from comparisons.cli import announced
+
+    with announced.in_a_line(), console.quietly():
+        logging.getLogger("sheetbench").info("compiling")
+    assert capsys.readouterr().err == ""

@@ -39,16 +39,18 @@ def test_a_scene_shows_both_models_and_their_difference() -> None:
     both = sb.compare("one-edge-clamped", grid=3, elements=2, calibration="consistent", uncertainty=False)
     shown = staged.of_comparison(both)
     assert [view["label"] for view in shown.options["views"]] == [
+        "lumped and shell",
         "lumped",
         "shell",
-        "lumped and shell",
         "Difference: lumped",
     ]
+    assert shown.options["views"][0]["field"] == "uz"  # as in the picture of compare
     lattice = next(sheet for sheet in shown.options["sheets"] if sheet["name"] == "lumped")
     moved = both.solutions[0].mesh.point_data["displacement"]
     np.testing.assert_allclose(unpacked(lattice["displacement"]), moved.ravel(), rtol=1e-6, atol=1e-9)
     off = next(sheet for sheet in shown.options["sheets"] if sheet["name"] == "difference")
     field = next(one for one in off["fields"] if one["name"] == "difference")
+    assert field["kind"] == "difference"
     corner = np.array([[*both.scene.sheet.lengths]])
     apart = np.linalg.norm(both.solutions[0].displacement(corner) - both.solutions[1].displacement(corner))
     assert unpacked(field["values"])[-1] == pytest.approx(apart, rel=1e-5)

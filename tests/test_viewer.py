@@ -11,7 +11,7 @@ from browser import browser, colours, opened, pixels  # noqa: F401
 
 from comparisons.browser import sheets, viewer
 from comparisons.report.vtk import plan_mesh
-from sheetbench.scenes import FieldMesh, load
+from sheetbench.scenes import FieldMesh, PointLoad, load
 
 SOURCE = Path(viewer.__file__).parent / "source"
 
@@ -102,6 +102,33 @@ def test_it_draws_and_turns_by_key_and_by_mouse(page):
     assert (np.abs(pixels(page, "canvas[tabindex]") - first) > 20).any(axis=2).mean() < 0.01
 
 
+def test_a_reset_fills_the_canvas(page):
+    page.get_by_label("Show", exact=True).select_option("shell")
+    page.get_by_role("button", name="Reset view").click()
+    seen = page.evaluate("view.eye.points.map((at) => at.clone().project(view.eye.camera).toArray())")
+    low, high = np.min(seen, axis=0), np.max(seen, axis=0)
+    edge = 1 / 1.06  # MARGIN of camera.js, of half the canvas
+    assert max(*-low[:2], *high[:2]) < edge + 1e-3
+    assert any(
+        low[i] == pytest.approx(-edge, abs=1e-3) and high[i] == pytest.approx(edge, abs=1e-3) for i in (0, 1)
+    )
+
+
+def test_arrows_of_point_loads():
+    scene = load("two-edges-clamped")
+    small, large = (
+        PointLoad(at=at, force=(0, 0, f)) for at, f in (((0.1, 0.1), 1e-4), ((0.188, 0.09), -2.0))
+    )
+    mesh = plan_mesh(scene.sheet, 4)
+    weak, strong = sheets.forces(mesh.points, scene.replace(loads=(small, large)))
+    assert strong["at"] == [0.188, 0.09, 0.0] and strong["along"] == pytest.approx([0, 0, -0.16 * 0.188])
+    assert weak["along"] == pytest.approx([0, 0, 0.4 * 0.16 * 0.188])
+    assert mesh.points[strong["point"]][:2] == pytest.approx([0.188, 0.094])
+    assert sheets.forces(mesh.points, scene) == []
+    nothing = scene.replace(loads=(PointLoad(at=(0.1, 0.1), force=(0, 0, 0)),))
+    assert sheets.forces(mesh.points, nothing) == []
+
+
 def test_views_fields_and_what_is_under_the_pointer(page):
     page.get_by_label("Show", exact=True).select_option("off")
     assert page.locator(".sv-legend-title").text_content() == "Difference [mm]"
@@ -133,3 +160,15 @@ def test_a_motion_plays(page):
     page.get_by_role("button", name="Play").click()
     assert page.get_by_role("button", name="Pause").is_visible()
     page.get_by_role("button", name="Pause").click()
+
+
+def test_an_arrow_moves_with_its_point_and_turns_with_its_force(page):
+    page.get_by_label("Show", exact=True).select_option("shell")
+    ends = "view.sheets.get('shell').arrows.map((arrow) => arrow.ends().map((end) => end.toArray()))"
+    force = {"point": 80, "at": [0.188, 0.188, 0.0], "along": [0.0, 0.0, -0.03]}
+    moved = "displacement: new Float32Array(3 * 81).fill(0.01)"
+    page.evaluate(f"view.update('shell', {{{moved}, forces: [{json.dumps(force)}]}})")
+    [[start, end]] = page.evaluate(ends)
+    assert start == pytest.approx([0.198, 0.198, 0.01]) and end == pytest.approx([0.198, 0.198, -0.02])
+    page.evaluate(f"view.update('shell', {{{moved}, forces: []}})")
+    assert page.evaluate(ends) == []

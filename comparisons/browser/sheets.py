@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.report.arrows import point_arrows
 from comparisons.report.vtk import PLAN_CELLS
-from sheetbench.scenes import EDGES, FieldMesh, Scene, Sheet, holds_director
+from sheetbench.scenes import EDGES, FieldMesh, PointLoad, Scene, Sheet, holds_director
 
 # corners of a brick's faces, outwards, as VTK numbers its nodes; those of quadratic ones come after them
 FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
@@ -32,8 +33,8 @@ def displaced(component: str | None = None) -> dict[str, Any]:
     """The field that the viewer makes of the displacement itself: its length, or a component x, y or z."""
     if component is None:
         return {"name": "displacement", "label": "Displacement", "unit": "mm", "scale": 1e3}
-    signed = {"name": f"u{component}", "label": f"Displacement u{component}", "kind": "signed"}
-    return {**signed, "unit": "mm", "scale": 1e3, "component": component}
+    named = {"name": f"u{component}", "label": f"Displacement u{component}"}
+    return {**named, "unit": "mm", "scale": 1e3, "component": component}
 
 
 def field(name: str, label: str, values: np.ndarray, unit: str = "", scale: float = 1.0) -> dict[str, Any]:
@@ -74,8 +75,20 @@ def drawn(
         found |= {"quads": packed(_quads(mesh)), "triangles": packed(_cells(mesh, TRIANGLES, 3))}
     if scene is not None:
         found["held"] = _held(mesh.points, scene)
+        found["forces"] = forces(mesh.points, scene)
     if frames:
         found["frames"] = [{"time": time, "displacement": packed(np.nan_to_num(u))} for time, u in frames]
+    return found
+
+
+def forces(points: np.ndarray, scene: Scene) -> list[dict[str, Any]]:
+    """Arrows of the scene's point loads, as in the pictures; points (n, 3) [m]: of the mesh at rest."""
+    loads = [(load.at, load.force) for load in scene.loads if isinstance(load, PointLoad) and any(load.force)]
+    shares = point_arrows(np.array([force for _, force in loads]).reshape(-1, 3))
+    found = []
+    for (at, _), share in zip(loads, max(scene.sheet.lengths) * shares, strict=True):
+        nearest = int(np.argmin(np.linalg.norm(points[:, :2] - at, axis=1)))
+        found.append({"point": nearest, "at": [*at, 0.0], "along": share.tolist()})
     return found
 
 

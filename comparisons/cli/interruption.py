@@ -24,7 +24,9 @@ _left_behind = "nothing was kept"
 def promise(verb: str, out: object) -> None:
     """Note what an interrupt of this verb leaves behind, given its --out."""
     global _left_behind
-    if out is None:
+    if verb == "live":
+        _left_behind = "the page is served no longer, and keeps the last answers"
+    elif out is None:
         _left_behind = "nothing was kept"
     elif verb in RESUMED:
         _left_behind = "the same command goes on"

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.browser.sheets import drawn, packed
+from comparisons.browser.sheets import drawn, forces, packed
 from comparisons.comparison.comparison import error
 from comparisons.live.panel import Question
 from comparisons.models import registry
@@ -62,8 +62,9 @@ class Answered:
         found = _document("lattice", self.question, self.scene, self.solution)
         mesh = self.solution.mesh
         found["displacement"] = packed(np.nan_to_num(self.displacement))
+        found["forces"] = forces(mesh.points, self.scene)
         if known is None or not np.array_equal(known, mesh.points):
-            flat = {**DIFFERENCE, "kind": "magnitude", "values": packed(np.zeros(len(mesh.points)))}
+            flat = {**DIFFERENCE, "kind": "difference", "values": packed(np.zeros(len(mesh.points)))}
             found["sheet"] = drawn("lattice", mesh, "Lattice", [flat], self.scene)
         return found
 

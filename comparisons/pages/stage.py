@@ -36,7 +36,8 @@ def stage(study: Study) -> Options | None:
         sheet = study.attempt(name, lambda n=name, f=frames: _moving(n, f, study.scene))  # type: ignore[misc]
         if sheet is not None:
             sheets.append(sheet)
-            views.append({"name": name, "label": "Motion", "sheets": [name], "field": "displacement"})
+            coloured = _coloured(frames[-1][1])
+            views.append({"name": name, "label": "Motion", "sheets": [name], "field": coloured})
     for name, mesh in meshes.items():
         parts = study.attempt(name, lambda n=name, m=mesh: _parts(n, m, study))  # type: ignore[misc]
         for sheet, view in parts or []:
@@ -67,7 +68,13 @@ def _parts(name: str, mesh: FieldMesh, study: Study) -> list[tuple[Options, Opti
 
 def _one(name: str, mesh: FieldMesh, label: str, scene: Scene | None) -> tuple[Options, Options]:
     sheet = drawn(name, coarser(mesh), label, scene=scene)
-    return sheet, {"name": name, "label": label, "sheets": [name], "field": "displacement"}
+    return sheet, {"name": name, "label": label, "sheets": [name], "field": _coloured(mesh)}
+
+
+def _coloured(mesh: FieldMesh) -> str:
+    """The field to begin with: uz, as in the pictures, but for a sheet that moves in its plane."""
+    across, up = np.split(np.abs(np.nan_to_num(mesh.point_data["displacement"])), [2], axis=1)
+    return "uz" if up.max(initial=0.0) > 0.01 * across.max(initial=0.0) else "displacement"
 
 
 def _difference(
@@ -77,7 +84,10 @@ def _difference(
     small = coarser(FieldMesh(mesh.points, mesh.cells, {**mesh.point_data, "off": vector}))
     off = small.point_data["off"]
     fields = [
-        field("difference", "Distance from the reference", np.linalg.norm(off, axis=1), "mm", 1e3),
+        {
+            **field("difference", "Distance from the reference", np.linalg.norm(off, axis=1), "mm", 1e3),
+            "kind": "difference",
+        },
         {**field("offz", "Difference in uz", off[:, 2], "mm", 1e3), "kind": "signed"},
     ]
     sheet = drawn(name, small, f"{of} − reference", fields, scene)
@@ -92,14 +102,14 @@ def _models(document: Mapping[str, Any]) -> list[str]:
 
 
 def _ordered(views: list[Options], study: Study) -> list[Options]:
-    """The models in their order with both of a comparison together, then the rest."""
+    """Both models of a comparison together, each in its order, then the rest."""
     models = _models(study.document)
     order = {name: place for place, name in enumerate(models)}
     found = sorted(views, key=lambda view: order.get(view["name"], len(order)))
     there = [view["name"] for view in found]
     if len(models) > 1 and all(name in there for name in models[:2]) and study.verb == "compare":
         both = {"name": "both", "label": f"{models[0]} and {models[1]}", "sheets": models[:2]}
-        found.insert(2, {**both, "field": "displacement"})
+        found.insert(0, {**both, "field": found[0]["field"]})
     return found
 
 

@@ -9,13 +9,13 @@ from __future__ import annotations
 import numpy as np
 import pyvista
 
+from comparisons.report.arrows import point_arrows
 from comparisons.report.stage import Stage
 from sheetbench.scenes import EDGES, Chain, EdgeLoad, PointLoad, Pressure, Sheet, Solution
 
 LOAD = "#1b6ca8"
-POINT, EDGE, PRESSURE, MOMENT = 0.16, 0.1, 0.08, 0.035  # lengths and radius, of the longer side
+EDGE, PRESSURE, MOMENT = 0.1, 0.08, 0.035  # lengths and radius, of the longer side
 ALONG = 5  # arrows along an edge
-SHORTEST = 0.4  # of an arrow, of the longest of its kind
 ASIDE = 0.012  # of the longer side: how far a chain on a face is drawn from the mid-surface
 
 
@@ -32,13 +32,12 @@ def draw(stage: Stage, solution: Solution) -> np.ndarray:
         else:
             plan = _edge_plan(scene.sheet, actuator.edge, np.array([0.0, 1.0]))
             stage.chain(stage.deformed(solution, plan))
-    forces = [np.linalg.norm(load.force) for load in scene.loads if isinstance(load, PointLoad)]
-    largest = float(max(forces, default=0.0))
+    points = [load for load in scene.loads if isinstance(load, PointLoad)]
+    if points:
+        at = stage.deformed(solution, np.array([load.at for load in points]))
+        seen += _arrows(stage, at, point_arrows(np.array([load.force for load in points])))
     for load in scene.loads:
-        if isinstance(load, PointLoad) and largest:
-            at = stage.deformed(solution, np.array([load.at]))
-            seen += _arrows(stage, at, POINT * _drawn(np.array(load.force) / largest)[None])
-        elif isinstance(load, EdgeLoad):
+        if isinstance(load, EdgeLoad):
             plan = _edge_plan(scene.sheet, load.edge, np.linspace(0.0, 1.0, ALONG))
             at = stage.deformed(solution, plan)
             if any(load.force_per_length):
@@ -52,12 +51,6 @@ def draw(stage: Stage, solution: Solution) -> np.ndarray:
             normals = np.sign(load.value) * _normals(stage, solution, plan)
             seen += _arrows(stage, stage.deformed(solution, plan), PRESSURE * normals)
     return np.vstack(seen)
-
-
-def _drawn(force: np.ndarray) -> np.ndarray:
-    """A force in units of the largest, no shorter than can be seen."""
-    size = float(np.linalg.norm(force))
-    return force if size == 0.0 else force * max(size, SHORTEST) / size
 
 
 def _arrows(stage: Stage, starts: np.ndarray, vectors: np.ndarray) -> list[np.ndarray]:

@@ -17,7 +17,7 @@ import pyvista
 from comparisons.view.staged import Staged
 
 SECONDS = 4.0  # that a motion takes to watch
-MAPS = {"magnitude": "viridis", "signed": "RdBu_r"}
+MAPS = {"magnitude": "viridis", "signed": "RdBu_r", "difference": "magma_r"}
 LINKS = {"lines": ("#4b525a", 2.0, 1.0), "faint": ("#80868e", 1.0, 0.35), "strong": ("#c8553d", 4.0, 1.0)}
 
 
@@ -87,19 +87,19 @@ class Window:
         staged, view = self._studies[self._number]
         sheets = [sheet for sheet in staged.options["sheets"] if sheet["name"] in view["sheets"]]
         wanted = view.get("field", "")
-        most = max(_largest(sheet, wanted) for sheet in sheets) or 1.0
-        self._actors = [actor for sheet in sheets for actor in self._sheet(sheet, wanted, most)]
+        lows, highs = zip(*(_limits(sheet, wanted) for sheet in sheets), strict=True)
+        limits = (min(lows), max(highs))
+        self._actors = [actor for sheet in sheets for actor in self._sheet(sheet, wanted, limits)]
         self.plotter.render()
 
-    def _sheet(self, sheet: Mapping[str, Any], wanted: str, most: float) -> Iterable[Any]:
-        """A sheet coloured by a field; most: its largest value in the view, at any time."""
+    def _sheet(self, sheet: Mapping[str, Any], wanted: str, limits: tuple[float, float]) -> Iterable[Any]:
+        """A sheet coloured by a field; limits: of its values in the view, at any time."""
         u = _at_time(sheet, self._time).reshape(-1, 3)
         points = unpacked(sheet["points"]).reshape(-1, 3) + u
         field = _field(sheet, wanted)
         label = f"{field['label']} [{field['unit']}]" if field.get("unit") else field["label"]
-        kind = field.get("kind", "magnitude")
-        limits = {"magnitude": [0.0, most], "signed": [-most, most]}[kind]
-        colours = {"scalars": _values(field, u), "cmap": MAPS[kind], "clim": limits, "render": False}
+        cmap = MAPS[field.get("kind", "magnitude")]
+        colours = {"scalars": _values(field, u), "cmap": cmap, "clim": limits, "render": False}
         colours |= {"scalar_bar_args": {"title": f"{label}\n", "n_labels": 5, "fmt": "%.3g"}}
         faces = [_cells(unpacked(sheet[name]), n) for name, n in _FACES.items() if name in sheet]
         if any(len(cells) for cells in faces):
@@ -160,11 +160,16 @@ def _values(field: Mapping[str, Any], u: np.ndarray) -> np.ndarray:
     return scaled
 
 
-def _largest(sheet: Mapping[str, Any], wanted: str) -> float:
-    """The largest size of a field's values, over all moments: colours keep their meaning as time goes on."""
+def _limits(sheet: Mapping[str, Any], wanted: str) -> tuple[float, float]:
+    """The ends of a field's colours, over all moments, so that they keep their meaning. Zero is within;
+    it is the middle of a field that has a sign."""
     field, moments = _field(sheet, wanted), [sheet, *sheet.get("frames", ())]
     moved = (unpacked(moment["displacement"]).reshape(-1, 3) for moment in moments)
-    return max(float(np.max(np.abs(_values(field, u)), initial=0.0)) for u in moved)
+    values = np.concatenate([_values(field, u) for u in moved])
+    low, high = float(values.min(initial=0.0)), float(values.max(initial=0.0))
+    if field.get("kind") == "signed":
+        low, high = min(low, -high), max(high, -low)
+    return low, high if high > low else low + 1.0
 
 
 def _cells(numbers: np.ndarray, corners: int) -> np.ndarray:

@@ -1,10 +1,11 @@
 // Where the eye is: turned and zoomed by mouse, touch and keys about the middle of what is shown, z upwards.
 
-import { MathUtils, PerspectiveCamera, Spherical, Vector3 } from "three";
+import { Box3, MathUtils, PerspectiveCamera, Sphere, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 const TURN = MathUtils.degToRad(6);
 const ZOOM = 1.12;
+const MARGIN = 1.06; // of the view, around what is shown
 const UP = new Vector3(0, 0, 1);
 
 export class Eye {
@@ -23,28 +24,34 @@ export class Eye {
     canvas.addEventListener("keydown", (event) => this.key(event));
   }
 
-  // Shows a box whole, from where the eye first was.
-  reset(box) {
-    const centre = box.getCenter(new Vector3());
-    const radius = box.getSize(new Vector3()).length() / 2 || 1;
-    this.ball = { centre, radius };
-    this.box = box;
+  // Shows points whole and as large as they go, from the direction where the eye first was.
+  reset(points) {
+    const ball = new Box3().setFromPoints(points).getBoundingSphere(new Sphere());
+    const radius = ball.radius || 1;
+    const middle = ball.center.clone();
     const right = new Vector3().crossVectors(UP, this.from).normalize();
     const above = new Vector3().crossVectors(this.from, right);
-    const up = Math.tan(MathUtils.degToRad(this.camera.fov / 2));
-    const aside = up * this.camera.aspect;
-    let far = radius;
-    for (let corner = 0; corner < 8; corner++) {
-      const [x, y, z] = [1, 2, 4].map((bit) => (corner & bit ? box.max : box.min));
-      const at = new Vector3(x.x, y.y, z.z).sub(centre);
-      const wide = Math.max(Math.abs(at.dot(right)) / aside, Math.abs(at.dot(above)) / up);
-      far = Math.max(far, 1.08 * (at.dot(this.from) + wide));
+    const up = Math.tan(MathUtils.degToRad(this.camera.fov / 2)) / MARGIN;
+    let far = 0.1 * radius;
+    // a point at `a` along an axis of the view and `d` towards the eye is in sight if |a - middle| <= slope (far - d)
+    for (const [axis, slope] of [[right, up * this.camera.aspect], [above, up]]) {
+      let [most, least] = [-Infinity, -Infinity];
+      for (const point of points) {
+        const at = point.clone().sub(ball.center);
+        const [a, d] = [at.dot(axis), slope * at.dot(this.from)];
+        most = Math.max(most, d + a);
+        least = Math.max(least, d - a);
+      }
+      far = Math.max(far, (most + least) / (2 * slope));
+      middle.addScaledVector(axis, (most - least) / 2);
     }
+    this.ball = { centre: middle, radius };
+    this.points = points;
     this.camera.near = far / 200;
     this.camera.far = 20 * far;
-    this.camera.position.copy(centre).addScaledVector(this.from, far);
+    this.camera.position.copy(middle).addScaledVector(this.from, far);
     this.camera.updateProjectionMatrix();
-    this.orbit.target.copy(centre);
+    this.orbit.target.copy(middle);
     this.orbit.update();
   }
 
@@ -77,8 +84,8 @@ export class Eye {
       "+": () => this.zoom(ZOOM),
       "=": () => this.zoom(ZOOM),
       "-": () => this.zoom(1 / ZOOM),
-      0: () => this.box && this.reset(this.box),
-      Home: () => this.box && this.reset(this.box),
+      0: () => this.points && this.reset(this.points),
+      Home: () => this.points && this.reset(this.points),
     };
     if (event.ctrlKey || event.metaKey || event.altKey || !deeds[event.key]) return;
     event.preventDefault();

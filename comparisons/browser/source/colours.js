@@ -1,11 +1,13 @@
 // Colour maps that the colour-blind read too: viridis for magnitudes, ColorBrewer's blue to red through
-// white for what has a sign. Matplotlib's maps at 17 equal steps, linear between.
+// white for what has a sign, magma from its end for differences. Matplotlib's maps at 17 equal steps, linear between.
 
 const MAPS = {
   magnitude:
     "440154 48186a 472d7b 424086 3b528b 33638d 2c728e 26828e 21918c 1fa088 28ae80 3fbc73 5ec962 84d44b addc30 d8e219 fde725",
   signed:
     "053061 175290 2a71b2 3f8ec0 6bacd1 9bc9e0 c2ddec e0ecf3 f7f6f6 fbe5d8 fbccb4 f5aa89 e48066 d05548 ba2832 930e26 67001f",
+  difference:
+    "fcfdbf fde0a1 fec287 fea571 fb8761 f4695c e55064 cf4070 b5367a 9b2e7f 812581 681c81 4f127b 341069 1c1044 090720 000004",
 };
 
 const linear = (c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);

@@ -20,9 +20,10 @@ export class Legend {
       brush.fillRect(i, 0, 1, 1);
     }
     this.scale.replaceChildren();
+    const least = high > low ? 10 ** (Math.floor(Math.log10(high - low)) - 2) : 0; // less is not seen in the bar
     for (const tick of ended(ticks(low, high), low, high)) {
       const mark = element("span", {}, this.scale);
-      mark.textContent = number(tick);
+      mark.textContent = number(least ? Math.round(tick / least) * least : tick);
       mark.style.left = `${high > low ? (100 * (tick - low)) / (high - low) : 50}%`;
     }
   }

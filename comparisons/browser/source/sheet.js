@@ -21,6 +21,7 @@ import {
   Vector3,
 } from "three";
 import { floats, indices } from "./arrays.js";
+import { Arrow } from "./arrow.js";
 import { paint } from "./colours.js";
 
 const COMPONENTS = { x: 0, y: 1, z: 2 };
@@ -47,6 +48,7 @@ export class Sheet {
     this.exaggeration = 1;
     this.colours = new Float32Array(3 * this.count);
     this.build(given);
+    this.setForces(given.forces ?? []);
     this.place();
   }
 
@@ -97,6 +99,26 @@ export class Sheet {
     this.radius = 0.006 * size;
   }
 
+  // Puts other arrows of forces there.
+  setForces(forces) {
+    for (const arrow of this.arrows ?? []) {
+      this.group.remove(arrow.group);
+      release(arrow.group);
+      this.inked = this.inked.filter(([material]) => material !== arrow.material);
+    }
+    this.arrows = forces.map((given) => new Arrow(given));
+    for (const arrow of this.arrows) {
+      this.group.add(arrow.group);
+      this.inked.push([arrow.material, "load"]);
+    }
+  }
+
+  // Every point as it is drawn, and the ends of its arrows.
+  drawn() {
+    const at = (_, i) => new Vector3().fromBufferAttribute(this.positions, i);
+    return [...Array.from({ length: this.count }, at), ...this.arrows.flatMap((arrow) => arrow.ends())];
+  }
+
   // The longest side of the box around the points, as they are at rest.
   size() {
     const low = [Infinity, Infinity, Infinity];
@@ -125,6 +147,7 @@ export class Sheet {
       this.masses.instanceMatrix.needsUpdate = true;
       this.masses.computeBoundingSphere();
     }
+    for (const arrow of this.arrows) arrow.place(this.displacement, this.exaggeration);
     this.held.forEach(({ points, firm }, number) => {
       const path = Array.from(points, (i) => new Vector3(to[3 * i], to[3 * i + 1], to[3 * i + 2]));
       this.tubes[number].geometry.dispose();
@@ -168,18 +191,22 @@ export class Sheet {
     }
   }
 
-  // Colours lines and supports by name: link, line, strong, firm, loose.
+  // Colours lines and supports by name: link, line, strong, load, firm, loose.
   ink(colours) {
     for (const [material, name] of this.inked) material.color.set(colours(name));
   }
 
   dispose() {
-    this.group.traverse((part) => {
-      part.geometry?.dispose();
-      part.material?.dispose();
-      part.dispose?.();
-    });
+    release(this.group);
   }
+}
+
+function release(group) {
+  group.traverse((part) => {
+    part.geometry?.dispose();
+    part.material?.dispose();
+    part.dispose?.();
+  });
 }
 
 // Two triangles a quadrilateral.

@@ -1,7 +1,6 @@
 // The view of deformed sheets: stage, toolbar, legend and what is under the pointer.
 
 import {
-  Box3,
   BufferGeometry,
   DirectionalLight,
   HemisphereLight,
@@ -117,9 +116,13 @@ export class Viewer {
     this.repaint();
   }
 
-  // Moves a sheet: displacement (3 n) [m], and values (n) of fields by name. For live use, at any rate.
-  update(name, { displacement, values = {} }) {
+  // Moves a sheet: displacement (3 n) [m], values (n) of fields by name, forces. For live use, at any rate.
+  update(name, { displacement, values = {}, forces }) {
     const sheet = this.sheets.get(name);
+    if (forces) {
+      sheet.setForces(forces);
+      this.ink();
+    }
     if (displacement) {
       sheet.displacement = floats(displacement);
       sheet.place();
@@ -156,10 +159,8 @@ export class Viewer {
 
   // Looks at all of what is shown from where the eye first was.
   reset() {
-    const box = new Box3();
-    for (const sheet of this.shown()) box.expandByObject(sheet.group);
-    if (this.flat) box.expandByObject(this.flat);
-    this.eye.reset(box);
+    const flat = this.options.outline ? places(floats(this.options.outline)) : [];
+    this.eye.reset([...this.shown().flatMap((sheet) => sheet.drawn()), ...flat]);
     this.request();
   }
 
@@ -218,9 +219,7 @@ export class Viewer {
   }
 
   drawOutline(points) {
-    const geometry = new BufferGeometry().setFromPoints(
-      Array.from({ length: points.length / 3 }, (_, i) => new Vector3(...points.subarray(3 * i, 3 * i + 3))),
-    );
+    const geometry = new BufferGeometry().setFromPoints(places(points));
     geometry.computeBoundingSphere();
     const dash = geometry.boundingSphere.radius / 30;
     this.flat = new LineLoop(geometry, new LineDashedMaterial({ dashSize: dash, gapSize: dash }));
@@ -278,6 +277,9 @@ export class Viewer {
     this.renderer.render(this.scene, this.eye.camera);
   }
 }
+
+const places = (points) =>
+  Array.from({ length: points.length / 3 }, (_, i) => new Vector3(...points.subarray(3 * i, 3 * i + 3)));
 
 // Whether there is no graphics card: smooth edges take half the time of a frame then.
 function drawnByProcessor() {

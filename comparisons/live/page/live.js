@@ -191,16 +191,16 @@
   // ---- what is answered
 
   const VIEWS = [
-    { name: "lattice", label: "Lattice", sheets: ["lattice"], field: "displacement" },
-    { name: "shell", label: "Shell", sheets: ["shell"], field: "displacement" },
-    { name: "both", label: "Both", sheets: ["shell", "lattice"], field: "displacement" },
+    { name: "lattice", label: "Lattice", sheets: ["lattice"], field: "uz" },
+    { name: "shell", label: "Shell", sheets: ["shell"], field: "uz" },
+    { name: "both", label: "Both", sheets: ["shell", "lattice"], field: "uz" },
     { name: "difference", label: "Difference", sheets: ["lattice"], field: "difference" },
   ];
 
   function draw(model, message, values) {
-    const { displacement } = message;
+    const { displacement, forces } = message.sheet ?? message;
     if (message.sheet) given[model] = message.sheet;
-    else Object.assign(given[model], { displacement });
+    else Object.assign(given[model], { displacement, forces });
     if (message.sheet && (model === "lattice" || !viewer?.sheets.has(model))) {
       const sheets = Object.values(given);
       const views = given.shell ? VIEWS : VIEWS.slice(0, 1);
@@ -215,7 +215,7 @@
       }
       return;
     }
-    viewer.update(model, { displacement: displacement ?? message.sheet.displacement, values });
+    viewer.update(model, { displacement, values, forces });
   }
 
   function lattice(message) {

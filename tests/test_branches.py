@@ -45,3 +45,4 @@ def test_a_perfect_column_has_no_error_until_it_is_let_buckle(branch) -> None:
     else:
         assert lattice.status is shell.status is Status.CONVERGED
         assert found.error(lattice) < 0.2
+        assert any("stable equilibrium that it comes to" in note for note in found.report().notes)

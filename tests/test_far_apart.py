@@ -8,7 +8,7 @@ import pytest
 from fake_solutions import solution
 
 from comparisons.comparison import far_apart
-from comparisons.comparison.comparison import compare, error
+from comparisons.comparison.comparison import Comparison, compare, error
 from comparisons.models.candidate import Candidate
 from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Solution, Status
 
@@ -38,7 +38,7 @@ def said(first: float, finer: Solution | None, lattice: Candidate = LATTICE, **k
     """Of a lattice whose corner moves by `first` [m], where the shell's moves by −10 mm."""
     grid = {"settings": {"grid": [5, 3, 2]}}
     both = (solution(SCENE, size=first, **grid), solution(SCENE, "shell", **known.pop("shell", {})))
-    return far_apart.said(SCENE, lattice, both, error, known.pop("bar", None), lambda other: finer)
+    return far_apart.said(SCENE, lattice, both, error, known.pop("bar", None), lambda other: finer)[0]
 
 
 def fine(size: float, **changes: Any) -> Solution:
@@ -48,6 +48,19 @@ def fine(size: float, **changes: Any) -> Solution:
 def test_what_is_near_or_no_equilibrium_says_nothing() -> None:
     assert said(-0.019, fine(-0.01)) == ""
     assert said(0.01, fine(0.01), shell={"status": Status.UNSTABLE}) == ""
+
+
+@pytest.mark.parametrize("known", [True, False])
+def test_answers_on_different_branches_have_no_error(known: bool) -> None:
+    """Where only the grid is too coarse the error stands."""
+    pair = (solution(SCENE, size=0.01), solution(SCENE, "shell"))
+    finer = solution(SCENE, size=0.0101 if known else -0.007, settings={"grid": [9, 5, 2]})
+    apart, other_branch = far_apart.said(SCENE, LATTICE, pair, error, 0.01, lambda other: finer)
+    assert other_branch is known
+    found = Comparison(SCENE, pair, apart=apart, several=known, other_branch=other_branch)
+    assert (found.error(pair[0]) is None) is known
+    assert all((difference.relative is None) is known for difference in found.differences)
+    assert found.converged and found.as_dict()["apart"] in found.report().complaints
 
 
 def test_another_branch_stays_where_it_is() -> None:

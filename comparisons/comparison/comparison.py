@@ -64,7 +64,7 @@ class Comparison(summary.Summarised):
     reference's mesh leaves uncertain, where that was asked for; laws: a sentence where lattice and reference
     have laws of strain that differ by more. apart: a sentence where both are at rest and far apart.
     expected: the error to expect of the chosen lattice's grid, where an estimate holds. several: whether more
-    than one equilibrium is known.
+    than one equilibrium is known; other_branch: whether the first two are known to be different ones.
     """
 
     scene: Scene
@@ -74,6 +74,7 @@ class Comparison(summary.Summarised):
     apart: str = ""
     expected: ExpectedError | None = None
     several: bool = False
+    other_branch: bool = False
 
     @property
     def reference(self) -> Solution:
@@ -99,10 +100,9 @@ class Comparison(summary.Summarised):
         """Whether a solution and the reference are both stable, and not known to be on different branches."""
         pair = (solution, self.reference)
         stable = all(one.comparable and one.status is not Status.UNSTABLE for one in pair)
-        if not stable or not self.several or solution in self.solutions[:2]:
+        if not stable or not self.several or (solution in self.solutions[:2] and not self.other_branch):
             return stable
-        points = self.scene.probe_points()
-        return not branches.far(*(one.displacement(points) for one in pair))
+        return not branches.far(*(one.displacement(self.scene.probe_points()) for one in pair))
 
     def error(self, solution: Solution) -> float | None:
         """The solution's error against the reference."""
@@ -305,16 +305,15 @@ def compare(
         solutions.append(answer(scene, candidate, name, progress=progress))
         finished(solutions[-1])
     laws = apart = ""
-    several = begun = False
+    several = begun = other_branch = False
     one_branch = branches.joined(scene, first, judge, *solutions[:2])
     if one_branch is not None:
         several, begun = True, one_branch[1] is not solutions[1]
         solutions[0], solutions[1], apart = one_branch
 
     def also(other: Candidate) -> Solution | None:
-        if not (large or has_room(scene, other)):
-            return None
-        return answer(scene, other, "lumped on a finer grid", progress=progress)
+        fits = large or has_room(scene, other)
+        return answer(scene, other, "lumped on a finer grid", progress=progress) if fits else None
 
     expected = expected_error(scene, first, solutions[0], also)
     bar = None
@@ -330,8 +329,10 @@ def compare(
     if first.model == "lumped":
         laws = strain_law.said(scene, first, tuple(solutions), None if bar is None else bar.error)
         within = None if bar is None else bar.error
-        apart = apart or far_apart.said(scene, first, tuple(solutions), error, within, also)
-    return Comparison(scene, tuple(solutions), bar, laws, apart, expected, several)
+        if not apart:
+            apart, other_branch = far_apart.said(scene, first, tuple(solutions), error, within, also)
+    known = several or other_branch
+    return Comparison(scene, tuple(solutions), bar, laws, apart, expected, known, other_branch)
 
 
 def _unlike(name: str, taken: Collection[str]) -> str:

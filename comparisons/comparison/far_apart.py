@@ -31,20 +31,21 @@ def said(
     error: Callable[[np.ndarray, np.ndarray], float | None],
     bar: float | None,
     solve: Callable[[Candidate], Solution | None],
-) -> str:
-    """A sentence where lattice and reference, the first two of the solutions, are FAR apart, else nothing.
+) -> tuple[str, bool]:
+    """A sentence where lattice and reference, the first two of the solutions, are FAR apart, else nothing;
+    and whether they are known to lie on different branches, so that an error would measure neither.
 
     error: of displacements against others; bar: of the reference, None where it is not known; solve: answers
     other grids, None where that takes too much memory.
     """
     first, reference = solutions[:2]
     if not first.status is reference.status is Status.CONVERGED:
-        return ""
+        return "", False
     points = scene.probe_points()
     own, right = first.displacement(points), reference.displacement(points)
     off = error(own, right)
     if off is None or off <= FAR:
-        return ""
+        return "", False
     start = f"{first.model} and {reference.model} both converged, {100.0 * off:.3g} % apart: "
     known = reasons(scene, lattice, first, reference)
     because = f" ({'; '.join(known)})" if known else ""
@@ -54,25 +55,31 @@ def said(
         finer = solve(lattice.but(grid=(2 * nx - 1, 2 * ny - 1, layers)))
     if finer is None or finer.status is not Status.CONVERGED:
         ended = "" if finer is None else f"; on twice as many cells a side the lattice ends {finer.status}"
-        return f"{start}different branches of equilibria, or too coarse a grid or mesh{because}{ended}."
+        return (
+            f"{start}different branches of equilibria, or too coarse a grid or mesh{because}{ended}.",
+            False,
+        )
     fine = finer.displacement(points)
     left, moved = error(fine, right) or 0.0, error(own, fine) or 0.0
     masses = "×".join(str(n) for n in finer.settings["grid"])
     if left < NEARER * off:
-        return f"{start}the grid is too coarse, on {masses} masses it is {100.0 * left:.3g} %{because}."
+        return (
+            f"{start}the grid is too coarse, on {masses} masses it is {100.0 * left:.3g} %{because}.",
+            False,
+        )
     if bar is not None and bar > UNKNOWN:
         mesh = f"the {reference.model}'s mesh leaves ± {100.0 * bar:.2g} %, more --elements tell"
-        return f"{start}{mesh}{because}."
+        return f"{start}{mesh}{because}.", False
     if moved < STAYS:
         trust = "" if bar is not None else f", if the {reference.model}'s mesh is fine enough"
         return (
             f"{start}they lie on different branches of equilibria{trust}, for on {masses} masses the lattice "
             f"moves by {100.0 * moved:.2g} % only{because}."
-        )
+        ), bar is not None
     return (
         f"{start}different branches of equilibria, or too coarse a grid: on {masses} masses the lattice "
         f"moves by {100.0 * moved:.2g} %, to {100.0 * left:.3g} % off{because}."
-    )
+    ), False
 
 
 def reasons(scene: Scene, lattice: Candidate, first: Solution, reference: Solution) -> list[str]:

@@ -22,6 +22,10 @@ if TYPE_CHECKING:
 
 _MODEL = Column("model")
 
+BUCKLED = (
+    "branch buckled: a model whose equilibrium under the whole load is unstable leaves it along its lowest "
+    "mode; what is shown is the stable equilibrium that it comes to, one of several."
+)
 FIGURES, PROBES = ("comparison.png", "comparison.pdf"), ("probes.png", "probes.pdf")
 
 
@@ -49,6 +53,7 @@ def report(comparison: Comparison, advice: Advice | None = None) -> Report:
             *([f"{comparison.solutions[0].model}: {comparison.expected}"] if comparison.expected else []),
             *uncertainty(comparison),
             explanation(comparison),
+            *([BUCKLED] if comparison.reference.settings.get("branch") == "buckled" else []),
             *chosen,
         ),
         complaints=tuple(complaints(comparison)),

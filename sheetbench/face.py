@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 from comparisons.models import registry, springs
 from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading
-from comparisons.models.grids import Asked, scene_grid
+from comparisons.models.grids import GridLike, scene_grid
+from comparisons.report.work import silent
 from sheetbench.choices import CALIBRATION, REFERENCES
 from sheetbench.scenes import AnyScene, Clamped, History, Material, Scene, Sheet, Solution, scene_of
 from sheetbench.scenes.errors import BadInput
@@ -36,7 +37,7 @@ def calibrate(
     thickness: float | str | None = None,
     side: float | str | Sequence[float | str] | None = None,
     density: float | str | None = None,
-    grid: Asked = None,
+    grid: GridLike = None,
     method: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,
@@ -104,7 +105,7 @@ def simulate(
     scene: AnyScene,
     duration: float,
     *,
-    grid: Asked = None,
+    grid: GridLike = None,
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,
@@ -122,7 +123,7 @@ def simulate(
 def tradeoff(
     scene: AnyScene,
     *,
-    lumped: Sequence[Asked] = (3, 5, 9, 17),
+    lumped: Sequence[GridLike] = (3, 5, 9, 17),
     calibration: Sequence[str] = (CALIBRATION,),
     plate: Sequence[int] = (),
     shell: Sequence[int] = (4, 8, 16),
@@ -132,7 +133,7 @@ def tradeoff(
     workers: int = 1,
     out: Path | str | None = None,
     large: bool = False,
-    progress: Callable[[Progress], None] = lambda progress: None,
+    progress: Callable[[Progress], None] = silent,
 ) -> Tradeoff:
     """Error against time over lattices (grids), references (elements along the shorter side) and others.
 

@@ -14,7 +14,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from comparisons.models.grading import Grading
-from comparisons.models.grids import Asked
+from comparisons.models.grids import GridLike
 from comparisons.models.springs import LatticeSpec
 from sheetbench.choices import REFERENCES
 from sheetbench.scenes import AnyScene, Scene, scene_of
@@ -34,7 +34,7 @@ def export(
     scene: AnyScene,
     folder: str | Path,
     *,
-    grid: Asked = None,
+    grid: GridLike = None,
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,

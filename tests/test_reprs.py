@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from inspect import isfunction, signature
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,8 @@ import lumped
 import sheetbench as sb
 from comparisons.comparison.comparison import Comparison
 from comparisons.modes.spectra import Spectra, Spectrum
+from comparisons.tradeoff.row import TradeoffRow
+from comparisons.tradeoff.statics import Tradeoff
 from sheetbench import scenes
 from sheetbench.scenes.history import ENERGIES
 
@@ -30,6 +33,11 @@ SPECTRA = Spectra(
     SCENE,
     (Spectrum("lumped", "lumped 5×5×2", {}, FREQUENCIES, 0, 96, 0.1, lambda at: np.zeros((59, len(at), 3))),),
 )
+ROWS = [
+    TradeoffRow(model, label, {}, "converged", "", model, None, "", "", solve_seconds=(seconds,), error=error)
+    for model, label, seconds, error in (("lumped", "lumped 3", 2e-3, 4e-3), ("shell", "shell 4", 0.1, 1e-3))
+]
+TRADEOFF = Tradeoff(SCENE, tuple(ROWS), ROWS[1], 1e-4, 1e-4)
 
 
 @cache
@@ -63,6 +71,8 @@ SAID: dict[str, tuple[Callable[[], Any], list[str]]] = {
         ["3 modes of shell", " Hz"],
     ),
     "spectra": (lambda: SPECTRA, ["two-edges-clamped", "1, 2, 3, 4, 5, … Hz"]),
+    "advice": (lambda: sb.advise(SCENE, 0.1), ["Advice for two-edges-clamped", "lumped:grid=", "met", "yes"]),
+    "tradeoff": (lambda: TRADEOFF, ["2 rows", "lumped 3", "0.4 % in 2 ms", ".report() has all rows"]),
     "mesh": (lambda: lattice().mesh, ["70 points", "quad", "displacement"]),
     "report": (lambda: both().report(), ["Displacement of the mid-surface", "| P4 |", "converged"]),
 }
@@ -136,3 +146,28 @@ def test_a_solution_knows_the_probes_of_its_scene() -> None:
 def test_reactions_are_shown_without_rounding() -> None:
     named = {"x0": (4.16e-16, -2.0, 0.101), "y0": (0.0, 1e-7, 3.0)}
     assert scenes.summary.forces(named) == "x0 (0, -2, 0.101) N, y0 (0, 1e-07, 3) N"
+
+
+def test_the_frequencies_of_spectra_are_the_lattices() -> None:
+    assert np.array_equal(SPECTRA.frequencies, FREQUENCIES)
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        (644.0, "640"),
+        (6.4e5, "640000"),
+        (0.0012345, "0.0012"),
+        (1e-4, "0.0001"),
+        (3.2e-7, "3.2e-07"),
+        (0, "0"),
+    ],
+)
+def test_numbers_in_sentences_have_no_exponent(value: float, said: str) -> None:
+    assert scenes.summary.few(value) == said
+
+
+def test_help_shows_no_addresses_and_no_words_of_the_inside() -> None:
+    signatures = [str(signature(getattr(sb, name))) for name in sb.__all__ if isfunction(getattr(sb, name))]
+    assert len(signatures) > 20
+    assert not [text for text in signatures if "0x" in text or "lambda" in text or "'Asked'" in text]

@@ -20,23 +20,24 @@ from typing import Any
 from comparisons.advice import tables
 from comparisons.advice.probing import Probing, Trial
 from comparisons.comparison.model_error import ModelError
-from comparisons.models.candidate import Candidate
+from comparisons.models.candidate import Candidate, written
 from comparisons.models.grading import Grading
 from comparisons.models.scales import Scales, scales
 from comparisons.report.report import Report
 from comparisons.report.work import Progress, silent
 from sheetbench.choices import CALIBRATION
-from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
+from sheetbench.scenes import AnyScene, Scene, require_static, scene_of, summary
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import MASSES
+from sheetbench.scenes.summary import few
 
 NEGLIGIBLE = 0.25  # of the tolerance: an effect smaller than that is left out
 LINEAR_LOAD_NUMBER = 2.0  # beyond which no linear model is worth trying
 STEEP = 0.1  # of the tolerance: the finest error bar a decision may hang on
 
 
-@dataclass(frozen=True)
-class Advice:
+@dataclass(frozen=True, repr=False)
+class Advice(summary.Summarised):
     """What to solve, and why. error, seconds: predicted for the choice; bar: of the judge, by its mesh;
     model: what the judge leaves out on every mesh.
 
@@ -66,7 +67,8 @@ class Advice:
         """The advice in a sentence."""
         if self.error is None or self.seconds is None:
             return self.message
-        said = f"predicted error {100 * self.error:.2g} % ± {100 * self.bar:.2g} % in {_time(self.seconds)}"
+        size = f"{few(100 * self.error)} % ± {few(100 * self.bar)} %"
+        said = f"predicted error {size} in {_time(self.seconds)}"
         said += f", {self.model}" if self.model else ""
         return f"{said}; {self.message}" if self.message else said
 
@@ -104,6 +106,12 @@ class Advice:
             "message": self.message,
             **{name: said for name in ("grading", "calibration") if (said := getattr(self, name))},
         }
+
+    def _summary(self) -> tuple[str, summary.Facts]:
+        chosen = "no model" if self.choice is None else written(self.choice)
+        facts = [("choice", chosen), ("why", self.reason), ("needs", ", ".join(self.needs))]
+        facts += [("leaves out", ", ".join(self.left_out)), ("met", "yes" if self.met else "no")]
+        return f"Advice for {self.scene.name}; .report() has all that was tried", facts
 
     def report(self, named: str = "") -> Report:
         """What is shown of it; named: how the scene was asked for, its name unless said."""
@@ -325,4 +333,4 @@ def _effects(
 
 
 def _time(seconds: float) -> str:
-    return f"{1e3 * seconds:.2g} ms" if seconds < 1.0 else f"{seconds:.2g} s"
+    return f"{few(1e3 * seconds)} ms" if seconds < 1.0 else f"{few(seconds)} s"

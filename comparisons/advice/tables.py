@@ -10,6 +10,7 @@ from comparisons.models.grading import read
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table, number
 from sheetbench.choices import CALIBRATION
+from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:
     from comparisons.advice.advisor import Advice
@@ -65,7 +66,7 @@ def sentences(advice: Advice) -> list[str]:
         f"needs {', '.join(advice.needs)}",
         *(f"leaves out {left}" for left in advice.left_out),
         *(said for said in (advice.grading, advice.calibration) if said),
-        f"{advice.reason} (probing took {advice.probing_seconds:.2g} s)",
+        f"{advice.reason} (probing took {few(advice.probing_seconds)} s)",
     ]
 
 

@@ -14,6 +14,7 @@ from comparisons.report.files import write_text
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
 from sheetbench.scenes.grading import of_settings
+from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:
     from comparisons.models.expected_error import ExpectedError
@@ -47,7 +48,7 @@ def report(
     found = document(calibration) | ({"expected_error": expected.as_dict()} if expected else {})
     nx, ny, layers = found.get("grid", ("?", "?", "?"))
     graded = f", grading {of_settings(found):g}" if found.get("grading") else ""
-    fitted = [f"the targets are met within {100 * found['fit']['residual']:.2g} %"] if "fit" in found else []
+    fitted = [f"the targets are met within {few(100 * found['fit']['residual'])} %"] if "fit" in found else []
     return Report(
         name="calibration",
         page="table",

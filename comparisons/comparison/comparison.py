@@ -25,7 +25,7 @@ from comparisons.comparison.model_error import ModelError, model_error
 from comparisons.models.candidate import Candidate
 from comparisons.models.expected_error import ExpectedError, expected_error
 from comparisons.models.grading import Grading
-from comparisons.models.grids import Asked, Elements
+from comparisons.models.grids import Elements, GridLike
 from comparisons.models.plugins import shown_name
 from comparisons.models.registry import answer, check, check_reference
 from comparisons.models.sizes import has_room
@@ -34,6 +34,7 @@ from comparisons.report.report import Report
 from comparisons.report.work import Progress, silent
 from sheetbench.choices import ELEMENTS, REFERENCE
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static, summary
+from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:
     from comparisons.advice.advisor import Advice
@@ -194,7 +195,7 @@ class Comparison(summary.Summarised):
                 "the reference" if solution is self.reference else f"error {100 * off:.3g} %" if off else ""
             )
             facts.append((solution.model, ", ".join(filter(None, [str(solution.status), said, time]))))
-        bar = "" if self.bar is None else f"±{100 * self.bar.error:.2g} %"
+        bar = "" if self.bar is None else f"±{few(100 * self.bar.error)} %"
         return f"Comparison of {self.scene.name}; .report() has tables, pictures and files", [
             *facts,
             ("reference's own error", bar),
@@ -234,7 +235,7 @@ class Comparison(summary.Summarised):
 def compare(
     scene: Scene | str | Path,
     *,
-    grid: Asked = None,
+    grid: GridLike = None,
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,
@@ -250,8 +251,8 @@ def compare(
     others: Sequence[Candidate] = (),
     large: bool = False,
     progress: Progress = silent,
-    starting: Callable[[str], None] = lambda model: None,
-    finished: Callable[[Solution], None] = lambda solution: None,
+    starting: Callable[[str], None] = silent,
+    finished: Callable[[Solution], None] = silent,
 ) -> Comparison:
     """Solve a scene with the lattice and with a reference, and put the answers side by side.
 

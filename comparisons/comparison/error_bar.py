@@ -14,6 +14,7 @@ import numpy as np
 
 from comparisons.models.grids import Elements
 from sheetbench.scenes import Scene, Solution
+from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:
     from fem_reference.uncertainty import Uncertainty
@@ -59,7 +60,7 @@ class ErrorBar:
             swing = int(np.sum(~found.trusted))
             why = f"{swing} of {found.trusted.size} components did not converge monotonically"
         meshes = f"{', '.join(finer)} and {coarsest} elements"
-        return f"{model}: mesh error ± {100.0 * self.error:.2g} % (from {meshes}; {why})."
+        return f"{model}: mesh error ± {few(100.0 * self.error)} % (from {meshes}; {why})."
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON: lengths in metres, orders null where there is none."""

@@ -17,6 +17,7 @@ from comparisons.models.layers import layers
 from comparisons.models.springs import scene_springs
 from sheetbench.choices import listed
 from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes.summary import few
 
 FAR = 1.0  # error from which on a reason is looked for
 NEARER, STAYS = 0.6, 0.1  # of the error, that a finer grid leaves; of the displacement, by which it moves
@@ -68,17 +69,17 @@ def said(
             False,
         )
     if bar is not None and bar > UNKNOWN:
-        mesh = f"the {reference.model}'s mesh leaves ± {100.0 * bar:.2g} %, more --elements tell"
+        mesh = f"the {reference.model}'s mesh leaves ± {few(100.0 * bar)} %, more --elements tell"
         return f"{start}{mesh}{because}.", False
     if moved < STAYS:
         trust = "" if bar is not None else f", if the {reference.model}'s mesh is fine enough"
         return (
             f"{start}they lie on different branches of equilibria{trust}, for on {masses} masses the lattice "
-            f"moves by {100.0 * moved:.2g} % only{because}."
+            f"moves by {few(100.0 * moved)} % only{because}."
         ), bar is not None
     return (
         f"{start}different branches of equilibria, or too coarse a grid: on {masses} masses the lattice "
-        f"moves by {100.0 * moved:.2g} %, to {100.0 * left:.3g} % off{because}."
+        f"moves by {few(100.0 * moved)} %, to {100.0 * left:.3g} % off{because}."
     ), False
 
 
@@ -89,12 +90,12 @@ def reasons(scene: Scene, lattice: Candidate, first: Solution, reference: Soluti
     cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
     layer = min(layers(scene), default=None)
     if layer is not None and layer.width < cell:
-        found.append(f"{layer}, {layer.width / cell:.2g} cells of {1e3 * cell:.3g} mm")
+        found.append(f"{layer}, {few(layer.width / cell)} cells of {1e3 * cell:.3g} mm")
     asked = {k: v for k, v in lattice.settings.items() if k not in ("linear", "symmetry", "branch")}
     moduli = scene_springs(scene, **asked)[0].as_dict()["moduli"]
     off = [(abs(row["got"] / row["asked"] - 1.0), row["name"]) for row in moduli if row["asked"]]
     if (missed := max(off, default=(0.0, "")))[0] > MISSED:
-        found.append(f"the springs miss {missed[1]} by {100.0 * missed[0]:.2g} %")
+        found.append(f"the springs miss {missed[1]} by {few(100.0 * missed[0])} %")
     snapped = [s.model for s in (first, reference) if s.snaps]
     if snapped:
         found.append(f"{listed(snapped) if len(snapped) == 1 else 'both'} snapped on the way")

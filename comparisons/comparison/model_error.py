@@ -21,6 +21,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from sheetbench.scenes import Clamped, Curved, Scene, Solution, Status
+from sheetbench.scenes.summary import few
 
 MODELS = ("shell", "solid")
 SHEAR = 1.2
@@ -57,7 +58,7 @@ class ModelError:
 
 
 def _percent(share: float) -> str:
-    return f"{100.0 * share:.2g} %"
+    return f"{few(100.0 * share)} %"
 
 
 def model_error(scene: Scene, answer: Solution) -> ModelError | None:

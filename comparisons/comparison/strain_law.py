@@ -16,6 +16,7 @@ from comparisons.models.registry import answer
 from fem_reference.pulled_strip import curving, pulled
 from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
 from sheetbench.scenes import Scene, Solution
+from sheetbench.scenes.summary import few
 
 UNSAID = 1e-3  # without an error bar
 LEAST = 0.4  # of c − c_ref that is looked for
@@ -53,6 +54,6 @@ def said(scene: Scene, lattice: Candidate, solutions: tuple[Solution, ...], bar:
     remedy = "" if nearest == law else f" Nearest to this lattice is --law {nearest}."
     by = 100.0 * off[law] * stretch
     return (
-        f"At {100.0 * stretch:.2g} % stretch the lattice's law of strain (links linear in their elongation) "
-        f"and the {reference.model}'s ({law}) differ by up to {by:.2g} %: not an error of the grid.{remedy}"
+        f"At {few(100.0 * stretch)} % stretch the lattice's law of strain (links linear in their elongation) "
+        f"and the {reference.model}'s ({law}) differ by up to {few(by)} %: not an error of the grid.{remedy}"
     )

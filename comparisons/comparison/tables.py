@@ -15,6 +15,7 @@ from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 from comparisons.report.vtk import plan_mesh, write_mesh, write_solution
 from sheetbench.scenes import Material, Sheet, Solution, Status
+from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:
     from comparisons.advice.advisor import Advice
@@ -192,7 +193,7 @@ def uncertainty(comparison: Comparison) -> list[str]:
     for solution in comparison.solutions:
         if solution.bar is not None:
             share = 100.0 * (comparison.bar_of(solution) or 0.0)
-            said.append(f"{solution.model}: ± {share:.2g} % by its grids.")
+            said.append(f"{solution.model}: ± {few(share)} % by its grids.")
     if comparison.bar is None:
         return said
     model = comparison.reference.model

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from comparisons.report.files import write_text
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
+from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:
     from comparisons.coverage.study import Coverage
@@ -27,7 +28,7 @@ def report(found: Coverage) -> Report:
         notes=tuple(_notes(found)),
         complaints=tuple(
             f"{row['model']}, {row['elements']} elements: {100.0 * row['inside']:.1f} % inside, "
-            f"the median bar {row['loose']:.2g} times the error"
+            f"the median bar {few(row['loose'])} times the error"
             for row in found.rows()
             if not row["met"]
         ),

@@ -15,6 +15,7 @@ from comparisons.identification.residual_test import Runs
 from comparisons.report.report import Report
 from comparisons.report.table import quantity
 from sheetbench.scenes import Scene, summary
+from sheetbench.scenes.summary import few
 
 
 @dataclass(frozen=True)
@@ -101,9 +102,8 @@ class Identification(summary.Summarised):
             for name, u in self.unknowns.items()
         ]
         cells = [("cells", "×".join(map(str, self.grids[-1])) + " masses")] if self.grids else []
-        fit = (
-            f"residuals {1e3 * self.noise:.3g} mm, the largest {100 * self.relative:.2g} % of what moved most"
-        )
+        share = few(100 * self.relative)
+        fit = f"residuals {1e3 * self.noise:.3g} mm, the largest {share} % of what moved most"
         ended = "" if self.converged else "the search did not reach a minimum"
         lines = (wrap(one, summary.WIDEST) for one in self.warnings)
         said = [("" if i else "warning", line) for broken in lines for i, line in enumerate(broken)]

@@ -42,10 +42,10 @@ from comparisons.identification.starts import Fit, nearest
 from comparisons.identification.unknowns import DAMPING, Unknown, unknown
 from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading
-from comparisons.models.grids import Asked, Elements
+from comparisons.models.grids import Elements, GridLike
 from comparisons.models.registry import check, check_reference, solve_reference
 from comparisons.models.springs import LatticeSpec
-from comparisons.report.work import Work
+from comparisons.report.work import Work, silent
 from lumped import CALIBRATIONS, identifiability
 from sheetbench.choices import ELEMENTS, REFERENCES, method_of
 from sheetbench.scenes import AnyScene, Scene, SpringTable, require_static, scene_of
@@ -93,7 +93,7 @@ def identify(
     names: Sequence[str] | str = "young",
     *,
     model: str = "lumped",
-    grid: Asked = None,
+    grid: GridLike = None,
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,
@@ -103,7 +103,7 @@ def identify(
     offset: float = 0.0,
     refine: bool = True,
     large: bool = False,
-    progress: Callable[[str | Work], None] = lambda what: None,
+    progress: Callable[[str | Work], None] = silent,
 ) -> Identification:
     """The unknowns of these names, from measurements or a file of them (`measurements.read`).
 

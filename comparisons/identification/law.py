@@ -9,6 +9,7 @@ from __future__ import annotations
 from fem_reference.pulled_strip import curving
 from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
 from sheetbench.scenes import Scene
+from sheetbench.scenes.summary import few
 
 SAID = 0.01  # share of the force from which on it is said
 RUBBERS = "neo-hookean"
@@ -24,6 +25,6 @@ def said(scene: Scene, law: str | None, stretch: float | None) -> list[str]:
         return []
     remedy = "" if own == RUBBERS else f"; of soft silicones, which are rubbers, take --law {RUBBERS}"
     return [
-        f"values are those of the law {own}: at {100.0 * (stretch or 0.0):.2g} % stretch, as here, the force "
-        f"of {other} is some {100.0 * off:.2g} % another{remedy}"
+        f"values are those of the law {own}: at {few(100.0 * (stretch or 0.0))} % stretch, as here, the "
+        f"force of {other} is some {few(100.0 * off)} % another{remedy}"
     ]

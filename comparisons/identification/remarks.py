@@ -12,6 +12,7 @@ from comparisons.identification.residual_test import POOR, Runs, explained
 from comparisons.identification.search import Nearest
 from comparisons.identification.starts import Fit
 from comparisons.report.table import quantity
+from sheetbench.scenes.summary import few
 
 
 def on_outliers(odd: Sequence[Outlier], without: Mapping[str, Found]) -> list[str]:
@@ -32,7 +33,7 @@ def on_residuals(fit: Fit, best: Nearest, left: Runs, starts: int) -> list[str]:
     names = ", ".join(u.name for u in fit.unknowns)
     tried = f"the best of {starts} starts" if starts > 1 else "the search"
     deviation = quantity(fit.measured.scale * best.noise, "m", ".3g")
-    size = f"{tried} leaves residuals of {deviation}, {100 * best.noise:.2g} % of the largest measurement"
+    size = f"{tried} leaves residuals of {deviation}, {few(100 * best.noise)} % of the largest measurement"
     if best.noise > POOR:
         turned = " and ".join(fit.misfit().turned(best.residuals))
         return [

@@ -12,7 +12,7 @@ import numpy as np
 
 from comparisons.linearisation import tables
 from comparisons.models.grading import Grading
-from comparisons.models.grids import Asked
+from comparisons.models.grids import GridLike
 from comparisons.models.registry import check
 from comparisons.models.sizes import size
 from comparisons.models.springs import LatticeSpec
@@ -132,7 +132,7 @@ class Linearisation:
 def linearise(
     scene: AnyScene,
     *,
-    grid: Asked = None,
+    grid: GridLike = None,
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,

@@ -37,6 +37,7 @@ from sheetbench.choices import EXTRAPOLATED
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.grading import of_settings
 from sheetbench.scenes.grid import LAYERS, Grid
+from sheetbench.scenes.summary import few
 
 FINER = 1.5  # times as many cells
 FINEST_COARSE = 12  # cells along the shorter side of the finer grid, at least
@@ -62,7 +63,7 @@ class ExpectedError:
         return f"estimated from a second solve on {masses} masses, {1e3 * self.solve_seconds:.0f} ms"
 
     def __str__(self) -> str:
-        return f"expected grid error about {100 * self.value:.2g} % ({self.reason})"
+        return f"expected grid error about {few(100 * self.value)} % ({self.reason})"
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""

@@ -22,6 +22,7 @@ from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grading import Graded, of_settings, towards
 from sheetbench.scenes.grading import Grading as Some
 from sheetbench.scenes.grid import LAYERS
+from sheetbench.scenes.summary import few
 
 GRADED = 0.3  # what `auto` grades by towards all edges
 ONE_SIDED = 0.5  # and towards the one that holds the sheet
@@ -123,7 +124,7 @@ def _by_layers(scene: Scene, grid: Sequence[int]) -> tuple[Graded, str]:
     width = layer.width
     side = min(scene.sheet.lengths)
     cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
-    cells = f"{width / cell:.2g} cells of {1e3 * cell:.3g} mm where all are alike"
+    cells = f"{few(width / cell)} cells of {1e3 * cell:.3g} mm where all are alike"
     if width >= NARROW * side:
         return 0.0, f"{layer}, no narrow layer on a side of {1e3 * side:.3g} mm"
     if cell * RESOLVED < width:

@@ -11,7 +11,7 @@ from sheetbench.scenes import Scene, Sheet, SpringTable
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import MASSES, Grid, grid_of
 
-Asked = int | Sequence[int] | str | None
+GridLike = int | Sequence[int] | str | None
 Elements = int | tuple[int, int]
 
 
@@ -46,7 +46,7 @@ def parse_grid(sheet: Sheet, text: str) -> Grid:
     return grid_of(sheet, numbers)
 
 
-def scene_grid(scene: Scene, asked: Asked = None) -> Grid:
+def scene_grid(scene: Scene, asked: GridLike = None) -> Grid:
     """The grid asked for, as text or as numbers; else that of the scene's own [springs], if they name one, or
     nine masses along the shorter side."""
     if isinstance(asked, str):

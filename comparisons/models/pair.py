@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.models.grading import Grading
-from comparisons.models.grids import Asked, scene_grid
+from comparisons.models.grids import GridLike, scene_grid
 from comparisons.models.lattice import Solve, Watch, lattice, require_known
 from comparisons.models.springs import LatticeSpec, check_lattice, has_own_springs, resolve
 from sheetbench.choices import AUTO, EXTRAPOLATED, listed
@@ -39,8 +39,8 @@ Field = Callable[[np.ndarray], np.ndarray]  # plan points (n, 2) [m] → (n, 3) 
 def lattice_pair(
     scene: Scene,
     *,
-    grid: Asked = None,
-    coarser: Asked = None,
+    grid: GridLike = None,
+    coarser: GridLike = None,
     calibration: str | None = None,
     layer_distance: float | None = None,
     grading: Grading = None,
@@ -65,7 +65,7 @@ def lattice_pair(
     return solve
 
 
-def grids(scene: Scene, grid: Asked, coarser: Asked) -> tuple[Grid, Grid]:
+def grids(scene: Scene, grid: GridLike, coarser: GridLike) -> tuple[Grid, Grid]:
     """The finer and the coarser grid. Raises BadInput where the second is not the coarser."""
     fine = scene_grid(scene, grid)
     halved = tuple(max(2, (n - 1) // 2 + 1) for n in fine[:2])

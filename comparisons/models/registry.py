@@ -15,7 +15,7 @@ from typing import Any
 from comparisons.models import plugins
 from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading
-from comparisons.models.grids import Asked, scene_grid
+from comparisons.models.grids import GridLike, scene_grid
 from comparisons.models.lattice import Solve, Watch, check_settings, lattice
 from comparisons.models.pair import check_pair, lattice_pair
 from comparisons.models.sizes import require_room, size
@@ -54,7 +54,7 @@ def simulate(
     scene: Scene,
     duration: float,
     *,
-    grid: Asked = None,
+    grid: GridLike = None,
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,

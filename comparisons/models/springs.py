@@ -13,7 +13,7 @@ from warnings import warn
 
 from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading, fixed, grading_of
-from comparisons.models.grids import Asked, scene_grid
+from comparisons.models.grids import GridLike, scene_grid
 from comparisons.models.method import chosen
 from comparisons.models.sizes import require_room
 from comparisons.report.work import Progress, silent
@@ -35,7 +35,7 @@ class LatticeSpec:
     reads it; calibration, a name or "auto"; k [N/m]; layer_distance [m]; grading, a number, towards some
     edges, or "auto"."""
 
-    grid: Asked = None
+    grid: GridLike = None
     calibration: str | None = None
     k: float | None = None
     layer_distance: float | None = None

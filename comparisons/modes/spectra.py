@@ -20,7 +20,7 @@ import numpy as np
 from comparisons.models.candidate import Candidate
 from comparisons.models.expected_error import converges, finer_grid
 from comparisons.models.grading import Grading
-from comparisons.models.grids import Asked, Elements
+from comparisons.models.grids import Elements, GridLike
 from comparisons.models.registry import check, check_reference
 from comparisons.models.sizes import size
 from comparisons.models.springs import LatticeSpec
@@ -95,6 +95,11 @@ class Spectra(summary.Summarised, Sequence[Spectrum]):
     def __len__(self) -> int:
         return len(self.found)
 
+    @property
+    def frequencies(self) -> np.ndarray:
+        """The lattice's (count,) [Hz]; the first reference's are `self[1].frequencies`."""
+        return self[0].frequencies
+
     @cached_property
     def _sampled(self) -> tuple[np.ndarray, ...]:
         """Shapes (count, n, 3) of every model on equal plan cells."""
@@ -150,7 +155,7 @@ def spectra(
     scene: Scene | str | Path,
     *,
     count: int = 10,
-    grid: Asked = None,
+    grid: GridLike = None,
     calibration: str | None = None,
     k: float | None = None,
     layer_distance: float | None = None,

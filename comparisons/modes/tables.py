@@ -11,6 +11,7 @@ from comparisons.models.grading import told
 from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table, number
+from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:
     from comparisons.modes.pairing import Pair
@@ -90,7 +91,7 @@ def complaints(found: Spectra) -> list[str]:
         return []
     return [
         "this scene's sheet is not flat under its loads: by its flat stiffness it would move "
-        f"{found.sag / thickness:.2g} times its thickness, and these modes are the flat sheet's; "
+        f"{few(found.sag / thickness)} times its thickness, and these modes are the flat sheet's; "
         "--about deformed gives them about its equilibrium"
     ]
 

@@ -57,5 +57,14 @@ class Pace:
         return (now - began) * (self._end - reached) / (reached - start) if reached > start else None
 
 
-def silent(work: Work) -> None:
-    """The progress of those who do not wait for it."""
+class _Silent:
+    """The progress of those who do not wait for it; a class for help() to show its name, not an address."""
+
+    def __call__(self, what: object) -> None:
+        pass
+
+    def __repr__(self) -> str:
+        return "silent"
+
+
+silent = _Silent()

@@ -14,7 +14,7 @@ from typing import Any
 
 from comparisons.models.grids import Elements
 from comparisons.report.report import Report
-from comparisons.report.work import Work
+from comparisons.report.work import Work, silent
 from comparisons.reproduction import findings, tables
 from comparisons.reproduction.answers import Answer, answers
 from comparisons.reproduction.chords import Chord, chords
@@ -99,7 +99,7 @@ def reproduce(
     parts: Collection[str] = PARTS,
     *,
     elements: Elements = ELEMENTS,
-    progress: Callable[[str | Work], None] = lambda what: None,
+    progress: Callable[[str | Work], None] = silent,
 ) -> Reproduction:
     """These parts of the seed's study; elements: of the shell; progress: told what is being done."""
     found: dict[str, Any] = {}

@@ -43,6 +43,7 @@ from sheetbench.choices import INTEGRATORS
 from sheetbench.scenes import Scene, SceneError, Status
 from sheetbench.scenes.errors import NoEquilibrium
 from sheetbench.scenes.quantities import require_positive
+from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:
     from lumped import Calibration
@@ -103,7 +104,7 @@ class DynamicTradeoff:
 
     def report(self) -> Report:
         """What `sheetbench tradeoff --duration` shows."""
-        known = "unknown" if self.uncertainty is None else f"{100 * self.uncertainty:.2g} %"
+        known = "unknown" if self.uncertainty is None else f"{few(100 * self.uncertainty)} %"
         return Report(
             name="motion",
             title=self.scene.name,

@@ -33,8 +33,9 @@ from comparisons.tradeoff.row import TradeoffRow, measured_row
 from fem_reference.edge_layer import missed_by
 from fem_reference.uncertainty import coarser, estimate, mesh_size
 from sheetbench.choices import ELEMENTS
-from sheetbench.scenes import Scene, comparable, require_static
+from sheetbench.scenes import Scene, comparable, require_static, summary
 
+SHOWN = 8  # rows of the front at a prompt
 REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the rows
 
 
@@ -49,8 +50,8 @@ class Orders:
     time_order: float | None
 
 
-@dataclass(frozen=True)
-class Tradeoff:
+@dataclass(frozen=True, repr=False)
+class Tradeoff(summary.Summarised):
     """The rows of a scene with their errors, and the reference they are measured against.
 
     uncertainty, field_uncertainty: of the reference, fractions, None where it did not converge on both
@@ -93,6 +94,17 @@ class Tradeoff:
         return load.warnings(
             [row.load_average for row in self.rows], [row.solve_seconds for row in self.rows]
         )
+
+    def _summary(self) -> tuple[str, summary.Facts]:
+        best = [self.rows[i] for i in self.front]
+        facts = [
+            ("rows", f"{len(self.rows)}, against {self.reference.label}"),
+            ("front", f"{len(best)} rows"),
+        ]
+        for row in best[:SHOWN]:
+            error, seconds = 100.0 * (row.error or 0.0), row.seconds or 0.0
+            facts.append((row.label, f"{summary.few(error)} % in {summary.milliseconds(seconds)}"))
+        return f"Error against time of {self.scene.name}; .report() has all rows", facts
 
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench tradeoff`."""

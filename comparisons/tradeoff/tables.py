@@ -12,6 +12,7 @@ from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
 from sheetbench.scenes import Status
+from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:
     from comparisons.tradeoff.row import TradeoffRow
@@ -110,7 +111,7 @@ def orders(tradeoff: Tradeoff) -> Table:
 def explanation(tradeoff: Tradeoff) -> str:
     """What the errors are measured against."""
     reference, uncertainty = tradeoff.reference, tradeoff.uncertainty
-    known = "unknown" if uncertainty is None else f"{100 * uncertainty:.2g} %"
+    known = "unknown" if uncertainty is None else f"{few(100 * uncertainty)} %"
     return (
         f"errors against {reference.label} ({reference.unknowns} unknowns), whose own uncertainty is "
         f"{known}: the grid convergence index of n, ¾ n and ½ n elements. error: at the probes; field error: "

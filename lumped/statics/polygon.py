@@ -20,6 +20,7 @@ import math
 from collections.abc import Sequence
 
 from sheetbench.scenes import EDGES, Chain, Scene
+from sheetbench.scenes.summary import few
 
 SAID = 0.01  # share of the bending from which on it is said
 SEGMENTS, CELLS, CHAIN, SHEET, RESISTANCE = -1.84, 1.28, 0.12, 3.4, 0.21
@@ -52,8 +53,8 @@ def polygons(scene: Scene, grid: Sequence[int]) -> str:
     if not scene.actuators:
         return ""
     said = [
-        f"the chain on {edge} bends it some {100.0 * share:.2g} % less than an elastic rod would: each rigid "
-        "segment holds several cells straight; take one segment a cell"
+        f"the chain on {edge} bends it some {few(100.0 * share)} % less than an elastic rod would: each "
+        "rigid segment holds several cells straight; take one segment a cell"
         for edge, share in sorted(lost_bending(scene, grid).items())
         if share > SAID
     ]

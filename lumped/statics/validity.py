@@ -31,6 +31,7 @@ from lumped.statics.faults import Fault, place, surface
 from lumped.statics.problem import Problem
 from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import Scene, Status
+from sheetbench.scenes.summary import few
 
 DOUBTFUL, LOST = 1e-2, 0.05  # displacement by rounding over the largest: that it may be, that it is
 BEYOND_DOUBT = 1e-6  # of one sample: no other one is ten thousand times as large
@@ -93,8 +94,8 @@ def layers(scene: Scene, assembly: Assembly, u: np.ndarray, energy: float) -> st
         return ""
     where = place(lattice, int(lattice.columns()[j, i, 0]))
     return (
-        f"not unique to the sheet but to this grid: cells {ratio:.2g} times as long as the layer in which it "
-        f"stretches ({1e3 * width:.2g} mm near {where}); refine the grid until the answer stays"
+        f"not unique to the sheet but to this grid: cells {few(ratio)} times as long as the layer in which "
+        f"it stretches ({few(1e3 * width)} mm near {where}); refine the grid until the answer stays"
     )
 
 

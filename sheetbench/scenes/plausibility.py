@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from sheetbench.scenes.loads import EdgeLoad, PointLoad, Pressure
 from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
 from sheetbench.scenes.strains import STRETCH_LIMIT, WEIGHT_LIMIT, weight_strain
+from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
@@ -51,7 +52,7 @@ def sheet_slips(sheet: Sheet) -> list[str]:
     shorter = min(sheet.lengths)
     if sheet.thickness > THICKEST * shorter:
         return [
-            f"thickness = {sheet.thickness:g} m is {sheet.thickness / shorter:.2g} of the shorter side, "
+            f"thickness = {sheet.thickness:g} m is {few(sheet.thickness / shorter)} of the shorter side, "
             f"{shorter:g} m, which is no thin sheet; lengths are in metres"
         ]
     return []

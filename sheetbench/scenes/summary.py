@@ -51,6 +51,12 @@ def milliseconds(seconds: float) -> str:
     return f"{1e3 * seconds:.3g} ms" if seconds < 1.0 else f"{seconds:.3g} s"
 
 
+def few(value: float, digits: int = 2) -> str:
+    """A few digits of a number in a sentence; without an exponent from 0.001 to a million."""
+    rounded = float(f"{value:.{digits}g}")
+    return f"{rounded:.7g}" if 1e-3 <= abs(rounded) <= 1e6 else f"{value:.{digits}g}"
+
+
 def forces(named: Mapping[str, Any]) -> str:
     """Forces (3,) [N] by name; what is rounding beside the largest of them is 0."""
     largest = max((abs(float(part)) for force in named.values() for part in force), default=0.0)

@@ -34,6 +34,11 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+try:
+    import fcntl
+except ImportError:  # not on Windows
+    fcntl = None  # type: ignore[assignment]
+
 from llvmlite.binding import get_host_cpu_features
 from platformdirs import user_cache_path
 
@@ -249,7 +254,20 @@ def _load_shipped(self: caching.FunctionCache, signature: object, target_context
     return None if data is None else self._impl.rebuild(target_context, data)
 
 
-_load_as_numba = caching.FunctionCache.load_overload
-setattr(caching.FunctionCache, "load_overload", _load)  # noqa: B010  # a method of numba's, for ours alone
+def _save(self: caching.FunctionCache, signature: object, compiled: object) -> None:
+    """Keep a compiled kernel: what numba does, alone in the kernel's folder. Of two processes that keep
+    kernels of one function at once, for arguments of their own, numba's index may name the other's code."""
+    if not isinstance(self._impl.locator, Locator) or fcntl is None:
+        _save_as_numba(self, signature, compiled)
+        return
+    self._impl.locator.ensure_cache_path()
+    with Path(self.cache_path, "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        _save_as_numba(self, signature, compiled)
+
+
+_load_as_numba, _save_as_numba = caching.FunctionCache.load_overload, caching.FunctionCache.save_overload
+setattr(caching.FunctionCache, "load_overload", _load)  # noqa: B010  # methods of numba's, for ours alone
+setattr(caching.FunctionCache, "save_overload", _save)  # noqa: B010
 caching.CacheImpl._locator_classes.insert(0, Locator)
 event.register("numba:compile", _Announcement())

@@ -124,6 +124,34 @@ def test_a_copy_of_the_checkout_finds_what_the_checkout_compiled_and_what_came_w
     assert ask(copy, empty) == "" and not list(empty.rglob("*.nbi"))
 
 
+ALONE = """
+import fcntl, os
+from numba.core import caching
+
+kept = caching.IndexDataCacheFile.save
+
+def save(self, key, data):
+    with open(os.path.join(self._cache_path, "lock"), "w") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            print("another could write")
+        except BlockingIOError:
+            print("alone")
+    kept(self, key, data)
+
+caching.IndexDataCacheFile.save = save
+"""
+
+
+def test_a_kernel_is_kept_by_one_process_at_a_time(tmp_path: Path):
+    """Else a process would load, for its own arguments, what another compiled for others: and crash."""
+    env = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    said = subprocess.run(
+        [sys.executable, "-c", ALONE + ASK], env=env, capture_output=True, text=True, check=True
+    )
+    assert set(said.stdout.split("\n")) == {"alone", ""}
+
+
 def test_the_processor_is_the_common_one_unless_numba_is_there_before():
     show = "import os; print(os.environ.get('NUMBA_CPU_NAME'))"
     env = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_CPU")}

@@ -16,10 +16,7 @@ from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.pattern import Pattern, neighbours, of_grid
-from lumped.springs.all_forces import add_forces
 from lumped.springs.families import Links, families
-from lumped.springs.packing import pack, scratch
-from lumped.springs.tiles import NO, YES
 from lumped.springs.together import Stresses, together
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
@@ -68,7 +65,7 @@ class Assembly:
         self.together = together(self.springs)
         self.precision = precision
         single = precision == "single"
-        self._single = pack(self.lattice, self.springs, (), True) if single else None
+        self._forcing = tuple(family.rounded() for family in self.springs) if single else self.springs
 
     @cached_property
     def plan(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -107,16 +104,13 @@ class Assembly:
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Elastic energy [J] and its gradient, the internal force, (n, 3) [N]."""
-        if self._single is not None:
-            force = np.zeros_like(u)
-            energy, _ = add_forces(u, u, YES, NO, self._single, scratch(self._single), force)
-            return energy, force
-        if self.together is not None:
+        if self.together is not None and self.precision == "double":
             return self.together.force(u)
-        force, energy = np.zeros_like(u), 0.0
-        for family in self.springs:
-            energy += family.add_force(u, force)
-        return energy, force
+        kept = u.astype(np.float32) if self.precision == "single" else u
+        force, energy = np.zeros(kept.shape, kept.dtype), 0.0
+        for family in self._forcing:
+            energy += family.add_force(kept, force)
+        return energy, force.astype(float, copy=False)
 
     def average_force(self, start: np.ndarray, end: np.ndarray) -> np.ndarray:
         """Internal force (n, 3) [N] whose work from `start` to `end` is the elastic energy stored."""

@@ -7,7 +7,7 @@ arrays are, and a row of the table.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -40,6 +40,13 @@ class Links(Family):
     def geometry(self) -> tuple[np.ndarray, ...]:
         """Return rest vectors and their lengths."""
         return self.offset, self.rest_length
+
+    def rounded(self) -> Links:
+        """Return the same links with their rest data in single precision."""
+        single = {
+            name: getattr(self, name).astype(np.float32) for name in ("stiffness", "offset", "rest_length")
+        }
+        return replace(self, **single)
 
     def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
         """Return the stresses of stretched links."""

@@ -87,6 +87,10 @@ class Family(ABC):
         """Return springs with an energy, and so a symmetric tangent, that stand for these in a matrix."""
         return self
 
+    def rounded(self) -> Family:
+        """Return the springs whose force is computed in single precision: these, with their rest data."""
+        return self
+
     def damped(self, time: float) -> Dampers:
         """Return dampers of coefficient time [s] × stiffness."""
         return Dampers(replace(self, stiffness=time * self.stiffness))

@@ -24,7 +24,7 @@ from comparisons.models.candidate import Candidate
 from comparisons.models.scales import scales
 from comparisons.runs.campaign import campaign
 from sheetbench import scenes
-from sheetbench.scenes import Clamped, Gravity, Scene, Solution
+from sheetbench.scenes import Clamped, Gravity, Scene, Sheet, Solution
 
 SECONDS = 1e-5  # an unknown and factorisation
 answer = once(registry.answer)  # one for all tests: what is looked at is what the advisor makes of it
@@ -71,6 +71,32 @@ def test_scales_of_the_seed_sheet() -> None:
     assert found.load_number == pytest.approx(1678 * 9.81 * 0.003 * 0.188**3 / rigidity)
     assert found.slenderness == pytest.approx(0.003 / 0.188)
     assert found.strain == pytest.approx(1678 * 9.81 * 0.188 / 54.5e6)
+
+
+def test_the_load_number_is_of_the_length_that_hangs() -> None:
+    """A strip held at a short edge; at a long one, and at both, it reaches over its shorter side."""
+    sheet = Sheet(length_x=0.12, length_y=0.04, thickness=0.002)
+    strip = scenes.load("one-edge-clamped").replace(sheet=sheet, supports=[Clamped(edge="x0")], probes={})
+    far = scales(strip)
+    assert far.span == 0.12
+    assert far.span_load_number == pytest.approx(27.0 * far.load_number)
+    across = Clamped(edge="y0")
+    for held in ((across,), (*strip.supports, across)):
+        near = scales(strip.replace(supports=held))
+        assert near.span == 0.04 and near.span_load_number == near.load_number
+
+
+def test_a_busy_machine_and_all_digits_are_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An error of 1.04 % is not the "1" that a tolerance of 1 % would let pass."""
+    monkeypatch.setattr("comparisons.runs.load.average", lambda: 100.0)
+    advice = advise("one-edge-clamped", 0.2)
+    assert len(advice.warnings) == 1 or "scatter" in advice.warnings[1]
+    assert "under a load of up to 100 on" in advice.warnings[0]
+    assert advice.as_dict()["warnings"] == list(advice.warnings)
+    report = advice.report()
+    assert advice.warnings[0] in report.notes
+    column = next(c for c in report.tables[0].columns if c.name == "error")
+    assert column.show(0.0104) == "1.04"
 
 
 @pytest.mark.parametrize("name", ["two-edges-clamped", "one-edge-clamped", "curved-edge"])

@@ -12,6 +12,8 @@ from commands import one_line, run
 from scipy.io import loadmat
 
 import lumped
+from comparisons.linearisation import figure, tables
+from comparisons.linearisation.linearisation import linearise
 from sheetbench import scenes
 from sheetbench.scenes import Chain, Clamped, Gravity, Hinged, Pressure, Scene
 from sheetbench.scenes.errors import BadInput
@@ -167,3 +169,25 @@ def test_a_lattice_without_an_equilibrium_ends_with_3(capsys: pytest.CaptureFixt
     assert run("linearise", "curved-edge-down", *springs) == 3
     said = capsys.readouterr().err
     assert "no linear form about the equilibrium" in said and "Traceback" not in said
+
+
+def test_the_response_drawn_is_of_the_probe_that_moves_most_and_units_have_names() -> None:
+    """Of probes near the clamp, at the free corner and in the middle, that at the corner; of two alike the
+    last. Undamped poles have no columns of zeros on a terminal, and edges are moved by millimetres."""
+    strip = scenes.load("one-edge-clamped")
+    lx, ly = strip.sheet.lengths
+    strip = strip.replace(probes={"far": (0.0, ly), "near": (0.0, 0.0), "middle": (lx / 2.0, ly / 2.0)})
+    strip = strip.replace(supports=[Clamped(edge="x1")])
+    found = linearise(strip, grid=4, modes=3)
+    assert figure.moved_most(found) == "near"
+    drawn = figure.compose(found)
+    title, legend = drawn.axes[0].get_title(loc="left"), drawn.axes[0].get_legend()
+    assert title.endswith("near along z, the probe that moves most at rest")
+    assert legend is not None and "gravity [factor]" in [text.get_text() for text in legend.get_texts()]
+    table = tables.heights(found)
+    rows = {row[0]: row[1:] for row in table.rows}
+    assert rows["x1 z"] == ("mm", *[pytest.approx(1e-3)] * 3)
+    assert rows["x1 x"][1:] == (0.0, 0.0, 0.0) and rows["gravity"][0] == "factor"
+    assert [c.name for c in tables.poles(found).columns if not c.detail] == ["frequency", "imaginary"]
+    damped = linearise(with_material(strip, damping_rate=RATE), grid=4, modes=3)
+    assert not any(column.detail for column in tables.poles(damped).columns)

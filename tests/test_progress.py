@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from concurrent.futures import Executor, Future
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,8 @@ import sheetbench as sb
 from comparisons.cli import console
 from comparisons.cli import lines as cli_lines
 from comparisons.cli.lines import BETWEEN, QUIET, Lines
+from comparisons.models import registry
+from comparisons.models.candidate import Candidate
 from comparisons.models.springs import calibrate
 from comparisons.report import amounts, work
 from comparisons.report.work import Pace, Work
@@ -96,7 +99,23 @@ def test_a_long_command_says_size_and_time_first(
 ) -> None:
     monkeypatch.setattr(work, "LONG", 0.0)
     assert run(*SMALL) == 0
-    assert "solving shell (125 unknowns, about 0 s) …" in capsys.readouterr().err.splitlines()
+    assert "solving shell, 2 × 2 elements (125 unknowns, about 0 s) …" in capsys.readouterr().err.splitlines()
+
+
+def test_a_large_grid_is_announced_with_its_unknowns_and_its_time() -> None:
+    """`compare --grid 300` on a strip of 3 by 1: told before the first array is there, nothing is solved."""
+    sheet, material = parts()
+    strip = sb.Scene(
+        name="strip",
+        sheet=sheet.replace(length_x=3.0 * sheet.length_y),
+        material=material,
+        support=(sb.Clamped(edge="x0"),),
+    )
+    told: list[Work] = []
+    registry._begun(strip, Candidate("lumped", {"grid": 300}), "lumped", told.append)
+    said = str(told[0])
+    assert said.startswith("solving lumped, 898 × 300 × 2 masses (1.62 million unknowns, about ")
+    assert re.fullmatch(r".*about \d+ (s|min)\) …", said)
 
 
 @pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
@@ -122,9 +141,14 @@ def test_a_comparison_tells_what_it_solves_and_how_far_it_is() -> None:
     told: list[Work] = []
     sb.compare(sb.load(SCENE), grid=3, elements=4, progress=told.append)
     begun = [one.doing for one in told if one.share is None]
-    finer = "solving lumped on a finer grid"
-    assert begun[:4] == ["solving lumped", "solving shell", "solving lumped-uniform", finer]
-    assert begun[4:] == ["solving shell"] * 2
+    assert begun == [
+        "solving lumped, 3 × 3 × 2 masses",
+        "solving shell, 4 × 4 elements",
+        "solving lumped-uniform, 3 × 3 × 2 masses",
+        "solving lumped on a finer grid, 13 × 13 × 2 masses",
+        "solving shell, 3 × 3 elements",
+        "solving shell, 2 × 2 elements",
+    ]
     assert {one.doing for one in told if one.share == 1.0} == set(begun)
     assert all(one.size is not None and one.size.unknowns > 0 for one in told)
 
@@ -135,7 +159,8 @@ def test_other_verbs_tell_too(tmp_path: Path) -> None:
     assert [one.doing for one in told] == ["modes of lumped", "modes of shell"]
     told.clear()
     sb.advise("one-edge-clamped", 0.2, progress=told.append)
-    assert {"solving shell", "solving lumped"} <= {one.doing for one in told}
+    wanted = {"solving shell, 4 × 4 elements", "solving lumped, 3 × 3 × 2 masses"}
+    assert wanted <= {one.doing for one in told}
     told.clear()
     measured = tmp_path / "measured.csv"
     measured.write_text("x,y,uz\n0.094,0.094,-0.00245\n0.188,0.188,-0.0135\n")

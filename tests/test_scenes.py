@@ -9,6 +9,7 @@ import pytest
 from scene_files import BAD, GOOD, LOOSE, written
 
 from sheetbench import scenes
+from sheetbench.scenes import Held, Hinged
 from sheetbench.scenes.seed import KNOWN_FAULTS, seed_displacements, seed_errors
 
 
@@ -39,8 +40,31 @@ def test_folder_is_not_a_scene(tmp_path: Path) -> None:
 @pytest.mark.parametrize("case", LOOSE)
 def test_free_rigid_motions_are_refused_for_a_static_answer(tmp_path: Path, case: str) -> None:
     scene = scenes.load(written(tmp_path, LOOSE[case]))
-    with pytest.raises(scenes.SceneError, match="rotation about y"):
+    free = "edge x0; a static" if case == "a hinge" else "x, rotation about y, rotation about z"
+    with pytest.raises(scenes.SceneError, match=f"rotation about {free}"):
         scenes.require_static(scene)
+
+
+@pytest.mark.parametrize(
+    ("supports", "free"),
+    [
+        ((Hinged(edge="x0"),), ["rotation about edge x0"]),
+        ((Hinged(edge="y1"),), ["rotation about edge y1"]),
+        ((Hinged(edge="x0"), Hinged(edge="x1")), []),
+        (
+            (Held(edge="x1", components=("z",)),),
+            ["translation along x", "translation along y", "rotation about edge x1", "rotation about z"],
+        ),
+        (
+            (Held(edge="x0", components=("x", "y")),),
+            ["translation along z", "rotation about x", "rotation about y"],
+        ),
+    ],
+)
+def test_only_motions_that_are_free_are_named(supports: tuple[Hinged | Held, ...], free: list[str]) -> None:
+    """As many names as independent motions: the vibration solvers count them."""
+    scene = scenes.load("one-edge-clamped").replace(supports=supports)
+    assert scenes.free_rigid_motions(scene) == free
 
 
 def test_catalogue_scenes_load_and_stand_still() -> None:

@@ -25,6 +25,7 @@ from comparisons.models.grading import Grading
 from comparisons.models.scales import Scales, scales
 from comparisons.report.report import Report
 from comparisons.report.work import Progress, silent
+from comparisons.runs import load
 from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import AnyScene, Scene, require_static, scene_of, summary
 from sheetbench.scenes.errors import BadInput
@@ -42,7 +43,8 @@ class Advice(summary.Summarised):
     model: what the judge leaves out on every mesh.
 
     choice is None, with `message` saying why, where no model converges or none in `budget` is known. grading,
-    calibration: what was made of graded lattices and of other springs, where they were asked for.
+    calibration: what was made of graded lattices and of other springs, where they were asked for. warnings:
+    of times that are doubtful, taken on a busy machine.
     """
 
     scene: Scene
@@ -61,13 +63,14 @@ class Advice(summary.Summarised):
     grading: str = ""
     calibration: str = ""
     model: ModelError | None = None
+    warnings: tuple[str, ...] = ()
 
     @property
     def reason(self) -> str:
         """The advice in a sentence."""
         if self.error is None or self.seconds is None:
             return self.message
-        size = f"{few(100 * self.error)} % ± {few(100 * self.bar)} %"
+        size = f"{few(100 * self.error, 3)} % ± {few(100 * self.bar)} %"
         said = f"predicted error {size} in {_time(self.seconds)}"
         said += f", {self.model}" if self.model else ""
         return f"{said}; {self.message}" if self.message else said
@@ -105,6 +108,7 @@ class Advice(summary.Summarised):
             "tried": list(self.tried),
             "message": self.message,
             **{name: said for name in ("grading", "calibration") if (said := getattr(self, name))},
+            "warnings": list(self.warnings),
         }
 
     def _summary(self) -> tuple[str, summary.Facts]:
@@ -151,7 +155,7 @@ def advise(
         said = probing.judge.solution
         reason = f"the shell finds no stable equilibrium: {said.status}: {said.message}"
         return _advice(probing, sizes, tolerance, budget, None, resolution, reason)
-    linear = not scene.actuators and sizes.load_number <= LINEAR_LOAD_NUMBER
+    linear = not scene.actuators and sizes.span_load_number <= LINEAR_LOAD_NUMBER
     candidates = probing.candidates(linear)
     for candidate in candidates[:3]:
         probing.trial(candidate)
@@ -276,6 +280,7 @@ def _advice(
         grading=_grading(probing, chosen),
         calibration=_calibration(probing, chosen),
         model=probing.model_error,
+        warnings=tuple(load.warnings(probing.loads, probing.samples)),
     )
 
 

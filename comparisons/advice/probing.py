@@ -26,6 +26,7 @@ from comparisons.models.sizes import has_room, require_room
 from comparisons.models.springs import check_lattice
 from comparisons.models.symmetry import planes
 from comparisons.report.work import Progress, silent
+from comparisons.runs import load
 from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.grading import Graded
@@ -79,6 +80,8 @@ class Probing:
         self.trials: dict[str, Trial] = {}
         self.judges: list[int] = []
         self.seconds = 0.0
+        self.loads: list[float | None] = []
+        self.samples: list[list[float]] = []
         if not large:
             instead = "advise has no coarser one"
             require_room(scene, self._judge(JUDGES[FIRST - 1]), instead=instead)
@@ -127,6 +130,8 @@ class Probing:
                 times = [solution.solve_seconds]
                 while solution.solve_seconds < 0.2 and len(times) < repeats:
                     times.append(models.answer(self.scene, candidate).solve_seconds)
+            self.loads.append(load.average())
+            self.samples.append(times)
             self.trials[key] = Trial(candidate, solution, median(times))
             self.seconds += perf_counter() - began
         return self.trials[key]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from comparisons.models.candidate import series, written
 from comparisons.models.grading import read
 from comparisons.report.report import Report
-from comparisons.report.table import Column, Table, number
+from comparisons.report.table import Column, Table, number, quantity
 from sheetbench.choices import CALIBRATION
 from sheetbench.scenes.summary import few
 
@@ -50,7 +50,7 @@ def tried(advice: Advice) -> Table:
         Column("model", prose=True),
         Column("size"),
         Column("solve", "s", "ms", 1e3, ".2f"),
-        Column("error", "", "%", 100.0, ".2g"),
+        Column("error", "", "%", 100.0, ".3g"),
         Column("choice"),
         Column("status", prose=True),
     )
@@ -61,11 +61,14 @@ def sentences(advice: Advice) -> list[str]:
     """The advice and its reasons, a sentence a line."""
     scales = advice.scales
     return [
-        f"load number q a³/D = {number(scales.load_number, '.3g')}, "
-        f"h/a = {number(scales.slenderness, '.3g')}, q a/(E h) = {number(scales.strain, '.2g')}",
+        f"load number q L³/D = {number(scales.span_load_number, '.3g')}, "
+        f"L = {quantity(scales.span, 'm', '.4g')} from the edges that hold the sheet",
+        f"h/a = {number(scales.slenderness, '.3g')}, q a/(E h) = {number(scales.strain, '.2g')}, "
+        "a the shorter side",
         f"needs {', '.join(advice.needs)}",
         *(f"leaves out {left}" for left in advice.left_out),
         *(said for said in (advice.grading, advice.calibration) if said),
+        *advice.warnings,
         f"{advice.reason} (probing took {few(advice.probing_seconds)} s)",
     ]
 

@@ -39,7 +39,7 @@ def check(scene: AnyScene, called: str | None = None) -> Report:
         ),
         complaints=(
             *warnings,
-            *(["nothing holds the sheet: only `modes` and `simulate` can answer"] if free else []),
+            *(["the sheet can move as a rigid body: only `modes` and `simulate` can answer"] if free else []),
         ),
         document={
             "scene": scene.document(),

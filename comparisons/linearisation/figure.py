@@ -1,7 +1,8 @@
-"""Frequency responses: how far the last probe moves along z, over the frequency of each input."""
+"""Frequency responses: motion along z of the probe that moves most, by the frequency of each input."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,6 +11,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from comparisons.linearisation.units import unit_of
 from comparisons.report.look import PLAIN, Look
 from comparisons.report.style import GREY, STYLE, plain, save
 
@@ -30,7 +32,7 @@ def picture(paths: Sequence[Path], found: Linearisation, look: Look = PLAIN) -> 
 def compose(found: Linearisation, look: Look = PLAIN) -> Figure:
     """Amplitude above, phase below."""
     space, matrices = found.space, found.matrices
-    probe = list(found.scene.probes)[-1]
+    probe = moved_most(found)
     output = matrices.outputs.index(f"{probe} uz")
     shown = [i for i, name in enumerate(matrices.inputs) if _worth(name, probe)][:SHOWN]
     at = np.geomspace(0.2 * space.frequencies[0], PAST * space.frequencies[-1], POINTS)
@@ -41,7 +43,7 @@ def compose(found: Linearisation, look: Look = PLAIN) -> Figure:
         name = matrices.inputs[number]
         values = response[:, column]
         dashes = "-" if column % 2 == 0 else (0, (4, 2))  # the answers of a symmetric sheet lie on each other
-        size.loglog(at, np.abs(values), ls=dashes, lw=1.0, label=f"{name} [{_unit(name)}]")
+        size.loglog(at, np.abs(values), ls=dashes, lw=1.0, label=f"{name} [{unit_of(name)}]")
         phase.semilogx(at, np.degrees(np.angle(values)), ls=dashes, lw=0.8)
     for axis in (size, phase):
         axis.grid(color=GREY, lw=0.3, alpha=0.4)
@@ -51,7 +53,9 @@ def compose(found: Linearisation, look: Look = PLAIN) -> Figure:
     phase.set_xlabel("frequency [Hz]")
     size.legend(frameon=False, fontsize=6.5, ncols=1 if look.narrow else 2)
     if look.titled:
-        size.set_title(plain(found.scene.title or found.scene.name, longest=100), fontsize=8.5, loc="left")
+        named = plain(found.scene.title or found.scene.name, longest=60)
+        probed = f"{plain(probe, longest=20)} along z, the probe that moves most at rest"
+        size.set_title(f"{named}: {probed}", fontsize=8.5, loc="left")
     return figure
 
 
@@ -60,6 +64,15 @@ def _worth(name: str, probe: str) -> bool:
     return name.startswith(("load", "gravity")) or name.endswith(("curvature", " z")) or name == f"{probe} fz"
 
 
-def _unit(name: str) -> str:
-    kinds = {"curvature": "1/m", "fz": "N", "z": "m"}
-    return kinds.get(name.split()[-1], "of itself")
+def moved_most(found: Linearisation) -> str:
+    """The probe that a load or command at rest moves most along z, else a force at the probe itself; of those
+    that are alike to three digits the last."""
+    matrices, probes = found.matrices, list(found.scene.probes)
+    acting = re.compile("load|gravity|.*curvature$")
+    common = [i for i, name in enumerate(matrices.inputs) if acting.match(name)]
+
+    def moved(probe: str) -> float:
+        row = np.abs(matrices.jacobian[matrices.outputs.index(f"{probe} uz")])
+        return float(f"{max(row[common or [matrices.inputs.index(f'{probe} fz')]]):.3g}")
+
+    return max(reversed(probes), key=moved)

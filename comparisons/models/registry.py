@@ -18,7 +18,7 @@ from comparisons.models.grading import Grading
 from comparisons.models.grids import GridLike, scene_grid
 from comparisons.models.lattice import Solve, Watch, check_settings, lattice
 from comparisons.models.pair import check_pair, lattice_pair
-from comparisons.models.sizes import require_room, size
+from comparisons.models.sizes import mesh, require_room, size
 from comparisons.models.springs import LatticeSpec, is_fitted, require_room_to_fit
 from comparisons.models.symmetry import by_parts, cut_axes
 from comparisons.report.work import Progress, Work, silent
@@ -164,7 +164,7 @@ def answer(scene: Scene, candidate: Candidate, name: str = "", progress: Progres
 
 def _begun(scene: Scene, candidate: Candidate, name: str, progress: Progress) -> Watch:
     """Say that a candidate is being solved; what says how far it is."""
-    work = Work(f"solving {name}", size(scene, candidate))
+    work = Work(", ".join(filter(None, [f"solving {name}", mesh(scene, candidate)])), size(scene, candidate))
     progress(work)
     return lambda iteration: progress(work.at(iteration.load_factor))
 

@@ -5,6 +5,8 @@
                   D = E h³/12(1 − ν²): a strip held at one end would slope by about a sixth of it, in radians
     strain        q a/(E h), how much the load would stretch a strip that it hangs from
     normal load   the part of q that bends a flat sheet: along its normal, pressure and moments
+    span          L, how far the sheet reaches from the edges that hold it across its plane: the side at right
+                  angles to them, the shorter one where both are or none
 
 The moduli report of a calibration says how far a lattice's own stiffness is from the sheet's.
 """
@@ -16,17 +18,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from sheetbench.scenes import EDGES, EdgeLoad, PointLoad, Pressure, Scene
+from sheetbench.scenes.supports import held_axes
 
 
 @dataclass(frozen=True)
 class Scales:
-    """The dimensionless numbers of a scene; load, normal_load: per area [Pa]."""
+    """The dimensionless numbers of a scene; load, normal_load: per area [Pa]; span [m]; span_load_number:
+    q L³/D."""
 
     slenderness: float
     load: float
     load_number: float
     strain: float
     normal_load: float
+    span: float
+    span_load_number: float
 
     @property
     def bending_number(self) -> float:
@@ -41,6 +47,7 @@ class Scales:
 def scales(scene: Scene) -> Scales:
     """The scales of a scene."""
     sheet, material = scene.sheet, scene.material
+    reach = span(scene)
     side, area = min(sheet.lengths), float(np.prod(sheet.lengths))
     rigidity = material.young * sheet.thickness**3 / (12.0 * (1.0 - material.poisson**2))
     load = normal = 0.0
@@ -65,4 +72,14 @@ def scales(scene: Scene) -> Scales:
         load_number=load * side**3 / rigidity,
         strain=load * side / (material.young * sheet.thickness),
         normal_load=normal,
+        span=reach,
+        span_load_number=load * reach**3 / rigidity,
     )
+
+
+def span(scene: Scene) -> float:
+    """How far the sheet reaches from the edges that hold it across its plane [m]."""
+    sheet, across = scene.sheet, 2
+    held = [support.edge for support in scene.supports if across in held_axes(support)]
+    held += [actuator.edge for actuator in scene.actuators]
+    return min((sheet.lengths[EDGES[edge].normal_axis] for edge in held), default=min(sheet.lengths))

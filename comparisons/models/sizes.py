@@ -66,6 +66,14 @@ def require_room(scene: Scene, candidate: Candidate, option: str = "", instead: 
     )
 
 
+def mesh(scene: Scene, candidate: Candidate) -> str:
+    """The masses or elements of a candidate in words, of the whole sheet; "" of a plug-in."""
+    if candidate.model not in OWN:
+        return ""
+    counts = " × ".join(str(n) for n in _counts(scene, candidate))
+    return f"{counts} {'masses' if candidate.model in LATTICES else 'elements'}"
+
+
 def _counts(scene: Scene, candidate: Candidate) -> list[int]:
     """Masses (nx, ny, layers), or elements (nx, ny) and bricks through the thickness."""
     if candidate.model in LATTICES:

@@ -9,19 +9,23 @@ import numpy as np
 
 from sheetbench.scenes.actuators import Chain
 from sheetbench.scenes.errors import SceneError
-from sheetbench.scenes.sheet import Sheet
+from sheetbench.scenes.sheet import EDGES, Sheet
 from sheetbench.scenes.supports import Support, held_axes, holds_tilt
 
 if TYPE_CHECKING:
     from sheetbench.scenes.scene import Scene
 
+ROUND_OFF = 1e-9
+
 
 def free_rigid_motions(scene: Scene) -> list[str]:
-    """Names of the rigid motions that supports and actuators leave free (empty: a static answer can exist).
+    """Names of the rigid motions that supports and actuators leave free, as many as there are independent
+    ones (empty: a static answer can exist).
 
     An actuator whose base is held, or that prescribes the edge's motion, leaves none.
     A support fixes rows of the rigid velocity t + θ × X at both ends of its edge and, if it holds
-    the tilt, those of θ × e_z; what the stacked rows leave in their null space is free.
+    the tilt, those of θ × e_z; what the stacked rows leave in their null space is free. A translation is
+    named where it is free alone; a rotation with the translation that it needs, about the edge that rests.
     """
     if any(not isinstance(actuator, Chain) or actuator.base != "free" for actuator in scene.actuators):
         return []
@@ -43,11 +47,27 @@ def _left_free(sheet: Sheet, supports: tuple[Support, ...]) -> tuple[str, ...]:
             turned = np.hstack([np.zeros((3, 3)), -_cross_matrix(np.array([0.0, 0.0, 1.0]))])
             rows.extend(turned[axis] for axis in held_axes(support))
     _, singular, motions = np.linalg.svd(np.array(rows))
-    rank = int(np.sum(singular > 1e-9))
-    names = [f"{kind} {axis}" for kind in ("translation along", "rotation about") for axis in "xyz"]
+    rank = int(np.sum(singular > ROUND_OFF))
     free = motions[rank:]
-    moved = np.linalg.norm(free, axis=0)
-    return tuple(name for name, share in zip(names, moved, strict=True) if share > 1e-6)
+    fixed = np.eye(6) - free.T @ free  # what of a motion is not free
+    sliding = np.linalg.norm(fixed[:, :3], axis=0) < ROUND_OFF
+    found = [f"translation along {name}" for name, slides in zip("xyz", sliding, strict=True) if slides]
+    for axis, name in enumerate("xyz"):
+        moved = np.linalg.lstsq(fixed[:, :3], -fixed[:, 3 + axis], rcond=ROUND_OFF)[0]
+        if np.linalg.norm(fixed[:, :3] @ moved + fixed[:, 3 + axis]) < ROUND_OFF:
+            found.append(f"rotation about {_resting(sheet, axis, scale * moved) or name}")
+    return (*found, *["a screw"] * (len(free) - len(found)))
+
+
+def _resting(sheet: Sheet, axis: int, moved: np.ndarray) -> str:
+    """The edge about which a unit rotation about an axis turns where the centre moves by `moved` [m]; "" for
+    none, as about the centre."""
+    for name, edge in EDGES.items():
+        arm = np.zeros(3)
+        arm[edge.normal_axis] = (0.5 if edge.far_end else -0.5) * sheet.lengths[edge.normal_axis]
+        if edge.along_axis == axis and np.allclose(moved, np.cross(arm, np.eye(3)[axis]), atol=ROUND_OFF):
+            return f"edge {name}"
+    return ""
 
 
 def require_static(scene: Scene) -> None:

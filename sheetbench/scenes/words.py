@@ -48,7 +48,7 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
     said.append(("probes", f"{points} mm"))
     free = free_rigid_motions(scene)
     said.append(
-        ("at rest", f"no answer: nothing stops {', '.join(free)}" if free else "held: it has an answer")
+        ("at rest", f"not solved: nothing stops {', '.join(free)}" if free else "held: it has an answer")
     )
     return said
 

@@ -18,7 +18,6 @@ REFERENCES = (
     ("--reference", "plate"),
     ("--reference", "shell"),
     ("--reference", "shell", "--law", "biot"),
-    ("--reference", "solid"),
     ("--reference", "solid", "--law", "neo-hookean"),
 )
 MORE = (

@@ -20,13 +20,17 @@ from comparisons.models.candidate import Candidate, lattices, parse_model, serie
 from comparisons.models.springs import LatticeSpec
 from comparisons.report import table as tables
 from comparisons.report.files import to_json
+from comparisons.report.look import PLAIN, parse_figure
 from comparisons.runs import load
 from comparisons.runs.campaign import campaign
 from comparisons.runs.store import FILE
 from comparisons.tradeoff import timing
+from comparisons.tradeoff.figure import compose
 from comparisons.tradeoff.motion import SHARES, dynamic_tradeoff, explicit_limit, folded
 from comparisons.tradeoff.motion_row import MotionRow, oscillation
 from comparisons.tradeoff.pareto import front, grouped, order
+from comparisons.tradeoff.row import TradeoffRow
+from comparisons.tradeoff.statics import Tradeoff
 from sheetbench import scenes
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
 from sheetbench.scenes.errors import BadInput
@@ -168,7 +172,8 @@ def test_asked_again_nothing_is_run_and_the_document_is_the_same(
     assert run(*SMALL, "--json", "--out", str(finished)) == 0
     printed = capsys.readouterr()
     assert json.loads(printed.out) == written
-    assert printed.err == ""
+    drawing = {"drawing tradeoff.png …"}  # said where it lasts, as on a busy machine
+    assert set(printed.err.splitlines()) <= drawing
     assert rows_in(finished / FILE) == before
 
 
@@ -202,6 +207,30 @@ def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path: Path
     assert found.reference.damping == pytest.approx(found.rows[-1].damping, rel=1e-2)
     assert all(row.seconds_per_second > 0.0 for row in found.rows)
     assert found.front and json.loads(to_json(found.as_dict()))["rows"]
+
+
+def test_labels_of_close_points_do_not_lie_on_each_other(scene: Scene) -> None:
+    """A grid and a pair of grids, the front's last two, a tenth apart in time and an eighth in error."""
+    pair = {"coarser": 5, "grid": 9}
+    made = (("lumped", {"grid": 9}, 1.0e-3, 0.010), ("lumped-pair", pair, 1.1e-3, 0.0088))
+    rows = [
+        TradeoffRow(
+            model, "", settings, "converged", "", f"{model} consistent", size, "", "",
+            solve_seconds=(seconds,), error=error,
+        )
+        for model, settings, seconds, error in (("lumped", {"grid": 3}, 1e-4, 0.1), *made)
+        for size in [0.188 / settings["grid"]]
+    ]  # fmt: skip
+    found = Tradeoff(scene, tuple(rows), rows[-1], 1e-3, 1e-3)
+    for look in (PLAIN, parse_figure("pdf:single")):
+        drawn = compose(found, look)
+        drawn.draw_without_rendering()
+        boxes = {t.get_text(): t.get_window_extent() for t in drawn.axes[0].texts}
+        assert {"3", "9", "5:9"} <= set(boxes)
+        assert not boxes["9"].overlaps(boxes["5:9"])
+        names = [text.get_text() for text in drawn.legends[0].get_texts()]
+        assert any(name.startswith("lumped consistent  (order ") for name in names)
+        assert drawn.axes[1].get_title(loc="left").endswith("observed over these grids")
 
 
 def test_latex_says_what_the_cells_say() -> None:

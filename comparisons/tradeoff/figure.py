@@ -11,6 +11,8 @@ import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.text import Annotation, Text
+from matplotlib.transforms import Bbox
 
 from comparisons.report.look import PLAIN, Look
 from comparisons.report.style import GREY, SERIES, STYLE, plain, save
@@ -24,6 +26,11 @@ if TYPE_CHECKING:
 # Heights [inches]: of a panel, of its label and title, of a row of names, of the title over all.
 PANEL, LABEL, TITLE, NAMES, OVER = 2.5, 0.49, 0.3, 0.195, 0.25
 MARKERS = {"lumped": "o", "lumped-pair": "*", "plate": "v", "shell": "s", "solid": "D"}
+PLACES = tuple(  # of a label beside its point [points]: at the lower left, upper right, ... and farther off
+    ((step * x, step * y), "right" if x < 0 else "left", "top" if y < 0 else "bottom")
+    for step in (3, 9, 15)
+    for x, y in ((-1, -1), (1, 1), (-1, 1), (1, -1))
+)
 REFERENCE_COLOURS = {"plate": "#8a8a8a", "shell": "#222222", "solid": "#a0522d"}
 
 
@@ -54,7 +61,7 @@ def compose(tradeoff: Tradeoff, look: Look = PLAIN) -> Figure:
             style["ls"] = (0, (4, 1.5))
         label = plain(name)
         if orders[name] is not None:
-            label = f"{label}  ($h^{{{orders[name]:z.1f}}}$)"
+            label = f"{label}  (order {orders[name]:z.1f})"
         _against_time(left, rows, [i in on_front for i in known], style, label)
         sized = [(1e3 * row.cell_size, 100 * (row.error or 0.0)) for row in rows if row.cell_size]
         right.plot([h for h, _ in sized], [e for _, e in sized], **style)
@@ -68,7 +75,9 @@ def compose(tradeoff: Tradeoff, look: Look = PLAIN) -> Figure:
     if look.narrow:
         right.set_ylabel("error at the probes [%]")
     left.set_title("Error against time, and the front", fontsize=8, fontweight="bold", loc="left")
-    right.set_title("Convergence", fontsize=8, fontweight="bold", loc="left")
+    right.set_title(
+        "Convergence, observed over these grids", fontsize=8, fontweight="bold", loc="left"
+    )
     handles, labels = left.get_legend_handles_labels()
     names = 2 if look.narrow else 4
     figure.legend(
@@ -83,6 +92,7 @@ def compose(tradeoff: Tradeoff, look: Look = PLAIN) -> Figure:
     )
     title = plain(tradeoff.scene.title or tradeoff.scene.name, longest=110) if look.titled else ""
     _set(figure, look, rows_of_names=-(-len(labels) // names), title=title)
+    _spread(figure, left.texts)
     return figure
 
 
@@ -102,6 +112,19 @@ def _set(figure: Figure, look: Look, rows_of_names: int, title: str) -> None:
         hspace=(LABEL + TITLE) / PANEL,
     )
     figure.text(edge, 1.0 - 0.1 / height, title, va="top", fontsize=8.5)
+
+
+def _spread(figure: Figure, texts: Sequence[Text]) -> None:
+    """Move labels that lie on an earlier one to the first free place about their points."""
+    figure.draw_without_rendering()
+    taken: list[Bbox] = []
+    for text in texts:
+        for (x, y), across, up in PLACES if isinstance(text, Annotation) and text.get_ha() == "right" else ():
+            text.xyann = (x, y)
+            text.set(ha=across, va=up)
+            if not any(text.get_window_extent().overlaps(box) for box in taken):
+                break
+        taken.append(text.get_window_extent())
 
 
 def _against_time(

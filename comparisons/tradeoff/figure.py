@@ -12,7 +12,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation, Text
-from matplotlib.transforms import Bbox
 
 from comparisons.report.look import PLAIN, Look
 from comparisons.report.style import GREY, SERIES, STYLE, plain, save
@@ -75,9 +74,7 @@ def compose(tradeoff: Tradeoff, look: Look = PLAIN) -> Figure:
     if look.narrow:
         right.set_ylabel("error at the probes [%]")
     left.set_title("Error against time, and the front", fontsize=8, fontweight="bold", loc="left")
-    right.set_title(
-        "Convergence, observed over these grids", fontsize=8, fontweight="bold", loc="left"
-    )
+    right.set_title("Convergence, observed over these grids", fontsize=8, fontweight="bold", loc="left")
     handles, labels = left.get_legend_handles_labels()
     names = 2 if look.narrow else 4
     figure.legend(
@@ -117,14 +114,15 @@ def _set(figure: Figure, look: Look, rows_of_names: int, title: str) -> None:
 def _spread(figure: Figure, texts: Sequence[Text]) -> None:
     """Move labels that lie on an earlier one to the first free place about their points."""
     figure.draw_without_rendering()
-    taken: list[Bbox] = []
-    for text in texts:
-        for (x, y), across, up in PLACES if isinstance(text, Annotation) and text.get_ha() == "right" else ():
-            text.xyann = (x, y)
-            text.set(ha=across, va=up)
-            if not any(text.get_window_extent().overlaps(box) for box in taken):
+    sizes = [one for one in texts if isinstance(one, Annotation) and one.get_horizontalalignment() == "right"]
+    taken = [one.get_window_extent() for one in texts if one not in sizes]
+    for size in sizes:
+        for at, across, up in PLACES:
+            size.xyann = at
+            size.set(ha=across, va=up)
+            if not any(size.get_window_extent().overlaps(box) for box in taken):
                 break
-        taken.append(text.get_window_extent())
+        taken.append(size.get_window_extent())
 
 
 def _against_time(

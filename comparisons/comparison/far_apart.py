@@ -15,7 +15,6 @@ from comparisons.models.candidate import Candidate
 from comparisons.models.grids import scene_grid
 from comparisons.models.layers import layers
 from comparisons.models.springs import scene_springs
-from comparisons.report.amounts import percent
 from sheetbench.choices import listed
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.summary import few
@@ -48,7 +47,7 @@ def said(
     off = error(own, right)
     if off is None or off <= FAR:
         return "", False
-    start = f"{first.model} and {reference.model} both converged, {percent(off, 3)} apart: "
+    start = f"{first.model} and {reference.model} both converged, {100.0 * off:.3g} % apart: "
     known = reasons(scene, lattice, first, reference)
     because = f" ({'; '.join(known)})" if known else ""
     finer = None
@@ -66,7 +65,7 @@ def said(
     masses = "×".join(str(n) for n in finer.settings["grid"])
     if left < NEARER * off:
         return (
-            f"{start}the grid is too coarse, on {masses} masses it is {percent(left, 3)}{because}.",
+            f"{start}the grid is too coarse, on {masses} masses it is {100.0 * left:.3g} %{because}.",
             False,
         )
     if bar is not None and bar > UNKNOWN:

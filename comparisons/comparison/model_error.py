@@ -20,7 +20,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from comparisons.report.amounts import percent
 from sheetbench.scenes import Clamped, Curved, Scene, Solution, Status
 from sheetbench.scenes.summary import few
 
@@ -45,11 +44,11 @@ class ModelError:
 
     def __str__(self) -> str:
         parts = {"thickness": self.thickness, "law of strain": self.strain_law}
-        named = ", ".join(f"{name} {percent(part)}" for name, part in parts.items() if part > 0.0)
-        said = f"model error ± {percent(self.value)}" + (f" ({named})" if named else "")
+        named = ", ".join(f"{name} {_percent(part)}" for name, part in parts.items() if part > 0.0)
+        said = f"model error ± {_percent(self.value)}" + (f" ({named})" if named else "")
         if self.clamp > 0.0:
             other = "a clamp that holds the sheet's thickness too would change it by up to"
-            said += f"; {other} {percent(self.clamp)}"
+            said += f"; {other} {_percent(self.clamp)}"
         return said
 
     def as_dict(self) -> dict[str, float | dict[str, float]]:

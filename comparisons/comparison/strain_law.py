@@ -52,6 +52,7 @@ def said(scene: Scene, lattice: Candidate, solutions: tuple[Solution, ...], bar:
         return ""
     nearest = min(off, key=lambda name: off[name])
     remedy = "" if nearest == law else f" Nearest to this lattice is --law {nearest}."
+    by = 100.0 * off[law] * stretch
     return (
         f"At {few(100.0 * stretch)} % stretch the lattice's law of strain (links linear in their elongation) "
         f"and the {reference.model}'s ({law}) differ by up to {few(by)} %: not an error of the grid.{remedy}"

@@ -36,7 +36,8 @@ def report(comparison: Comparison, advice: Advice | None = None) -> Report:
     chosen = []
     if advice is not None:
         document["advice"] = advice.as_dict()
-        chosen = [f"The first model was chosen for {100 * (advice.tolerance or 0.0):g} %: {advice.reason}"]
+        percent = 100 * (advice.tolerance or 0.0)
+        chosen = [f"The first model was chosen for {percent:g} %: {advice.reason}"]
     moved, cost = displacements(comparison), costs(comparison)
     return Report(
         name="comparison",

@@ -16,12 +16,6 @@ def memory(amount: float) -> str:
     return f"{amount / unit:.2g} {name}" if amount < 100 * unit else f"{amount / unit:.0f} {name}"
 
 
-def percent(share: float, digits: int = 2) -> str:
-    """A share in percent, to so many digits, never as a power of ten: 110 %, not 1.1e+02 %."""
-    rounded = float(f"{100.0 * share:.{digits}g}")
-    return f"{rounded:.0f} %" if abs(rounded) >= 100.0 else f"{rounded:.{digits}g} %"
-
-
 def duration(seconds: float) -> str:
     """A time [s]."""
     if seconds < 90:

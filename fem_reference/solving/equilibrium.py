@@ -81,11 +81,12 @@ def trace(
     with one_blas_thread():
         path = Path(structure.rest(), limit=limit, progress=progress, alike=ALIKE * slenderness**2)
         ended: StepFailed | Fault | None = None
-        careful = False
+        careful, reached = False, None
         if near is None or not _arrived(structure, solver, path, inspect, near):
             ended = _follow(structure, solver, path, inspect)
             careful = not isinstance(ended, Fault) and doubtful(structure, solver, path)
             if careful:
+                reached = path.state if ended is None else None
                 path.state, path.load_factor, path.factor = structure.rest(), 0.0, None
                 path.limit += CAREFUL
                 ended = _follow(structure, solver, path, inspect, careful)
@@ -103,6 +104,13 @@ def trace(
                     ended = following
                     continue
             ended = _give_up(structure, solver, path, ended, tried)
+        if ended is not None and reached is not None:
+            if path.load_factor > 0.0:
+                path.notes.append(
+                    f"small load steps end at load factor {path.load_factor:.4g}: this equilibrium, which "
+                    "large ones led to, may be on another branch"
+                )
+            path.state, path.load_factor, path.factor, ended = reached, 1.0, None, None
         path.fault = ended
         path.status, said = ended or stability(structure, solver, path)
         if buckled and settle is not None and ended is None and path.status is Status.UNSTABLE:

@@ -29,8 +29,8 @@ class Reached(Protocol[Linear]):
 
 def doubtful(structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> bool:
     """Whether large load steps may have led to another branch: where the equilibrium is unstable, or took
-    long to find."""
-    if not structure.symmetric or path.load_factor == 0.0:
+    long to find. A path that is one linear step, without a correction, has jumped over nothing."""
+    if not structure.symmetric or path.load_factor == 0.0 or path.factorisations == 1:
         return False
     return path.factorisations > DOUBTFUL or stability(structure, solver, path)[0] is Status.UNSTABLE
 

@@ -271,3 +271,14 @@ def test_a_questions_own_warnings_stand_before_those_about_its_scene(
         with finish("identify", json=True, out=None) as end:
             end(Report("identification", "t", {"warnings": ["a poor fit"]}))
     assert json.loads(capsys.readouterr().out)["warnings"] == ["a poor fit", "young = 54.5 Pa"]
+
+
+def test_what_compiling_took_is_said_before_the_remarks_which_may_end_in_a_command(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("comparisons.cli.finish.clock.compiled", lambda: 23.2)
+    with finish("advise", json=False, out=None) as end:
+        end(Report("advice", "t", {}, notes=("Solve it with:", "sheetbench compare x")))
+    *_, compiled, before, command = capsys.readouterr().out.splitlines()
+    assert compiled.startswith("Kernels were compiled, once on this machine: 23.2 s")
+    assert (before, command) == ("Solve it with:", "sheetbench compare x")

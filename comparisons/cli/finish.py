@@ -139,12 +139,12 @@ class End:
             console.show(table)
             if table.text:
                 console.note(table.text)
-        for said in report.notes:
-            console.note(said)
         if (spent := clock.compiled()) > COMPILED:
             console.note(
-                f"Kernels were compiled, once on this machine: {spent:.3g} s, in none of the times above."
+                f"Kernels were compiled, once on this machine: {spent:.3g} s, in none of the times shown."
             )
+        for said in report.notes:  # last: they may end in a command to copy
+            console.note(said)
         if self._folder is not None:
             written = [*self._folder.written, "manifest.json", *self._also]
             console.note(f"Files in {self._folder.path}: {', '.join(written)}")

@@ -12,6 +12,8 @@ import pytest
 from commands import one_line, run
 
 from comparisons.report.files import folder
+from comparisons.report.report import Report
+from comparisons.runs.folder import Folder
 from sheetbench.files import only_writer, require_file, whole, writing
 from sheetbench.scenes import BadInput
 
@@ -75,12 +77,14 @@ def test_a_link_planted_where_a_file_is_prepared_is_not_followed(tmp_path: Path)
 def test_verbs_that_write_one_file_replace_no_other_kind(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], asked: tuple[str, ...], kind: str
 ) -> None:
-    path = tmp_path / "page.toml"
+    studies, path = tmp_path / "studies", tmp_path / "pages" / "page.toml"
+    Folder(studies, "modes", ["sheetbench", "modes"]).report(Report("modes", "t", {}))
+    path.parent.mkdir()
     stand(path, kind)
     before = path.lstat()
-    assert run(*(word.format(folder=tmp_path, file=path) for word in asked)) == 2
+    assert run(*(word.format(folder=studies, file=path) for word in asked)) == 2
     assert f"{path}: cannot be written, a " in one_line(capsys)
-    assert path.lstat() == before and [found.name for found in tmp_path.iterdir()] == ["page.toml"]
+    assert path.lstat() == before and [found.name for found in path.parent.iterdir()] == ["page.toml"]
 
 
 def test_what_killed_writers_left_is_cleared_and_what_living_ones_write_is_not(tmp_path: Path) -> None:

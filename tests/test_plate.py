@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from math import cosh, pi, tanh
 
 import numpy as np
@@ -10,10 +11,11 @@ from skfem import Functional, MeshQuad
 
 from fem_reference.plate import statics as plate
 from fem_reference.plate.element import TILT_X, TILT_Y, UX, UY, W
+from fem_reference.surface.location import locate
 from fem_reference.verification.manufactured_plate import share
 from sheetbench import scenes
 from sheetbench.numerics.direct import solve_free
-from sheetbench.scenes import EDGES, Material, Scene, Sheet, Status
+from sheetbench.scenes import EDGES, BadInput, Material, Scene, Sheet, Status
 
 MATERIAL = Material(young=1.0e7, poisson=0.3, density=1000.0)
 
@@ -318,3 +320,9 @@ def test_divided_evenly_where_all_edges_hold_the_director():
     assert not plate.solve(sheet_on(dict.fromkeys(EDGES, "clamped")), 2).settings["graded"]
     hard = plate.solve(sheet_on(dict.fromkeys(EDGES, "hinged")), 2, hard_edges=tuple(EDGES))
     assert not hard.settings["graded"] and hard.settings["hard_edges"] == list(EDGES)
+
+
+def test_of_many_points_the_first_one_off_the_sheet_is_named():
+    mesh, points = MeshQuad.init_tensor(*2 * [np.linspace(0.0, 1.0, 4)]), np.array([[0.1, 0.1], [0.9, 0.9]])
+    with pytest.raises(BadInput, match=re.escape("plan point (0.9, 1.25) is off the sheet")):
+        locate(mesh, np.vstack([points, [[0.9, 1.25], [2.0, 0.5]]]))

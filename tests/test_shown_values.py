@@ -21,6 +21,7 @@ from comparisons.reproduction.tables import nearest
 from comparisons.runs.store import Finished
 from comparisons.stability import STUDIES
 from comparisons.tradeoff import statics
+from comparisons.tradeoff.tables import rows as statics_rows
 from sheetbench import scenes
 
 PUBLISHED = Path(__file__).parent.parent / "docs" / "stability"
@@ -36,6 +37,13 @@ def test_a_modulus_is_off_its_target_by_the_difference() -> None:
     calibration = {"moduli": [modulus], "springs": {}, "grid": [3, 3, 2]}
     row = shown(moduli(calibration))
     assert float(row["off target by"].replace("−", "-")) == -25.0
+
+
+def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front() -> None:
+    table = statics_rows(SimpleNamespace(rows=[], front=[]))  # type: ignore[arg-type]
+    assert [column.name for column in table.brief().columns] == [
+        "row", "model", "size", "unknowns", "solve", "memory", "error", "field error", "front",
+    ]  # fmt: skip
 
 
 def test_a_pole_is_shown_in_hertz_and_its_damping_in_percent() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import subprocess
 import tomllib
 from dataclasses import replace
 from pathlib import Path
@@ -44,6 +45,17 @@ def folder(comparison: Comparison, tmp_path_factory: pytest.TempPathFactory) -> 
     kept.report(replace(comparison.report(), pictures=()))
     assert sorted([*kept.written, "manifest.json"]) == sorted(path.name for path in place.iterdir())
     return place
+
+
+@pytest.mark.parametrize("fault", [OSError(), subprocess.TimeoutExpired("trial", 120)], ids=["start", "end"])
+def test_no_picture_where_the_trial_of_drawing_does_not_start_or_end(
+    fault: Exception, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def run(*_: object, **__: object) -> None:
+        raise fault
+
+    monkeypatch.setattr(subprocess, "run", run)
+    assert "off-screen drawing does not work" in (rendering.why_not.__wrapped__() or "")
 
 
 @pytest.mark.parametrize("name", ["lumped", "shell", "lumped-uniform", "comparison"])

@@ -54,8 +54,10 @@ def test_many_scenes_with_springs_of_their_own_or_one_for_all():
         same(answer, lumped.solve(scene, own))
     for answer, scene in zip(lumped.solve_many(scenes), scenes, strict=True):
         same(answer, lumped.solve(scene))
-    for answer, scene in zip(lumped.solve_many(scenes, SPRINGS, linear=True), scenes, strict=True):
+    linear = lumped.solve_many(scenes, SPRINGS, linear=True)
+    for answer, scene in zip(linear, scenes, strict=True):
         same(answer, lumped.solve(scene, SPRINGS, linear=True))
+    assert linear.alone == (0, 1, 2)  # batches do not know the option
 
 
 def test_a_case_that_fails_costs_no_other():

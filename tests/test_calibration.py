@@ -1,5 +1,7 @@
 """Calibrations: closed form against homogenisation, numerical and by imposed strains; the moduli reports."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -7,7 +9,7 @@ import lumped
 from comparisons.calibration import tables
 from lumped import moduli
 from lumped.assembly import Assembly
-from lumped.calibration.report import report
+from lumped.calibration.report import _admissible, report
 from sheetbench import scenes
 from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
 
@@ -226,3 +228,8 @@ def test_the_table_shows_the_sheets_shear_stiffness_beside_the_grids():
     assert shown["Sx"][2:5] == (row["kappa_G_h"], row["asked"], row["got"])
     assert row["asked"] == pytest.approx(0.562, abs=5e-4)
     assert shown["D11"][2] == shown["D11"][3]
+
+
+def test_area_springs_of_nothing_need_no_note():
+    none, negative = (SimpleNamespace(area=0.0, mid_area=value) for value in (0.0, -1.0))
+    assert _admissible(none) == () != _admissible(negative)

@@ -5,7 +5,9 @@ import pytest
 from cases import WEIGHT, with_material
 
 import lumped
+from lumped.statics.equilibrium import StepFailed, corrected
 from lumped.statics.limits import DOUBTFUL
+from lumped.statics.solver import pose
 from sheetbench import scenes
 from sheetbench.scenes import (
     Clamped,
@@ -285,3 +287,21 @@ def test_scipy_alone_gives_the_same_answer(monkeypatch):
     fallback = solve(scene, (17, 17))
     assert fallback.status is Status.CONVERGED and fallback.iterations == usual.iterations
     assert vertical(scene, fallback) == pytest.approx(vertical(scene, usual), rel=1e-9)
+
+
+def test_an_answer_says_where_its_lines_and_layers_are():
+    scene = SEED["two-edges-clamped"]
+    springs = lumped.calibrate(scene.sheet, scene.material, 5, grading=0.5)
+    settings = lumped.solve(scene, springs).settings
+    assert (settings["layer_distance"], settings["grading"]) == (springs.layer_distance, 0.5)
+
+
+def test_corrections_that_lead_far_away_end_at_once():
+    """From rest to a thousand times the load at which the sheet tears: one correction tells."""
+    scene = SEED["two-edges-clamped"]
+    heavy = scene.model_copy(update={"gravity": Gravity(acceleration=(0.0, 0.0, -1e7))})
+    problem = pose(heavy, lumped.calibrate(scene.sheet, scene.material, 5))
+    rest = np.zeros_like(problem.loads.dead)
+    with pytest.raises(StepFailed, match="the corrections grow"):
+        corrected(problem, rest, problem.assembly.extrapolated(rest, rest), 1.0, rest)
+    assert problem.factorisations == 1

@@ -14,6 +14,7 @@ from comparisons.advice import probing
 from comparisons.calibration.tables import moduli
 from comparisons.linearisation.tables import poles
 from comparisons.models.candidate import Candidate
+from comparisons.pages import plots
 from comparisons.report.look import PLAIN
 from comparisons.report.table import Table
 from comparisons.reproduction import figure
@@ -44,6 +45,15 @@ def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front() -> None:
     assert [column.name for column in table.brief().columns] == [
         "row", "model", "size", "unknowns", "solve", "memory", "error", "field error", "front",
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize("values, shown", [
+    ([1.0, 3.0], (0.9, 3.1)), ([4.0, 4.0], (2.0, 6.0)), ([0.0], (-1.0, 1.0)),
+])  # fmt: skip
+def test_an_axis_has_room_beside_its_values_also_where_they_are_one(
+    values: list[float], shown: tuple[float, float]
+) -> None:
+    assert plots._span(values, False) == pytest.approx(shown)
 
 
 def test_a_pole_is_shown_in_hertz_and_its_damping_in_percent() -> None:

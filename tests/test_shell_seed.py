@@ -214,3 +214,11 @@ def test_meshes_are_near_square_and_graded_ones_are_finer_at_the_edges():
         }
     x = np.unique(mesh.p[0])
     assert x[1] < 0.5 * (x[9] - x[8]) and x[-1] - x[-2] == pytest.approx(x[1])
+
+
+def test_a_path_whose_steps_were_halved_takes_longer_ones_again():
+    """75 factorisations; 286 were easy steps followed by no longer ones."""
+    scene = scenes.load("one-edge-clamped")
+    heavy = scene.model_copy(update={"gravity": Gravity(acceleration=(0.0, 0.0, -30.0 * 9.81))})
+    found = solve(heavy, 2)
+    assert found.status is Status.CONVERGED and found.iterations < 150

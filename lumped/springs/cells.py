@@ -22,12 +22,11 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from lumped.springs.cell_blocks import add_blocks, both, by_sides, to_diagonals
 from lumped.springs.laws import Four, Six, Three, area_and_strains, mean_area_and_strains, stiffness
 from lumped.springs.vectors import Vector, dot, less, plus, times
 
 HALF = 0.5
-Pair = tuple[Vector, Vector]
-Rows = tuple[Pair, Pair, Pair]
 
 
 @njit(cache=True, error_model="numpy")
@@ -266,11 +265,11 @@ def add_tangent(
         s = times(share, s) if own else (stress[c, 0], stress[c, 1], stress[c, 2])
         k = stiffness(plus(g, d), t, square, share, q)
         rows = (
-            _by_sides((k[0], k[3], k[4]), a, b),
-            _by_sides((k[3], k[1], k[5]), a, b),
-            _by_sides((k[4], k[5], k[2]), a, b),
+            by_sides((k[0], k[3], k[4]), a, b),
+            by_sides((k[3], k[1], k[5]), a, b),
+            by_sides((k[4], k[5], k[2]), a, b),
         )
-        _to_diagonals(s, a, b, rows, in_diagonals)
+        to_diagonals(s, a, b, rows, in_diagonals)
         add_blocks(in_diagonals, nodes.shape[2], slots[c], blocks)
 
 
@@ -308,57 +307,9 @@ def add_damping_tangent(
         r2 = plus(times(n[1], h), (growing, 0.0, 0.0))
         r3 = plus(times(n[2], h), (0.0, 0.0, -2.0 * growing))
         rows = (
-            _both(_by_sides(r1, a, b), _by_sides((k[0], k[3], k[4]), va, vb)),
-            _both(_by_sides(r2, a, b), _by_sides((k[3], k[1], k[5]), va, vb)),
-            _both(_by_sides(r3, a, b), _by_sides((k[4], k[5], k[2]), va, vb)),
+            both(by_sides(r1, a, b), by_sides((k[0], k[3], k[4]), va, vb)),
+            both(by_sides(r2, a, b), by_sides((k[3], k[1], k[5]), va, vb)),
+            both(by_sides(r3, a, b), by_sides((k[4], k[5], k[2]), va, vb)),
         )
-        _to_diagonals(times_six(k, moving), a, b, rows, in_diagonals)
+        to_diagonals(times_six(k, moving), a, b, rows, in_diagonals)
         add_blocks(in_diagonals, nodes.shape[2], slots[c], blocks)
-
-
-@njit(cache=True, error_model="numpy")
-def _by_sides(d: Three, a: Vector, b: Vector) -> Pair:
-    """The derivatives by a and by b of what has the derivative d by g, g that of sides a and b."""
-    return plus(times(2.0 * d[0], a), times(d[2], b)), plus(times(2.0 * d[1], b), times(d[2], a))
-
-
-@njit(cache=True, error_model="numpy")
-def _both(one: Pair, other: Pair) -> Pair:
-    """The sum of two pairs of vectors."""
-    return plus(one[0], other[0]), plus(one[1], other[1])
-
-
-@njit(cache=True, error_model="numpy")
-def _to_diagonals(stress: Three, a: Vector, b: Vector, rows: Rows, out: np.ndarray) -> None:
-    """The tangent of a cell in its diagonals, (4, 9) of (d1, d1), (d1, d2), (d2, d1), (d2, d2), from the
-    derivatives of S₁, S₂, S₃ by the sides: that in a and b, with a = (d1 − d2)/2 and b = (d1 + d2)/2."""
-    (s1a, s1b), (s2a, s2b), (s3a, s3b) = rows
-    s1, s2, s3 = 0.5 * stress[0], 0.5 * stress[1], 0.25 * stress[2]
-    for q in range(3):
-        x, y = a[q], b[q]
-        x2, y2, x1, y1 = 0.5 * x, 0.5 * y, 0.25 * x, 0.25 * y
-        for r in range(3):
-            aa, ab = x2 * s1a[r] + y1 * s3a[r], x2 * s1b[r] + y1 * s3b[r]
-            ba, bb = y2 * s2a[r] + x1 * s3a[r], y2 * s2b[r] + x1 * s3b[r]
-            if q == r:
-                aa, bb, ab, ba = aa + s1, bb + s2, ab + s3, ba + s3
-            at = 3 * q + r
-            out[0, at] = bb + aa + (ab + ba)
-            out[1, at] = bb - aa + (ab - ba)
-            out[2, at] = bb - aa - (ab - ba)
-            out[3, at] = bb + aa - (ab + ba)
-
-
-@njit(cache=True, error_model="numpy")
-def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, blocks: np.ndarray) -> None:
-    """Add a tangent in a cell's diagonals, (4, 9), to the blocks of its corners, each a mean of p masses."""
-    flat, share = blocks.reshape(-1, 9), 1.0 / (p * p)
-    for corner in range(4):
-        for other in range(4):
-            part = in_diagonals[2 * (corner % 2) + other % 2]
-            sign = share if (corner < 2) == (other < 2) else -share
-            for s in range(p):
-                for t in range(p):
-                    block = flat[np.uint64(slots[corner * p + s, other * p + t])]
-                    for e in range(9):
-                        block[e] += sign * part[e]

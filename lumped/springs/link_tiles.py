@@ -1,4 +1,4 @@
-"""Links and their dampers by tiles: the forces of `lumped.springs.links`, `directional` and `link_dampers`.
+"""Links and their dampers by tiles: the forces of `lumped.springs.links` and `directional`.
 
 With r = d0 + du, the relative position, n = r/|r| and L the rest length, a link pulls with k (|r| − L) n, and
 its damper with c (n·dv) n. Rows of rest data: d0, L, c, k; of the per-direction law three k. Kept of every

@@ -1,0 +1,65 @@
+"""From the derivatives of a cell's stress to the blocks of its tangent, as compiled functions.
+
+With a = (d1 − d2)/2 and b = (d1 + d2)/2 the mean sides, d1 and d2 the diagonals, the derivative of a cell's
+forces (`lumped.springs.cells`) is written in the diagonals first: (4, 9) of (d1, d1), (d1, d2), (d2, d1) and
+(d2, d2), each a 3×3 matrix by rows. A corner's part is one of these, with a sign.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from lumped.springs.laws import Three
+from lumped.springs.vectors import Vector, plus, times
+
+Pair = tuple[Vector, Vector]
+Rows = tuple[Pair, Pair, Pair]
+
+
+@njit(cache=True, error_model="numpy")
+def by_sides(d: Three, a: Vector, b: Vector) -> Pair:
+    """The derivatives by a and by b of what has the derivative d by g, g that of sides a and b."""
+    return plus(times(2.0 * d[0], a), times(d[2], b)), plus(times(2.0 * d[1], b), times(d[2], a))
+
+
+@njit(cache=True, error_model="numpy")
+def both(one: Pair, other: Pair) -> Pair:
+    """The sum of two pairs of vectors."""
+    return plus(one[0], other[0]), plus(one[1], other[1])
+
+
+@njit(cache=True, error_model="numpy")
+def to_diagonals(stress: Three, a: Vector, b: Vector, rows: Rows, out: np.ndarray) -> None:
+    """The tangent of a cell in its diagonals, (4, 9) of (d1, d1), (d1, d2), (d2, d1), (d2, d2), from the
+    derivatives of S₁, S₂, S₃ by the sides: that in a and b, with a = (d1 − d2)/2 and b = (d1 + d2)/2."""
+    (s1a, s1b), (s2a, s2b), (s3a, s3b) = rows
+    s1, s2, s3 = 0.5 * stress[0], 0.5 * stress[1], 0.25 * stress[2]
+    for q in range(3):
+        x, y = a[q], b[q]
+        x2, y2, x1, y1 = 0.5 * x, 0.5 * y, 0.25 * x, 0.25 * y
+        for r in range(3):
+            aa, ab = x2 * s1a[r] + y1 * s3a[r], x2 * s1b[r] + y1 * s3b[r]
+            ba, bb = y2 * s2a[r] + x1 * s3a[r], y2 * s2b[r] + x1 * s3b[r]
+            if q == r:
+                aa, bb, ab, ba = aa + s1, bb + s2, ab + s3, ba + s3
+            at = 3 * q + r
+            out[0, at] = bb + aa + (ab + ba)
+            out[1, at] = bb - aa + (ab - ba)
+            out[2, at] = bb - aa - (ab - ba)
+            out[3, at] = bb + aa - (ab + ba)
+
+
+@njit(cache=True, error_model="numpy")
+def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, blocks: np.ndarray) -> None:
+    """Add a tangent in a cell's diagonals, (4, 9), to the blocks of its corners, each a mean of p masses."""
+    flat, share = blocks.reshape(-1, 9), 1.0 / (p * p)
+    for corner in range(4):
+        for other in range(4):
+            part = in_diagonals[2 * (corner % 2) + other % 2]
+            sign = share if (corner < 2) == (other < 2) else -share
+            for s in range(p):
+                for t in range(p):
+                    block = flat[np.uint64(slots[corner * p + s, other * p + t])]
+                    for e in range(9):
+                        block[e] += sign * part[e]

@@ -42,7 +42,7 @@ def page() -> str:
 def promises(rows: dict[str, list[Row]]) -> dict[str, bool]:
     """What the prose says without a figure, and whether it is so."""
     every = [row for study in rows.values() for row in study]
-    slender = rows["slenderness"]
+    slender, loads = rows["slenderness"], rows["load"]
     foil = [r["single status"] for r in slender if r["single status"] and _number(r, "slenderness") < 2e-5]
     midpoint = [r for r in rows["time-step"] if r["integrator"] == "midpoint" and r["energy drift"]]
     return {
@@ -52,6 +52,9 @@ def promises(rows: dict[str, list[Row]]) -> dict[str, bool]:
         ),
         "one edge clamped, none is": all(r["clamped"] == "2" for r in _far(slender)),
         "in single precision 1e-5 and 1e-6 are unstable": set(foil) == {"unstable"},
+        "pressed, both bend and are stable": all(
+            r["status"] == r["reference"] == "converged" for r in loads if r["kind"] == "compression"
+        ),
         "midpoint loses no energy": all(abs(_number(r, "energy drift")) < 1e-9 for r in midpoint),
         "uneven masses drift by less than 1e-9": all(
             abs(_number(r, "energy drift")) < 1e-9 for r in rows["mass"] if r["energy drift"]
@@ -111,6 +114,10 @@ def figures(rows: dict[str, list[Row]]) -> dict[str, str]:
         "narrow": _within(_worst(r for r in grids if r["status"] == "unstable")),
         "distorted": f"{math.ceil(10.0 * _times_regular(distorted)) / 10.0:.1f}",
         "heavy": _percent(at(loads, kind="weight", size="100.0")),
+        "barely": _percent(at(loads, kind="compression", size="1.2")),
+        "pressed": _within(
+            _worst(r for r in loads if r["kind"] == "compression" and _number(r, "size") >= 1.5)
+        ),
         "pulled": _percent(at(loads, kind="pull", size="0.1")),
         "oscillator": _within(
             _worst(r for r in damped if r["integrator"] in ("generalised-alpha", "midpoint"))

@@ -3,9 +3,8 @@
 weight       Habibi et al.'s sheet, one edge clamped, from 1e-6 g to 1e3 g; ρ g a/E = 0.05 ends the model
 reversed     the same weight up and down: mirror images, to rounding
 compression  the clamped-free strip pressed along x up to ten times its Euler load π² E h³/48a² (per width),
-             with a weight that chooses the side. In one load step both models come to the equilibrium that
-             hardly bends, and say that it is not stable
-buckled      the same, the lattice asked for a stable equilibrium
+             with a slight weight that chooses the side: both models bend to it
+buckled      the same, the lattice asked for a stable equilibrium: the same one
 pull         the free edge pulled in its plane until the sheet doubles in length: a linear strip would at
              N = E h; strains beyond one half are outside of the model. Before, the two models differ by their
              laws: springs are linear in the change of length, the shell in Green's strain
@@ -128,14 +127,14 @@ def draw(figure: Figure, rows: list[Row]) -> None:
 STUDY = Study(
     name="load",
     title="Loads: weight, compression and pull (one edge clamped, h/a = 0.016, 9×9×2)",
-    says="Weight from 1e-6 g to 1e3 g; in-plane compression up to ten Euler loads, where one load step ends "
-    'at the equilibrium that hardly bends and says that it is not stable (`buckled`: with branch = "stable", '
-    "which leaves it); a pull on the edge up to one and a half times what doubles the length, and on a point "
-    "of it; weights reversed (`error`: of the mirror image). Boundaries: ρ g a/E = 0.05; the Euler load of "
-    "the clamped-free strip, as a beam and as a wide plate; links stretched by half. Pulled, the two models "
-    "stand for different materials: springs are linear in the change of length, the shell in Green's strain, "
-    "which hardens (a wrong limit, by as much as the strain). Under a point force the shell's exact answer "
-    "is infinite, and each grid and mesh has its own.",
+    says="Weight from 1e-6 g to 1e3 g; in-plane compression up to ten Euler loads, where a slight weight "
+    'chooses the side that both models bend to (`buckled`: with branch = "stable", which finds the '
+    "same); a pull on the edge up to one and a half times what doubles the length, and on a point of "
+    "it; weights reversed (`error`: of the mirror image). Boundaries: ρ g a/E = 0.05; the Euler load of "
+    "the clamped-free strip, as a beam and as a wide plate; links stretched by half. Pulled, the two "
+    "models stand for different materials: springs are linear in the change of length, the shell in "
+    "Green's strain, which hardens (a wrong limit, by as much as the strain). Under a point force the "
+    "shell's exact answer is infinite, and each grid and mesh has its own.",
     cells=cells,
     measure="stability.load",
     columns=(Column("kind"), Column("size", form="g"), Column("moved", "side", "%", 100.0, ".3g")),

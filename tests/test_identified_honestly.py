@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import log
+from types import SimpleNamespace
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -16,6 +17,7 @@ from comparisons.identification import starts
 from comparisons.identification.figure import compose
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, Surface
+from comparisons.identification.outliers import outliers
 from comparisons.identification.prediction import Prediction
 from comparisons.identification.residual_test import UNLIKELY, explained, runs
 from comparisons.identification.starts import Fit, nearest
@@ -144,6 +146,21 @@ def test_a_slip_of_the_pen_is_named_by_its_line(tmp_path):
     assert low < SEED.material.young < high and high / low < 1.04
     clean = identify(SEED, Displacements(POINTS, noisy(solved(SEED), 5)), grid=3, refine=False)
     assert not clean.outliers and clean.explained and not clean.warnings
+
+
+@pytest.mark.parametrize("rows, named", [(16, [3, 7]), (15, [])])
+def test_one_row_in_eight_may_be_left_out(rows, named):
+    """Two slips, one as large as the other, are told from noise together alone."""
+    residuals = 1e-3 * np.random.default_rng(1).uniform(-1.0, 1.0, (rows, 3))
+    residuals[[3, 7], 2] = 1.0
+    measured = Displacements(np.zeros((rows, 2)), np.zeros((rows, 3)))
+    same = SimpleNamespace(
+        measured=measured,
+        misfit=lambda: SimpleNamespace(per_point=lambda of: of),
+        search=lambda x, rest: SimpleNamespace(x=x),
+        residuals=lambda x: residuals,
+    )
+    assert [found.row for found in outliers(same, SimpleNamespace(residuals=residuals, x=None))] == named
 
 
 def test_the_fit_chooses_cells_that_are_small_beside_the_noise():

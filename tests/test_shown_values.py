@@ -92,6 +92,7 @@ def test_the_picture_of_settling_is_in_millimetres_over_the_static_answer() -> N
         moved, rest = panel.lines[:2]
         np.testing.assert_allclose(moved.get_ydata(), [0.0, 1.0 + axis])
         np.testing.assert_allclose(rest.get_ydata(), 4.0 + axis)
+    assert [panel.get_xlabel() for panel in panels] == ["", "", "time [s]"]
 
 
 def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used() -> None:

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Mapping
+from inspect import signature
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+import fem_reference
+import lumped
 from comparisons.advice import probing
 from comparisons.calibration.tables import moduli
+from comparisons.cli import modes
 from comparisons.linearisation.tables import poles
 from comparisons.models.candidate import Candidate
+from comparisons.modes.spectra import spectra
 from comparisons.pages import plots
 from comparisons.report.look import PLAIN
 from comparisons.report.table import Table
@@ -22,6 +27,7 @@ from comparisons.reproduction.tables import nearest
 from comparisons.runs.store import Finished
 from comparisons.stability import STUDIES
 from comparisons.tradeoff import statics
+from comparisons.tradeoff.motion import DynamicTradeoff
 from comparisons.tradeoff.tables import rows as statics_rows
 from sheetbench import scenes
 
@@ -45,6 +51,18 @@ def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front() -> None:
     assert [column.name for column in table.brief().columns] == [
         "row", "model", "size", "unknowns", "solve", "memory", "error", "field error", "front",
     ]  # fmt: skip
+
+
+def test_a_front_without_a_bar_has_every_row_that_errs_less_for_more_time() -> None:
+    rows = [SimpleNamespace(error=e, seconds_per_second=t) for e, t in ((0.2, 1.0), (0.1, 2.0), (0.1, 3.0))]
+    for bar, front in ((None, [0, 1]), (0.5, [0])):
+        found = SimpleNamespace(rows=rows, uncertainty=bar)
+        assert DynamicTradeoff.front.fget(found) == front  # type: ignore[attr-defined]
+
+
+def test_unless_told_otherwise_functions_and_commands_ask_for_as_many_modes() -> None:
+    asked = (spectra, lumped.modes, fem_reference.modes, modes.command)
+    assert [signature(call).parameters["count"].default for call in asked] == [10] * 4
 
 
 @pytest.mark.parametrize("values, shown", [

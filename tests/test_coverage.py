@@ -59,6 +59,15 @@ def test_a_component_is_inside_where_its_error_is_below_its_bar() -> None:
     assert all(found(0.0)) and found(-0.1).count(False) == 1
 
 
+def test_what_is_complained_of_is_what_is_not_met() -> None:
+    held, missed = (
+        study.Component("a", model, 8, "P", "uz", answer=2.0, truth=1.0, bar=bar, order=2.0)
+        for model, bar in (("plate", 2.0), ("shell", 0.5))
+    )
+    (said,) = study.Coverage((held, missed), ("a",), {}, {}).report().complaints
+    assert said.startswith("shell, 8 elements: 0.0 % inside")
+
+
 def test_bars_of_plate_and_shell_hold_on_six_drawn_scenes(store: Store) -> None:
     """Of a seed that the rule was set on: as many as all forty shall have, but for three of a hundred, which
     six scenes' chance may take."""

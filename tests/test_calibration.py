@@ -9,9 +9,9 @@ import lumped
 from comparisons.calibration import tables
 from lumped import moduli
 from lumped.assembly import Assembly
-from lumped.calibration.report import _admissible, report
+from lumped.calibration.report import _admissible, _require_positive, report
 from sheetbench import scenes
-from sheetbench.scenes import Material, PerDirection, Sheet, SpringSet
+from sheetbench.scenes import BadInput, Material, PerDirection, Sheet, SpringSet
 
 SEED = scenes.load("two-edges-clamped")
 RIGIDITY = 54.5e6 * 0.003**3 / 12 / (1 - 0.48**2)
@@ -233,3 +233,10 @@ def test_the_table_shows_the_sheets_shear_stiffness_beside_the_grids():
 def test_area_springs_of_nothing_need_no_note():
     none, negative = (SimpleNamespace(area=0.0, mid_area=value) for value in (0.0, -1.0))
     assert _admissible(none) == () != _admissible(negative)
+
+
+def test_a_bend_that_costs_nothing_is_refused():
+    springs = SimpleNamespace(area=-1.0, mid_area=0.0)
+    costless = SimpleNamespace(membrane=np.eye(3), bending=np.diag([1.0, 1.0, 0.0]))
+    with pytest.raises(BadInput, match="the cell's energy is not positive"):
+        _require_positive(springs, costless)

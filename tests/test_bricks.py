@@ -63,6 +63,7 @@ def test_a_clamp_lets_a_column_stretch_along_its_director_alone(bricks: Bricks) 
     curved = changed(supports=(Curved(edge="x0", curvature=4.0),))
     for scene in (SEED, curved, changed(supports=(Clamped(edge="x0", tilt=0.3),))):
         rows = held(scene, bricks)
+        assert rows.fixed.shape == rows.value.shape == bricks.positions.shape
         nodes = bricks.edge("x0")
         middle = bricks.sites[nodes, 2] == bricks.middle
         assert np.all(rows.fixed[nodes][:, :2]) and np.all(rows.fixed[nodes, 2] == middle)

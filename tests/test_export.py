@@ -234,7 +234,7 @@ def test_what_files_cannot_say_is_refused_or_told(tmp_path: Path) -> None:
     free = Scene(name="free", sheet=SHEET, material=RUBBER, support=(Hinged(edge="x0"),))
     found = lumped.describe(free, spring_set(free, 3))
     assert [state.name for state in found.states] == ["stretched", "rolled"]
-    assert "rotation about y" in found.notes[0]
+    assert "rotation about edge x0" in found.notes[0]
     said = export(tmp_path, free, spring_set(free, 3))
     assert "no equilibrium to check by" in said
     assert "no equilibrium to check by" in (tmp_path / "README.md").read_text(encoding="utf-8")

@@ -230,7 +230,7 @@ def test_labels_of_close_points_do_not_lie_on_each_other(scene: Scene) -> None:
         assert not boxes["9"].overlaps(boxes["5:9"])
         names = [text.get_text() for text in drawn.legends[0].get_texts()]
         assert any(name.startswith("lumped consistent  (order ") for name in names)
-        assert drawn.axes[1].get_title(loc="left").endswith("observed over these grids")
+        assert drawn.axes[1].get_title(loc="left") == "Observed convergence"
 
 
 def test_latex_says_what_the_cells_say() -> None:

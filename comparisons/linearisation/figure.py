@@ -53,9 +53,9 @@ def compose(found: Linearisation, look: Look = PLAIN) -> Figure:
     phase.set_xlabel("frequency [Hz]")
     size.legend(frameon=False, fontsize=6.5, ncols=1 if look.narrow else 2)
     if look.titled:
-        named = plain(found.scene.title or found.scene.name, longest=60)
+        named = plain(found.scene.title or found.scene.name, longest=80)
         probed = f"{plain(probe, longest=20)} along z, the probe that moves most at rest"
-        size.set_title(f"{named}: {probed}", fontsize=8.5, loc="left")
+        size.set_title(f"{named}\n{probed}", fontsize=8.5, loc="left")
     return figure
 
 

@@ -74,7 +74,7 @@ def compose(tradeoff: Tradeoff, look: Look = PLAIN) -> Figure:
     if look.narrow:
         right.set_ylabel("error at the probes [%]")
     left.set_title("Error against time, and the front", fontsize=8, fontweight="bold", loc="left")
-    right.set_title("Convergence, observed over these grids", fontsize=8, fontweight="bold", loc="left")
+    right.set_title("Observed convergence", fontsize=8, fontweight="bold", loc="left")
     handles, labels = left.get_legend_handles_labels()
     names = 2 if look.narrow else 4
     figure.legend(
@@ -84,8 +84,8 @@ def compose(tradeoff: Tradeoff, look: Look = PLAIN) -> Figure:
         ncols=names,
         frameon=False,
         fontsize=7,
-        handlelength=2.6,
-        columnspacing=1.4,
+        handlelength=1.9 if look.narrow else 2.6,
+        columnspacing=0.8 if look.narrow else 1.4,
     )
     title = plain(tradeoff.scene.title or tradeoff.scene.name, longest=110) if look.titled else ""
     _set(figure, look, rows_of_names=-(-len(labels) // names), title=title)

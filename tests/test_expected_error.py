@@ -130,6 +130,12 @@ def test_in_plane_loads_have_no_error_of_bending() -> None:
     assert found[0] is not None and found[0] < 0.004 and found[1] is None
 
 
+def test_a_load_that_is_next_to_none_makes_no_layer() -> None:
+    """Its load number is rounded to none, which no power is taken of."""
+    scene = load("one-edge-clamped").replace(gravity=None, loads=[{"kind": "pressure", "value": 1e-320}])
+    assert not [layer for layer in layers(scene) if not layer.bent_edge]
+
+
 def _expected(scene: Scene) -> float | None:
     from comparisons.models.registry import answer
 

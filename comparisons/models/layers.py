@@ -40,7 +40,7 @@ def layers(scene: Scene) -> list[Layer]:
             width = np.sqrt(sheet.thickness / abs(curvature)) / (12.0 * (1.0 - material.poisson**2)) ** 0.25
             cause = f"edge {edge}, bent by {curvature:g} 1/m, stretches the sheet"
             found.append(Layer(float(width), cause, bent_edge=True))
-    if numbers.normal_load > 0.0:
+    if numbers.bending_number > 0.0:  # which a load of 1e-320 Pa has not
         width = min(sheet.lengths) * numbers.bending_number ** (-1.0 / 3.0)
         cause = f"its load of {numbers.normal_load:.3g} Pa bends the sheet"
         found.append(Layer(width, cause, bent_edge=False))

@@ -90,8 +90,8 @@ def test_dampers_ask_for_shapes_that_were_kept_or_find_them_anew(monkeypatch):
     system, state = start_of(CASES["both damped"])
     step = 0.8 * step_limit(system, state.u).step
     ends = []
-    for most, keeping in ((packing.KEPT, True), (0, False)):
-        monkeypatch.setattr(packing, "KEPT", most)
+    for most, keeping in ((packing.CACHE_LIMIT, True), (0, False)):
+        monkeypatch.setattr(packing, "CACHE_LIMIT", most)
         system, _ = start_of(CASES["both damped"])
         assert system.packing.keeping == keeping
         ends.append(INTEGRATORS["verlet"](system, step).march(state, step, STEPS)[0])

@@ -9,28 +9,30 @@ on over springs without stiffness.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from lumped.lattice import Lattice
+from lumped.pattern import ASKED, KEPT
 from lumped.springs import cell_tiles, link_tiles
 from lumped.springs.families import Cells, DirectionalLinks, Links
 from lumped.springs.family import Dampers, Family
 from lumped.springs.tiles import LANES, STRIDE, WIDTH
+from sheetbench.scenes.grid import Grid
 
 LINKS, DIRECTIONAL, CELLS = range(3)
 BLOCK = int(LANES)
-KEPT = 2**18  # numbers of all shapes at most: from beyond the caches they come slower than they are found
+CACHE_LIMIT = 2**18  # numbers of all shapes at most: from beyond the caches they come slower than anew
 BRIDGED = 4  # places at most from one spring of a run to the next
 ROWS = {LINKS: link_tiles.DATA, DIRECTIONAL: link_tiles.DATA, CELLS: cell_tiles.DATA}
-GEOMETRY = {LINKS: (0, 1, 2, 3), DIRECTIONAL: (0, 1, 2, 3), CELLS: tuple(range(10))}
 NOTHING = {  # rest data where there is no spring: a link or a cell of side 1 [m]
     LINKS: (1.0, 0.0, 0.0, 1.0),
     DIRECTIONAL: (1.0, 0.0, 0.0, 1.0),
     CELLS: (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0),
 }
+ODD = 2 * np.random.default_rng(0).integers(2**63, size=STRIDE, dtype=np.uint64) + np.uint64(1)  # of a hash
 
 
 class Packing(NamedTuple):
@@ -69,43 +71,47 @@ def scratch(packing: Packing) -> Scratch:
     return Scratch(np.zeros(size, kind), np.zeros(size, kind), np.zeros(size, kind), tile)
 
 
+class Topology(NamedTuple):
+    """Where springs of one kind stand, whatever their rest data. Those between the same masses are one:
+    number (m,) of each; of each (s,) its run and its place in it; runs (r, 5): blocks of springs, and the
+    first spring's masses."""
+
+    number: np.ndarray
+    run: np.ndarray
+    place: np.ndarray
+    runs: np.ndarray
+
+
 def pack(
     lattice: Lattice, springs: Sequence[Family], dampers: Sequence[Dampers], single: bool = False
 ) -> Packing:
     """Springs and dampers of a lattice. single: rest data, and with them all forces, in single precision."""
-    planes = np.moveaxis(lattice.columns(), 2, 0)
-    layers, plane, width = len(planes), planes[0].size, lattice.grid[0]
-    place = np.empty(layers * plane, dtype=int)
-    place[planes.ravel()] = np.arange(layers * plane)
-    mid = False
-    found: dict[int, list[tuple[np.ndarray, np.ndarray]]] = {LINKS: [], DIRECTIONAL: [], CELLS: []}
-    for family, damped in [*((s, False) for s in springs), *((d.family, True) for d in dampers)]:
-        nodes = place[family.nodes]
-        if nodes.ndim == 3:
-            mean = nodes.shape[2] > 1
-            mid = mid or mean
-            nodes = nodes[:, :, 0] % plane + layers * plane if mean else nodes[:, :, 0]
-        kind, data = _data(family, damped)
-        found[kind].append((nodes, data))
-    runs, rest, used = [], [np.empty(0)], 0
-    for kind, parts in found.items():
-        if not sum(len(nodes) for nodes, _ in parts):
+    nx, ny, layers = lattice.grid
+    plane = nx * ny
+    families = [*((family, False) for family in springs), *((each.family, True) for each in dampers)]
+    runs, rest, used, mid = [], [np.empty(0)], 0, False
+    for kind in ROWS:
+        parts = [part for part in families if len(part[0]) and _kind(part[0]) == kind]
+        if not parts:
             continue
-        nodes, data = _merged(kind, *(np.concatenate(part) for part in zip(*parts, strict=True)))
-        tables: dict[bytes, int] = {}
-        for of_run, table in _runs(kind, nodes, data, width, plane):
-            key = table.tobytes()
-            if key not in tables:
-                tables[key] = used
-                rest.append(table.ravel())
-                used += table.size
-            of_run[2] = tables[key]
-            runs.append(of_run)
-    table = np.array(runs, dtype=np.uint64).reshape(-1, 8)
+        nodes = {id(family.nodes): family.nodes for family, _ in parts}
+        mid = mid or any(part.ndim == 3 and part.shape[2] > 1 for part in nodes.values())
+        topology = _topology_of(lattice.grid, list(nodes.values()))
+        ends = np.cumsum([len(part) for part in nodes.values()])
+        number = dict(zip(nodes, np.split(topology.number, ends), strict=False))
+        data = np.zeros((ROWS[kind], len(topology.run)))
+        for family, damped in parts:
+            _add_data(family, damped, number[id(family.nodes)], data)
+        of_runs, tables = _tables(kind, topology, data)
+        begins = used + tables[0].size * of_runs
+        runs.append(np.column_stack([np.full(len(begins), kind), topology.runs, begins]))
+        rest.append(tables.ravel())
+        used += tables.size
+    table = np.concatenate([np.empty((0, 7), int), *runs])[:, [0, 1, 6, 2, 3, 4, 5, 6]].astype(np.uint64)
     table = table[np.argsort(table[:, 3] % plane, kind="stable")]  # masses stay in the fastest memory
     keeping, length = _place_shapes(table, bool(dampers))
     return Packing(
-        planes.ravel(),
+        _planes(lattice.grid),
         np.uint64(layers),
         np.uint64(plane),
         np.uint64(_in_blocks((layers + 1) * plane + BLOCK - 1) * BLOCK),
@@ -118,6 +124,11 @@ def pack(
     )
 
 
+def _planes(grid: Grid) -> np.ndarray:
+    """The mass at each place, plane by plane."""
+    return np.arange(grid[0] * grid[1] * grid[2]).reshape(-1, grid[2]).T.ravel()
+
+
 def _in_blocks(count: int) -> int:
     return -(-count // BLOCK)
 
@@ -127,64 +138,106 @@ def _place_shapes(runs: np.ndarray, damped: bool) -> tuple[bool, int]:
     there are too many; whether each has its own, and a tile's length."""
     rows = np.where(runs[:, 0] == CELLS, cell_tiles.SHAPE, link_tiles.SHAPE)
     before = np.append(0, np.cumsum(rows)).astype(int)
-    keeping = damped and STRIDE * int(before[-1]) <= KEPT
+    keeping = damped and STRIDE * int(before[-1]) <= CACHE_LIMIT
     runs[:, 7] = STRIDE * (cell_tiles.USED + before[:-1] * keeping)
     return keeping, STRIDE * (cell_tiles.USED + int(before[-1] if keeping else rows.max(initial=0)))
 
 
-def _data(family: Family, damped: bool) -> tuple[int, np.ndarray]:
-    """What the springs of a family are, and their rest data, (m, rows)."""
-    k = family.stiffness
+def _kind(family: Family) -> int:
+    """What the springs of a family are."""
+    if isinstance(family, Cells):
+        return CELLS
+    return DIRECTIONAL if isinstance(family, DirectionalLinks) else LINKS
+
+
+def _add_data(family: Family, damped: bool, at: np.ndarray, data: np.ndarray) -> None:
+    """Set the rest geometry, and add the constants, of a family's springs in rest data (rows, s) at their
+    numbers (m,)."""
     if isinstance(family, Links):
-        data = np.zeros((len(family), link_tiles.DATA))
-        data[:, :3], data[:, 3] = family.offset, family.rest_length
-        if isinstance(family, DirectionalLinks):
-            data[:, 5:8] = k
-            return DIRECTIONAL, data
-        data[:, 4 if damped else 5] = k
-        return LINKS, data
-    assert isinstance(family, Cells)
-    data = np.zeros((len(family), cell_tiles.DATA))
-    a, b = data[:, :3], data[:, 3:6] = family.sides[:, 0], family.sides[:, 1]
-    data[:, 6], data[:, 7], data[:, 8] = (a * a).sum(axis=1), (b * b).sum(axis=1), (a * b).sum(axis=1)
-    data[:, 9] = family.area
-    data[:, slice(14, 18) if damped else slice(10, 14)] = family.constants
-    return CELLS, data
+        rest = (*family.offset.T, family.rest_length)
+        constants = np.atleast_2d(family.stiffness.T)
+        first = 4 if damped else 5
+    else:
+        assert isinstance(family, Cells)
+        a, b = family.sides[:, 0], family.sides[:, 1]
+        rest = (*a.T, *b.T, *((x * y).sum(axis=1) for x, y in ((a, a), (b, b), (a, b))), family.area)
+        constants = family.constants.T
+        first = 14 if damped else 10
+    data[: len(rest), at] = rest
+    data[first : first + len(constants), at] += constants
 
 
-def _merged(kind: int, nodes: np.ndarray, data: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Springs (m, corners) and their data, those of the same masses in one; by distances, then in order."""
-    apart = nodes[:, 1:] - nodes[:, :1]
-    order = np.lexsort((nodes[:, 0], *apart.T))
-    nodes, data = nodes[order], data[order]
-    fresh = np.flatnonzero(np.append(True, (nodes[1:] != nodes[:-1]).any(axis=1)))
-    merged = np.add.reduceat(data, fresh, axis=0)
-    geometry = list(GEOMETRY[kind])
-    merged[:, geometry] = data[fresh][:, geometry]
-    return nodes[fresh], merged
+def _topology_of(grid: Grid, nodes: Sequence[np.ndarray]) -> Topology:
+    """The topology of springs (m, 2) or (m, 4, p) of one kind; a small lattice's is found once."""
+    if grid[0] * grid[1] * grid[2] > KEPT:
+        return _topology(grid, nodes)
+    key = grid, *((part.shape, part.tobytes()) for part in nodes)  # as `Pattern.among` keeps its own
+    if key not in _topologies:
+        if len(_topologies) == ASKED:
+            _topologies.clear()
+        _topologies[key] = _topology(grid, nodes)
+    return _topologies[key]
 
 
-def _runs(
-    kind: int, nodes: np.ndarray, data: np.ndarray, width: int, plane: int
-) -> Iterator[tuple[list[int], np.ndarray]]:
-    """Runs, where their rest data begin left out, and their rest data (rows, STRIDE)."""
-    first = nodes[:, 0]
-    apart = nodes - first[:, None]
+_topologies: dict[tuple[Any, ...], Topology] = {}
+
+
+def _topology(grid: Grid, nodes: Sequence[np.ndarray]) -> Topology:
+    """Springs by the distances between their masses, then in order; cut into runs."""
+    width, _, layers = grid
+    plane = grid[0] * grid[1]
+    every = []  # a mass n = c layers + k of column c is at place k plane + c, a column's mean behind them
+    for part in nodes:
+        first = part[:, :, 0] if part.ndim == 3 else part
+        layer = layers if part.ndim == 3 and part.shape[2] > 1 else first % layers
+        every.append(layer * plane + first // layers)
+    at = np.concatenate(every)
+    total = (layers + 1) * plane
+    apart = at[:, 1:] - at[:, :1]
+    distances = apart[:, 0]
+    for column in apart.T[1:]:
+        distances = distances * (2 * total + 1) + column
+    order = np.lexsort((at[:, 0], distances))
+    first, distances = at[order, 0], distances[order]
+    fresh = np.append(True, (first[1:] != first[:-1]) | (distances[1:] != distances[:-1]))
+    number = np.empty(len(order), dtype=int)
+    number[order] = np.cumsum(fresh) - 1
+    first, distances = first[fresh], distances[fresh]
     lines, columns = max(1, WIDTH // width), -(-width // -(-width // WIDTH))
     within = first % plane
-    tile = (
-        first // plane,
-        within // width // lines,
-        within % width // columns if width > WIDTH else 0 * first,
-    )
-    parted = (apart[1:] != apart[:-1]).any(axis=1) | (np.diff(first) > BRIDGED)
+    tile = [first // plane, within // width // lines, distances]
+    if width > WIDTH:
+        tile.append(within % width // columns)
+    parted = np.diff(first) > BRIDGED
     for part in tile:
-        parted |= np.diff(part) != 0
+        parted |= part[1:] != part[:-1]
     begins = np.append(0, np.flatnonzero(parted) + 1)
-    ends = np.append(begins[1:], len(first))
-    for begin, end in zip(begins.tolist(), ends.tolist(), strict=True):
-        table = np.zeros((ROWS[kind], STRIDE))
-        table[list(GEOMETRY[kind])] = np.array(NOTHING[kind])[:, None]
-        table[:, first[begin:end] - first[begin]] = data[begin:end].T
-        corners = nodes[begin].tolist() + [0] * (4 - nodes.shape[1])
-        yield [kind, _in_blocks(int(first[end - 1] - first[begin]) + 1), 0, *corners, 0], table
+    run = np.append(0, np.cumsum(parted))
+    runs = np.zeros((len(begins), 5), dtype=int)
+    runs[:, 0] = _in_blocks(first[np.append(begins[1:], len(first)) - 1] - first[begins] + 1)
+    runs[:, 1 : 1 + at.shape[1]] = at[order[fresh][begins]]
+    return Topology(number, run, first - first[begins][run], runs)
+
+
+def _tables(kind: int, topology: Topology, data: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Which table each run has, (r,), and tables of rest data (t, rows, STRIDE), from those of the springs
+    (rows, s): runs that are alike, as a hash of their numbers and places tells, have one."""
+    run, place = topology.run, topology.place
+    mixed = np.zeros(len(run), dtype=np.uint64)
+    for row, odd in zip((data + 0.0).view(np.uint64), ODD, strict=False):  # no negative zeros
+        mixed += _folded(row) * odd
+    begins = np.flatnonzero(np.append(True, run[1:] != run[:-1]))
+    hashes = np.add.reduceat(_folded(mixed) * ODD[place], begins)
+    _, kinds, of_runs = np.unique(hashes, return_index=True, return_inverse=True)
+    tables = np.zeros((len(kinds), len(data), STRIDE))
+    tables[:, : len(NOTHING[kind])] = np.array(NOTHING[kind])[:, None]
+    number = np.full(len(begins), -1)
+    number[kinds] = np.arange(len(kinds))
+    shown = np.flatnonzero(number[run] >= 0)
+    tables[number[run[shown]], :, place[shown]] = data[:, shown].T
+    return of_runs.ravel(), tables
+
+
+def _folded(bits: np.ndarray) -> np.ndarray:
+    """Numbers whose low bits depend on their high ones."""
+    return bits ^ (bits >> np.uint64(32))

@@ -7,7 +7,6 @@ OUT    ?= demo
 EDITABLE := --config-settings editable_mode=compat --editable
 FUZZ   ?=
 KILLS  ?=
-SAMPLE ?= 100
 CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogue.py cli.py compare.py \
             lattice.py lattice_mechanics.py lumped_statics.py calibration.py balance.py dynamics_forces.py \
             shell_element.py shell_linear.py solid_element.py sections.py snaps.py campaign.py \
@@ -24,7 +23,7 @@ help:
 	@echo "make fuzz      20 000 scenes, 1 000 of them solved, command lines and measured files that no one would write"
 	@echo "               (half an hour; goes on where it stopped; files in $(OUT)/fuzz/; others: FUZZ='--seed 2 --scenes 500')"
 	@echo "make kills     a hundred kills of campaigns, runs and trade-offs, and what stands there after (ten minutes; $(OUT)/kills/)"
-	@echo "make mutants   how many of SAMPLE=100 faults put into the solvers the tests notice: docs/quality.md (an hour; goes on where it stopped)"
+	@echo "make mutants   how many of 120 faults put into the packages the tests notice: docs/quality.md (an hour; goes on where it stopped)"
 	@echo "make catalogue the table of the catalogue's answers, tests/catalogue.json, for a change that is meant"
 	@echo "make verify    the references against published values, every row (about a minute)"
 	@echo "make locking   the locking sweeps and their picture (files in $(OUT)/locking/)"
@@ -220,10 +219,10 @@ docs-scene: install
 	@$(BIN)/python docs/scene_sketch.py
 	@$(BIN)/sheetbench schema --markdown > docs/scene.md
 
-# $(OUT)/mutants is gone on with; OPTIONS=--survivors tries again what survived at an older commit
+# OPTIONS='--survivors TEXT --tests FILE…' tries again what survived
 mutants: $(VENV)/testing
-	@$(BIN)/python tests/mutants/session.py $(OUT)/mutants $(SAMPLE) $(CHECK) $(OPTIONS)
-	@$(BIN)/python tests/mutants/page.py $(OUT)/mutants/tried.jsonl docs/quality.md
+	@$(BIN)/python tests/mutants/session.py $(OUT)/mutants $(OPTIONS)
+	@$(BIN)/python tests/mutants/page.py docs/quality.md
 
 wheel-check: install
 	@.ci/wheel-check $(BIN)/python

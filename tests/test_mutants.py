@@ -1,13 +1,17 @@
 """The faults that `make mutants` puts into the solvers, and the tests that it takes for the nearest."""
 
 import ast
-import json
+import sys
+from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
-from mutants.faults import faults
-from mutants.nearest import Nearest, words_of
-from mutants.reach import Reach
+
+sys.path.insert(0, str(Path(__file__).parent / "mutants"))
+from faults import faults  # its files are run, not imported
+from nearest import Nearest, words_of
+from page import interval, line
+from session import Draw, Session, drawn
 
 TREE = Path(__file__).parent.parent
 
@@ -63,23 +67,62 @@ def test_the_nearest_tests_speak_of_the_module():
         ("lumped/dynamics/verlet.py", "Verlet.advance", "tests/test_dynamics.py"),
         ("fem_reference/solid/element.py", "Bricks.build", "tests/test_solid_element.py"),
     ):
-        assert test in nearest.tests(module, words_of(module, function), [])[:2]
-    assert "tests/test_cli.py" in nearest.tests("fem_reference/solid/element.py", [], [])
+        assert test in nearest.tests(module, words_of(module, function))[:2]
+    assert "tests/test_cli.py" in nearest.tests("fem_reference/solid/element.py", [])
 
 
-def test_a_compiled_function_is_run_by_what_runs_its_callers(tmp_path):
-    (tmp_path / "lumped").mkdir()
-    (tmp_path / "lumped" / "links.py").write_text(
-        "LIMIT = 3\n@njit\ndef pull(x): return x\n@njit\ndef pulls(x): return pull(x)\n"
-        "def forces(x): return pulls(x)\nclass Rod:\n def turn(self): return 1\n"
+def test_noticed_is_what_a_test_of_the_first_commit_notices():
+    def trial(fault: str, commit: str, failed: str | None) -> dict[str, str | None]:
+        return {"draw": "others", "fault": f"lumped/a.py f: {fault}", "commit": commit, "failed": failed}
+
+    rows = [
+        [trial("1 → 2", "a", "t")],
+        [trial("2 → 3", "a", None), trial("2 → 3", "a", "t")],
+        [trial("3 → 4", "a", None), trial("3 → 4", "b", "t")],
+        [trial("4 → 5", "a", None), trial("4 → 5", "b", None)],
+        [trial("5 → 6", "a", None)],
+    ]
+    tried, reasons = {trials[0]["fault"]: trials for trials in rows}, {"lumped/a.py f: 4 → 5": "As right."}
+    shares = f"{interval(2, 4)} | {interval(3, 4)}"
+    assert line("|", tried, reasons, "others", "lumped/") == f"| 5 | 2 | 1 | 1 | 1 | {shares} |\n"
+    assert line("|", tried, reasons, "kernels") == "| 0 | 0 | 0 | 0 | 0 | – | – |\n"
+    assert interval(2, 4) == "50 % (15 to 85)"
+
+
+def test_faults_are_drawn_in_shares_the_packages_mixed(tmp_path):
+    for name, text in (
+        ("lumped/a.py", "a = 2 * b"),
+        ("comparisons/b.py", "c = 3 * d + 4 < e"),
+        ("lumped/c.py", "@njit"),
+    ):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text + "\ndef f(x): return x + 5\n")
+    found = drawn(tmp_path, Draw(7, {"lumped": 2, "comparisons": 4}, kernels=False))
+    names = [fault.name for fault in found]
+    assert [name.split(" ")[0] for name in names] == [
+        *("comparisons/b.py", "lumped/a.py", "comparisons/b.py")
+    ] * 2
+    assert len(set(names)) == 6
+    assert names != [f.name for f in drawn(tmp_path, Draw(8, {"lumped": 2, "comparisons": 4}, kernels=False))]
+    kernels = drawn(tmp_path, Draw(7, {"lumped": 9, "comparisons": 9}, kernels=True))
+    assert {fault.module for fault in kernels} == {"lumped/c.py"}
+
+
+def test_a_test_that_fails_anyway_is_passed_over(tmp_path, monkeypatch):
+    trial = Session.__new__(Session)
+    trial._sound, trial.cache = {}, tmp_path
+    trial.faulty = lambda fault: nullcontext()
+    asked = []
+
+    def verdict(files, words, skipped, most, cache, compiled):
+        asked.append((tuple(files), tuple(skipped)))
+        return ("unsound" if files == ["a"] and not skipped else "b::t" if files == ["b"] else None), 1.0
+
+    trial.verdict = verdict
+    fault = faults("lumped/a.py", b"a < b")[0]
+    monkeypatch.setattr(
+        Session, "is_sound", lambda self, test, way: self._sound.setdefault((test, way), "b" in test)
     )
-    (tmp_path / "lumped" / "grid.py").write_text("def even(x): return links.pull(x)\n")
-    book = tmp_path / "book"
-    runs = {"a": ["lumped/links.py forces"], "b": ["lumped/links.py Rod.turn"], "c": ["lumped/grid.py even"]}
-    rows = [{"test": test, "seconds": 1.0, "runs": names} for test, names in runs.items()]
-    book.write_text("".join(json.dumps(row) + "\n" for row in rows))
-    reach = Reach(tmp_path, book, {})
-    for function, tests in (("forces", "a"), ("pull", "a"), ("Rod.turn", "b"), ("Rod", "b"), ("", "ab")):
-        assert reach.tests("lumped/links.py", function) == set(tests)
-    reach = Reach(tmp_path, book, {"lumped.grid": {"lumped.links"}})
-    assert reach.tests("lumped/links.py", "pull") == {"a", "c"}
+    found = trial.first_to_notice(fault, [["a"], ["b"], ["c"]], 9.0, tmp_path, True)
+    assert found == ("b::t", 3.0, {"a", "b"})
+    assert asked == [(("a",), ()), (("a",), ("unsound",)), (("b",), ("unsound",))]

@@ -26,14 +26,14 @@ class Nearest:
         self._tests = {name: str(path.relative_to(tree)) for name, path in tests.items()}
         self._texts = {name: path.read_text() for name, path in tests.items()}
 
-    def tests(self, module: str, words: list[str], usual: list[str]) -> list[str]:
-        """All files of tests, the nearest first, with mentions of words; of those as near the ``usual``."""
+    def tests(self, module: str, words: list[str]) -> list[str]:
+        """All files of tests, the nearest first, with mentions of words."""
         distances = self._distances(self._files[module])
         farthest = max(distances.values()) + 1  # what is not imported at all
 
-        def nearness(test: str) -> tuple[float, bool, str]:
+        def nearness(test: str) -> tuple[float, str]:
             spoken = sum(has(self._texts[test], word) for word in words)
-            return distances.get(test, farthest) - SPOKEN_OF * spoken, self._tests[test] not in usual, test
+            return distances.get(test, farthest) - SPOKEN_OF * spoken, test
 
         return [self._tests[test] for test in sorted(self._tests, key=nearness)]
 

@@ -1,72 +1,89 @@
-"""The page of what the tests notice: the share of faults caught, and each survivor with what is known of it.
+"""The figures of docs/quality.md: the share of faults noticed, and each survivor with what is known of it.
 
-equivalent.toml says of survivors why no test can tell them from the original; they leave the count.
+A fault is noticed where a test of the commit that it was first tried on fails with it; mended where only a
+test that was written since does. equivalent.toml says of survivors why no test can tell them from the
+original; they leave the count. Written is what stands after the page's heading of the trial.
 
-Usage: python tests/mutants/page.py FOLDER/tried.jsonl docs/quality.md
+Usage: python tests/mutants/page.py docs/quality.md
 """
 
 from __future__ import annotations
 
-import argparse
 import datetime
-import json
 import platform
+import sys
 import tomllib
-from collections.abc import Sequence
 from math import sqrt
 from pathlib import Path
 from typing import Any
 
-from reach import PACKAGES
-from session import COMPILING, ENOUGH, EQUIVALENT
+from session import AS_PYTHON, COMPILING, DRAWS, ENOUGH, EQUIVALENT, NEAREST, trials
 
 from comparisons.runs.manifest import processor
 
-HEAD = """\
-# What the tests notice
+TITLE = "### Figures\n"
+HEAD = """
+{size} faults, {kernels} of them in files with compiled kernels, seed {seed}; {day}, Python {python},
+{processor}; commits {commits}. A fault was tried for up to {enough:.0f} seconds of processor time on the
+{files} nearest files of tests; one in kernels {python_way:.0f} seconds as Python and {compiled:.0f} compiled.
 
-Faults put into the packages one at a time, and the tests run against each until one fails. A fault is one
-comparison, operator, number, index, condition or sign written otherwise, or one statement left out; as many
-of each package are drawn, every one as likely as another. It is tried on the tests that
-run the faulty function, the quick ones first, and on those that are near: that import the module, that speak
-of it or of its function; kernels before they are compiled, and after. What has not been noticed after
-{enough:.0f} seconds of processor time, or {compiled:.0f} where kernels are compiled, has survived, though
-the whole suite might catch it; one that a test was then written for is tried again, and counts as caught.
-
-Written by `make mutants` on {day}, of the {size} faults tried so far (it goes on where it stopped): Python
-{python}, {processor}; commits {commits}. In the mean a fault took {mean:.0f} seconds of processor time.
-
-| package | tried | caught | equivalent | caught of those that can be told (95 % interval) |
-|---|---:|---:|---:|---:|
+| files | package | tried | noticed | mended | equivalent | not caught | noticed of those that can be told \
+(95 % interval) | with the new tests |
+|---|---|---:|---:|---:|---:|---:|---:|---:|
 """
 
+Trials = list[dict[str, Any]]
 
-def page(rows: Sequence[dict[str, Any]], reasons: dict[str, str]) -> str:
-    """Markdown: a row a package, then the survivors."""
-    times = [row["seconds"] for row in rows if row["seconds"] is not None]
+
+def page(tried: dict[str, Trials], reasons: dict[str, str]) -> str:
+    """Markdown: a row a draw and package, then the survivors."""
+    rows = [row for trials in tried.values() for row in trials]
     text = HEAD.format(
+        seed=", ".join(sorted({str(draw.seed) for draw in DRAWS.values()})),
+        size=len(tried),
+        kernels=sum(trials[0]["draw"] == "kernels" for trials in tried.values()),
         enough=ENOUGH,
+        files=NEAREST[-1],
+        python_way=AS_PYTHON,
         compiled=ENOUGH + COMPILING,
-        size=len(rows),
         day=datetime.date.today().isoformat(),
         python=platform.python_version(),
         processor=processor(),
         commits=", ".join(dict.fromkeys(row["commit"] for row in rows)),
-        mean=sum(times) / len(times),
     )
-    for package in PACKAGES:
-        here = [row for row in rows if row["fault"].startswith(f"{package}/")]
-        caught = sum(row["failed"] is not None for row in here)
-        same = sum(row["failed"] is None and row["fault"] in reasons for row in here)
-        share = interval(caught, len(here) - same) if len(here) > same else "–"
-        text += f"| {package} | {len(here)} | {caught} | {same} | {share} |\n"
-    survivors = sorted((row for row in rows if row["failed"] is None), key=lambda row: row["fault"])
-    missing = [row for row in survivors if row["fault"] not in reasons]
-    text += "\n## Not caught\n\n" + ("".join(map(entry, missing)) or "None.\n")
-    text += "\n## No test can tell\n\nThe answer is the same, or as right.\n\n"
+    for name, draw in DRAWS.items():
+        for package in draw.shares:
+            text += line(f"| {name} | {package} |", tried, reasons, name, f"{package}/")
+        text += line(f"| {name} | all |", tried, reasons, name)
+    text += line("| all | all |", tried, reasons)
+    survivors = {fault: trials[-1] for fault, trials in sorted(tried.items()) if trials[-1]["failed"] is None}
+    missing = [entry(row) for fault, row in survivors.items() if fault not in reasons]
+    text += "\n### Not caught\n\n" + ("".join(missing) or "None.\n")
+    text += "\n### No test can tell\n\nThe answer is the same, or as right.\n\n"
     return text + "".join(
-        f"{entry(row).rstrip()}\n  {reasons[row['fault']]}\n" for row in survivors if row["fault"] in reasons
+        f"{entry(row)}  {reasons[fault]}\n" for fault, row in survivors.items() if fault in reasons
     )
+
+
+def line(
+    start: str, tried: dict[str, Trials], reasons: dict[str, str], draw: str = "", package: str = ""
+) -> str:
+    """A row of the table: of a draw and a package, or of all."""
+    here = {
+        fault: trials
+        for fault, trials in tried.items()
+        if trials[0]["draw"].startswith(draw) and fault.startswith(package)
+    }
+    of_first = {
+        fault: [t for t in trials if t["commit"] == trials[0]["commit"]] for fault, trials in here.items()
+    }
+    noticed = sum(any(row["failed"] for row in trials) for trials in of_first.values())
+    caught = sum(trials[-1]["failed"] is not None for trials in here.values())
+    same = sum(trials[-1]["failed"] is None and fault in reasons for fault, trials in here.items())
+    told = len(here) - same
+    counts = (len(here), noticed, caught - noticed, same, told - caught)
+    shares = (interval(noticed, told), interval(caught, told)) if told else ("–", "–")
+    return f"{start} {' | '.join(map(str, (*counts, *shares)))} |\n"
 
 
 def interval(caught: int, tried: int) -> str:
@@ -84,14 +101,11 @@ def entry(row: dict[str, Any]) -> str:
 
 
 def main() -> None:
-    asked = argparse.ArgumentParser(description=__doc__)
-    asked.add_argument("tried", type=Path)
-    asked.add_argument("page", type=Path)
-    options = asked.parse_args()
-    rows = {row["fault"]: row for row in map(json.loads, options.tried.read_text().splitlines())}
+    place = Path(sys.argv[1])
+    before, _, _ = place.read_text().partition(TITLE)
     reasons = tomllib.loads(EQUIVALENT.read_text())["equivalent"]
-    options.page.write_text(page(list(rows.values()), reasons))
-    print(options.page)
+    place.write_text(before + TITLE + page(trials(), reasons))
+    print(place)
 
 
 if __name__ == "__main__":

@@ -1,15 +1,17 @@
-"""Faults put into the packages one at a time, in a clone of the last commit, and the tests run against each.
+"""The trial: faults put into the packages one at a time, in a clone of the last commit, and the tests run
+against each.
 
-The same faults are drawn from code that has not changed: each has a place by a digest of its name, and the
-first of each package are taken. What was tried is kept line by line in FOLDER/tried.jsonl and not tried again
-but for the survivors of an older commit, with ``--survivors``, where equivalent.toml does not say why no test
-can tell. A test that notices a fault is itself run once on the code as it is: what fails there too proves
-nothing, and ends the session.
+The same faults are drawn from code that has not changed: each has a place by a digest of its name and the
+draw's seed, and the first of each package are taken. tried.jsonl beside this file has a line a trial: draw,
+fault, commit, the test that failed or null, seconds of processor time and the files of tests that were run.
+What stands there is not tried again but for survivors, with ``--survivors TEXT``, on the nearest tests or on
+``--tests``, where equivalent.toml does not say why no test can tell. A test that notices a fault is itself
+run once on the code as it is: what fails there too proves nothing, and is left out.
 
-Which tests run which function is recorded first, by one run of the tests (record.py), and kept as
-FOLDER/reach.jsonl: a fault is tried on those that run it, and on tests that came later.
+Faults of files with compiled kernels are tried as Python first (NUMBA_DISABLE_JIT), and what survives that
+compiled, in a copy of the clone's cache of kernels.
 
-Usage: python tests/mutants/session.py FOLDER SIZE TEST_FILE...   (the files are the usual ones: make check's)
+Usage: python tests/mutants/session.py FOLDER   (the clone, its kernels, the tests' times)
 """
 
 from __future__ import annotations
@@ -24,66 +26,63 @@ import sys
 import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from itertools import zip_longest
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from faults import Fault, faults
 from nearest import Nearest, words_of
-from reach import PACKAGES, Reach
 
-JUDGE, RECORD = (Path(__file__).with_name(name).resolve() for name in ("judge.py", "record.py"))
-EQUIVALENT = Path(__file__).with_name("equivalent.toml")
+from sheetbench.kernels import COMPILED
+
+HERE = Path(__file__).resolve().parent
+TRIED, EQUIVALENT, JUDGE = HERE / "tried.jsonl", HERE / "equivalent.toml", HERE / "judge.py"
 KERNELS = "tests/kernels.py"
 AS_PYTHON = (
-    20.0  # seconds that kernels are tried for as they stand, before they are compiled: some take minutes
+    20.0  # seconds of processor time that faults of kernels are tried for as Python: some take minutes
 )
-ENOUGH = 40.0  # seconds of processor time after which a fault has survived
+ENOUGH = 25.0  # seconds after which a fault has survived
 COMPILING = 30.0  # seconds more where kernels are compiled anew
 HUNG = 1800  # seconds on the clock
 NO_END = "no end, or a crash"
-FIRST, ALL = 6, 30  # files of tests that are read first, and at most
-NEW = 3  # files that are read for the tests that came after the record
-COMPILED = ("njit", "NamedTuple")  # of a file that sheetbench.kernels makes kernels' stamps of
+NEAREST = (4, 9, 20)  # files of tests: the nearest, more, and the last that are tried
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
 
 
-class Asked(NamedTuple):
-    """What of the tests: words of promising ones, and those that do not run the fault."""
+class Draw(NamedTuple):
+    """``shares``: faults of each package; of files with compiled kernels, or of the others."""
 
-    words: list[str]
-    skipped: list[str]
+    seed: int
+    shares: dict[str, int]
+    kernels: bool
+
+
+DRAWS = {
+    "others": Draw(3, {"lumped": 35, "fem_reference": 25, "comparisons": 40}, kernels=False),
+    "kernels": Draw(3, {"lumped": 11, "fem_reference": 5, "sheetbench/numerics": 4}, kernels=True),
+}
 
 
 class Session:
-    """A folder: the clone ``tree``, its kernels' cache, what was tried."""
+    """A folder: the clone ``tree``, its kernels' cache, what tests take."""
 
-    def __init__(self, folder: Path, usual: list[str]):
+    def __init__(self, folder: Path, commit: str):
         self.folder = folder.resolve()
-        self.tree, self.cache, self.book = (self.folder / name for name in ("tree", "cache", "tried.jsonl"))
+        self.tree, self.cache = self.folder / "tree", self.folder / "cache"
         self.folder.mkdir(parents=True, exist_ok=True)
         if not self.tree.exists():
             subprocess.run(["git", "clone", "--quiet", ".", str(self.tree)], check=True)
-        self.git("fetch", "--quiet", str(Path.cwd()), "HEAD")
+        self.git("fetch", "--quiet", str(Path.cwd()), commit)
         self.git("checkout", "--quiet", "--force", "--detach", "FETCH_HEAD")  # also of a killed run's fault
         self.commit = self.git("rev-parse", "--short", "HEAD").strip()
         self._sound: dict[tuple[str, bool], bool] = {}
-        self._nearest, self._usual = Nearest(self.tree), usual
-        self.run(KERNELS)  # or else they would be compiled for each fault, and thrown away with it
-        whole, part = (self.folder / name for name in ("reach.jsonl", "reach-so-far.jsonl"))
-        if not whole.exists():
-            self.run(RECORD, str(part), "tests")
-            part.rename(whole)
-        self._reach = Reach(self.tree, whole, self._nearest.imports)
-
-    def run(self, *program: str | Path) -> None:
-        """A program in the tree as it is."""
-        words = [sys.executable, *map(str, program)]
-        subprocess.run(words, cwd=self.tree, env=self.environment(self.cache), stdout=subprocess.DEVNULL)
+        self._nearest = Nearest(self.tree)
+        # or else they would be compiled for each fault, and thrown away with it
+        environment = self.environment(self.cache)
+        subprocess.run([sys.executable, KERNELS], cwd=self.tree, env=environment, stdout=subprocess.DEVNULL)
 
     def environment(self, cache: Path) -> dict[str, str]:
         """Of what runs in the tree."""
-        places = {"PYTHONPATH": str(self.tree), "NUMBA_CACHE_DIR": str(cache)}
+        places = {"PYTHONPATH": str(self.tree), "NUMBA_CACHE_DIR": str(cache), "MPLBACKEND": "agg"}
         return {**os.environ, **ONE_THREAD, **places}
 
     def git(self, *words: str) -> str:
@@ -91,47 +90,42 @@ class Session:
             ["git", "-C", str(self.tree), *words], check=True, capture_output=True, text=True
         ).stdout
 
-    def tried(self) -> dict[str, dict[str, Any]]:
-        """By the faults' names; the last word counts."""
-        lines = self.book.read_text().splitlines() if self.book.exists() else []
-        return {row["fault"]: row for row in map(json.loads, lines)}
-
-    def try_fault(self, fault: Fault) -> dict[str, Any]:
-        """One line of the book."""
-        source = (self.tree / fault.module).read_text()
-        words = words_of(fault.module, fault.function)
-        nearest = self._nearest.tests(fault.module, words, self._usual)
-        reaching = self._reach.tests(fault.module, fault.function)
-        met = {name.partition("::")[0] for name in reaching}
-        files = [name for name in nearest if name in met] or nearest
-        # what came after the record is in files that are near
-        first, others = list(dict.fromkeys([*files[:FIRST], *nearest[:NEW]])), files[FIRST:ALL]
-        skipped = [name for name in self._reach.seconds if name not in reaching] if reaching else []
-        kernels = any(word in source for word in COMPILED)
-        failed, seconds = None, 0.0
-        if kernels:
-            unfit = [test for (test, compiled), sound in self._sound.items() if not (sound or compiled)]
-            with self.faulty(fault):
-                asked = Asked(words, skipped + unfit)
-                failed, seconds = self.judge(first, asked, AS_PYTHON, compiled=False)
-            if failed == NO_END or (failed and not self.is_sound(failed, compiled=False)):
-                failed = None
-        if not failed:
-            asked = Asked(words, skipped)
-            with self.faulty(fault), self.cache_of_the_fault(kernels) as cache:
-                enough = ENOUGH + COMPILING * kernels
-                failed, more = self.judge(first, asked, enough, cache, learn=not kernels)
-                if not failed and others and more < enough:
-                    failed, yet = self.judge(others, asked, enough - more, cache, learn=not kernels)
-                    more += yet
-            seconds += more
-            if failed and failed != NO_END and not self.is_sound(failed):
-                raise SystemExit(f"{failed} fails on the code as it is")
-        code = source.splitlines()[fault.line - 1].strip()
-        row = {"fault": fault.name, "code": code, "commit": self.commit, "failed": failed, "seconds": seconds}
-        with self.book.open("a") as book:
-            book.write(json.dumps(row) + "\n")
+    def try_fault(self, fault: Fault, draw: str, chosen: list[str]) -> dict[str, Any]:
+        """One line of the book; on the files of tests that are chosen, or the nearest."""
+        nearest = self._nearest.tests(fault.module, words_of(fault.module, fault.function))
+        files = chosen or nearest[: NEAREST[-1]]
+        groups = [files[start:end] for start, end in zip((0, *NEAREST), NEAREST, strict=False)]
+        ways = [(False, AS_PYTHON), (True, ENOUGH + COMPILING)] if DRAWS[draw].kernels else [(True, ENOUGH)]
+        seconds, failed, run = 0.0, None, set[str]()
+        for compiled, most in ways:
+            with self.cache_of_the_fault(compiled and DRAWS[draw].kernels) as cache:
+                failed, spent, some = self.first_to_notice(fault, groups, most, cache, compiled)
+            seconds, run = seconds + spent, run | some
+            if failed and (compiled or failed != NO_END):
+                break
+        code = (self.tree / fault.module).read_text().splitlines()[fault.line - 1].strip()
+        row = {"draw": draw, "fault": fault.name, "code": code, "commit": self.commit, "failed": failed}
+        row |= {"seconds": round(seconds, 1), "files": [name for name in files if name in run]}
+        with TRIED.open("a") as book:
+            book.write(json.dumps(row, ensure_ascii=False) + "\n")
         return row
+
+    def first_to_notice(
+        self, fault: Fault, groups: list[list[str]], most: float, cache: Path, compiled: bool
+    ) -> tuple[str | None, float, set[str]]:
+        """The test that noticed, the seconds spent, the files run; what fails anyway is passed over."""
+        spent, run = 0.0, set[str]()
+        for files in groups:
+            failed: str | None = ""
+            while failed is not None and spent < most:
+                unfit = [test for (test, way), sound in self._sound.items() if way == compiled and not sound]
+                words = words_of(fault.module, fault.function)
+                with self.faulty(fault):
+                    failed, seconds = self.verdict(files, words, unfit, most - spent, cache, compiled)
+                spent, run = spent + seconds, run | set(files)
+                if failed and (failed == NO_END or self.is_sound(failed, compiled)):
+                    return failed, spent, run
+        return None, spent, run
 
     @contextmanager
     def faulty(self, fault: Fault) -> Iterator[None]:
@@ -159,33 +153,26 @@ class Session:
             if kernels:
                 shutil.rmtree(cache, ignore_errors=True)
 
-    def is_sound(self, test: str, compiled: bool = True) -> bool:
+    def is_sound(self, test: str, compiled: bool) -> bool:
         """Whether a test passes on the code as it is."""
         if (test, compiled) not in self._sound:
-            failed, _ = self.judge([test], Asked([], []), ENOUGH + COMPILING, compiled=compiled)
+            failed, _ = self.verdict([test], [], [], ENOUGH + COMPILING, self.cache, compiled)
             self._sound[test, compiled] = failed is None
         return self._sound[test, compiled]
 
-    def judge(
-        self,
-        files: list[str],
-        asked: Asked,
-        most: float,
-        cache: Path | None = None,
-        compiled: bool = True,
-        learn: bool = False,
+    def verdict(
+        self, files: list[str], words: list[str], skipped: list[str], most: float, cache: Path, compiled: bool
     ) -> tuple[str | None, float]:
         """The test that noticed and the seconds spent; a run without an end, or a verdict, has noticed."""
         question, verdict, book = (self.folder / name for name in ("asked.json", "verdict.json", "took.json"))
-        learnt = json.loads(book.read_text()) if book.exists() else {}
-        took = {**self._reach.seconds, **learnt}
-        about = {"files": files, **asked._asdict(), "seconds": most, "took": took}
-        question.write_text(json.dumps(about))
+        took = json.loads(book.read_text()) if book.exists() else {}
+        about = {"files": files, "words": words, "skipped": skipped, "seconds": most}
+        question.write_text(json.dumps({**about, "took": took if compiled else {}}))
         verdict.unlink(missing_ok=True)
         run = subprocess.Popen(
             [sys.executable, str(JUDGE), str(question), str(verdict)],
             cwd=self.tree,
-            env=self.environment(cache or self.cache) | ({} if compiled else {"NUMBA_DISABLE_JIT": "1"}),
+            env=self.environment(cache) | ({} if compiled else {"NUMBA_DISABLE_JIT": "1"}),
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
             start_new_session=True,
@@ -200,45 +187,60 @@ class Session:
         if not verdict.exists():
             return NO_END, most
         found = json.loads(verdict.read_text())
-        if learn:
-            book.write_text(json.dumps({**learnt, **found["took"]}))
+        if compiled and cache == self.cache:
+            book.write_text(json.dumps({**took, **found["took"]}))
         return found["failed"], found["seconds"]
 
 
-def drawn(tree: Path, size: int, seed: int, without: tuple[str, ...]) -> list[Fault]:
-    """``size`` faults, as many of each package in turn, none of files whose names begin so."""
-    queues = []
-    for package in PACKAGES:
+def drawn(tree: Path, draw: Draw) -> list[Fault]:
+    """The draw's faults, the packages mixed."""
+    places = {}
+    for package, share in draw.shares.items():
         found = [
             fault
             for path in sorted((tree / package).rglob("*.py"))
-            if not (name := str(path.relative_to(tree))).startswith(without)
-            for fault in faults(name, path.read_bytes())
+            if (package != "comparisons" and COMPILED.search(path.read_text()) is not None) == draw.kernels
+            for fault in faults(str(path.relative_to(tree)), path.read_bytes())
         ]
-        queues.append(sorted(found, key=lambda fault: fault.digest(seed)))
-    return [fault for row in zip_longest(*queues) for fault in row if fault is not None][:size]
+        first = sorted(found, key=lambda fault: fault.digest(draw.seed))[:share]
+        places |= {((i + 0.5) / share, package): fault for i, fault in enumerate(first)}
+    return [places[place] for place in sorted(places)]
+
+
+def trials() -> dict[str, list[dict[str, Any]]]:
+    """By the faults' names, the lines of each in their order."""
+    found: dict[str, list[dict[str, Any]]] = {}
+    for row in map(json.loads, TRIED.read_text().splitlines()):
+        found.setdefault(row["fault"], []).append(row)
+    return found
 
 
 def main() -> None:
     asked = argparse.ArgumentParser(description=__doc__)
     asked.add_argument("folder", type=Path)
-    asked.add_argument("size", type=int)
-    asked.add_argument("usual", nargs="*")
-    asked.add_argument("--survivors", action="store_true")
-    asked.add_argument("--seed", type=int, default=1, help="of the draw")
-    asked.add_argument("--without", action="append", default=[], help="files whose names begin so; repeated")
+    asked.add_argument("--commit", default="HEAD")
+    asked.add_argument("--survivors", default="", metavar="TEXT", help="try again those whose names have it")
+    asked.add_argument("--tests", nargs="+", default=[], metavar="FILE", help="instead of the nearest")
     options = asked.parse_args()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended; to be gone on with"))
-    session = Session(options.folder, options.usual)
-    tried, reasons = session.tried(), tomllib.loads(EQUIVALENT.read_text())["equivalent"]
-    chosen = drawn(session.tree, options.size, options.seed, tuple(options.without))
-    for number, fault in enumerate(chosen, 1):
-        row = tried.get(fault.name)
-        survived = row and row["failed"] is None and row["commit"] != session.commit
-        again = options.survivors and survived and fault.name not in reasons
-        if row is None or again:
-            row = session.try_fault(fault)
-            print(number, row["failed"] or "SURVIVED", row["seconds"], fault.name, sep="  ", flush=True)
+    session = Session(options.folder, options.commit)
+    tried, reasons = trials(), tomllib.loads(EQUIVALENT.read_text())["equivalent"]
+    for name, draw in DRAWS.items():
+        for number, fault in enumerate(drawn(session.tree, draw), 1):
+            known = fault.name in tried
+            survived = known and tried[fault.name][-1]["failed"] is None and fault.name not in reasons
+            again = survived and options.survivors and options.survivors in fault.name
+            if again or not (known or options.survivors):
+                row = session.try_fault(fault, name, options.tests)
+                print(
+                    name,
+                    number,
+                    row["failed"] or "SURVIVED",
+                    row["seconds"],
+                    fault.name,
+                    sep="  ",
+                    flush=True,
+                )
 
 
 if __name__ == "__main__":

@@ -127,7 +127,7 @@ def rates(
         changed_scene, recalibrated = _changed(scene, calibration, name, float(end), calibrate)
         changed = pose(changed_scene, recalibrated, same=problem if changed_scene is scene else None)
         moved = changed.prescribed(1.0) - placed
-        sides.append((changed.residual(u + moved, 1.0)[0], moved))
+        sides.append((changed.residual(u + moved, 1.0).force, moved))
     apart = float(ends[0] - ends[1])
     rate = (sides[0][0] - sides[1][0]) / apart
     return value, rate, (sides[0][1] - sides[1][1]) / apart

@@ -22,7 +22,6 @@ def equilibria() -> None:
     still, damped = scene(), scene(damping_time=1e-3)
     for precision in ("double", "single"):
         lumped.solve(still, springs(still, 3), precision=precision)
-    lumped.solve_many([still, still], [springs(still, 3)] * 2)
     lumped.modes(still, springs(still, 3), 3)
     for integrator in ("generalised-alpha", "esdirk"):
         lumped.simulate(damped, springs(damped, 3), DURATION, integrator=integrator)

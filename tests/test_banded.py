@@ -1,13 +1,11 @@
-"""The banded Cholesky factors against dense algebra, and the fused Newton correction against its parts."""
+"""The banded Cholesky factors against dense algebra."""
 
 import numpy as np
 import pytest
 import scipy.sparse as sp
 
 import lumped
-from lumped.statics.problem import Problem
 from sheetbench.numerics import banded
-from sheetbench.numerics.reduced import BandedFactor
 from sheetbench.numerics.reduction import reduction
 from sheetbench.scenes import load
 from sheetbench.scenes.supports import Hinged
@@ -58,31 +56,6 @@ def test_what_is_not_positive_definite_has_no_factors(spoilt):
     matrix[13, 13] = spoilt
     band, entries = band_of(matrix)
     assert not banded.factor(banded.stored(entries, band), 20, band.width)
-
-
-@pytest.mark.parametrize("name", ["two-edges-clamped", "curved-edge"])
-@pytest.mark.parametrize("predict", [True, False])
-def test_the_fused_correction_is_the_sum_of_its_parts(name, predict, monkeypatch):
-    scene = load(name)
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 6))
-    problem = lumped.pose(scene, springs)
-    u = 1e-3 * problem.assembly.lattice.positions[:, ::-1] ** 2 + problem.prescribed(0.3)
-    u = np.where(problem.constraints.held, problem.prescribed(0.3), u)
-    stresses = problem.assembly.stresses(0.9 * u) if predict else None
-    unbalanced, _ = problem.residual(u, 0.3)
-    fused = problem.correction(u, 0.3, unbalanced, stresses)
-    assert isinstance(fused.factor, BandedFactor) and problem.factorisations == 1
-    monkeypatch.setattr(Problem, "_fused", lambda *_: None)
-    parts = problem.correction(u, 0.3, unbalanced, stresses)
-    assert problem.factorisations == 2
-    apart = 1e-10  # rounding times the condition number of the tangent
-    for name in ("u", "unbalanced", "blocks"):
-        found, expected = getattr(fused, name), getattr(parts, name)
-        assert np.abs(found - expected).max() <= apart * np.abs(expected).max()
-    assert (fused.length, fused.residual) == pytest.approx((parts.length, parts.residual), rel=apart)
-    assert (fused.stresses is None) == (not predict)
-    for found, expected in zip(fused.stresses or (), parts.stresses or (), strict=True):
-        assert np.abs(found - expected).max() <= apart * np.abs(expected).max()
 
 
 def test_families_together_are_the_families():

@@ -11,9 +11,9 @@ from sheetbench.scenes import Clamped, Pressure, load
 
 def arrays(problem):
     """All that a lattice is solved with."""
-    families = [part for family in problem.posed.springs for part in family]
+    families = [part for family in problem.assembly.together.springs for part in family]
     constraints = problem.constraints
-    return [*families, *problem.posed.free, constraints.held, constraints.prescribed(0.5), problem.posed.dead]
+    return [*families, *constraints.rows, constraints.held, constraints.prescribed(0.5), problem.loads.dead]
 
 
 @pytest.mark.parametrize("name", ["two-edges-clamped", "curved-edge"])

@@ -104,3 +104,11 @@ def test_a_sheet_on_a_curved_rod_snaps_like_a_tape_measure():
     valley = path.load_factors[(down > 0.005) & (down < 0.03)].min()
     assert valley < 0.6 * peak
     assert path.stable[0] and path.stable[-1] and not path.stable.all()
+
+
+def test_factors_at_hand_polish():
+    """From the second correction on a polished equilibrium costs no factors."""
+    scene = scenes.load("two-edges-clamped")
+    solution = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid=(3, 3)))
+    assert solution.history[-1].residual < 1e-11 and solution.iterations == 5
+    assert len(solution.history) == 6 and solution.status is Status.CONVERGED

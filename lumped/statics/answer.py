@@ -76,8 +76,8 @@ def _at(problem: Problem, outcome: Outcome) -> tuple[np.ndarray, dict[str, float
     """What is exerted on masses and rows at an equilibrium, internal less external force (size, 3) [N], and
     the energies [J]."""
     state = outcome.state
-    unbalanced, _ = problem.residual(state.u, state.load_factor)
-    return -unbalanced, outcome.energies or problem.assembly.energies(state.u)
+    energies = outcome.energies or problem.assembly.energies(state.u)
+    return -problem.residual(state.u, state.load_factor).force, energies
 
 
 def _of_small_displacements(problem: Problem, state: State) -> tuple[np.ndarray, dict[str, float]]:

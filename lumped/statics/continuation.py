@@ -92,7 +92,7 @@ def trace(
             base=problem.loads,
             factorisations=problem.factorisations,
         )
-        start = State(start.u, 0.0, start.stresses, start.blocks, start.factor, start.negative)
+        start = State(start.u, 0.0, start.blocks, start.factor, start.negative)
     else:
         start = at_rest(problem)
     problem.progress = progress
@@ -152,20 +152,18 @@ def _arc_step(
     stresses = problem.assembly.extrapolated(start.u, move)
     u = np.where(problem.constraints.fixed, problem.prescribed(load_factor), start.u + move)
     for count in range(CORRECTIONS):
-        unbalanced, residual = problem.residual(u, load_factor)
-        problem.note(load_factor, residual, float(np.abs(move).max()))
-        if not np.isfinite(residual) or np.abs(u - start.u).max() > 3.0 * arc:
+        residual = problem.residual(u, load_factor)
+        problem.note(load_factor, residual.relative, float(np.abs(move).max()))
+        if not np.isfinite(residual.relative) or np.abs(u - start.u).max() > 3.0 * arc:
             raise StepFailed("the corrections grow")
-        rounded = all_rounding(problem, u, load_factor, residual, float(np.abs(move).max()))
-        close = rounded or residual < COARSE
+        rounded = all_rounding(problem, u, residual, float(np.abs(move).max()))
+        close = rounded or residual.relative < COARSE
         blocks = problem.tangent(u, load_factor, None if close else stresses)
         factor = problem.factor(blocks)
-        if rounded or residual < TOLERANCE:
-            state = State(
-                u, load_factor, problem.assembly.stresses(u), blocks, factor, problem.negative(factor)
-            )
+        if rounded or residual.relative < TOLERANCE:
+            state = State(u, load_factor, blocks, factor, problem.negative(factor))
             return state, start.load_factor + change
-        free = problem.expand(factor.solve(problem.reduce(unbalanced)))
+        free = problem.expand(factor.solve(residual.reduced))
         loaded = problem.expand(factor.solve(problem.reduce(problem.growing(u))))
         loaded = loaded + _prescribed_rate(problem, load_factor, factor, blocks)
         correction = -float(np.sum(tangent * free)) / float(np.sum(tangent * loaded))

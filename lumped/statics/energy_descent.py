@@ -31,14 +31,14 @@ def descend(problem: Problem, u: np.ndarray, load_factor: float) -> State:
     u = problem.placed(u, load_factor)
     wait = 0
     for _ in range(STEPS):
-        unbalanced, residual = problem.residual(u, load_factor)
+        residual = problem.residual(u, load_factor)
         factor, wait = _definite_factor(problem, u, load_factor, wait)
-        if residual < COARSE and wait == 0:
+        if residual.relative < COARSE and wait == 0:
             try:
-                return polish(problem, u, load_factor)
+                return polish(problem, u, load_factor, residual=residual)
             except (StepFailed, SingularMatrixError):
                 pass
-        gradient = -problem.reduce(unbalanced)
+        gradient = -residual.reduced
         direction = factor.solve(-gradient)
         slope = float(gradient @ direction)
         if not slope < 0.0:  # also catches nan
@@ -53,7 +53,7 @@ def descend(problem: Problem, u: np.ndarray, load_factor: float) -> State:
         else:
             raise StepFailed("the energy descends no further")
         u = u + share * move
-        problem.note(load_factor, residual, share * float(np.abs(move).max()))
+        problem.note(load_factor, residual.relative, share * float(np.abs(move).max()))
     raise StepFailed(f"no equilibrium in {STEPS} descent steps")
 
 

@@ -42,20 +42,19 @@ from lumped.statics.limits import (
     SETTLED,
     SHORTEST_STEP,
 )
-from lumped.statics.problem import Problem, Tangent
+from lumped.statics.problem import Problem, Residual, Tangent
 from sheetbench.numerics.reduced import Factor, SingularMatrixError
 
 
 @dataclass
 class State:
-    """An equilibrium: displacement, load factor, stresses and the factors of the true tangent there.
+    """An equilibrium: displacement, load factor, blocks and factors of the true tangent there.
 
     negative: real eigenvalues of the tangent below zero, None when not known.
     """
 
     u: np.ndarray
     load_factor: float
-    stresses: Stresses
     blocks: np.ndarray
     factor: Factor
     negative: int | None
@@ -70,22 +69,7 @@ def at_rest(problem: Problem) -> State:
     u = np.zeros_like(problem.loads.dead)
     blocks = problem.tangent(u, 0.0)
     factor = problem.factor(blocks)
-    return State(u, 0.0, problem.assembly.stresses(u), blocks, factor, problem.negative(factor))
-
-
-def from_flat(problem: Problem) -> tuple[State, str]:
-    """The equilibrium at full load along the path from the flat sheet, or the last one before it, with the
-    reason why the path ended ("" when it did not). Small lattices go as far as they can in one compiled call.
-
-    Raises SingularMatrixError when the flat sheet's tangent has no factors.
-    """
-    together, begun = problem.assembly.together, problem.followed()
-    if together is None or begun is None:
-        return follow(problem, at_rest(problem))
-    done, tangent = begun
-    stresses = together.of_families(done.stresses)
-    state = State(done.u, done.load_factor, stresses, *tangent, tangent.factor.negative)
-    return follow(problem, state, reach=done.reach, step=done.step)
+    return State(u, 0.0, blocks, factor, problem.negative(factor))
 
 
 def follow(
@@ -175,20 +159,19 @@ def corrected(
     led. Raises StepFailed, SingularMatrixError."""
     stresses: Stresses | None = expected
     lengths = [float(np.abs(step).max())]
-    unbalanced, residual = problem.residual(u, load_factor)
+    residual = problem.residual(u, load_factor)
     near: Factor | None = None
     made: Tangent | None = None
     for _ in range(CORRECTIONS):
-        problem.note(load_factor, residual, lengths[-1])
-        if not np.isfinite(residual):
+        problem.note(load_factor, residual.relative, lengths[-1])
+        if not np.isfinite(residual.relative):
             raise StepFailed("a number overflowed")
-        if residual < COARSE or all_rounding(problem, u, load_factor, residual, lengths[-1]):
+        if residual.relative < COARSE or all_rounding(problem, u, residual, lengths[-1]):
             near = None  # its memory is needed
-            return polish(
-                problem, u, load_factor, tolerance, made if lengths[-1] <= CLOSE * problem.size else None
-            )
-        done = problem.correction(u, load_factor, unbalanced, stresses, near)
-        u, unbalanced, residual, stresses = done.u, done.unbalanced, done.residual, done.stresses
+            close = made if lengths[-1] <= CLOSE * problem.size else None
+            return polish(problem, u, load_factor, tolerance, close, residual)
+        done = problem.correction(u, load_factor, residual, stresses, near)
+        u, residual, stresses = done.u, done.residual, done.stresses
         lengths.append(done.length)
         if problem.iterates:
             near = done.factor
@@ -203,44 +186,46 @@ def corrected(
 
 
 def polish(
-    problem: Problem, u: np.ndarray, load_factor: float, tolerance: float = FINE, near: Tangent | None = None
+    problem: Problem,
+    u: np.ndarray,
+    load_factor: float,
+    tolerance: float = FINE,
+    near: Tangent | None = None,
+    residual: Residual | None = None,
 ) -> State:
     """Newton with the true tangent from close by, to rounding; the last factors tell stability, and serve as
     long as they bring the residual down quickly. near: the tangent of u, or one so close that it tells the
-    same.
+    same; residual: that at u, where it is known.
 
     Raises StepFailed when it does not converge there.
     """
-    aim = max(tolerance, rounding_floor(problem, u, load_factor))
-    unbalanced, before = problem.residual(u, load_factor)
+    left = problem.residual(u, load_factor) if residual is None else residual
+    aim = max(tolerance, rounding_floor(problem, u, left))
     for fresh in range(POLISHINGS + 1):
         if fresh:
             near = None  # its memory is needed
-            done = problem.correction(u, load_factor, unbalanced)
-            if not np.isfinite(done.residual) or done.length > POLISHED * problem.size:
+            done = problem.correction(u, load_factor, left)
+            if not np.isfinite(done.residual.relative) or done.length > POLISHED * problem.size:
                 raise StepFailed("the polishing step is not small")
-            if done.residual < before:
-                u, unbalanced, before = done.u, done.unbalanced, done.residual
-            problem.note(load_factor, before, done.length)
+            if done.residual.relative < left.relative:
+                u, left = done.u, done.residual
+            problem.note(load_factor, left.relative, done.length)
             near = Tangent(done.blocks, done.factor)
             del done
         if near is None:
             continue
-        while not before < aim:
-            step, left, residual = problem.resolved(near.factor, u, load_factor, unbalanced)
-            if not residual < QUICK * before:
+        while not left.relative < aim:
+            step, after = problem.correction_with(near.factor, u, load_factor, left)
+            if not after.relative < QUICK * left.relative:
                 break
-            u, unbalanced, before = u + step, left, residual
-            problem.note(load_factor, before, float(np.abs(step).max()))
-        if before < aim:
-            negative = problem.negative(near.factor)
-            return State(u, load_factor, problem.assembly.stresses(u), near.blocks, near.factor, negative)
+            u, left = u + step, after
+            problem.note(load_factor, left.relative, float(np.abs(step).max()))
+        if left.relative < aim:
+            return State(u, load_factor, near.blocks, near.factor, problem.negative(near.factor))
     raise StepFailed("the residual stagnates")
 
 
-def all_rounding(
-    problem: Problem, u: np.ndarray, load_factor: float, residual: float, correction: float
-) -> bool:
+def all_rounding(problem: Problem, u: np.ndarray, residual: Residual, correction: float) -> bool:
     """Whether a residual is what rounding leaves; in double precision the correction [m] before it was idle.
 
     Where nothing strains the sheet, as on a turned clamp alone, the forces are all rounding, and no residual
@@ -248,13 +233,12 @@ def all_rounding(
     """
     if problem.assembly.precision == "double" and correction > SETTLED * problem.size:
         return False
-    return residual < rounding_floor(problem, u, load_factor)
+    return residual.relative < rounding_floor(problem, u, residual)
 
 
-def rounding_floor(problem: Problem, u: np.ndarray, load_factor: float) -> float:
-    """Residual, relative to the forces as in `Problem.residual`, that rounding of the link forces leaves."""
-    scale = problem.force_scale(u, load_factor)
-    return rounding(problem, u) / scale if scale > 0.0 else np.inf
+def rounding_floor(problem: Problem, u: np.ndarray, residual: Residual) -> float:
+    """Residual at u, relative to the forces, that rounding of the link forces leaves."""
+    return rounding(problem, u) / residual.scale if residual.scale > 0.0 else np.inf
 
 
 def rounding(problem: Problem, u: np.ndarray) -> float:

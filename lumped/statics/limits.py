@@ -1,7 +1,4 @@
-"""The numbers that the search for an equilibrium goes by, in Python and in what njit compiles.
-
-(By that word `sheetbench.kernels` knows that kernels are made of this file too.)
-"""
+"""The numbers that the search for an equilibrium goes by."""
 
 COARSE = 1e-5  # residual, relative to the forces, at which corrections turn to the true tangent
 FINE = 1e-11  # residual, relative to the forces, that counts as equilibrium

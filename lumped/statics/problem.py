@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -16,14 +15,12 @@ from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
 from lumped.loads import Loads
 from lumped.springs.together import Stresses
-from lumped.statics import fused
 from lumped.statics.faults import Fault
-from lumped.statics.fused import Posed
-from lumped.statics.fused_path import Followed, followed
+from lumped.statics.unbalanced import scale, unbalanced_force
 from lumped.supports import Constraints
 from sheetbench.numerics.iterated import iterated
 from sheetbench.numerics.maps import product, transposed_product
-from sheetbench.numerics.reduced import BandedFactor, Factor, ReducedSystem, checked
+from sheetbench.numerics.reduced import Factor, ReducedSystem
 from sheetbench.scenes import Iteration
 
 Progress = Callable[[Iteration], None]
@@ -40,17 +37,31 @@ class Tangent(NamedTuple):
     factor: Factor
 
 
+class Residual(NamedTuple):
+    """What the equilibrium equation leaves: the unbalanced force (n, 3) [N], the part of it on the free
+    unknowns (m,) and that one's norm [N]; scale: the norm [N] of the external forces plus the supports'."""
+
+    force: np.ndarray
+    reduced: np.ndarray
+    norm: float
+    scale: float
+
+    @property
+    def relative(self) -> float:
+        """The norm over the scale of the forces."""
+        return self.norm / self.scale if self.scale > 0.0 else self.norm
+
+
 class Correction(NamedTuple):
     """A Newton correction: displacement (n, 3) [m] behind it and how far it went at most [m]; the tangent's
-    blocks and factors; the unbalanced force (n, 3) [N] behind it and its norm on the free unknowns relative
-    to the forces; the stresses that the linearisation predicts there, where it was given some."""
+    blocks and factors; the residual behind it; the stresses that the linearisation predicts there, where it
+    was given some."""
 
     u: np.ndarray
     length: float
     blocks: np.ndarray
     factor: Factor
-    unbalanced: np.ndarray
-    residual: float
+    residual: Residual
     stresses: Stresses | None
 
 
@@ -77,8 +88,6 @@ class Problem:
         dead = self.loads.conservative and (self.base is None or self.base.conservative)
         self.conservative = self.assembly.conservative and dead
         coupling = self.assembly.coupling
-        in_double = self.assembly.precision == "double"
-        self._plain = self.loads.potential and self.base is None and coupling is None and in_double
         self.multipliers = coupling.multipliers if coupling is not None else 0
         self._free = self.constraints.rows
         pattern, transform = self.assembly.pattern, self.constraints.transform
@@ -192,100 +201,48 @@ class Problem:
         return self.scale_of(internal, self.external(u, load_factor))
 
     def scale_of(self, internal: np.ndarray, external: np.ndarray) -> float:
-        """The same of these internal and external forces (n, 3) [N]."""
-        size: float = fused.scale(internal, external, self.constraints.held)
+        """Return the same of these internal and external forces (n, 3) [N]."""
+        size: float = scale(internal, external, self.constraints.held)
         return size
 
-    def residual(self, u: np.ndarray, load_factor: float) -> tuple[np.ndarray, float]:
-        """Unbalanced force (n, 3) [N] and its norm on the free unknowns relative to the forces."""
+    def residual(self, u: np.ndarray, load_factor: float) -> Residual:
+        """Return what the equilibrium equation leaves at u."""
         _, internal = self.internal(u, load_factor)
         external = self.external(u, load_factor)
-        unbalanced, residual = fused.unbalanced_force(
-            internal, external, self.constraints.held, self._free, self.system.unknowns
+        return Residual(
+            *unbalanced_force(internal, external, self.constraints.held, self._free, self.system.unknowns)
         )
-        return unbalanced, residual
 
     def correction(
         self,
         u: np.ndarray,
         load_factor: float,
-        unbalanced: np.ndarray,
+        residual: Residual,
         stresses: Stresses | None = None,
         near: Factor | None = None,
     ) -> Correction:
-        """The Newton correction at u with these stresses in the tangent, or those at u. near: factors of a
-        tangent close by, which large systems are solved with as long as they serve.
+        """Return the Newton correction at u with these stresses in the tangent, or those at u. near: factors
+        of a tangent close by, which large systems are solved with as long as they serve.
 
         Raises SingularMatrixError when the tangent has no usable factors.
         """
-        if (done := self._fused(u, load_factor, unbalanced, stresses)) is not None:
-            return done
-        blocks, right = self.tangent(u, load_factor, stresses), self.reduce(unbalanced)
+        blocks, right = self.tangent(u, load_factor, stresses), residual.reduced
         found = iterated(self.system.matrix(blocks), near, right) if near is not None else None
         if found is None or near is None:
             near = None  # whose memory the new factors may need
             near = self.factor(blocks)
             found = near.solve(right, SOLVED)
-        step, factor = self.expand(found), near
-        left, residual = self.residual(u + step, load_factor)
+        step = self.expand(found)
         following = self.assembly.extrapolated(u, step) if stresses is not None else None
-        return Correction(u + step, float(np.abs(step).max()), blocks, factor, left, residual, following)
+        after, length = u + step, float(np.abs(step).max())
+        return Correction(after, length, blocks, near, self.residual(after, load_factor), following)
 
-    def _fused(
-        self, u: np.ndarray, load_factor: float, unbalanced: np.ndarray, stresses: Stresses | None
-    ) -> Correction | None:
-        """The correction in one compiled call; None where that does not apply, and for tangents that are not
-        positive definite."""
-        springs, posed = self.assembly.together, self.posed
-        if springs is None or posed is None:
-            return None
-        given = springs.every(stresses or self.assembly.stresses(u))
-        work = fused.room(posed.blocks, posed.band)
-        done = fused.corrected(u, unbalanced, load_factor, given, stresses is not None, posed, work)
-        if not done.definite:
-            return None
-        self.factorisations += 1
-        checked(done.step, done.miss)
-        factor = BandedFactor(posed.band, work.matrix, work.factors)
-        following = springs.of_families(done.stresses) if stresses is not None else None
-        length = float(np.abs(done.step).max())
-        return Correction(
-            u + done.step, length, work.blocks, factor, done.unbalanced, done.residual, following
-        )
-
-    @cached_property
-    def posed(self) -> Posed | None:
-        """The lattice as arrays for the compiled corrections; None where those do not apply: where loads
-        follow the sheet or vary, with actuators, in single precision, on large grids."""
-        assembly, band, constraints = self.assembly, self.system.band, self.constraints
-        if assembly.together is None or band is None or not self._plain:
-            return None
-        pattern, placed = assembly.pattern, constraints.prescribed(1.0)
-        return Posed(
-            assembly.together.springs, pattern.blocks, pattern.rows, pattern.indices, band, self._free,
-            constraints.held, self.loads.dead, placed, bool(placed.any()), assembly.link_stiffness,
-            *assembly.plan, self.size,
-        )  # fmt: skip
-
-    def followed(self) -> tuple[Followed, Tangent] | None:
-        """The path from the flat sheet as far as compiled loops go, and the tangent factored at its end; None
-        where they do not apply, or where the flat sheet's tangent is not positive definite."""
-        if self.posed is None:
-            return None
-        work = fused.room(self.posed.blocks, self.posed.band)
-        done = followed(self.posed, work)
-        self.factorisations += done.factorisations
-        for line in done.history.tolist():
-            self.note(*line)
-        factor = BandedFactor(self.posed.band, work.matrix, work.factors)
-        return (done, Tangent(work.blocks, factor)) if done.definite else None
-
-    def resolved(
-        self, factor: Factor, u: np.ndarray, load_factor: float, unbalanced: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray, float]:
-        """A correction (n, 3) [m] with factors at hand, the unbalanced force behind it, and its residual."""
-        step = self.expand(factor.solve(self.reduce(unbalanced), SOLVED))
-        return step, *self.residual(u + step, load_factor)
+    def correction_with(
+        self, factor: Factor, u: np.ndarray, load_factor: float, residual: Residual
+    ) -> tuple[np.ndarray, Residual]:
+        """Return a correction (n, 3) [m] with factors at hand, and the residual behind it."""
+        step = self.expand(factor.solve(residual.reduced, SOLVED))
+        return step, self.residual(u + step, load_factor)
 
     def note(self, load_factor: float, residual: float, step: float) -> None:
         """Keep one line of history and tell whoever watches."""

@@ -25,7 +25,6 @@ from lumped.statics.equilibrium import (
     at_rest,
     corrected,
     follow,
-    from_flat,
     predictor,
 )
 from lumped.statics.faults import broken
@@ -157,21 +156,23 @@ def flat_step(scene: Scene, problem: Problem) -> Outcome:
     except SingularMatrixError as error:
         return _singular(problem, error)
     u = predictor(problem, start, 1.0)
-    state = replace(start, u=u, load_factor=1.0, stresses=problem.assembly.extrapolated(start.u, u))
+    state = replace(start, u=u, load_factor=1.0)
     if outside := outside_model(scene, link_stretch(problem.assembly, u, linear=True), STRETCH):
         return Outcome(Status.STRAIN_OUTSIDE_MODEL, state, notes=(outside,))
     return Outcome(Status.CONVERGED, state)
 
 
 def _singular(problem: Problem, error: SingularMatrixError) -> Outcome:
-    rest = State(np.zeros_like(problem.loads.dead), 0.0, *_nothing(problem))
+    blocks = np.zeros((problem.assembly.pattern.blocks, 3, 3))
+    none: Any = None
+    rest = State(np.zeros_like(problem.loads.dead), 0.0, blocks, none, none)
     return Outcome(Status.SINGULAR, rest, notes=(f"the flat sheet's tangent is singular: {error}",))
 
 
 def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
     """The equilibrium at full load, or how far the load path went and why."""
     try:
-        state, why = from_flat(problem)
+        state, why = follow(problem, at_rest(problem))
     except SingularMatrixError as error:
         return _singular(problem, error)
     careful = problem.fault is None and doubtful(problem, state)
@@ -297,8 +298,3 @@ def link_stretch(assembly: Assembly, u: np.ndarray, linear: bool = False) -> flo
     links = assembly.links
     stretch = np.abs(links.elongations(u, linear) / links.rest_length)
     return float(stretch.max(where=links.offset[:, 2] == 0.0, initial=0.0))
-
-
-def _nothing(problem: Problem) -> tuple[Any, ...]:
-    blocks = np.zeros((problem.assembly.pattern.blocks, 3, 3))
-    return problem.assembly.stresses(np.zeros_like(problem.loads.dead)), blocks, None, None

@@ -62,8 +62,8 @@ def digits(problem: Problem, state: State) -> Fault | None:
             return None
     if not share > DOUBTFUL:
         return None
-    unbalanced, _ = problem.residual(state.u, state.load_factor)
-    left = float(np.abs(problem.expand(state.factor.solve(problem.reduce(unbalanced)))).max()) / largest
+    unbalanced = problem.residual(state.u, state.load_factor).reduced
+    left = float(np.abs(problem.expand(state.factor.solve(unbalanced))).max()) / largest
     single = problem.assembly.precision == "single"
     return Fault(
         Status.SINGULAR if left > LOST or (single and share > MAY_BE_LOST) else Status.CONVERGED,

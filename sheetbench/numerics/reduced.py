@@ -38,7 +38,12 @@ class BandedFactor(Factor):
         return self._substituted(b, 0)[0]
 
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
-        """x with A x = b, refined once. Raises SingularMatrixError when the residual stays large."""
+        """x with A x = b, refined once where its backward error exceeds `enough`. Raises
+        SingularMatrixError when the residual stays large."""
+        if enough > 0.0:
+            x, error = self._substituted(b, 0)
+            if error <= enough:
+                return x
         return checked(*self._substituted(b, 1))
 
     def _substituted(self, b: np.ndarray, refinements: int) -> tuple[np.ndarray, float]:

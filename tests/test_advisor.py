@@ -1,4 +1,4 @@
-"""The advisor: what it chooses and leaves out, on known scenes and on scenes drawn at random."""
+"""The advisor: what it chooses and leaves out."""
 
 from __future__ import annotations
 
@@ -10,19 +10,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 from answers import once
-from campaigns import Here
 from commands import one_line, run
 
 import fem_reference
 from comparisons.advice import probing
-from comparisons.advice import validation as advisor_study
 from comparisons.advice.advisor import Advice, advise
-from comparisons.advice.validation import scenes_at_random, study
 from comparisons.comparison.comparison import error
 from comparisons.models import registry
 from comparisons.models.candidate import Candidate
 from comparisons.models.scales import scales
-from comparisons.runs.campaign import campaign
 from sheetbench import scenes
 from sheetbench.scenes import Clamped, Gravity, Scene, Sheet, Solution
 
@@ -218,18 +214,6 @@ def test_bad_input_is_said_in_a_line(
     assert said in one_line(capsys)
 
 
-def test_scenes_drawn_are_the_same_for_the_same_seed_and_within_range() -> None:
-    drawn = [scene for scene, _ in zip(scenes_at_random(3), range(40), strict=False)]
-    again = [scene for scene, _ in zip(scenes_at_random(3), range(40), strict=False)]
-    assert drawn == again and len({scene.sheet for scene in drawn}) == 40
-    for scene in drawn:
-        scenes.require_static(scene)
-        found = scales(scene)
-        assert 0.003 <= found.slenderness <= 0.05
-        assert 0.0 < found.load_number < 200.0
-    assert len({tuple(s.kind for s in scene.supports) for scene in drawn}) >= 6
-
-
 def test_an_unstable_scene_gets_no_choice_but_the_reason() -> None:
     base = scenes.load("one-edge-clamped")
     upright = base.model_copy(
@@ -238,26 +222,3 @@ def test_an_unstable_scene_gets_no_choice_but_the_reason() -> None:
     advice = advise(upright, 0.01)  # a sheet that stands on its edge and is too heavy to
     assert advice.choice is None and not advice.met
     assert "unstable" in advice.message
-
-
-@pytest.mark.usefixtures("in_process")
-def test_a_few_random_scenes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(advisor_study, "processes", Here)
-    rivals = advisor_study.rows
-    monkeypatch.setattr(advisor_study, "rows", lambda scene: rivals(scene)[1::4])
-    with campaign(tmp_path) as store:
-        found = study(store, count=2, compared=1, tolerances=(0.02,), workers=2, elements=8)
-        again = study(store, count=2, compared=1, tolerances=(0.02,), workers=2, elements=8)
-    assert len(found.cases) == 2 and found.met == 1.0
-    assert found == again
-    assert found.cases[0]["cost_ratio"] is not None
-    assert "tolerance" in found.table().to_markdown()
-
-
-@pytest.mark.slow
-def test_sixty_random_scenes(tmp_path: Path) -> None:
-    with campaign(tmp_path) as store:
-        found = study(store, workers=2)
-    assert len(found.cases) == 60 * len(advisor_study.TOLERANCES)
-    assert found.met >= 0.95
-    assert found.within >= 0.80

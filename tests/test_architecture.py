@@ -1,4 +1,4 @@
-"""Imports run one way: sheetbench.scenes → lumped, fem_reference → comparisons.
+"""Imports run one way: sheetbench.scenes → lumped, fem_reference → comparisons → studies.
 
 The two solvers share the question, never the mechanics: what a scene's words mean (values over time, where
 bent, tilted and moved edges are, which strains are outside the model) is the scene's to say, once; how
@@ -22,6 +22,7 @@ ALLOWED = {
     "lumped": {*GROUND, "lumped"},
     "fem_reference": {*GROUND, "fem_reference"} - {"sheetbench.files"},
     "comparisons": {*GROUND, "lumped", "fem_reference", "comparisons"},
+    "studies": {*GROUND, "lumped", "fem_reference", "comparisons", "studies"},
 }
 
 
@@ -45,7 +46,7 @@ def test_what_a_scenes_words_mean_is_left_to_the_scenes(package):
         assert not named & WORDS or path.parent.name == "verification", f"{path} has {named & WORDS}"
 
 
-PACKAGES = ("sheetbench", "lumped", "fem_reference", "comparisons")
+PACKAGES = ("sheetbench", "lumped", "fem_reference", "comparisons", "studies")
 
 
 @cache
@@ -169,7 +170,7 @@ def names_from(path: Path) -> list[tuple[str, str]]:
 
 
 def test_the_lattice_is_used_through_its_public_names():
-    for path in sorted((ROOT / "comparisons").rglob("*.py")):
+    for path in sorted([*(ROOT / "comparisons").rglob("*.py"), *(ROOT / "studies").rglob("*.py")]):
         for module, name in names_from(path):
             inside = module.startswith("lumped.") or (module == "lumped" and name not in lumped.__all__)
             assert not inside, f"{path.relative_to(ROOT)} imports {name} from {module}"
@@ -191,7 +192,7 @@ def test_the_reader_sees_every_way_to_import(tmp_path):
     assert imported(file) == {"lumped", "comparisons", "fem_reference", "sheetbench.scenes"}
 
 
-@pytest.mark.parametrize("package", ["lumped", "fem_reference", "comparisons"])
+@pytest.mark.parametrize("package", ["lumped", "fem_reference", "comparisons", "studies"])
 def test_misuse_is_refused_by_an_error_of_its_own(package):
     """Whoever reads BadInput knows that the input is to blame, and of any other error that the program is."""
     for path in sorted((ROOT / package).rglob("*.py")):

@@ -7,12 +7,10 @@ from dataclasses import replace
 from math import prod
 from typing import Any
 
-import expected_errors
 import fake_solutions
 import numpy as np
 import pytest
 from commands import run
-from expected_errors import found, scenes, shares
 
 from comparisons.comparison.comparison import compare
 from comparisons.models.candidate import Candidate
@@ -21,39 +19,9 @@ from comparisons.models.grading import grading_of
 from comparisons.models.layers import layers
 from comparisons.modes.spectra import spectra
 from sheetbench.scenes import Pressure, Scene, Solution, Status, load
+from studies.expected_errors.study import scenes
 
-ROWS: dict[str, Any] = json.loads(expected_errors.STORED.read_text())
 SCENE = load("two-edges-clamped")
-
-
-def test_on_the_stored_scenes_it_is_within_a_factor_of_two_and_never_below_a_third() -> None:
-    """On four of five of all cases that are told of, and of each group; `make expected-errors`."""
-    assert set(ROWS) == set(scenes())
-    for group in ("hard", "catalogue", "transfer", "drawn"):
-        count, told, within, worst = shares(found(ROWS, group))
-        assert within >= 0.8 and worst < 3.0, group
-        assert told >= 0.8 * count, group
-
-
-@pytest.mark.parametrize("name", ["hinged-corner", "auxetic-two", "pull-hard"])
-def test_the_stored_displacements_are_the_lattices(name: str) -> None:
-    """Of scenes that the rule by layers' widths got wrong."""
-    stored = ROWS[name]
-    for row in stored["lattices"][:2]:
-        found = expected_errors.lattice(scenes()[name][1], tuple(row["grid"]))
-        size = np.abs(row["probes"]).max()
-        np.testing.assert_allclose(found["probes"], row["probes"], atol=1e-5 * size)
-        assert found["status"] == row["status"]
-
-
-@pytest.mark.slow
-def test_the_stored_lattices_are_todays() -> None:
-    for name, (_, scene) in scenes().items():
-        for row in ROWS[name]["lattices"]:
-            found = expected_errors.lattice(scene, tuple(row["grid"]))
-            assert found["status"] == row["status"], name
-            size = np.abs(row["probes"]).max()
-            np.testing.assert_allclose(found["probes"], row["probes"], atol=1e-4 * size, err_msg=name)
 
 
 def test_an_error_of_second_order_is_found_exactly() -> None:

@@ -21,7 +21,7 @@ def test_the_packages_are_found_by_path_from_any_folder(tmp_path: Path) -> None:
 
 
 def test_every_installation_of_the_makefile_is_by_path() -> None:
-    text = (ROOT / "Makefile").read_text(encoding="utf-8")
+    text = "".join((ROOT / place).read_text(encoding="utf-8") for place in ("Makefile", "studies/Makefile"))
     assert "EDITABLE := --config-settings editable_mode=compat --editable" in text
     installs = re.findall(r"pip install (?:.*\\\n)*.*", text)
     assert len(installs) >= 3 and all("$(EDITABLE)" in one for one in installs)

@@ -25,6 +25,12 @@ def blocks(language: str) -> list[str]:
     return found
 
 
+def make_files() -> str:
+    return "".join(
+        path.read_text(encoding="utf-8") for path in (ROOT / "Makefile", ROOT / "studies" / "Makefile")
+    )
+
+
 def test_python_runs(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -46,7 +52,7 @@ def test_commands_name_verbs_and_scenes_that_exist(tmp_path: Path) -> None:
 
 
 def test_make_targets_exist() -> None:
-    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    makefile = make_files()
     targets = re.findall(r"make (\w+)", "\n".join(blocks("sh")))
     assert {"demo", "test"} <= set(targets)
     for target in targets:
@@ -78,7 +84,7 @@ def test_every_picture_is_drawn_by_a_make_target_and_shown_somewhere() -> None:
     pages = "\n".join(
         path.read_text(encoding="utf-8") for path in (*ROOT.glob("docs/*.md"), ROOT / "README.md")
     )
-    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    makefile = make_files()
     scripts = "\n".join(
         path.read_text(encoding="utf-8") for path in ROOT.glob("docs/*.py") if f"docs/{path.name}" in makefile
     )

@@ -15,10 +15,10 @@ from commands import one_line, run
 import lumped
 from comparisons.export.mujoco import to_mjcf
 from comparisons.export.sofa import to_sofa
-from comparisons.simulators.mujoco import at_rest, displacement, loaded, put
 from sheetbench import scenes
 from sheetbench.scenes import Hinged, PointLoad, Scene
 from sheetbench.scenes.errors import BadInput
+from studies.simulators.mujoco import at_rest, displacement, loaded, put
 
 READER = runpy.run_path(str(Path(__file__).parent.parent / "examples" / "other-codes" / "read_lattice.py"))
 CORNER = scenes.load("two-edges-clamped").replace(

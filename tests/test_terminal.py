@@ -83,6 +83,7 @@ SMALL = {
     "score": ["score", "answers.csv", "--case", "thick"],
     "linearise": ["linearise", "one-edge-clamped", "--lumped", "3", "--modes", "3"],
     "report": ["report", "stability"],
+    "study": ["study"],
     "view": ["view", SEED, "--lumped", "3", "--elements", "2", "--out", "sheets.html"],
 }
 WIDE = 400  # columns, where nothing has to give way

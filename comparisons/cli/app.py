@@ -16,7 +16,7 @@ import sys
 import traceback
 from collections.abc import Callable, MutableMapping
 from contextlib import suppress
-from functools import cache, wraps
+from functools import cache
 from importlib import import_module
 from shutil import get_terminal_size
 from typing import Any
@@ -24,8 +24,8 @@ from typing import Any
 import typer
 from typer.main import get_command
 
-from comparisons.cli import announced, characters, interruption, warned
-from comparisons.cli.everywhere import with_everywhere
+from comparisons.cli import announced, characters, interruption, removed, warned
+from comparisons.cli.everywhere import with_everywhere, with_promise
 from comparisons.runs import interrupts
 
 VERBS = (
@@ -51,6 +51,7 @@ VERBS = (
     "view",
     "live",
     "report",
+    "study",
 )
 FAULT = 1
 BAD_INPUT = 2
@@ -70,28 +71,10 @@ app = typer.Typer(
 )
 
 
-def _with_promise(verb: str, command: Callable[..., None]) -> Callable[..., None]:
-    """The command, which notes first what an interrupt of it leaves behind, and names its scene's file where
-    a refusal does not."""
-
-    @wraps(command)
-    def run(**given: Any) -> None:
-        interruption.promise(verb, given.get("out"))
-        try:
-            command(**given)
-        except ValueError as error:
-            from sheetbench.scenes.errors import Impossible, SceneError
-
-            if isinstance(error, Impossible) and given.get("scene"):
-                raise SceneError(f"{given['scene']}: {error}") from None
-            raise
-
-    return run
-
-
 for _verb in VERBS:
-    _command = with_everywhere(import_module(f"comparisons.cli.{_verb}").command)
-    app.command(_verb)(_with_promise(_verb, _command))
+    _module = import_module(f"comparisons.cli.{_verb}")
+    _command = with_promise(_verb, with_everywhere(_module.command))
+    app.command(_verb, context_settings=getattr(_module, "CONTEXT", None))(_command)
 
 
 def _print_version(asked: bool) -> None:
@@ -128,6 +111,9 @@ def main(arguments: list[str] | None = None) -> None:
     for stream in (sys.stdout, sys.stderr):
         characters.adapt(stream)
     _make_sound(os.environ)
+    if (said := removed.refusal(arguments)) is not None:
+        print(f"sheetbench: {said}", file=sys.stderr)
+        raise SystemExit(BAD_INPUT)
     verbs = _group(get_terminal_size().columns >= BOXES)
     with interruption.heeded(), warned.in_a_line(), announced.in_a_line():
         try:

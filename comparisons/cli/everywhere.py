@@ -1,4 +1,4 @@
-"""The options that every verb has, added to each in one place: --quiet, and --no-pictures."""
+"""What every verb and study has, added in one place: --quiet, --no-pictures, and what an interrupt says."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from functools import wraps
 from inspect import Parameter, signature
 from typing import Any
 
-from comparisons.cli import options
+from comparisons.cli import interruption, options
 
 
 def with_everywhere(command: Callable[..., None]) -> Callable[..., None]:
@@ -33,4 +33,23 @@ def with_everywhere(command: Callable[..., None]) -> Callable[..., None]:
         parameters.append(Parameter(name, Parameter.KEYWORD_ONLY, default=False, annotation=option))
     run.__signature__ = own.replace(parameters=parameters)  # type: ignore[attr-defined]
     run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+    return run
+
+
+def with_promise(verb: str, command: Callable[..., None]) -> Callable[..., None]:
+    """The command, which notes first what an interrupt of it leaves behind, and names its scene's file where
+    a refusal does not."""
+
+    @wraps(command)
+    def run(**given: Any) -> None:
+        interruption.promise(verb, given.get("out"))
+        try:
+            command(**given)
+        except ValueError as error:
+            from sheetbench.scenes.errors import Impossible, SceneError
+
+            if isinstance(error, Impossible) and given.get("scene"):
+                raise SceneError(f"{given['scene']}: {error}") from None
+            raise
+
     return run

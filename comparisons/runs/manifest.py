@@ -9,11 +9,11 @@ import re
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from functools import cache
-from importlib import metadata, util
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-PACKAGES = ("sheetbench", "lumped", "fem_reference", "comparisons")
+PACKAGES = ("sheetbench", "lumped", "fem_reference", "comparisons", "studies")  # the last in a checkout
 
 
 def record(command: list[str]) -> dict[str, Any]:
@@ -45,12 +45,9 @@ def version() -> str:
 @cache
 def source() -> str:
     """A digest of every Python file of the packages: a result is of this code and no other."""
-    files = {}
-    for package in PACKAGES:
-        found = util.find_spec(package)
-        for place in (found and found.submodule_search_locations) or ():
-            for path in Path(place).rglob("*.py"):
-                files[f"{package}/{path.relative_to(place).as_posix()}"] = path
+    root = Path(__file__).parents[2]
+    paths = [path for package in PACKAGES for path in (root / package).rglob("*.py")]
+    files = {path.relative_to(root).as_posix(): path for path in paths}
     return digest(files)
 
 

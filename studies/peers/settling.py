@@ -22,9 +22,9 @@ from scipy.integrate import solve_ivp
 import lumped
 from comparisons.models.registry import simulate
 from comparisons.models.springs import scene_springs
-from comparisons.peers.row import PeerRow, repeated
 from sheetbench.choices import INTEGRATORS
 from sheetbench.scenes import Scene, load
+from studies.peers.row import PeerRow, repeated
 
 SCENE, GRID, PROBE = "two-edges-settling", 9, "P4"
 DURATION, EVERY = 2.0, 0.005  # s

@@ -1,6 +1,6 @@
 """The row of `make coverage` in the table of docs/theory.md, section 8, from what the study has measured.
 
-python docs/coverage_row.py demo/coverage/coverage.json
+python -m studies.coverage.row demo/coverage/coverage.json
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-PAGE = Path(__file__).with_name("theory.md")
+PAGE = Path(__file__).parents[2] / "docs" / "theory.md"
 FIRST = "| `make coverage` ("
 HEAD = "| components inside [%] / median of bar over error |"
 

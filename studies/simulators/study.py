@@ -23,9 +23,9 @@ from comparisons.models.mujoco import MODEL
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
 from comparisons.report.work import Progress, Work
-from comparisons.simulators.mujoco import at_rest, displacement, loaded, put
 from comparisons.transfer.scenes import transfer_scenes
 from sheetbench.scenes import Scene
+from studies.simulators.mujoco import at_rest, displacement, loaded, put
 
 SCENES = ("one-edge-clamped", "two-edges-clamped", "opposite-edges-clamped", "curved-edge")
 GRID = 9
@@ -114,7 +114,7 @@ def _lattice(scene: Scene, method: str) -> np.ndarray:
 
 def _tendons(mujoco: Any, scene: Scene) -> np.ndarray | None:
     """The exported lattice at rest in MuJoCo, let go flat, or, where that does not come to rest in
-    `comparisons.simulators.mujoco.STEPS`, from where ours rests; the mean of the layers at 5 × 5 masses."""
+    `studies.simulators.mujoco.STEPS`, from where ours rests; the mean of the layers at 5 × 5 masses."""
     import lumped
 
     springs = lumped.calibrate(scene.sheet, scene.material, grid=GRID, method="central")

@@ -1,8 +1,7 @@
-"""Error bars against errors: the drawn scenes, the counting, and a part of `sheetbench verify --coverage`."""
+"""Error bars against errors: the drawn scenes, the counting, and a part of the study."""
 
 from __future__ import annotations
 
-import importlib
 import json
 from itertools import islice
 from pathlib import Path
@@ -13,12 +12,13 @@ import pytest
 from campaigns import Here
 
 from comparisons.cli import main
-from comparisons.coverage import study
-from comparisons.coverage.scenes import ARRANGEMENTS, SEED, drawn_scenes
-from comparisons.coverage.study import GOAL, LOOSE, coverage, measured
 from comparisons.runs.store import Store
 from sheetbench import scenes
 from sheetbench.scenes.rigid_motions import require_static
+from studies.coverage import row as docs_row
+from studies.coverage import study
+from studies.coverage.scenes import ARRANGEMENTS, SEED, drawn_scenes
+from studies.coverage.study import GOAL, LOOSE, coverage, measured
 
 TRUTH = {"plate": 20, "shell": 16}  # enough beside 8 elements, and quick
 
@@ -85,7 +85,7 @@ def test_the_command_writes_what_it_counted(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setitem(study.TRUTH, "plate", 20)
-    asked = ["verify", "--coverage", "--scenes", "1", "--model", "plate", "--json", "--out", str(tmp_path)]
+    asked = ["study", "coverage", "--scenes", "1", "--model", "plate", "--json", "--out", str(tmp_path)]
     with pytest.raises(SystemExit) as caught:
         main(asked)
     document = json.loads(capsys.readouterr().out)
@@ -99,35 +99,24 @@ def test_the_command_writes_what_it_counted(
     }
 
 
-@pytest.mark.parametrize(
-    "wrong", [["--coverage", "--locking"], ["--scenes", "3"], ["--coverage", "--model", "lumped"]]
-)
-def test_options_that_do_not_go_together_are_refused(wrong: list[str]) -> None:
-    with pytest.raises(SystemExit) as caught:
-        main(["verify", *wrong])
-    assert caught.value.code == 2
-
-
 def test_a_study_whose_solves_all_fail_ends(store, monkeypatch):
     """It drew scenes without end: after a change of the code under a run no solve succeeds."""
 
     def fail(*args, **kwargs):
         raise ValueError("the code changed")
 
-    monkeypatch.setattr("comparisons.coverage.tasks.answer", fail)
+    monkeypatch.setattr("studies.coverage.tasks.answer", fail)
     with pytest.raises(RuntimeError, match="the code changed"):
         coverage(store, count=2, models=("plate",), meshes=(8,), truth=TRUTH, pool=Here)
 
 
-def test_the_studys_row_stands_in_its_table_once(monkeypatch):
+def test_the_studys_row_stands_in_its_table_once():
     """`make coverage` writes it; the rest of the page stays to the letter."""
-    monkeypatch.syspath_prepend(Path(__file__).parents[1] / "docs")
-    row = importlib.import_module("coverage_row")
-    page = row.PAGE.read_text(encoding="utf-8")
+    page = docs_row.PAGE.read_text(encoding="utf-8")
     found = [{"model": "solid", "elements": 16, "scenes": 40, "inside": 0.951, "loose": 4.04}]
-    once = row.with_row(page, found)
-    added = next(line for line in once.splitlines() if line.startswith(row.FIRST))
+    once = docs_row.with_row(page, found)
+    added = next(line for line in once.splitlines() if line.startswith(docs_row.FIRST))
     assert added == "| `make coverage` (40 scenes) |  |  |  |  |  | 95.1 / 4.0 |"
-    assert row.with_row(once, found) == once
-    without = [line for line in page.splitlines() if not line.startswith(row.FIRST)]
+    assert docs_row.with_row(once, found) == once
+    without = [line for line in page.splitlines() if not line.startswith(docs_row.FIRST)]
     assert [line for line in once.splitlines() if line != added] == without

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from comparisons.peers import settling
-from comparisons.peers.row import PeerRow, faster, repeated
-from comparisons.peers.study import report
 from sheetbench.scenes import load
+from studies.peers import settling
+from studies.peers.row import PeerRow, faster, repeated
+from studies.peers.study import report
 
 ROWS = [
     PeerRow("statics", "lattice", "5 × 5", True, 3e-3, (0.001, 0.003, 0.002), "converged"),

@@ -12,16 +12,16 @@ from comparisons.report.table import Column, Table
 from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:
-    from comparisons.coverage.study import Coverage
+    from studies.coverage.study import Coverage
 
 _RATIO = ("", "", 1.0, ".3g")
 
 
 def report(found: Coverage) -> Report:
-    """What `sheetbench verify --coverage` shows."""
+    """What `sheetbench study coverage` shows."""
     return Report(
         name="coverage",
-        title="verify",
+        title="coverage",
         subtitle="how often the references' error bars hold the error, on drawn scenes",
         document=found.as_dict(),
         tables=(shares(found), misses(found)),

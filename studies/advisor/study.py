@@ -201,7 +201,7 @@ def study(
     def runs(task: str, asked: list[tuple[Scene, dict[str, Any]]], timed: bool) -> list[Finished]:
         wanted = [
             Run(
-                f"advice.{task}",
+                f"studies.advisor.study:{task}",
                 {"scene": scene.document(), **rest},
                 f"{task} {scene.name}",
                 timed,

@@ -8,9 +8,9 @@ from pathlib import Path
 import matplotlib
 from matplotlib.figure import Figure
 
-from comparisons.peers.row import PeerRow
 from comparisons.report.look import PLAIN, Look
 from comparisons.report.style import GREY, STYLE, save
+from studies.peers.row import PeerRow
 
 COLOURS = ("#0072b2", "#222222", "#a0522d", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00")
 

@@ -21,12 +21,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from comparisons.coverage import tables
-from comparisons.coverage.scenes import SEED, drawn_scenes
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
 from sheetbench.scenes import Scene, Status
+from studies.coverage import tables
+from studies.coverage.scenes import SEED, drawn_scenes
 
 if TYPE_CHECKING:
     from comparisons.report.report import Report
@@ -207,7 +207,7 @@ def measured(
 def _run(scene: Scene, model: str, elements: int, fine: bool) -> Run:
     arguments = {"scene": scene.document(), "model": model, "elements": elements}
     graded = {"graded": True} if fine and model == "plate" else {}  # the others are graded as they are
-    return Run("coverage.answer", arguments | graded, f"{scene.name} {model} {elements}")
+    return Run("studies.coverage.tasks:answer", arguments | graded, f"{scene.name} {model} {elements}")
 
 
 def _failure(outcomes: dict[tuple[str, int], Finished]) -> str | None:

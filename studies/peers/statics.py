@@ -14,9 +14,9 @@ from comparisons.comparison.comparison import error
 from comparisons.judges.found import installed
 from comparisons.models.candidate import Candidate
 from comparisons.models.registry import MODELS, answer, solve_reference
-from comparisons.peers.row import PeerRow, repeated
 from sheetbench.scenes import Solution, load
 from sheetbench.scenes.errors import BadInput
+from studies.peers.row import PeerRow, repeated
 
 SCENE, TRUTH, OBLIQUE = "two-edges-clamped", 32, "consistent-oblique"
 

@@ -7,11 +7,11 @@ from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 
-from comparisons.peers import settling, statics
-from comparisons.peers.row import PeerRow, faster
 from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
+from studies.peers import settling, statics
+from studies.peers.row import PeerRow, faster
 
 QUESTIONS = {"statics": statics.rows, "settling": settling.rows}
 TEXTS = {
@@ -70,6 +70,6 @@ def table(question: str, rows: Sequence[PeerRow]) -> Table:
 
 
 def _draw(rows: Sequence[PeerRow], paths: Sequence[Path], look: Look) -> None:
-    from comparisons.peers.figure import draw
+    from studies.peers.figure import draw
 
     draw(rows, paths, look)

@@ -1,17 +1,13 @@
 """How good the expected error of a lattice's grid is: a hundred scenes, their true errors and the estimates.
 
-Run as a program (`make expected-errors`) it solves every scene on the shell (16 elements along the shorter
-side) and on the lattices of 5, 9 and 17 masses and the finer ones that the estimate takes, writes the
-displacements at the probes to tests/expected_errors.json and prints the table of docs/theory.md. The tests
-read that file. Scenes: some that the rule before this one got wrong, the catalogue, the transfer study's and
-fifty drawn as the advisor's are.
+`sheetbench study expected-errors` solves every scene on the shell (16 elements along the shorter side) and on
+the lattices of 5, 9 and 17 masses and the finer ones that the estimate takes, writes the displacements at the
+probes to `STORED` and prints the table of docs/theory.md. The tests read that file. Scenes: some that the
+rule before this one got wrong, the catalogue, the transfer study's and fifty drawn as the advisor's are.
 """
 
 from __future__ import annotations
 
-import json
-import sys
-import warnings
 from itertools import islice
 from math import prod
 from pathlib import Path
@@ -21,14 +17,14 @@ import numpy as np
 
 import fem_reference
 import lumped
-from comparisons.advice.validation import scenes_at_random
 from comparisons.comparison.comparison import error
 from comparisons.models.expected_error import estimate, finer_grid, largest_stretch, resolves
 from comparisons.transfer.scenes import transfer_scenes
 from sheetbench.scenes import Scene, catalogue, load
 from sheetbench.scenes.grid import grid_of
+from studies.advisor.study import scenes_at_random
 
-STORED = Path(__file__).with_name("expected_errors.json")
+STORED = Path(__file__).with_name("answers.json")
 GRIDS = (5, 9, 17)
 SEED, DRAWN = 41, 50
 Row = dict[str, Any]
@@ -175,8 +171,7 @@ def pairs(row: Row, scene: Scene) -> list[tuple[float, float | None]]:
         alike = fine["status"] == "converged" and fine["snaps"] == coarse["snaps"]
         if alike and resolves(scene, finer_grid(tuple(grid))):
             ratio = prod(n - 1 for n in fine["grid"][:2]) / prod(n - 1 for n in grid[:2])
-            answers = (np.array(one["probes"]) for one in (coarse, fine))
-            told = estimate(*answers, ratio, fine["stretch"])
+            told = estimate(np.array(coarse["probes"]), np.array(fine["probes"]), ratio, fine["stretch"])
         if true is not None:
             both.append((true, told))
     return both
@@ -211,19 +206,3 @@ def found(rows: dict[str, Row], group: str, masses: int | None = None) -> list[t
         if group in (row["group"], "all"):
             pairs_of += pairs(row | {"grids": grids}, named[name][1])
     return pairs_of
-
-
-def main() -> None:
-    """Solve what the file does not have yet, or all of it with --anew, and print the table."""
-    warnings.simplefilter("ignore")
-    rows = json.loads(STORED.read_text()) if STORED.exists() and "--anew" not in sys.argv else {}
-    for name, (group, scene) in scenes().items():
-        if name not in rows:
-            print(f"solving {name} …", file=sys.stderr, flush=True)
-            rows[name] = measure(group, scene)
-            STORED.write_text(json.dumps(rows, separators=(",", ":")).replace('},"', '},\n"') + "\n")
-    print(table(rows))
-
-
-if __name__ == "__main__":
-    main()

@@ -1,0 +1,67 @@
+"""`sheetbench study NAME`: a study of the laboratory, the package `studies`, which only a checkout has."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from comparisons.cli.options import NoPictures
+
+CONTEXT = {"ignore_unknown_options": True, "help_option_names": []}  # options are the study's, help too
+CHECKOUT = Path(__file__).parents[2]
+LABORATORY = "studies"
+HELP = ("-h", "--help")
+
+
+def command(
+    context: typer.Context,
+    name: Annotated[
+        str | None, typer.Argument(metavar="NAME", help="The study; all are listed unless given.")
+    ] = None,
+    options: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="…", help="Options of the study, which sheetbench study NAME --help lists."),
+    ] = None,
+    no_pictures: NoPictures = False,
+) -> None:
+    """Run a study of the models from a checkout of the repository; without NAME, list them."""
+    studies = _studies()
+    if name in (None, *HELP):
+        print(context.get_help())
+        print("\n".join(f"  {study}: {about}" for study, about in studies.items()) or _no_checkout())
+        return
+    from typer.main import get_command
+
+    from comparisons.cli.everywhere import with_everywhere, with_promise
+    from sheetbench.scenes.errors import BadInput, require_choice
+
+    if not studies:
+        raise BadInput(f"study {name}: {_no_checkout()}")
+    require_choice("study", str(name), studies)
+    module = import_module(f"{LABORATORY}.{str(name).replace('-', '_')}.command")
+    markup = getattr(context.find_root().command, "rich_markup_mode", None)  # as wide as the terminal is
+    app = typer.Typer(rich_markup_mode=markup, context_settings={"help_option_names": list(HELP)})
+    app.command(name)(with_promise(str(name), with_everywhere(module.command)))
+    given = [*(options or ()), *(["--no-pictures"] if no_pictures else ())]
+    main: Any = get_command(app)
+    status = main(args=given, prog_name=f"sheetbench study {name}", standalone_mode=False)
+    if status:
+        raise typer.Exit(status)
+
+
+def _studies() -> dict[str, str]:
+    """Every study with what it is about; none where these packages do not stand in a checkout."""
+    if not (CHECKOUT / LABORATORY / "__init__.py").is_file():
+        return {}
+    found: dict[str, str] = import_module(LABORATORY).STUDIES
+    return found
+
+
+def _no_checkout() -> str:
+    return (
+        "studies are not installed with the package; clone the repository, run 'make install' there, then "
+        ".venv/bin/sheetbench study NAME"
+    )

@@ -1,0 +1,14 @@
+"""The laboratory: studies of the models, run from a checkout by `sheetbench study NAME`.
+
+A study is a folder of this package with a module `command`, whose function `command` has the study's options
+as its parameters. Nothing here is installed; the packages import none of it but by that name.
+"""
+
+STUDIES = {
+    "advisor": "the advisor on scenes drawn at random: is the tolerance met, is the choice the cheapest?",
+    "central": "the table of the calibration central, trained anew",
+    "coverage": "how often the references' error bars hold the error, on drawn scenes",
+    "expected-errors": "the expected error of a lattice's grid on a hundred scenes, beside the true one",
+    "peers": "our models beside other people's codes, in one run",
+    "simulators": "other simulators with what is exported for them",
+}

@@ -1,0 +1,1 @@
+"""The advisor on scenes drawn at random."""

@@ -1,0 +1,58 @@
+"""`sheetbench study coverage`: how often the references' error bars hold."""
+
+from __future__ import annotations
+
+import os
+from typing import Annotated
+
+import typer
+
+from comparisons.cli.finish import finish
+from comparisons.cli.options import Json, Out, Overwrite, Retry, Workers
+from sheetbench.choices import REFERENCES
+from sheetbench.scenes.errors import require_choice
+from studies.coverage import study
+
+
+def command(
+    scenes: Annotated[
+        int,
+        typer.Option(
+            min=1,
+            metavar="N",
+            help="Scenes drawn. Each takes half a minute of one processor, less than half without the solid.",
+        ),
+    ] = 40,
+    seed: Annotated[int, typer.Option(min=0, metavar="N", help="Seed of the scenes.")] = 41,
+    model: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--model", metavar="NAME", help="Only plate, shell or solid; may be repeated.", show_default=False
+        ),
+    ] = None,
+    workers: Workers = None,
+    retry: Retry = False,
+    json: Json = False,
+    out: Out = None,
+    overwrite: Overwrite = False,
+) -> None:
+    """Measure how often the references' error bars hold the error, on drawn scenes.
+
+    Exit status 3 unless 95 % of the components are inside, the bars no looser than five errors. With --out an
+    interrupted study is resumed.
+    """
+    for name in model or ():
+        require_choice("model", name, REFERENCES)
+    with finish("coverage", json, out, overwrite) as end:
+        with end.campaign() as (store, pool, progress):
+            found = study.coverage(
+                store,
+                count=scenes,
+                seed=seed,
+                models=[name for name in study.MODELS if name in (model or study.MODELS)],
+                workers=workers or os.cpu_count() or 1,
+                pool=pool,
+                retry=retry,
+                progress=progress,
+            )
+        end(found.report())

@@ -1,0 +1,1 @@
+"""The expected error of a lattice's grid on a hundred scenes, beside the true one."""

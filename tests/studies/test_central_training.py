@@ -1,0 +1,16 @@
+"""The training of the calibration `central`."""
+
+from __future__ import annotations
+
+import pytest
+
+from lumped.calibration.central_table import ROWS
+from studies.central.training import trained_to_bend
+
+
+def test_the_table_is_what_its_scenes_ask_for() -> None:
+    """Of one row: the numbers are as fine as the search, the errors flat about their least."""
+    row = next(row for row in ROWS if row[0] == 0.45)
+    a, b, worst, cauchy = trained_to_bend(0.45)
+    assert (a, b) == pytest.approx(row[1:3], abs=2e-3)
+    assert (worst, cauchy) == pytest.approx((row[4], row[6]), abs=1e-3)

@@ -75,7 +75,7 @@ def modes(
     stress-free sheet, without actuators, loads not mattering; or "deformed", its equilibrium under the
     scene's loads (no actuators, no follower loads), with the tangent there.
 
-    Raises BadInput when the lattice has fewer modes than asked or the scene asks what has no modes,
+    Raises BadInput for a count that the lattice cannot give or where the scene asks what has no modes,
     NoEquilibrium where there is none to be about.
 
     >>> import lumped
@@ -95,15 +95,16 @@ def modes(
         at = np.zeros_like(problem.loads.dead)
     transform = problem.constraints.transform
     rigid = len(free_rigid_motions(scene))
-    if count + rigid > problem.system.unknowns - 1:
-        raise BadInput(f"count = {count}: the lattice has only {problem.system.unknowns - rigid} modes")
+    unknowns = problem.system.unknowns
+    if not 1 <= count <= unknowns - rigid:
+        raise BadInput(f"count = {count}: 1 to {unknowns - rigid} on this lattice")
     inertia = mass_matrix(scene, problem.assembly.lattice, distribution or usual_masses(calibration))
     mass = sp.csc_array(transform.T @ sp.kron(inertia, sp.eye_array(3)) @ transform)
     blocks = problem.assembly.tangent(at)
     stiffness = problem.system.matrix(blocks)
     wanted = count + rigid
     with one_blas_thread():
-        if problem.system.unknowns <= DENSE:
+        if unknowns <= max(DENSE, wanted):
             values, vectors = scipy.linalg.eigh(
                 stiffness.toarray(), mass.toarray(), subset_by_index=[0, wanted - 1]
             )
@@ -113,7 +114,7 @@ def modes(
     shapes = np.stack([problem.expand(vectors[:, k]) for k in order])
     shapes /= np.abs(shapes).max(axis=(1, 2), keepdims=True)
     frequencies = np.sqrt(np.maximum(values[order], 0.0)) / (2.0 * np.pi)
-    return Modes(frequencies, shapes, rigid, problem.system.unknowns, problem.assembly.lattice)
+    return Modes(frequencies, shapes, rigid, unknowns, problem.assembly.lattice)
 
 
 def usual_masses(calibration: Calibration) -> Inertia:

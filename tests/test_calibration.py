@@ -185,6 +185,16 @@ def test_textbook_constructions_on_squares():
     assert (bars.axial, bars.diagonal) == pytest.approx((strip, strip / 2))
 
 
+def test_textbook_constructions_on_oblong_cells():
+    """E2 ly/lx along x and E2 lx/ly along y (Van Gelder); K_ij of a rectangle (Lloyd et al.)."""
+    strip = 54.5e6 * 0.003 / 2
+    gelder = lumped.calibrate(SEED.sheet, SEED.material, (9, 17), "van-gelder").springs.axial
+    assert (gelder.x, gelder.y) == pytest.approx((strip / 2, 2 * strip))
+    lloyd = lumped.calibrate(SEED.sheet, SEED.material, (9, 13), "lloyd").springs.axial
+    # c = E2 · 9/8, c66 = c/3: 2 (c ly/3lx − c66 lx/6ly), 2 (c lx/3ly − c66 ly/6lx) with lx/ly = 3/2
+    assert (lloyd.x, lloyd.y) == pytest.approx((strip * 5 / 16, strip * 25 / 24))
+
+
 def test_negative_area_springs_are_said():
     rubbery = Material(young=54.5e6, poisson=0.2, density=1678.0)
     calibration = lumped.calibrate(SEED.sheet, rubbery, (9, 9))

@@ -8,6 +8,7 @@ from inspect import signature
 from typing import get_args
 
 import pytest
+from click import Parameter
 from typer.main import get_command
 
 import fem_reference
@@ -70,3 +71,16 @@ def test_the_names_are_known_without_what_they_stand_for() -> None:
     )
     found = subprocess.run([sys.executable, "-c", slow], capture_output=True, text=True, check=True)
     assert found.stdout.split() == []
+
+
+def test_a_switch_is_off_unless_given() -> None:
+    commands = get_command(app).commands.items()  # type: ignore[attr-defined]
+    switches = {
+        (verb, p.name): p.default for verb, command in commands for p in command.params if is_switch(p)
+    }
+    assert len(switches) > 50 and not [name for name, on in switches.items() if on]
+
+
+def is_switch(parameter: Parameter) -> bool:
+    """Whether an option takes no value and has no --no-… of its own."""
+    return getattr(parameter, "is_flag", False) and not parameter.secondary_opts

@@ -89,6 +89,7 @@ def test_the_shell_finds_what_the_shell_made():
     found = identify(SCENE, Displacements(POINTS, noisy(values, rng)), ["young"], model="shell", elements=4)
     low, high = found.unknowns["young"].interval
     assert low < TRUE < high and high / low < 1.05
+    assert not any("cells half as large" in said for said in found.warnings)  # a lattice's
 
 
 def test_curvature_of_a_support():

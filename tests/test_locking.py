@@ -10,9 +10,11 @@ from cases import with_material
 import fem_reference
 from comparisons.verification.locking import picture
 from fem_reference.verification import Row, run
+from fem_reference.verification.locking import POISSON
 from fem_reference.verification.mindlin_plates import deflection
 from fem_reference.verification.rows import relatively
 from sheetbench import scenes
+from sheetbench.scenes import Material
 
 
 @pytest.mark.parametrize("model", ["plate", "shell"])
@@ -29,6 +31,11 @@ def test_solid_within_1_percent_at_the_seeds_slenderness(poisson: float) -> None
     """h/a = 3/188."""
     coarse, fine = (deflection("solid", "clamped", 3 / 188, n, poisson) for n in (8, 14))
     assert coarse == pytest.approx(fine, rel=0.01)
+
+
+def test_the_sweeps_are_of_materials_that_there_are() -> None:
+    for ratios in POISSON.values():
+        assert [Material(young=1.0, poisson=ratio, density=1.0).poisson for ratio in ratios] == sorted(ratios)
 
 
 @pytest.mark.slow

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from matplotlib.pyplot import subplots
 
 import fem_reference
 import lumped
@@ -26,6 +27,7 @@ from comparisons.reproduction import figure
 from comparisons.reproduction.tables import nearest
 from comparisons.runs.store import Finished
 from comparisons.stability import STUDIES
+from comparisons.tradeoff import figure as tradeoff_figure
 from comparisons.tradeoff import statics
 from comparisons.tradeoff.motion import DynamicTradeoff
 from comparisons.tradeoff.tables import rows as statics_rows
@@ -51,6 +53,13 @@ def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front() -> None:
     assert [column.name for column in table.brief().columns] == [
         "row", "model", "size", "unknowns", "solve", "memory", "error", "field error", "front",
     ]  # fmt: skip
+
+
+def test_a_tradeoffs_axis_holds_its_errors_and_the_bar_in_percent() -> None:
+    rows = [SimpleNamespace(error=error) for error in (0.002, 0.3, 0.0)]
+    _, axis = subplots()
+    tradeoff_figure._floor(axis, SimpleNamespace(rows=rows, uncertainty=0.01), "bar")  # type: ignore[arg-type]
+    assert axis.get_ylim() == pytest.approx((0.6 * 0.2, 1.6 * 30.0))
 
 
 def test_a_front_without_a_bar_has_every_row_that_errs_less_for_more_time() -> None:

@@ -77,7 +77,14 @@ def test_dense_and_sparse_eigensolvers_agree(monkeypatch):
     assert sparse == pytest.approx(lumped.modes(free, springs, 3).frequencies, rel=1e-8)
 
 
-def test_too_many_modes_are_refused():
+@pytest.mark.parametrize("dense", [600, 0])
+def test_a_lattice_gives_every_mode_that_it_has_and_no_more(dense, monkeypatch):
+    monkeypatch.setattr("lumped.vibration.DENSE", dense)
     scene = plate("x0")
-    with pytest.raises(ValueError, match="count = 100"):
-        lumped.modes(scene, lumped.calibrate(scene.sheet, scene.material, (3, 3)), 100)
+    springs = lumped.calibrate(scene.sheet, scene.material, (3, 3))
+    unknowns = lumped.modes(scene, springs, 1).unknowns
+    found = lumped.modes(scene, springs, unknowns).frequencies
+    assert len(found) == unknowns and found[0] > 0.0 and (np.diff(found) >= 0.0).all()
+    for count in (0, unknowns + 1):
+        with pytest.raises(ValueError, match=f"count = {count}: 1 to {unknowns} on this lattice"):
+            lumped.modes(scene, springs, count)

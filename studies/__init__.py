@@ -9,6 +9,8 @@ STUDIES = {
     "central": "the table of the calibration central, trained anew",
     "coverage": "how often the references' error bars hold the error, on drawn scenes",
     "expected-errors": "the expected error of a lattice's grid on a hundred scenes, beside the true one",
+    "leaderboard": "what models get wrong on the statics of the reference set, and their times",
     "peers": "our models beside other people's codes, in one run",
+    "reference-set": "the reference set of suite and score, computed anew",
     "simulators": "other simulators with what is exported for them",
 }

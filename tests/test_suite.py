@@ -12,7 +12,6 @@ import pytest
 from commands import one_line, run
 
 import fem_reference
-from comparisons.suite import regenerate
 from comparisons.suite.cases import SUITES, cases
 from comparisons.suite.reference import FILE, VERSION, document, references
 from sheetbench import scenes
@@ -63,20 +62,6 @@ def test_a_coarser_shell_finds_the_values(name: str) -> None:
     solution = fem_reference.solve(known.scene, "shell", elements=8)
     off = np.abs(solution.displacement(known.scene.probe_points()) - known.values).max()
     assert off < 2e-3 * np.abs(known.values).max()
-
-
-def test_one_command_makes_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    """On coarse meshes and one case of each suite, with the keys and cases of the file."""
-    chosen = [case for case in cases() if case.name in ("thick", "corner-struck", "modes-one-edge")]
-    monkeypatch.setattr(regenerate, "cases", lambda: chosen)
-    for name, value in (("ELEMENTS", 4), ("SOLID", 2), ("FINE", 4), ("COARSE", 3)):
-        monkeypatch.setattr(regenerate, name, value)
-    found = regenerate.regenerate(lambda text: None)
-    kept = {case["name"]: case for case in document()["cases"]}
-    assert set(found) == set(document())
-    for case in found["cases"]:
-        assert set(case) == set(kept[case["name"]])
-    assert found["standing"] == document()["standing"]
 
 
 def test_the_verb_lists_and_exports_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

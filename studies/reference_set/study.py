@@ -1,4 +1,4 @@
-"""The reference set computed anew: `python -m comparisons.suite.regenerate [FILE]`, or `make suite`.
+"""The reference set computed anew: `sheetbench study reference-set`, or `make suite`.
 
 statics   the shell on n, ¾ n and ½ n elements: the finest answer, its bar by the grid convergence index
           (`fem_reference.uncertainty`), and where it is not too dear the solid beside it
@@ -6,14 +6,12 @@ settling  the lattice on 17 and 9 masses a side: the finer answer; the bar is wh
           two integrators differ by on the coarser: no finite elements here move
 modes     the shell as in statics, and the solid
 
-Where models stand on it is measured apart (`comparisons.suite.standing`); those rows stay as they are.
+Where models stand on it is another study (`studies.leaderboard`); those rows stay as they are.
 """
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
-from pathlib import Path
 from time import perf_counter
 from typing import Any
 
@@ -22,10 +20,10 @@ import numpy as np
 import fem_reference
 import lumped
 from comparisons.comparison.comparison import error
-from comparisons.report.files import plain, to_json, write_text
+from comparisons.report.files import plain
 from comparisons.runs.manifest import machine, version
 from comparisons.suite.cases import FREQUENCIES, Case, cases
-from comparisons.suite.reference import FILE, LICENCE, VERSION, document
+from comparisons.suite.reference import LICENCE, VERSION, document
 from fem_reference.uncertainty import coarser, estimate, mesh_size, solve_with_bar
 from sheetbench.scenes import Scene
 
@@ -131,7 +129,3 @@ def _elements(scene: Scene) -> int:
 def _digits(values: np.ndarray) -> Any:
     """Seven digits: more than any bar leaves certain."""
     return np.vectorize(lambda value: float(f"{value:.6e}"))(values).tolist()
-
-
-if __name__ == "__main__":
-    write_text(Path(sys.argv[1]) if len(sys.argv) > 1 else FILE, to_json(regenerate()))

@@ -1,4 +1,4 @@
-"""Where models stand on the statics of the set: `python -m comparisons.suite.standing [MODEL …]`.
+"""Where models stand on the statics of the reference set: `sheetbench study leaderboard [MODEL …]`.
 
 Our own models, and other people's programs as plug-ins: what each gets wrong on every case, and its time. It
 writes these rows into the set's file and leaves its values alone (`make standing`). Models as `tradeoff
@@ -8,8 +8,7 @@ not installed keeps its rows.
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -39,48 +38,35 @@ STANDING = (
 SLOW = (Candidate("felupe", {"elements": 4}),)  # minutes
 
 
-def standing(case: Reference, candidate: Candidate) -> dict[str, Any]:
-    """What a model gets wrong on a case, and its median time."""
+def row(case: Reference, candidate: Candidate) -> dict[str, Any]:
+    """Return what a model gets wrong on a case, and its median time."""
     answers = [registry.solve(case.scene, candidate.model, **candidate.settings) for _ in range(REPEATS)]
     found = answers[-1]
-    off = error(found.displacement(case.scene.probe_points()), case.values) if found.comparable else None
+    there = found.comparable
     return {
         "case": case.name,
         "model": candidate.model,
         "settings": candidate.settings,
         "status": str(found.status),
-        "error": off,
-        "seconds": float(np.median([answer.solve_seconds for answer in answers]))
-        if found.comparable
-        else None,
+        "error": error(found.displacement(case.scene.probe_points()), case.values) if there else None,
+        "seconds": float(np.median([answer.solve_seconds for answer in answers])) if there else None,
     }
 
 
-def measured(candidate: Candidate) -> Iterator[dict[str, Any]]:
-    """Its rows over the statics, none where it is not installed."""
-    for case in references("statics").values():
-        try:
-            yield standing(case, candidate)
-        except BadInput as missing:
-            print(f"{written(candidate)}: {missing}", file=sys.stderr)
-            return
-
-
-def main(names: list[str]) -> None:
-    """Measure, and put the rows into the file."""
+def measure(names: Sequence[str], say: Callable[[str], None]) -> None:
+    """Measure models by name, and put the rows into the set's file. Raises BadInput for an unknown model."""
     known = {written(candidate): candidate for candidate in (*STANDING, *SLOW)}
     for name in names:
         require_choice("model", name, known)
     rows: dict[str, list[dict[str, Any]]] = {}
-    for row in document()["standing"]:
-        rows.setdefault(written(Candidate(row["model"], row["settings"])), []).append(row)
+    for kept in document()["standing"]:
+        rows.setdefault(written(Candidate(kept["model"], kept["settings"])), []).append(kept)
     for name in names or map(written, STANDING):
-        if found := list(measured(known[name])):
-            rows[name] = found
-            kept = [row for name in known for row in rows.get(name, [])]
-            write_text(FILE, to_json(plain({**document(), "standing": kept})))
-            print(name, file=sys.stderr)
-
-
-if __name__ == "__main__":
-    main(sys.argv[1:])
+        try:
+            rows[name] = [row(case, known[name]) for case in references("statics").values()]
+        except BadInput as missing:
+            say(f"{name}: {missing}")
+            continue
+        standing = [kept for name in known for kept in rows.get(name, [])]
+        write_text(FILE, to_json(plain({**document(), "standing": standing})))
+        say(name)

@@ -1,0 +1,1 @@
+"""Where models stand on the reference set."""

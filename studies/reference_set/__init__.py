@@ -1,0 +1,1 @@
+"""The reference set of `score`, computed anew."""

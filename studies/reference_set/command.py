@@ -1,0 +1,26 @@
+"""`sheetbench study reference-set`: the reference set of `score`, computed anew."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparisons.cli import console
+from comparisons.report.files import to_json, write_text
+from comparisons.suite.reference import FILE
+from studies.reference_set.study import regenerate
+
+
+def command(
+    to: Annotated[
+        Path | None,
+        typer.Option("--to", metavar="FILE", help="Write here; the package's own file unless given."),
+    ] = None,
+) -> None:
+    """Compute every value of the reference set with its bar, and write them.
+
+    Other values need another version of the set.
+    """
+    write_text(to or FILE, to_json(regenerate(console.tell)))

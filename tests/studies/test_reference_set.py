@@ -1,0 +1,46 @@
+"""The reference set computed anew, on coarse meshes."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from comparisons.suite.cases import cases
+from comparisons.suite.reference import document, references
+from studies.leaderboard import study as leaderboard
+from studies.reference_set import study as regenerate
+
+
+def test_one_command_makes_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On coarse meshes and one case of each suite, with the keys and cases of the file."""
+    chosen = [case for case in cases() if case.name in ("thick", "corner-struck", "modes-one-edge")]
+    monkeypatch.setattr(regenerate, "cases", lambda: chosen)
+    for name, value in (("ELEMENTS", 4), ("SOLID", 2), ("FINE", 4), ("COARSE", 3)):
+        monkeypatch.setattr(regenerate, name, value)
+    found = regenerate.regenerate(lambda text: None)
+    kept = {case["name"]: case for case in document()["cases"]}
+    assert set(found) == set(document())
+    for case in found["cases"]:
+        assert set(case) == set(kept[case["name"]])
+    assert found["standing"] == document()["standing"]
+
+
+def test_rows_of_the_leaderboard_go_into_the_file(tmp_path, monkeypatch):
+    """Of one case: its own rows anew, all others as they were; what is not installed is said."""
+    file = tmp_path / "suite.json"
+    file.write_text("{}")
+    before = document()
+    monkeypatch.setattr(leaderboard, "FILE", file)
+    kept = dict(list(references("statics").items())[:1])
+    monkeypatch.setattr(leaderboard, "references", lambda suite: kept)
+    said: list[str] = []
+    leaderboard.measure(["plate:elements=16", "kratos:elements=16"], said.append)
+    after = json.loads(file.read_text())
+    assert said[0] == "plate:elements=16" and len(said) == 2
+    (new,) = [row for row in after["standing"] if row["model"] == "plate"]
+    (old,) = [row for row in before["standing"] if (row["model"], row["case"]) == ("plate", new["case"])]
+    assert new["error"] == pytest.approx(old["error"], rel=1e-9) and new["status"] == old["status"]
+    others = [row for row in before["standing"] if row["model"] not in ("plate", "kratos")]
+    assert [row for row in after["standing"] if row["model"] not in ("plate", "kratos")] == others
+    assert after["cases"] == before["cases"]

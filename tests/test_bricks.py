@@ -6,8 +6,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.sparse import csr_matrix
 
-from comparisons.judges.bricks import Bricks, forces, held
+from comparisons.judges import felupe
+from comparisons.judges.bricks import Bricks, Held, forces, held
 from comparisons.judges.calculix.deck import deck
 from comparisons.judges.kratos.problem import Triangles, problem
 from sheetbench.scenes import Clamped, Curved, EdgeLoad, Hinged, PointLoad, Pressure, Scene, load
@@ -90,6 +92,26 @@ def test_a_hinge_holds_the_mean_of_its_columns(bricks: Bricks) -> None:
         z = bricks.positions[tie.nodes, 2] / bricks.positions[bricks.edge("y1"), 2].max()
         assert tie.weights.sum() == pytest.approx(1.0) and tie.weights @ z == pytest.approx(0.0, abs=1e-15)
         assert tie.weights @ z**2 == pytest.approx(1.0 / 3.0 if len(z) > 3 else 0.5)
+
+
+def test_what_is_free_for_felupe_keeps_the_means_at_a_hinge(bricks: Bricks) -> None:
+    rows = held(changed(supports=(Hinged(edge="y1"),)), bricks)
+    free = felupe._free(rows)
+    motion = (free @ np.random.default_rng(2).normal(size=free.shape[1])).reshape(-1, 3)
+    means = [tie.weights @ motion[tie.nodes, tie.axis] for tie in rows.tied]
+    assert len(means) > 20 and np.abs(means).max() < 1e-13
+
+
+@pytest.mark.parametrize(("longest", "reached"), [(1.0, 1.0), (0.3, 1.0), (1 / 64, 1.0), (1 / 128, 0.0)])
+def test_load_steps_for_felupe_are_halved_down_to_a_64th(longest: float, reached: float) -> None:
+    def spring(u: np.ndarray, load_factor: float) -> tuple[np.ndarray, csr_matrix]:
+        """Of stiffness one; without an answer to a step that is too long."""
+        miss = u.ravel() - load_factor
+        return np.where(-miss > longest, np.nan, miss), csr_matrix(np.eye(3))
+
+    loose = Held(np.eye(3)[None], np.zeros((1, 3), dtype=bool), np.zeros((1, 3)), ())
+    path = felupe._traced(spring, loose)
+    assert path.load_factor == reached and path.displacement == pytest.approx(reached)
 
 
 def test_a_deck_has_a_line_for_all_that_is_asked(bricks: Bricks) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from collections.abc import Mapping
 from inspect import signature
+from operator import itemgetter
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -27,6 +28,7 @@ from comparisons.reproduction import figure
 from comparisons.reproduction.tables import nearest
 from comparisons.runs.store import Finished
 from comparisons.stability import STUDIES
+from comparisons.stability import figure as stability_figure
 from comparisons.tradeoff import figure as tradeoff_figure
 from comparisons.tradeoff import statics
 from comparisons.tradeoff.motion import DynamicTradeoff
@@ -53,6 +55,19 @@ def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front() -> None:
     assert [column.name for column in table.brief().columns] == [
         "row", "model", "size", "unknowns", "solve", "memory", "error", "field error", "front",
     ]  # fmt: skip
+
+
+def test_tiles_reach_half_way_to_their_neighbours() -> None:
+    _, axis = subplots()
+    rows = [{"x": x, "y": y} for x in (4.0, 1.0, 3.0) for y in (1.0, 100.0)]
+    stability_figure.tiles(
+        axis, rows, itemgetter("x"), itemgetter("y"), of=lambda _: next(iter(stability_figure.OUTCOMES)),
+        text=lambda _: "", scale=("linear", "log"),
+    )  # fmt: skip
+    tiles = sorted(tile.get_bbox().extents.tolist() for tile in axis.patches)
+    across, up = ((0.0, 2.0), (2.0, 3.5), (3.5, 4.5)), ((0.1, 10.0), (10.0, 1000.0))
+    assert tiles == [pytest.approx([x0, y0, x1, y1]) for x0, x1 in across for y0, y1 in up]
+    assert (*axis.get_xlim(), *axis.get_ylim()) == pytest.approx((0.0, 4.5, 0.1, 1000.0))
 
 
 def test_a_tradeoffs_axis_holds_its_errors_and_the_bar_in_percent() -> None:

@@ -16,8 +16,8 @@ from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.pattern import Pattern, neighbours, of_grid
+from lumped.springs.all_families import Stresses, all_families
 from lumped.springs.families import Links, families
-from lumped.springs.together import Stresses, together
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
 
@@ -62,7 +62,7 @@ class Assembly:
             self.coupling_slots = self.pattern.slots(*own)
         self.springs = families(self.lattice, self.pattern, calibration.springs)
         self.links = next(family for family in self.springs if isinstance(family, Links))
-        self.together = together(self.springs)
+        self.all_families = all_families(self.springs)
         self.precision = precision
         single = precision == "single"
         self._forcing = tuple(family.rounded() for family in self.springs) if single else self.springs
@@ -104,8 +104,8 @@ class Assembly:
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Elastic energy [J] and its gradient, the internal force, (n, 3) [N]."""
-        if self.together is not None and self.precision == "double":
-            return self.together.force(u)
+        if self.all_families is not None and self.precision == "double":
+            return self.all_families.force(u)
         kept = u.astype(np.float32) if self.precision == "single" else u
         force, energy = np.zeros(kept.shape, kept.dtype), 0.0
         for family in self._forcing:
@@ -129,14 +129,14 @@ class Assembly:
 
     def stresses(self, u: np.ndarray) -> Stresses:
         """Stresses of every family at u."""
-        if self.together is not None:
-            return self.together.stresses(u)
+        if self.all_families is not None:
+            return self.all_families.stresses(u)
         return tuple(family.stresses(u) for family in self.springs)
 
     def extrapolated(self, u: np.ndarray, step: np.ndarray) -> Stresses:
         """Stresses that the linearisation at u predicts after `step`."""
-        if self.together is not None:
-            return self.together.extrapolated(u, step)
+        if self.all_families is not None:
+            return self.all_families.extrapolated(u, step)
         return tuple(family.extrapolated(u, step) for family in self.springs)
 
     def nonnegative_tangent(self, u: np.ndarray) -> np.ndarray:
@@ -147,8 +147,8 @@ class Assembly:
         """Return blocks (b, 3, 3) [N/m] of the tangent at u, with the stresses given or the share of those at
         u, and of the stiffness the material part and this share of the rest (`lumped.springs.laws`)."""
         stresses = stresses or tuple(family.no_stress for family in self.springs)
-        if self.together is not None:
-            return self.together.tangent(u, stresses, self.pattern.blocks, share)
+        if self.all_families is not None:
+            return self.all_families.tangent(u, stresses, self.pattern.blocks, share)
         blocks = np.zeros((self.pattern.blocks, 3, 3))
         for family, stress in zip(self.springs, stresses, strict=True):
             family.add_tangent(u, stress, blocks, share)

@@ -62,10 +62,10 @@ def test_families_together_are_the_families():
     scene = load("two-edges-clamped")
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 9))  # long cells: strain springs too
     assembly = lumped.pose(scene, springs).assembly
-    assert assembly.together is not None and len(assembly.springs) == 3
+    assert assembly.all_families is not None and len(assembly.springs) == 3
     u = 1e-4 * np.random.default_rng(0).standard_normal((assembly.pattern.size, 3))
     apart = lumped.pose(scene, springs).assembly
-    apart.together = None
+    apart.all_families = None
     energy, force = assembly.force(u)
     assert energy == pytest.approx(apart.force(u)[0], rel=1e-14)
     assert force == pytest.approx(apart.force(u)[1], rel=1e-14, abs=1e-18)

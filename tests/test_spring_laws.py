@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from lumped.springs import cells
+from lumped.springs.cells import CellArrays
 from lumped.springs.laws import (
     area_and_strains,
     elongation,
@@ -46,7 +47,7 @@ def test_stress_and_stiffness_of_cells_are_derivatives_of_the_energy(name):
     def at(change):
         return area_and_strains(0.5, tuple(g + change - rest), tuple(rest), area, q)
 
-    k = stiffness(tuple(g), t, square, 1.0, q)
+    k = stiffness(tuple(g - rest), tuple(rest), t, square, 1.0, q)
     full = np.array([[k[0], k[3], k[4]], [k[3], k[1], k[5]], [k[4], k[5], k[2]]])
     for i, unit in enumerate(np.eye(3)):
         up, down = at(h * unit), at(-h * unit)
@@ -109,10 +110,12 @@ def test_forces_of_cells_of_any_rest_shape_are_the_energys_gradient(name):
     rng = np.random.default_rng(1)
     u = 0.1 * rng.standard_normal((4, 3))
     force = np.zeros_like(u)
-    cells.add_forces(u, nodes, sides[None], area, q, force)
+    slots = np.arange(16, dtype=np.int32).reshape(1, 4, 4)
+    cell = CellArrays(nodes, sides[None], area, q, slots)
+    cells.add_forces(u, cell, force)
 
     def energy(v):
-        return cells.add_forces(v, nodes, sides[None], area, q, np.zeros_like(v))
+        return cells.add_forces(v, cell, np.zeros_like(v))
 
     h = 1e-6
     for i in np.ndindex(*u.shape):
@@ -120,9 +123,8 @@ def test_forces_of_cells_of_any_rest_shape_are_the_energys_gradient(name):
         step[i] = h
         slope = (energy(u + step) - energy(u - step)) / (2 * h)
         assert slope == pytest.approx(force[i], rel=1e-6, abs=1e-7 * np.abs(force).max())
-    slots = np.arange(16, dtype=np.int32).reshape(1, 4, 4)
     blocks = np.zeros((16, 3, 3))
-    cells.add_tangent(u, nodes, sides[None], area, q, np.empty((0, 3)), 1.0, slots, blocks)
+    cells.add_tangent(u, cell, np.empty((0, 3)), 1.0, blocks)
     tangent = blocks.reshape(4, 4, 3, 3).transpose(0, 2, 1, 3).reshape(12, 12)
     numeric = np.empty((12, 12))
     for column, i in enumerate(np.ndindex(*u.shape)):
@@ -130,6 +132,6 @@ def test_forces_of_cells_of_any_rest_shape_are_the_energys_gradient(name):
         step[i] = h
         sides_of = [np.zeros_like(u), np.zeros_like(u)]
         for sign, out in zip((1, -1), sides_of, strict=True):
-            cells.add_forces(u + sign * step, nodes, sides[None], area, q, out)
+            cells.add_forces(u + sign * step, cell, out)
         numeric[:, column] = ((sides_of[0] - sides_of[1]) / (2 * h)).ravel()
     assert np.allclose(tangent, numeric, atol=1e-6 * np.abs(numeric).max())

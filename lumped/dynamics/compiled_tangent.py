@@ -15,8 +15,8 @@ import numpy as np
 from numba import njit
 
 from lumped.dynamics.system import System
-from lumped.springs import together
-from lumped.springs.together import Springs
+from lumped.springs import all_families
+from lumped.springs.all_families import Springs
 from sheetbench.numerics import banded
 
 
@@ -35,7 +35,7 @@ class Tangent(NamedTuple):
 
 def tangent_of(system: System) -> Tangent | None:
     """What `factorised` takes; None where dampers are not in proportion, or springs not all central."""
-    springs, band, damping = system.assembly.together, system.problem.system.band, system.damping
+    springs, band, damping = system.assembly.all_families, system.problem.system.band, system.damping
     if springs is None or band is None or (damping.dampers and not damping.time):
         return None
     own = np.arange(len(system.lattice_mass))
@@ -48,7 +48,7 @@ def tangent_of(system: System) -> Tangent | None:
 def factorised(u: np.ndarray, by_u: float, by_v: float, tangent: Tangent) -> tuple[bool, np.ndarray]:
     """Whether the tangent at u (n, 3) [m] with c₂ [1/s²] and c₁ [1/s] is positive definite; its factors."""
     both = 1.0 + by_v * tangent.time
-    blocks = together.own_tangent(u, tangent.springs, 1.0 / both, tangent.blocks)
+    blocks = all_families.own_tangent(u, tangent.springs, 1.0 / both, tangent.blocks)
     for i in range(len(tangent.own)):
         inert = (by_u * tangent.mass[i] + by_v * tangent.rate[i]) / both
         for q in range(3):

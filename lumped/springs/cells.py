@@ -12,21 +12,33 @@ The tangent takes S as an argument of its own: that at u, an extrapolated one S 
 none. Dampers have the stress M ġ (`lumped.springs.laws`); of it the derivative by the displacement is
 unsymmetric.
 
-Arrays: nodes (c, 4, p); sides (c, 2, 3) [m] and area (c,) [m²] at rest; constants (c, 4) [N/m³] of the
-springs' law or, times a second, of the dampers'; stress (c, 3) [N/m]; slots (c, 4p, 4p) block numbers,
-corner-major; blocks (b, 3, 3) [N/m], added to; u, v, force (n, 3).
+Arrays: stress (c, 3) [N/m]; blocks (b, 3, 3) [N/m], added to; u, v, force (n, 3).
 """
 
 from __future__ import annotations
+
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
 
 from lumped.springs.cell_blocks import add_blocks, both, by_sides, to_diagonals
-from lumped.springs.laws import Four, Six, Three, area_and_strains, mean_area_and_strains, stiffness
+from lumped.springs.laws import Four, Six, Three, mean_stress, respond, stiffness
 from lumped.springs.vectors import Vector, dot, less, plus, times
 
 HALF = 0.5
+NONE = (0.0, 0.0, 0.0)
+
+
+class CellArrays(NamedTuple):
+    """nodes (c, 4, p); sides (c, 2, 3) [m] and area (c,) [m²] at rest; constants (c, n) of the springs' law
+    or, times a second, of the dampers'; slots (c, 4p, 4p) block numbers, corner-major."""
+
+    nodes: np.ndarray
+    sides: np.ndarray
+    area: np.ndarray
+    constants: Any
+    slots: np.ndarray
 
 
 @njit(cache=True, error_model="numpy")
@@ -117,173 +129,91 @@ def pull(nodes: np.ndarray, c: int, stress: Three, a: Vector, b: Vector, force: 
 
 
 @njit(cache=True, error_model="numpy")
-def add_forces(
-    u: np.ndarray,
-    nodes: np.ndarray,
-    sides: np.ndarray,
-    area: np.ndarray,
-    constants: np.ndarray,
-    force: np.ndarray,
-) -> float:
+def add_forces(u: np.ndarray, cells: CellArrays, force: np.ndarray) -> float:
     """Add the internal force to `force` (n, 3) [N]; return the energy [J]."""
     energy = 0.0
-    for c in range(len(nodes)):
-        d, g, a, b = measure(u, nodes, sides, c)
-        stored, _, _, stress = area_and_strains(HALF, d, g, area[c], of_cell(constants, c))
+    for c in range(len(cells.nodes)):
+        d, g, a, b = measure(u, cells.nodes, cells.sides, c)
+        stored, _, _, stress = respond(HALF, d, g, cells.area[c], of_cell(cells.constants, c))
         energy += stored
-        pull(nodes, c, stress, a, b, force)
+        pull(cells.nodes, c, stress, a, b, force)
     return energy
 
 
 @njit(cache=True, error_model="numpy")
-def energies(
-    u: np.ndarray, nodes: np.ndarray, sides: np.ndarray, area: np.ndarray, constants: np.ndarray
-) -> np.ndarray:
-    """Energy of every cell's area spring and of its springs against strain, (c, 2) [J]."""
-    out = np.empty((len(nodes), 2))
-    for c in range(len(nodes)):
-        d, g, _, _ = measure(u, nodes, sides, c)
-        q = of_cell(constants, c)
-        out[c, 0] = area_and_strains(HALF, d, g, area[c], (q[0], 0.0, 0.0, 0.0))[0]
-        out[c, 1] = area_and_strains(HALF, d, g, area[c], (0.0, q[1], q[2], q[3]))[0]
+def energies(u: np.ndarray, cells: CellArrays) -> np.ndarray:
+    """Energy of every cell, (c,) [J]."""
+    out = np.empty(len(cells.nodes))
+    for c in range(len(cells.nodes)):
+        d, g, _, _ = measure(u, cells.nodes, cells.sides, c)
+        out[c] = respond(HALF, d, g, cells.area[c], of_cell(cells.constants, c))[0]
     return out
 
 
 @njit(cache=True, error_model="numpy")
-def stresses(
-    u: np.ndarray, nodes: np.ndarray, sides: np.ndarray, area: np.ndarray, constants: np.ndarray
-) -> np.ndarray:
-    """Stress S of every cell, (c, 3) [N/m]."""
-    out = np.empty((len(nodes), 3))
-    for c in range(len(nodes)):
-        d, g, _, _ = measure(u, nodes, sides, c)
-        _, _, _, (out[c, 0], out[c, 1], out[c, 2]) = area_and_strains(
-            HALF, d, g, area[c], of_cell(constants, c)
-        )
-    return out
-
-
-@njit(cache=True, error_model="numpy")
-def extrapolated(
-    u: np.ndarray,
-    step: np.ndarray,
-    nodes: np.ndarray,
-    sides: np.ndarray,
-    area: np.ndarray,
-    constants: np.ndarray,
-) -> np.ndarray:
+def extrapolated(u: np.ndarray, step: np.ndarray, cells: CellArrays) -> np.ndarray:
     """Stress S + D ġ that the linearisation at u predicts after a step (n, 3) [m], (c, 3) [N/m]."""
-    out = np.empty((len(nodes), 3))
-    for c in range(len(nodes)):
-        d, g, a, b = measure(u, nodes, sides, c)
-        q = of_cell(constants, c)
-        _, t, square, stress = area_and_strains(HALF, d, g, area[c], q)
-        moved = rate(a, b, *side_changes(step, nodes, c))
-        out[c, 0], out[c, 1], out[c, 2] = plus(
-            stress, times_six(stiffness(plus(g, d), t, square, 1.0, q), moved)
-        )
+    out = np.empty((len(cells.nodes), 3))
+    for c in range(len(cells.nodes)):
+        d, g, a, b = measure(u, cells.nodes, cells.sides, c)
+        q = of_cell(cells.constants, c)
+        _, t, square, stress = respond(HALF, d, g, cells.area[c], q)
+        moved = rate(a, b, *side_changes(step, cells.nodes, c))
+        out[c, 0], out[c, 1], out[c, 2] = plus(stress, times_six(stiffness(d, g, t, square, 1.0, q), moved))
     return out
 
 
 @njit(cache=True, error_model="numpy")
-def nonnegative_part(
-    u: np.ndarray, nodes: np.ndarray, sides: np.ndarray, area: np.ndarray, constants: np.ndarray
-) -> np.ndarray:
-    """The part of the stress with which, and with M for D, the tangent is a sum of squares (of negative area
-    springs while strains are small): that of stretched areas, (c, 3) [N/m]."""
-    out = np.zeros((len(nodes), 3))
-    for c in range(len(nodes)):
-        d, g, _, _ = measure(u, nodes, sides, c)
-        _, t, _, _ = area_and_strains(HALF, d, g, area[c], of_cell(constants, c))
-        if t > 0.0:
-            out[c, 0], out[c, 1], out[c, 2] = t * (g[1] + d[1]), t * (g[0] + d[0]), -2.0 * t * (g[2] + d[2])
-    return out
-
-
-@njit(cache=True, error_model="numpy")
-def add_average_forces(
-    start: np.ndarray,
-    end: np.ndarray,
-    nodes: np.ndarray,
-    sides: np.ndarray,
-    area: np.ndarray,
-    constants: np.ndarray,
-    force: np.ndarray,
-) -> None:
+def add_average_forces(start: np.ndarray, end: np.ndarray, cells: CellArrays, force: np.ndarray) -> None:
     """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it: that
     of the mean stress on the mean sides."""
-    for c in range(len(nodes)):
-        d0, g, a0, b0 = measure(start, nodes, sides, c)
-        d1, _, a1, b1 = measure(end, nodes, sides, c)
-        stress = mean_area_and_strains(d0, d1, g, area[c], of_cell(constants, c))
-        pull(nodes, c, stress, times(0.5, plus(a0, a1)), times(0.5, plus(b0, b1)), force)
+    for c in range(len(cells.nodes)):
+        d0, g, a0, b0 = measure(start, cells.nodes, cells.sides, c)
+        d1, _, a1, b1 = measure(end, cells.nodes, cells.sides, c)
+        stress = mean_stress(d0, d1, g, cells.area[c], of_cell(cells.constants, c))
+        pull(cells.nodes, c, stress, times(0.5, plus(a0, a1)), times(0.5, plus(b0, b1)), force)
 
 
 @njit(cache=True, error_model="numpy")
-def add_damping_forces(
-    u: np.ndarray,
-    v: np.ndarray,
-    nodes: np.ndarray,
-    sides: np.ndarray,
-    area: np.ndarray,
-    constants: np.ndarray,
-    force: np.ndarray,
-) -> float:
+def add_damping_forces(u: np.ndarray, v: np.ndarray, cells: CellArrays, force: np.ndarray) -> float:
     """Add the damping force of the stress M ġ, signed as an internal one, to `force` (n, 3) [N]; return the
     power taken [W]."""
     power = 0.0
-    for c in range(len(nodes)):
-        _, _, a, b = measure(u, nodes, sides, c)
-        q, now = of_cell(constants, c), products(a, b)
-        moving = rate(a, b, *side_changes(v, nodes, c))
-        stress = times_six(stiffness(now, 0.0, now[0] * now[1] - now[2] * now[2], 0.0, q), moving)
+    for c in range(len(cells.nodes)):
+        _, _, a, b = measure(u, cells.nodes, cells.sides, c)
+        q, now = of_cell(cells.constants, c), products(a, b)
+        moving = rate(a, b, *side_changes(v, cells.nodes, c))
+        stress = times_six(stiffness(NONE, now, 0.0, now[0] * now[1] - now[2] * now[2], 0.0, q), moving)
         power += dot(stress, moving)
-        pull(nodes, c, stress, a, b, force)
+        pull(cells.nodes, c, stress, a, b, force)
     return power
 
 
 @njit(cache=True, error_model="numpy")
 def add_tangent(
-    u: np.ndarray,
-    nodes: np.ndarray,
-    sides: np.ndarray,
-    area: np.ndarray,
-    constants: np.ndarray,
-    stress: np.ndarray,
-    share: float,
-    slots: np.ndarray,
-    blocks: np.ndarray,
+    u: np.ndarray, cells: CellArrays, stress: np.ndarray, share: float, blocks: np.ndarray
 ) -> None:
     """Add the tangent of every cell with this stress, or with the share of its own where `stress` is empty,
     and with M + share (D − M), to the 3×3 blocks."""
     in_diagonals = np.empty((4, 9))
     own = len(stress) == 0
-    for c in range(len(nodes)):
-        d, g, a, b = measure(u, nodes, sides, c)
-        q = of_cell(constants, c)
-        _, t, square, s = area_and_strains(HALF, d, g, area[c], q)
+    for c in range(len(cells.nodes)):
+        d, g, a, b = measure(u, cells.nodes, cells.sides, c)
+        q = of_cell(cells.constants, c)
+        _, t, square, s = respond(HALF, d, g, cells.area[c], q)
         s = times(share, s) if own else (stress[c, 0], stress[c, 1], stress[c, 2])
-        k = stiffness(plus(g, d), t, square, share, q)
+        k = stiffness(d, g, t, square, share, q)
         rows = (
             by_sides((k[0], k[3], k[4]), a, b),
             by_sides((k[3], k[1], k[5]), a, b),
             by_sides((k[4], k[5], k[2]), a, b),
         )
         to_diagonals(s, a, b, rows, in_diagonals)
-        add_blocks(in_diagonals, nodes.shape[2], slots[c], blocks)
+        add_blocks(in_diagonals, cells.nodes.shape[2], cells.slots[c], blocks)
 
 
 @njit(cache=True, error_model="numpy")
-def add_damping_tangent(
-    u: np.ndarray,
-    v: np.ndarray,
-    nodes: np.ndarray,
-    sides: np.ndarray,
-    area: np.ndarray,
-    constants: np.ndarray,
-    slots: np.ndarray,
-    blocks: np.ndarray,
-) -> None:
+def add_damping_tangent(u: np.ndarray, v: np.ndarray, cells: CellArrays, blocks: np.ndarray) -> None:
     """Add the derivative of the damping force by the displacement to the 3×3 blocks, unsymmetric. Of the area
 
     q₀ [Ȧ ∇²A + ∇A (∇²A ġ)ᵀ],   ∇A = n/2A,   ∇²A = N/2A − n nᵀ/4A³
@@ -291,13 +221,13 @@ def add_damping_tangent(
     is ∂(M ġ)/∂g; with M and the sides' velocities comes ∂ġ.
     """
     in_diagonals = np.empty((4, 9))
-    for c in range(len(nodes)):
-        _, _, a, b = measure(u, nodes, sides, c)
-        q, now = of_cell(constants, c), products(a, b)
-        va, vb = side_changes(v, nodes, c)
+    for c in range(len(cells.nodes)):
+        _, _, a, b = measure(u, cells.nodes, cells.sides, c)
+        q, now = of_cell(cells.constants, c), products(a, b)
+        va, vb = side_changes(v, cells.nodes, c)
         moving = rate(a, b, va, vb)
         square = now[0] * now[1] - now[2] * now[2]
-        k = stiffness(now, 0.0, square, 0.0, q)
+        k = stiffness(NONE, now, 0.0, square, 0.0, q)
         n, turned = (now[1], now[0], -2.0 * now[2]), (moving[1], moving[0], -2.0 * moving[2])
         along = dot(n, moving) / square
         scale = 0.25 * q[0] / square
@@ -312,4 +242,4 @@ def add_damping_tangent(
             both(by_sides(r3, a, b), by_sides((k[4], k[5], k[2]), va, vb)),
         )
         to_diagonals(times_six(k, moving), a, b, rows, in_diagonals)
-        add_blocks(in_diagonals, nodes.shape[2], slots[c], blocks)
+        add_blocks(in_diagonals, cells.nodes.shape[2], cells.slots[c], blocks)

@@ -9,26 +9,19 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from lumped.springs.links import measure
+from lumped.springs.links import LinkArrays, measure
 
 
 @njit(cache=True)
-def add_forces(
-    u: np.ndarray,
-    nodes: np.ndarray,
-    offset: np.ndarray,
-    rest_length: np.ndarray,
-    stiffness: np.ndarray,
-    force: np.ndarray,
-) -> float:
+def add_forces(u: np.ndarray, links: LinkArrays, force: np.ndarray) -> float:
     """Add the force on the links' ends to `force` (n, 3) [N]; there is no energy, 0 [J]."""
-    for m in range(len(nodes)):
-        a, b = nodes[m, 0], nodes[m, 1]
-        change, square, r = measure(u, nodes, offset, m)
+    for m in range(len(links.nodes)):
+        a, b = links.nodes[m, 0], links.nodes[m, 1]
+        change, square, r = measure(u, links.nodes, links.offset, m)
         length = np.sqrt(square)
-        e = change / (length + rest_length[m])
+        e = change / (length + links.rest_length[m])
         for q in range(3):
-            value = stiffness[m, q] * e * r[q] / length
+            value = links.constants[m, q] * e * r[q] / length
             force[a, q] -= value
             force[b, q] += value
     return 0.0
@@ -36,30 +29,22 @@ def add_forces(
 
 @njit(cache=True)
 def add_tangent(
-    u: np.ndarray,
-    nodes: np.ndarray,
-    offset: np.ndarray,
-    rest_length: np.ndarray,
-    stiffness: np.ndarray,
-    stress: np.ndarray,
-    share: float,
-    slots: np.ndarray,
-    blocks: np.ndarray,
+    u: np.ndarray, links: LinkArrays, stress: np.ndarray, share: float, blocks: np.ndarray
 ) -> None:
     """Tangent of the per-direction law, diag(k) [n nᵀ + (e/r)(I − n nᵀ)], whatever the stress."""
     n = np.empty(3)
-    for m in range(len(nodes)):
-        change, square, r = measure(u, nodes, offset, m)
+    for m in range(len(links.nodes)):
+        change, square, r = measure(u, links.nodes, links.offset, m)
         length = np.sqrt(square)
         n[0], n[1], n[2] = r[0] / length, r[1] / length, r[2] / length
-        across = change / (length + rest_length[m]) / length
+        across = change / (length + links.rest_length[m]) / length
         for p in range(3):
             for q in range(3):
                 value = (1.0 - across) * n[p] * n[q]
                 if p == q:
                     value += across
-                value *= stiffness[m, p]
-                blocks[slots[m, 0], p, q] += value
-                blocks[slots[m, 3], p, q] += value
-                blocks[slots[m, 1], p, q] -= value
-                blocks[slots[m, 2], p, q] -= value
+                value *= links.constants[m, p]
+                blocks[links.slots[m, 0], p, q] += value
+                blocks[links.slots[m, 3], p, q] += value
+                blocks[links.slots[m, 1], p, q] -= value
+                blocks[links.slots[m, 2], p, q] -= value

@@ -16,7 +16,9 @@ import numpy as np
 from lumped.lattice import Lattice
 from lumped.pattern import Pattern
 from lumped.springs import by_cell, cells, constants, directional, laws, links
+from lumped.springs.cells import CellArrays
 from lumped.springs.family import Dampers, Family
+from lumped.springs.links import LinkArrays
 from lumped.springs.rest import Rest, rest_of
 from sheetbench.scenes import SpringSet
 from sheetbench.scenes.errors import BadInput
@@ -36,10 +38,10 @@ class Links(Family):
     loops: ClassVar[Any] = links
     no_stress: ClassVar[np.ndarray] = np.empty(0)
 
-    @property
-    def geometry(self) -> tuple[np.ndarray, ...]:
-        """Return rest vectors and their lengths."""
-        return self.offset, self.rest_length
+    @cached_property
+    def arrays(self) -> LinkArrays:
+        """Return what the loops take."""
+        return LinkArrays(self.nodes, self.offset, self.rest_length, self.stiffness, self.slots)
 
     def rounded(self) -> Links:
         """Return the same links with their rest data in single precision."""
@@ -58,7 +60,7 @@ class Links(Family):
             a, b = self.nodes.T
             along: np.ndarray = np.einsum("mq,mq->m", self.offset, u[b] - u[a])
             return along / self.rest_length
-        elongations: np.ndarray = links.elongations(u, self.nodes, *self.geometry)
+        elongations: np.ndarray = links.elongations(u, self.arrays)
         return elongations
 
     def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
@@ -119,20 +121,26 @@ class Cells(Family):
     loops: ClassVar[Any] = cells
     no_stress: ClassVar[np.ndarray] = np.empty((0, 3))
 
-    @property
-    def geometry(self) -> tuple[np.ndarray, ...]:
-        """Return sides and area at rest."""
-        return self.sides, self.area
-
     @cached_property
-    def constants(self) -> np.ndarray:  # type: ignore[override]  # kept
+    def constants(self) -> np.ndarray:
         """Return the law's constants, (c, 4) [N/m³]."""
         return laws.of_stiffness(self.stiffness, self.sides, self.area)
 
+    @cached_property
+    def arrays(self) -> CellArrays:
+        """Return what the loops take."""
+        return CellArrays(self.nodes, self.sides, self.area, self.constants, self.slots)
+
     def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
-        """Return the stresses of stretched areas; a shear stress of either sign softens some motion."""
-        part: np.ndarray = cells.nonnegative_part(u, *self.arrays)
-        return part
+        """Return the positive semidefinite part of the stresses as matrices ((S₁, S₃/2), (S₃/2, S₂))."""
+        s = self.stresses(u)
+        mean, apart = 0.5 * (s[:, 0] + s[:, 1]), 0.5 * (s[:, 0] - s[:, 1])
+        radius = np.hypot(apart, 0.5 * s[:, 2])
+        low, high = mean - radius, np.maximum(mean + radius, 0.0)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            share = np.where(low < 0.0, high / (2.0 * radius), 1.0)[:, None]
+        parts = np.stack([s[:, 0] - low, s[:, 1] - low, s[:, 2]], axis=1) * share
+        return np.where((low < 0.0)[:, None], parts, s)
 
     def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
         """Return the energy of the area spring and of the springs against strain of every cell."""
@@ -146,8 +154,10 @@ class Cells(Family):
             squares = np.stack([(strains[0] + strains[1]) ** 2, *strains**2], axis=1)
             stored = 0.5 * self.area[:, None] * self.stiffness * squares
             return np.stack([stored[:, 0], stored[:, 1:].sum(axis=1)], axis=1)
-        energies: np.ndarray = cells.energies(u, *self.arrays)
-        return energies
+        of_areas, of_strains = self.constants.copy(), self.constants.copy()
+        of_areas[:, 1:], of_strains[:, 0] = 0.0, 0.0
+        parts = [cells.energies(u, self.arrays._replace(constants=each)) for each in (of_areas, of_strains)]
+        return np.stack(parts, axis=1)
 
     def by_name(self, energies: np.ndarray) -> dict[str, float]:
         """Return both sums, of the springs that there are."""

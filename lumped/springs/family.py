@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
@@ -33,36 +32,25 @@ class Family(ABC):
 
     @property
     @abstractmethod
-    def geometry(self) -> tuple[np.ndarray, ...]:
-        """Return what the loops take between nodes and constants."""
-
-    @property
-    def constants(self) -> np.ndarray:
-        """Return the constants of the springs' law."""
-        return self.stiffness
-
-    @cached_property
-    def arrays(self) -> tuple[np.ndarray, ...]:
-        """Return what the loops take after the displacement."""
-        return (self.nodes, *self.geometry, self.constants)
+    def arrays(self) -> Any:
+        """Return what the loops take after the displacement, `LinkArrays` or `CellArrays`."""
 
     def add_force(self, u: np.ndarray, force: np.ndarray) -> float:
         """Add the internal force; return the energy [J]."""
-        energy: float = self.loops.add_forces(u, *self.arrays, force)
+        energy: float = self.loops.add_forces(u, self.arrays, force)
         return energy
 
     def add_average_force(self, start: np.ndarray, end: np.ndarray, force: np.ndarray) -> None:
         """Add the force over a step whose work is the energy stored in it."""
-        self.loops.add_average_forces(start, end, *self.arrays, force)
+        self.loops.add_average_forces(start, end, self.arrays, force)
 
     def stresses(self, u: np.ndarray) -> np.ndarray:
         """Return the stress of every spring, (m,) of links, (m, 3) of cells [N/m]."""
-        stresses: np.ndarray = self.loops.stresses(u, *self.arrays)
-        return stresses
+        return self.extrapolated(u, np.zeros_like(u))
 
     def extrapolated(self, u: np.ndarray, step: np.ndarray) -> np.ndarray:
         """Return the stresses that the linearisation at u predicts after `step`."""
-        predicted: np.ndarray = self.loops.extrapolated(u, step, *self.arrays)
+        predicted: np.ndarray = self.loops.extrapolated(u, step, self.arrays)
         return predicted
 
     @abstractmethod
@@ -72,7 +60,7 @@ class Family(ABC):
 
     def add_tangent(self, u: np.ndarray, stress: np.ndarray, blocks: np.ndarray, share: float = 1.0) -> None:
         """Add the tangent with this stress, and with M + share (D − M), to the 3×3 blocks [N/m]."""
-        self.loops.add_tangent(u, *self.arrays, stress, share, self.slots, blocks)
+        self.loops.add_tangent(u, self.arrays, stress, share, blocks)
 
     @abstractmethod
     def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
@@ -105,7 +93,7 @@ class Dampers:
 
     def add_force(self, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
         """Add the damping force, signed as an internal one; return the power taken [W]."""
-        power: float = self.family.loops.add_damping_forces(u, v, *self.family.arrays, force)
+        power: float = self.family.loops.add_damping_forces(u, v, self.family.arrays, force)
         return power
 
     def add_velocity_tangent(self, u: np.ndarray, scale: float, blocks: np.ndarray) -> None:
@@ -115,4 +103,4 @@ class Dampers:
 
     def add_displacement_tangent(self, u: np.ndarray, v: np.ndarray, blocks: np.ndarray) -> None:
         """Add the derivative of the force by the displacement to the 3×3 blocks, unsymmetric."""
-        self.family.loops.add_damping_tangent(u, v, *self.family.arrays, self.family.slots, blocks)
+        self.family.loops.add_damping_tangent(u, v, self.family.arrays, blocks)

@@ -11,14 +11,21 @@ part M = Σ k ∇ε ∇εᵀ of the strains ε that an energy ½ Σ k ε² is of
 have the stress M ġ. Laws take the change δg since rest, not g alone: where it is small no digits are lost.
 
 `half` is ½ in the precision to compute with, which a literal would decide to be double.
+
+Laws of cells are the rows of `LAWS`. Compiled loops call `respond`, `stiffness` and `mean_stress`, which are
+those of the row that has as many constants: a law is compiled where a lattice has its springs.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numba import njit
+from numba.extending import overload
 
 Three = tuple[float, float, float]
 Four = tuple[float, float, float, float]
@@ -67,14 +74,14 @@ def area_and_strains(
 
 
 @njit(cache=True, error_model="numpy")
-def stiffness(now: Three, t: float, square: float, share: float, q: Four) -> Six:
-    """M + share (D − M) of `area_and_strains` at the measure `now`, with its t and A²:
+def stiffness_of_area_and_strains(d: Three, g: Three, t: float, square: float, share: float, q: Four) -> Six:
+    """M + share (D − M) of `area_and_strains`, with its t and A²:
 
     M = ¼ q₀ n nᵀ/A² + diag(q₁, q₂, q₃),   D − M = t (N − ½ n nᵀ/A²),   N = ∂n/∂g.
     """
     t *= share
     along = (0.25 * q[0] - 0.5 * t) / square
-    n1, n2, n3 = now[1], now[0], -2.0 * now[2]
+    n1, n2, n3 = g[1] + d[1], g[0] + d[0], -2.0 * (g[2] + d[2])
     return (
         along * n1 * n1 + q[1],
         along * n2 * n2 + q[2],
@@ -99,6 +106,61 @@ def mean_area_and_strains(d0: Three, d1: Three, g: Three, area: float, q: Four) 
     t = 0.5 * q[0] * grown / sizes
     m1, m2, m3 = 0.5 * (d0[0] + d1[0]), 0.5 * (d0[1] + d1[1]), 0.5 * (d0[2] + d1[2])
     return t * (g[1] + m2) + q[1] * m1, t * (g[0] + m1) + q[2] * m2, q[3] * m3 - 2.0 * t * (g[2] + m3)
+
+
+@dataclass(frozen=True)
+class Law:
+    """A law of cells: energy and stress, stiffness, the stress whose work over a step is the energy stored,
+    and the constants of a cell with sides 1 m to test it by."""
+
+    respond: Callable[..., Any]
+    stiffness: Callable[..., Any]
+    mean_stress: Callable[..., Any]
+    example: tuple[float, ...]
+
+
+LAWS = {
+    len(law.example): law
+    for law in (
+        Law(
+            area_and_strains,
+            stiffness_of_area_and_strains,
+            mean_area_and_strains,
+            (-30.0, 200.0, 150.0, 80.0),
+        ),
+    )
+}
+
+
+def respond(half: float, d: Three, g: Three, area: float, k: Any) -> tuple[float, float, float, Three]:
+    """W, t, A² and S of the law with constants k, as `area_and_strains` has them."""
+    found: tuple[float, float, float, Three] = LAWS[len(k)].respond(half, d, g, area, k)
+    return found
+
+
+def stiffness(d: Three, g: Three, t: float, square: float, share: float, k: Any) -> Six:
+    """M + share (D − M) of the law with constants k, of its t and A²."""
+    found: Six = LAWS[len(k)].stiffness(d, g, t, square, share, k)
+    return found
+
+
+def mean_stress(d0: Three, d1: Three, g: Three, area: float, k: Any) -> Three:
+    """The stress of the law with constants k over a step, as `mean_area_and_strains` has it."""
+    found: Three = LAWS[len(k)].mean_stress(d0, d1, g, area, k)
+    return found
+
+
+def _by_constants(generic: Callable[..., Any]) -> None:
+    """Let compiled loops that call a function compile that of the law with as many constants."""
+
+    def chosen(*args: Any) -> Any:
+        return getattr(LAWS[len(args[-1])], generic.__name__).py_func
+
+    overload(generic, strict=False, jit_options={"error_model": "numpy"})(chosen)
+
+
+for _generic in (respond, stiffness, mean_stress):
+    _by_constants(_generic)
 
 
 def of_stiffness(k: np.ndarray, sides: np.ndarray, area: np.ndarray) -> np.ndarray:

@@ -7,12 +7,12 @@ tangent takes S as an argument of its own: that at u, an extrapolated one S + D 
 Garcea 2017), its positive part, none. Dampers have the stress M ġ, ġ = 2 r·dv; of it the derivative by the
 displacement, 2 M ġ I + 4 M r (dv − ġ r/g)ᵀ, is unsymmetric.
 
-Arrays: nodes (m, 2); offset (m, 3) [m], d₀; rest_length (m,) [m]; constants (m,), stiffness [N/m] or damping
-[N·s/m]; stress (m,) [N/m]; slots (m, 4) block numbers aa, ab, ba, bb; blocks (b, 3, 3) [N/m], added to; u, v,
-force (n, 3).
+Arrays: stress (m,) [N/m]; blocks (b, 3, 3) [N/m], added to; u, v, force (n, 3).
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
@@ -21,6 +21,17 @@ from lumped.springs.laws import elongation, mean_elongation
 from lumped.springs.vectors import Vector, dot, less, times
 
 HALF = 0.5
+
+
+class LinkArrays(NamedTuple):
+    """nodes (m, 2); offset (m, 3) [m], d₀; rest_length (m,) [m]; constants (m,), stiffness [N/m] or damping
+    [N·s/m], of the per-direction law (m, 3); slots (m, 4) block numbers aa, ab, ba, bb."""
+
+    nodes: np.ndarray
+    offset: np.ndarray
+    rest_length: np.ndarray
+    constants: np.ndarray
+    slots: np.ndarray
 
 
 @njit(cache=True, error_model="numpy")
@@ -49,150 +60,91 @@ def pull(nodes: np.ndarray, m: int, k: float, r: Vector, force: np.ndarray) -> N
 
 
 @njit(cache=True, error_model="numpy")
-def add_forces(
-    u: np.ndarray,
-    nodes: np.ndarray,
-    offset: np.ndarray,
-    rest_length: np.ndarray,
-    constants: np.ndarray,
-    force: np.ndarray,
-) -> float:
+def add_forces(u: np.ndarray, links: LinkArrays, force: np.ndarray) -> float:
     """Add the internal force to `force` (n, 3) [N]; return the energy [J]."""
     energy = 0.0
-    for m in range(len(nodes)):
-        change, square, r = measure(u, nodes, offset, m)
-        stored, stress, _, _ = elongation(HALF, change, square, rest_length[m], constants[m])
+    for m in range(len(links.nodes)):
+        change, square, r = measure(u, links.nodes, links.offset, m)
+        stored, stress, _, _ = elongation(HALF, change, square, links.rest_length[m], links.constants[m])
         energy += stored
-        pull(nodes, m, stress + stress, r, force)
+        pull(links.nodes, m, stress + stress, r, force)
     return energy
 
 
 @njit(cache=True, error_model="numpy")
-def elongations(u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest_length: np.ndarray) -> np.ndarray:
+def elongations(u: np.ndarray, links: LinkArrays) -> np.ndarray:
     """Elongation of every link, (m,) [m]."""
-    out = np.empty(len(nodes))
-    for m in range(len(nodes)):
-        change, square, _ = measure(u, nodes, offset, m)
-        out[m] = change / (np.sqrt(square) + rest_length[m])
+    out = np.empty(len(links.nodes))
+    for m in range(len(links.nodes)):
+        change, square, _ = measure(u, links.nodes, links.offset, m)
+        out[m] = change / (np.sqrt(square) + links.rest_length[m])
     return out
 
 
 @njit(cache=True, error_model="numpy")
-def stresses(
-    u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest_length: np.ndarray, constants: np.ndarray
-) -> np.ndarray:
-    """Stress of every link, half its tension over its length, (m,) [N/m]."""
-    out = np.empty(len(nodes))
-    for m in range(len(nodes)):
-        change, square, _ = measure(u, nodes, offset, m)
-        out[m] = elongation(HALF, change, square, rest_length[m], constants[m])[1]
-    return out
-
-
-@njit(cache=True, error_model="numpy")
-def extrapolated(
-    u: np.ndarray,
-    step: np.ndarray,
-    nodes: np.ndarray,
-    offset: np.ndarray,
-    rest_length: np.ndarray,
-    constants: np.ndarray,
-) -> np.ndarray:
+def extrapolated(u: np.ndarray, step: np.ndarray, links: LinkArrays) -> np.ndarray:
     """Stress S + D ġ that the linearisation at u predicts after a step (n, 3) [m], (m,) [N/m]."""
-    out = np.empty(len(nodes))
-    for m in range(len(nodes)):
-        change, square, r = measure(u, nodes, offset, m)
-        _, stress, material, rest = elongation(HALF, change, square, rest_length[m], constants[m])
-        out[m] = stress + (material + rest) * 2.0 * dot(r, difference(step, nodes, m))
+    out = np.empty(len(links.nodes))
+    for m in range(len(links.nodes)):
+        change, square, r = measure(u, links.nodes, links.offset, m)
+        _, stress, material, rest = elongation(HALF, change, square, links.rest_length[m], links.constants[m])
+        out[m] = stress + (material + rest) * 2.0 * dot(r, difference(step, links.nodes, m))
     return out
 
 
 @njit(cache=True, error_model="numpy")
-def add_average_forces(
-    start: np.ndarray,
-    end: np.ndarray,
-    nodes: np.ndarray,
-    offset: np.ndarray,
-    rest_length: np.ndarray,
-    constants: np.ndarray,
-    force: np.ndarray,
-) -> None:
+def add_average_forces(start: np.ndarray, end: np.ndarray, links: LinkArrays, force: np.ndarray) -> None:
     """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it: that
     of the mean stress on the mean r, since the change of g is 2 r̄·Δr."""
-    for m in range(len(nodes)):
-        change0, square0, r0 = measure(start, nodes, offset, m)
-        change1, square1, r1 = measure(end, nodes, offset, m)
+    for m in range(len(links.nodes)):
+        change0, square0, r0 = measure(start, links.nodes, links.offset, m)
+        change1, square1, r1 = measure(end, links.nodes, links.offset, m)
         l0, l1 = np.sqrt(square0), np.sqrt(square1)
-        e0, e1 = change0 / (l0 + rest_length[m]), change1 / (l1 + rest_length[m])
-        stress = mean_elongation(l0, l1, e0, e1, constants[m])
-        pull(nodes, m, stress, (r0[0] + r1[0], r0[1] + r1[1], r0[2] + r1[2]), force)
+        e0, e1 = change0 / (l0 + links.rest_length[m]), change1 / (l1 + links.rest_length[m])
+        stress = mean_elongation(l0, l1, e0, e1, links.constants[m])
+        pull(links.nodes, m, stress, (r0[0] + r1[0], r0[1] + r1[1], r0[2] + r1[2]), force)
 
 
 @njit(cache=True, error_model="numpy")
-def add_damping_forces(
-    u: np.ndarray,
-    v: np.ndarray,
-    nodes: np.ndarray,
-    offset: np.ndarray,
-    rest_length: np.ndarray,
-    constants: np.ndarray,
-    force: np.ndarray,
-) -> float:
+def add_damping_forces(u: np.ndarray, v: np.ndarray, links: LinkArrays, force: np.ndarray) -> float:
     """Add the damping force c (n·dv) n, n = r/|r|, signed as an internal one, to `force` (n, 3) [N]; return
     the power taken [W]."""
     power = 0.0
-    for m in range(len(nodes)):
-        _, square, r = measure(u, nodes, offset, m)
-        along = dot(r, difference(v, nodes, m))
-        resisting = constants[m] * along / square
+    for m in range(len(links.nodes)):
+        _, square, r = measure(u, links.nodes, links.offset, m)
+        along = dot(r, difference(v, links.nodes, m))
+        resisting = links.constants[m] * along / square
         power += resisting * along
-        pull(nodes, m, resisting, r, force)
+        pull(links.nodes, m, resisting, r, force)
     return power
 
 
 @njit(cache=True, error_model="numpy")
 def add_tangent(
-    u: np.ndarray,
-    nodes: np.ndarray,
-    offset: np.ndarray,
-    rest_length: np.ndarray,
-    constants: np.ndarray,
-    stress: np.ndarray,
-    share: float,
-    slots: np.ndarray,
-    blocks: np.ndarray,
+    u: np.ndarray, links: LinkArrays, stress: np.ndarray, share: float, blocks: np.ndarray
 ) -> None:
     """Add the tangent of every link with this stress, or with the share of its own where `stress` is empty,
     and with M + share (D − M), to the 3×3 blocks."""
     flat = blocks.reshape(-1, 9)
     own = len(stress) == 0
-    for m in range(len(nodes)):
-        change, square, r = measure(u, nodes, offset, m)
-        _, at_u, material, rest = elongation(HALF, change, square, rest_length[m], constants[m])
+    for m in range(len(links.nodes)):
+        change, square, r = measure(u, links.nodes, links.offset, m)
+        _, at_u, material, rest = elongation(HALF, change, square, links.rest_length[m], links.constants[m])
         across = 2.0 * (share * at_u if own else stress[m])
-        _add_blocks(flat, slots, m, across, times(4.0 * (material + share * rest), r), r)
+        _add_blocks(flat, links.slots, m, across, times(4.0 * (material + share * rest), r), r)
 
 
 @njit(cache=True, error_model="numpy")
-def add_damping_tangent(
-    u: np.ndarray,
-    v: np.ndarray,
-    nodes: np.ndarray,
-    offset: np.ndarray,
-    rest_length: np.ndarray,
-    constants: np.ndarray,
-    slots: np.ndarray,
-    blocks: np.ndarray,
-) -> None:
+def add_damping_tangent(u: np.ndarray, v: np.ndarray, links: LinkArrays, blocks: np.ndarray) -> None:
     """Add the derivative of the damping force by the displacement to the 3×3 blocks, unsymmetric."""
     flat = blocks.reshape(-1, 9)
-    for m in range(len(nodes)):
-        _, square, r = measure(u, nodes, offset, m)
-        moving = difference(v, nodes, m)
-        resisting = constants[m] / square
+    for m in range(len(links.nodes)):
+        _, square, r = measure(u, links.nodes, links.offset, m)
+        moving = difference(v, links.nodes, m)
+        resisting = links.constants[m] / square
         along = dot(r, moving)
         turned = less(moving, times(2.0 * along / square, r))
-        _add_blocks(flat, slots, m, resisting * along, times(resisting, r), turned)
+        _add_blocks(flat, links.slots, m, resisting * along, times(resisting, r), turned)
 
 
 @njit(cache=True, error_model="numpy")

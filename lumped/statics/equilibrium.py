@@ -22,7 +22,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lumped.springs.together import Stresses
+from lumped.springs.all_families import Stresses
 from lumped.statics.faults import broken
 from lumped.statics.limits import (
     BRANCHING,

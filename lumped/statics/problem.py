@@ -14,7 +14,7 @@ import numpy as np
 from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
 from lumped.loads import Loads
-from lumped.springs.together import Stresses
+from lumped.springs.all_families import Stresses
 from lumped.statics.faults import Fault
 from lumped.statics.unbalanced import scale, unbalanced_force
 from lumped.supports import Constraints

@@ -1,4 +1,4 @@
-"""All families of central springs in one compiled call: energy and force, stresses, tangent.
+"""All families of springs with an energy in one compiled call: energy and force, stresses, tangent.
 
 A call from Python costs microseconds, as much as a small lattice's springs do; so statics make one call, not
 one a family. Its arrays always are of the same kinds, empty where a lattice has no such springs: links, the
@@ -16,28 +16,10 @@ import numpy as np
 from numba import njit
 
 from lumped.springs import cells, links
+from lumped.springs.cells import CellArrays
 from lumped.springs.families import Cells, Links
 from lumped.springs.family import Family
-
-
-class LinkArrays(NamedTuple):
-    """Arrays of `lumped.springs.links`."""
-
-    nodes: np.ndarray
-    offset: np.ndarray
-    rest_length: np.ndarray
-    constants: np.ndarray
-    slots: np.ndarray
-
-
-class CellArrays(NamedTuple):
-    """Arrays of `lumped.springs.cells`."""
-
-    nodes: np.ndarray
-    sides: np.ndarray
-    area: np.ndarray
-    constants: np.ndarray
-    slots: np.ndarray
+from lumped.springs.links import LinkArrays
 
 
 class Springs(NamedTuple):
@@ -52,8 +34,8 @@ Stresses = tuple[np.ndarray, ...]  # three, as `Springs`
 KINDS: tuple[type[Family], ...] = (Links, Cells, Cells)
 
 
-class Together:
-    """Families of springs evaluated together. Displacements and forces are (n, 3) [m], [N]; stresses those of
+class AllFamilies:
+    """Families of springs in one call. Displacements and forces are (n, 3) [m], [N]; stresses those of
     each family, in turn."""
 
     def __init__(self, families: Sequence[Family], places: Sequence[int]):
@@ -96,19 +78,19 @@ class Together:
         return tuple(every[at] for at in self._places)
 
 
-def together(families: Sequence[Family]) -> Together | None:
-    """Return families evaluated together; None where one is of another kind."""
+def all_families(families: Sequence[Family]) -> AllFamilies | None:
+    """Return families in one call; None where one is of another kind."""
     places: list[int] = []
     for family in families:
         free = [at for at, kind in enumerate(KINDS) if type(family) is kind and at not in places]
         if not free:
             return None
         places.append(free[0])
-    return Together(families, places) if 0 in places else None
+    return AllFamilies(families, places) if 0 in places else None
 
 
 def _arrays(family: Family) -> tuple[np.ndarray, ...]:
-    return tuple([np.ascontiguousarray(part) for part in (*family.arrays, family.slots)])
+    return tuple([np.ascontiguousarray(part) for part in family.arrays])
 
 
 @cache
@@ -121,32 +103,25 @@ def _empty(kind: type[Family]) -> tuple[np.ndarray, ...]:
 def force(u: np.ndarray, springs: Springs) -> tuple[float, np.ndarray]:
     """Return the energy [J] and the internal force (n, 3) [N]."""
     out = np.zeros_like(u)
-    s = springs.links
-    energy = links.add_forces(u, s.nodes, s.offset, s.rest_length, s.constants, out)
-    for c in (springs.layers, springs.middle):
-        energy += cells.add_forces(u, c.nodes, c.sides, c.area, c.constants, out)
+    energy = links.add_forces(u, springs.links, out)
+    energy += cells.add_forces(u, springs.layers, out)
+    energy += cells.add_forces(u, springs.middle, out)
     return energy, out
 
 
 @njit(cache=True, nogil=True)
 def stresses(u: np.ndarray, springs: Springs) -> Stresses:
     """Return the stresses at u."""
-    s, a, b = springs.links, springs.layers, springs.middle
-    return (
-        links.stresses(u, s.nodes, s.offset, s.rest_length, s.constants),
-        cells.stresses(u, a.nodes, a.sides, a.area, a.constants),
-        cells.stresses(u, b.nodes, b.sides, b.area, b.constants),
-    )
+    return extrapolated(u, np.zeros_like(u), springs)
 
 
 @njit(cache=True, nogil=True)
 def extrapolated(u: np.ndarray, step: np.ndarray, springs: Springs) -> Stresses:
     """Return the stresses that the linearisation at u predicts after `step`."""
-    s, a, b = springs.links, springs.layers, springs.middle
     return (
-        links.extrapolated(u, step, s.nodes, s.offset, s.rest_length, s.constants),
-        cells.extrapolated(u, step, a.nodes, a.sides, a.area, a.constants),
-        cells.extrapolated(u, step, b.nodes, b.sides, b.area, b.constants),
+        links.extrapolated(u, step, springs.links),
+        cells.extrapolated(u, step, springs.layers),
+        cells.extrapolated(u, step, springs.middle),
     )
 
 
@@ -162,10 +137,9 @@ def tangent(u: np.ndarray, springs: Springs, stress: Stresses, share: float, cou
 def add_tangent(u: np.ndarray, springs: Springs, stress: Stresses, share: float, blocks: np.ndarray) -> None:
     """Add the tangent with these stresses, or the share of the springs' own where they are empty, and with
     M + share (D − M), to blocks (count, 3, 3) [N/m]."""
-    s, a, b = springs.links, springs.layers, springs.middle
-    links.add_tangent(u, s.nodes, s.offset, s.rest_length, s.constants, stress[0], share, s.slots, blocks)
-    cells.add_tangent(u, a.nodes, a.sides, a.area, a.constants, stress[1], share, a.slots, blocks)
-    cells.add_tangent(u, b.nodes, b.sides, b.area, b.constants, stress[2], share, b.slots, blocks)
+    links.add_tangent(u, springs.links, stress[0], share, blocks)
+    cells.add_tangent(u, springs.layers, stress[1], share, blocks)
+    cells.add_tangent(u, springs.middle, stress[2], share, blocks)
 
 
 @njit(cache=True, nogil=True)

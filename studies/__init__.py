@@ -12,5 +12,6 @@ STUDIES = {
     "leaderboard": "what models get wrong on the statics of the reference set, and their times",
     "peers": "our models beside other people's codes, in one run",
     "reference-set": "the reference set of suite and score, computed anew",
+    "reproduction": "the study of Habibi et al. in depth: its contradictions, the nearest sheets",
     "simulators": "other simulators with what is exported for them",
 }

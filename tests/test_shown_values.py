@@ -25,7 +25,6 @@ from comparisons.pages import plots
 from comparisons.report.look import PLAIN
 from comparisons.report.table import Table
 from comparisons.reproduction import figure
-from comparisons.reproduction.tables import nearest
 from comparisons.runs.store import Finished
 from comparisons.stability import STUDIES
 from comparisons.stability import figure as stability_figure
@@ -34,6 +33,7 @@ from comparisons.tradeoff import statics
 from comparisons.tradeoff.motion import DynamicTradeoff
 from comparisons.tradeoff.tables import rows as statics_rows
 from sheetbench import scenes
+from studies.reproduction.tables import nearest
 
 PUBLISHED = Path(__file__).parent.parent / "docs" / "stability"
 

@@ -76,7 +76,7 @@ SMALL = {
     "advise": ["advise", "one-edge-clamped", "--tolerance", "0.2"],
     "stability": ["stability", "--study", "mass", "--workers", "1", "--out", "stability"],
     "verify": ["verify", "--case", "patch"],
-    "reproduce": ["reproduce", "--part", "errors"],
+    "reproduce": ["reproduce", "--part", "tables", "--elements", "2"],
     "modes": ["modes", SEED, "--lumped", "3", "--elements", "2", "--count", "3"],
     "schema": ["schema"],
     "suite": ["suite", "--suite", "modes"],

@@ -16,7 +16,7 @@ def command(
         typer.Option(
             "--part",
             metavar="NAME",
-            help="Only errors, tables, settling or nearest; may be repeated. All unless given.",
+            help="Only tables or settling; may be repeated. Both unless given.",
             show_default=False,
         ),
     ] = None,
@@ -27,17 +27,15 @@ def command(
     no_pictures: NoPictures = False,
     overwrite: Overwrite = False,
 ) -> None:
-    """Reproduce Habibi et al.'s study: tables beside our models, errors, the settling run, what fits best.
-
-    With the published inputs; where they do not give the published tables, which sheets come nearest, and
-    what in the tables no sheet can have.
-    """
+    """Reproduce Habibi et al.'s study from its published inputs: both tests, and the settling run."""
     from comparisons.cli.finish import finish
     from comparisons.models.grids import parse_elements
     from comparisons.reproduction.reproduction import PARTS, reproduce
-    from sheetbench.scenes.errors import require_choice
+    from sheetbench.scenes.errors import BadInput, require_choice
 
     for name in part or ():
+        if name in ("errors", "nearest"):
+            raise BadInput(f"--part {name}: removed; run 'sheetbench study reproduction' in a checkout")
         require_choice("--part", name, PARTS)
     parts = [name for name in PARTS if name in (part or PARTS)]
     with finish(

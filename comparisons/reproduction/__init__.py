@@ -1,1 +1,1 @@
-"""The seed's study again: what was published, what the same inputs give, and what comes nearest to it."""
+"""The study of Habibi et al. again: what was published, and what the same inputs give."""

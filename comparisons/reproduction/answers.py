@@ -3,24 +3,41 @@
 Beside the lattice of `consistent` springs and the shell with its error bar stand lattices as the seed has
 them: k as published for all springs, equal masses, full springs along edges. Their layer distance is not
 published; it is the sheet's thickness in one, √(D/k) in the other, with which it bends like the sheet
-(`comparisons.reproduction.inputs`). Whether the rod of test 2 lifts its ends is not published either.
+(`asked_layer_distance`). Whether the rod of test 2 lifts its ends is not published either.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import sqrt
 
 import lumped
 from comparisons.comparison.comparison import Comparison, compare
 from comparisons.models.grids import Elements
 from comparisons.report.work import Progress, Work, silent
-from comparisons.reproduction.inputs import asked_layer_distance
 from comparisons.reproduction.published import scene
-from comparisons.reproduction.sheets import masses
 from sheetbench.scenes import Solution
 from sheetbench.scenes.seed import seed_inputs
 
 SETS = ((1, 0), (2, 1), (2, -1))  # tests, and the sense of the rod
+
+
+def masses() -> tuple[int, int, int]:
+    """The seed's grid."""
+    given = seed_inputs()
+    side = int(given["masses_per_side"])
+    return side, side, int(given["layers"])
+
+
+def bending_stiffness() -> float:
+    """D [N·m] of the published sheet."""
+    given = seed_inputs()
+    return float(given["young"] * given["thickness"] ** 3 / (12.0 * (1.0 - given["poisson"] ** 2)))
+
+
+def asked_layer_distance() -> float:
+    """√(D/k) [m], with which a lattice of the published k bends like the published sheet."""
+    return sqrt(bending_stiffness() / seed_inputs()["k"])
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.report.table import number
-from comparisons.reproduction import nearness
 from comparisons.reproduction.answers import Answer, of_model
-from comparisons.reproduction.printed_errors import means
 from comparisons.reproduction.published import published
 from comparisons.reproduction.settling import PROBE, SETTLED
 from comparisons.reproduction.words import millimetres, percent
@@ -32,57 +30,11 @@ class Finding:
 
 def all_of(found: Reproduction) -> list[Finding]:
     """Every finding of the parts there are."""
-    parts = (_errors, _inputs, _tables, _settling, *nearness.PARTS)
+    parts = (_tables, _settling)
     return [Finding(about, said) for part in parts for about, said in part(found)]
 
 
 Said = Iterator[tuple[str, str]]
-
-
-def _errors(found: Reproduction) -> Said:
-    if not (cells := found.cells):
-        return
-    mean, quoted = means(list(cells)), seed_inputs()["mean_error"]
-    explained = [cell for cell in cells if cell.by_larger]
-    cut = sum(cell.digits == "cut off" for cell in explained)
-    changed = sum(cell.changes for cell in cells)
-    yield (
-        "printed errors",
-        f"{len(explained)} of {len(cells)} printed errors are the difference over the larger of the two "
-        f"values, {cut} of them cut off instead of rounded. {changed} are therefore relative to the model "
-        f"and not to the experiment; relative to the experiment throughout their mean is "
-        f"{percent(mean['of_experiment'], '.2f')}.",
-    )
-    yield (
-        "printed errors",
-        f"The printed errors have a mean of {percent(mean['printed'], '.2f')}; {percent(quoted)} is quoted.",
-    )
-
-
-def _inputs(found: Reproduction) -> Said:
-    if not (checks := found.checks):
-        return
-    given = seed_inputs()
-    for check in checks:
-        if check.what == "equations" and not check.agrees:
-            yield (
-                "inputs",
-                f"{check.printed:g} equations are printed; {check.follows} are {check.computed:g}.",
-            )
-    formulas = [check for check in checks if check.what == "k"]
-    nearest = min(formulas, key=lambda check: abs(np.log(check.computed / given["k"])))
-    yield (
-        "inputs",
-        f"None of {len(formulas)} usual formulas gives k = {given['k']:g} N/m; the nearest, "
-        f"{nearest.follows}, gives {nearest.computed:.0f} N/m.",
-    )
-    distance = next(check for check in checks if check.what == "layer distance").computed
-    yield (
-        "inputs",
-        "The distance of the layers is not published. With the published k a lattice bends like the "
-        f"published sheet where it is {millimetres(distance, '.3g')}, {distance / given['thickness']:.1f} "
-        "times the thickness.",
-    )
 
 
 def _tables(found: Reproduction) -> Said:

@@ -1,9 +1,10 @@
 """The seed's study again, part by part.
 
-errors    the published inputs held against one another, the printed error table computed again
 tables    tests 1 and 2: published model and experiment, our lattices, our shell with its error bar
 settling  the run from rest, and what it takes
-nearest   which sheets come nearest to the tables, and what in the tables none of them can have
+
+What in the published figures contradicts itself, and which sheets come nearest to them, is a study
+(`studies.reproduction`).
 """
 
 from __future__ import annotations
@@ -17,17 +18,12 @@ from comparisons.report.report import Report
 from comparisons.report.work import Work, silent
 from comparisons.reproduction import findings, tables
 from comparisons.reproduction.answers import Answer, answers
-from comparisons.reproduction.chords import Chord, chords
-from comparisons.reproduction.inputs import Check, checks
-from comparisons.reproduction.nearest import Fit, Scan, nearest, scans
-from comparisons.reproduction.printed_errors import Cell, cells, means
-from comparisons.reproduction.ratios import Ratio, ratios
 from comparisons.reproduction.settling import Settling, settling
 from sheetbench.choices import ELEMENTS
 from sheetbench.scenes import Status
 from sheetbench.scenes.seed import KNOWN_FAULTS, seed_inputs
 
-PARTS = ("errors", "tables", "settling", "nearest")
+PARTS = ("tables", "settling")
 
 
 @dataclass(frozen=True)
@@ -36,14 +32,8 @@ class Reproduction:
 
     parts: tuple[str, ...]
     elements: Elements
-    checks: tuple[Check, ...] = ()
-    cells: tuple[Cell, ...] = ()
     answers: tuple[Answer, ...] = ()
     settling: Settling | None = None
-    scans: tuple[Scan, ...] = ()
-    fits: tuple[Fit, ...] = ()
-    ratios: tuple[Ratio, ...] = ()
-    chords: tuple[Chord, ...] = ()
 
     @property
     def converged(self) -> bool:
@@ -66,14 +56,6 @@ class Reproduction:
             "known_faults": list(KNOWN_FAULTS),
             "findings": [vars(one) for one in findings.all_of(self)],
         }
-        if self.cells:
-            document |= {
-                "checks": [{**vars(one), "agrees": one.agrees} for one in self.checks],
-                "errors": {
-                    "cells": [{**vars(one), "changes": one.changes} for one in self.cells],
-                    "means": {**means(list(self.cells)), "quoted": seed_inputs()["mean_error"]},
-                },
-            }
         if self.answers:
             document["tests"] = [
                 {"test": one.test, "sense": one.sense, "name": one.name, **one.comparison.as_dict()}
@@ -81,13 +63,6 @@ class Reproduction:
             ]
         if self.settling is not None:
             document["settling"] = self.settling.as_dict()
-        if self.scans:
-            document |= {
-                "scans": [vars(one) for one in self.scans],
-                "nearest": [one.as_dict() for one in self.fits],
-                "ratios": [vars(one) for one in self.ratios],
-                "chords": [vars(one) for one in self.chords],
-            }
         return document
 
     def report(self) -> Report:
@@ -103,18 +78,8 @@ def reproduce(
 ) -> Reproduction:
     """These parts of the seed's study; elements: of the shell; progress: told what is being done."""
     found: dict[str, Any] = {}
-    if "errors" in parts:
-        found |= {"checks": tuple(checks()), "cells": tuple(cells())}
     if "tables" in parts:
         found["answers"] = tuple(answers(elements, progress))
     if "settling" in parts:
         found["settling"] = settling(progress=progress)
-    if "nearest" in parts:
-        scanned = scans(progress)
-        found |= {
-            "scans": tuple(scanned),
-            "fits": tuple(nearest(scanned, progress)),
-            "ratios": tuple(ratios(scanned)),
-            "chords": tuple(chords()),
-        }
     return Reproduction(tuple(part for part in PARTS if part in parts), elements, **found)

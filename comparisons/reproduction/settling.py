@@ -15,9 +15,7 @@ from typing import Any, Literal
 import numpy as np
 
 import lumped
-from comparisons.reproduction.answers import seed_lattice, seed_springs
-from comparisons.reproduction.inputs import asked_layer_distance
-from comparisons.reproduction.sheets import masses
+from comparisons.reproduction.answers import asked_layer_distance, masses, seed_lattice, seed_springs
 from sheetbench.scenes import History, Scene, load
 from sheetbench.scenes.seed import seed_inputs
 

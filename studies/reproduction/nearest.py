@@ -22,8 +22,8 @@ from comparisons.identification.misfit import Misfit
 from comparisons.identification.prediction import NotReached
 from comparisons.identification.search import search
 from comparisons.reproduction.published import DIGIT, published, scene
-from comparisons.reproduction.sheets import KINDS, Sheets
 from sheetbench.scenes.seed import seed_inputs
+from studies.reproduction.sheets import KINDS, Sheets
 
 FIRST = {"sheet": "young", "lattice": "layer_distance"}
 SOURCE = {"sheet": "experiment", "lattice": "model"}  # which published table a kind is asked for

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from comparisons.reproduction.nearest import SOURCE, Scan
 from comparisons.reproduction.published import SOURCES, published, scene
 from sheetbench.scenes.seed import PROBES
+from studies.reproduction.nearest import SOURCE, Scan
 
 Entry = tuple[str, int]  # a probe and a component
 

@@ -7,13 +7,14 @@ of k lz² (`lumped.calibration.uniform`), so that a layer distance √(D/k) is w
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import sqrt
 
 import numpy as np
 
-from comparisons.reproduction.printed_errors import cells, means
+import lumped
+from comparisons.reproduction.answers import asked_layer_distance, bending_stiffness
 from comparisons.reproduction.published import scene
 from sheetbench.scenes.seed import seed_inputs
+from studies.reproduction.printed_errors import cells, means
 
 SAME = 0.005  # of a printed figure: what its two digits leave open
 
@@ -33,17 +34,6 @@ class Check:
     def agrees(self) -> bool | None:
         """Whether the two are the same to the printed digits; None where there is none to be the same as."""
         return None if self.printed is None else abs(self.computed - self.printed) <= SAME * abs(self.printed)
-
-
-def bending_stiffness() -> float:
-    """D [N·m] of the published sheet."""
-    given = seed_inputs()
-    return float(given["young"] * given["thickness"] ** 3 / (12.0 * (1.0 - given["poisson"] ** 2)))
-
-
-def asked_layer_distance() -> float:
-    """√(D/k) [m], with which a lattice of the published k bends like the published sheet."""
-    return sqrt(bending_stiffness() / seed_inputs()["k"])
 
 
 def checks() -> list[Check]:
@@ -74,8 +64,6 @@ def checks() -> list[Check]:
 
 def _links() -> list[Check]:
     """Links of a mass in the interior, on an edge and at a corner, counted on a lattice of that grid."""
-    import lumped
-
     given, asked = seed_inputs(), scene(1)
     side, layers = int(given["masses_per_side"]), int(given["layers"])
     grid = (side, side, layers)

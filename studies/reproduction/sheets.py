@@ -21,8 +21,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+import lumped
 from comparisons.identification.prediction import NotReached, Prediction
 from comparisons.identification.unknowns import Unknown
+from comparisons.reproduction.answers import masses
 from sheetbench.scenes import EDGES, Gravity, Scene, Solution, Status
 from sheetbench.scenes.parameters import put
 from sheetbench.scenes.seed import seed_inputs
@@ -32,13 +34,6 @@ UNITS = {"young": "Pa", "k": "N/m", "layer_distance": "m", "tilt": "rad", "curva
 KINDS = ("sheet", "lattice")
 
 Values = Mapping[str, float]
-
-
-def masses() -> tuple[int, int, int]:
-    """The seed's grid."""
-    given = seed_inputs()
-    side = int(given["masses_per_side"])
-    return side, side, int(given["layers"])
 
 
 class Sheets:
@@ -93,8 +88,6 @@ class Sheets:
 
     def solutions(self, asked: Sequence[Values]) -> list[list[Solution]]:
         """The solutions for each set of values, one a test, in the frame that turns with the supports."""
-        import lumped
-
         scenes = [_posed(scene, values) for values in asked for scene in self.scenes]
         if self.kind == "sheet":
             springs = [

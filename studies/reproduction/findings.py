@@ -1,4 +1,4 @@
-"""What the nearest sheets say of the published tables: how near, by which numbers, and what none can have."""
+"""What the printed errors, the inputs and the nearest sheets say of the published tables."""
 
 from __future__ import annotations
 
@@ -9,28 +9,67 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.report.table import number
-from comparisons.reproduction.chords import Chord, nearer
-from comparisons.reproduction.nearest import MOST, NEAR, SQUARES, Fit
 from comparisons.reproduction.published import published
-from comparisons.reproduction.words import (
-    KINDS,
-    ROD,
-    millimetres,
-    missed,
-    percent,
-    scanned,
-    tests,
-    values,
-)
-from sheetbench.scenes.seed import PROBES
+from comparisons.reproduction.words import millimetres, percent
+from sheetbench.scenes.seed import PROBES, seed_inputs
+from studies.reproduction.chords import Chord, nearer
+from studies.reproduction.nearest import MOST, NEAR, SQUARES, Fit
+from studies.reproduction.printed_errors import means
+from studies.reproduction.words import KINDS, ROD, missed, scanned, tests, values
 
 if TYPE_CHECKING:
-    from comparisons.reproduction.reproduction import Reproduction
+    from studies.reproduction.study import Forensics
 
 Said = Iterator[tuple[str, str]]
 
 
-def _nearest(found: Reproduction) -> Said:
+def _errors(found: Forensics) -> Said:
+    if not (cells := found.cells):
+        return
+    mean, quoted = means(list(cells)), seed_inputs()["mean_error"]
+    explained = [cell for cell in cells if cell.by_larger]
+    cut = sum(cell.digits == "cut off" for cell in explained)
+    changed = sum(cell.changes for cell in cells)
+    yield (
+        "printed errors",
+        f"{len(explained)} of {len(cells)} printed errors are the difference over the larger of the two "
+        f"values, {cut} of them cut off instead of rounded. {changed} are therefore relative to the model "
+        f"and not to the experiment; relative to the experiment throughout their mean is "
+        f"{percent(mean['of_experiment'], '.2f')}.",
+    )
+    yield (
+        "printed errors",
+        f"The printed errors have a mean of {percent(mean['printed'], '.2f')}; {percent(quoted)} is quoted.",
+    )
+
+
+def _inputs(found: Forensics) -> Said:
+    if not (checks := found.checks):
+        return
+    given = seed_inputs()
+    for check in checks:
+        if check.what == "equations" and not check.agrees:
+            yield (
+                "inputs",
+                f"{check.printed:g} equations are printed; {check.follows} are {check.computed:g}.",
+            )
+    formulas = [check for check in checks if check.what == "k"]
+    nearest = min(formulas, key=lambda check: abs(np.log(check.computed / given["k"])))
+    yield (
+        "inputs",
+        f"None of {len(formulas)} usual formulas gives k = {given['k']:g} N/m; the nearest, "
+        f"{nearest.follows}, gives {nearest.computed:.0f} N/m.",
+    )
+    distance = next(check for check in checks if check.what == "layer distance").computed
+    yield (
+        "inputs",
+        "The distance of the layers is not published. With the published k a lattice bends like the "
+        f"published sheet where it is {millimetres(distance, '.3g')}, {distance / given['thickness']:.1f} "
+        "times the thickness.",
+    )
+
+
+def _nearest(found: Forensics) -> Said:
     for kind, of in dict.fromkeys((fit.kind, fit.tests) for fit in found.fits):
         fits = [fit for fit in found.fits if (fit.kind, fit.tests) == (kind, of)]
         best = min((fit for fit in fits if fit.by == SQUARES), key=lambda fit: fit.rms)
@@ -58,7 +97,7 @@ def _rod(fit: Fit) -> str:
     return "" if "curvature" in fit.sought else ROD[fit.sense]
 
 
-def _senses(found: Reproduction) -> Said:
+def _senses(found: Forensics) -> Said:
     if not found.fits:
         return
     table = published(2, "model")
@@ -76,7 +115,7 @@ def _senses(found: Reproduction) -> Said:
     )
 
 
-def _ratios(found: Reproduction) -> Said:
+def _ratios(found: Forensics) -> Said:
     for kind, test, sense in dict.fromkeys((r.kind, r.test, r.sense) for r in found.ratios):
         of = [r for r in found.ratios if (r.kind, r.test, r.sense) == (kind, test, sense)]
         never = [
@@ -94,7 +133,7 @@ def _ratios(found: Reproduction) -> Said:
             )
 
 
-def _stretch(found: Reproduction) -> Said:
+def _stretch(found: Forensics) -> Said:
     lines = [chord for chord in found.chords if chord.stretch > 0.0]
     for test, source in dict.fromkeys((chord.test, chord.source) for chord in lines):
         worst = max((c for c in lines if (c.test, c.source) == (test, source)), key=lambda c: c.stretch)
@@ -110,7 +149,7 @@ def _stretch(found: Reproduction) -> Said:
         )
 
 
-def _shortening(found: Reproduction) -> Said:
+def _shortening(found: Forensics) -> Said:
     between = [chord for chord in found.chords if chord.start in PROBES]
     for source in dict.fromkeys(chord.source for chord in between):
         worst = max((c for c in between if c.source == source), key=lambda c: c.turning)
@@ -124,7 +163,7 @@ def _shortening(found: Reproduction) -> Said:
         )
 
 
-def _nearer(found: Reproduction, chord: Chord) -> list[float]:
+def _nearer(found: Forensics, chord: Chord) -> list[float]:
     """By how much [m] the chord's points are nearer to each other in each sheet of the least misfit; of an
     edge's points in those alone whose supports are not turned."""
     return [
@@ -142,4 +181,5 @@ def _of_test(fit: Fit, test: int) -> np.ndarray:
     return fit.displacement[first : first + len(PROBES)]
 
 
-PARTS = (_nearest, _senses, _ratios, _stretch, _shortening)
+BEFORE = (_errors, _inputs)  # what our models say of the tests
+AFTER = (_nearest, _senses, _ratios, _stretch, _shortening)

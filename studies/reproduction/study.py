@@ -1,0 +1,115 @@
+"""The study of Habibi et al. in depth, with what `sheetbench reproduce` answers.
+
+errors    the published inputs held against one another, the printed error table computed again
+tables    tests 1 and 2, as `reproduce` has them
+settling  the run from rest, as `reproduce` has it
+nearest   which sheets come nearest to the tables, and what in the tables none of them can have
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+from comparisons.models.grids import Elements
+from comparisons.report.report import Picture, Report
+from comparisons.report.work import Work, silent
+from comparisons.reproduction import findings as of_models
+from comparisons.reproduction.findings import Finding
+from comparisons.reproduction.reproduction import Reproduction, reproduce
+from comparisons.reproduction.tables import findings_table
+from sheetbench.choices import ELEMENTS
+from sheetbench.scenes.seed import seed_inputs
+from studies.reproduction import figure, findings, tables
+from studies.reproduction.chords import Chord, chords
+from studies.reproduction.inputs import Check, checks
+from studies.reproduction.nearest import Fit, Scan, nearest, scans
+from studies.reproduction.printed_errors import Cell, cells, means
+from studies.reproduction.ratios import Ratio, ratios
+
+PARTS = ("errors", "tables", "settling", "nearest")
+
+
+@dataclass(frozen=True)
+class Forensics:
+    """What each part found; empty where a part was not asked for. models: what our models answer."""
+
+    parts: tuple[str, ...]
+    models: Reproduction
+    checks: tuple[Check, ...] = ()
+    cells: tuple[Cell, ...] = ()
+    scans: tuple[Scan, ...] = ()
+    fits: tuple[Fit, ...] = ()
+    ratios: tuple[Ratio, ...] = ()
+    chords: tuple[Chord, ...] = ()
+
+    def findings(self) -> list[Finding]:
+        """Every finding of the parts there are."""
+        before, after = (
+            [Finding(about, said) for part in parts for about, said in part(self)]
+            for parts in (findings.BEFORE, findings.AFTER)
+        )
+        return [*before, *of_models.all_of(self.models), *after]
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON document: SI units, errors as fractions."""
+        document: dict[str, Any] = {
+            **self.models.as_dict(),
+            "parts": list(self.parts),
+            "findings": [vars(one) for one in self.findings()],
+        }
+        if self.cells:
+            document |= {
+                "checks": [{**vars(one), "agrees": one.agrees} for one in self.checks],
+                "errors": {
+                    "cells": [{**vars(one), "changes": one.changes} for one in self.cells],
+                    "means": {**means(list(self.cells)), "quoted": seed_inputs()["mean_error"]},
+                },
+            }
+        if self.scans:
+            document |= {
+                "scans": [vars(one) for one in self.scans],
+                "nearest": [one.as_dict() for one in self.fits],
+                "ratios": [vars(one) for one in self.ratios],
+                "chords": [vars(one) for one in self.chords],
+            }
+        return document
+
+    def report(self) -> Report:
+        """What is shown of it: what `reproduce` shows, the other parts before and after."""
+        report = self.models.report()
+        before = [tables.errors(self), tables.inputs(self)] if self.cells else []
+        after = [tables.nearest(self), tables.ratios(self), tables.chords(self)] if self.scans else []
+        drawn = [Picture(("nearest.png", "nearest.pdf"), partial(figure.draw, self))] if self.scans else []
+        return replace(
+            report,
+            subtitle="what was published, what the same inputs give, and what comes nearest to it",
+            document=self.as_dict(),
+            tables=(findings_table(self.findings()), *before, *report.tables[1:], *after),
+            pictures=(*report.pictures, *drawn),
+            settings={**report.settings, "parts": list(self.parts)},
+        )
+
+
+def study(
+    parts: Collection[str] = PARTS,
+    *,
+    elements: Elements = ELEMENTS,
+    progress: Callable[[str | Work], None] = silent,
+) -> Forensics:
+    """These parts; elements: of the shell; progress: told what is being done."""
+    found: dict[str, Any] = {}
+    if "errors" in parts:
+        found |= {"checks": tuple(checks()), "cells": tuple(cells())}
+    models = reproduce(parts, elements=elements, progress=progress)
+    if "nearest" in parts:
+        scanned = scans(progress)
+        found |= {
+            "scans": tuple(scanned),
+            "fits": tuple(nearest(scanned, progress)),
+            "ratios": tuple(ratios(scanned)),
+            "chords": tuple(chords()),
+        }
+    return Forensics(tuple(part for part in PARTS if part in parts), models, **found)

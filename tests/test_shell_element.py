@@ -267,7 +267,7 @@ def test_directors_are_brought_to_unit_length_and_turn_across_themselves():
     np.testing.assert_allclose(
         directors + to_unit(directors), ((lengths**2 + 1.0) / (2.0 * lengths))[:, None] * unit, rtol=1e-14
     )
-    frames = tangent_frames(directors, np.array([], dtype=int), np.array([], dtype=int))
+    frames = tangent_frames(directors, np.full(len(directors), -1))
     whole = np.concatenate([frames, unit[:, :, None]], axis=2)
     np.testing.assert_allclose(whole.swapaxes(1, 2) @ whole, np.tile(np.eye(3), (6, 1, 1)), atol=1e-14)
     couple = rng.normal(size=(6, 3))

@@ -7,28 +7,25 @@ from numba import njit
 
 
 @njit(cache=True)
-def tangent_frames(directors: np.ndarray, nodes: np.ndarray, axes: np.ndarray) -> np.ndarray:
-    """Orthonormal T (n, 3, 2) with T ⊥ d, whose first tangent is the given axis at the given nodes (k,)."""
-    out = np.zeros((len(directors), 3, 2))
-    chosen = np.full(len(directors), -1)
-    for i in range(len(nodes)):
-        chosen[nodes[i]] = axes[i]
+def tangent_frames(directors: np.ndarray, axes: np.ndarray) -> np.ndarray:
+    """Orthonormal T (n, 3, 2) with T ⊥ d, whose first tangent is the axis of this number (n,), −1 for any."""
+    out = np.empty((len(directors), 3, 2))
     for n in range(len(directors)):
-        x, y, z = directors[n] / np.sqrt(np.sum(directors[n] ** 2))
-        first, second = out[n, :, 0], out[n, :, 1]
-        if chosen[n] >= 0:
-            first[chosen[n]] = 1.0
-        else:  # the axis farthest from d, times d
+        x, y, z = directors[n, 0], directors[n, 1], directors[n, 2]
+        length = np.sqrt(x * x + y * y + z * z)
+        x, y, z = x / length, y / length, z / length
+        p, q, r = 1.0 * (axes[n] == 0), 1.0 * (axes[n] == 1), 1.0 * (axes[n] == 2)
+        if axes[n] < 0:  # the axis farthest from d, times d
             if abs(x) <= abs(y) and abs(x) <= abs(z):
-                first[1], first[2] = -z, y
+                q, r = -z, y
             elif abs(y) <= abs(z):
-                first[0], first[2] = z, -x
+                p, r = z, -x
             else:
-                first[0], first[1] = -y, x
-            first /= np.sqrt(np.sum(first**2))
-        second[0] = y * first[2] - z * first[1]
-        second[1] = z * first[0] - x * first[2]
-        second[2] = x * first[1] - y * first[0]
+                p, q = -y, x
+            length = np.sqrt(p * p + q * q + r * r)
+            p, q, r = p / length, q / length, r / length
+        out[n, 0, 0], out[n, 1, 0], out[n, 2, 0] = p, q, r
+        out[n, 0, 1], out[n, 1, 1], out[n, 2, 1] = y * r - z * q, z * p - x * r, x * q - y * p
     return out
 
 

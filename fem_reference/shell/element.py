@@ -27,6 +27,7 @@ digits in a sheet of any thinness. No penalty, no stabilisation, no spurious mod
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -101,15 +102,20 @@ class Element:
     @classmethod
     def build(cls, nodes: np.ndarray, section: Section) -> Element:
         """From the nodes' plan positions (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
-        areas, in_plane, bending, transverse = _geometry(nodes)
-        stiffness = np.zeros((len(nodes), STRAINS, STRAINS))
-        stiffness[:, MEMBRANE, MEMBRANE] = _integrate(in_plane, section.membrane, areas)
-        stiffness[:, BENDING, BENDING] = _integrate(bending, section.bending, areas)
-        stiffness[:, SHEAR, SHEAR] = _integrate(transverse, section.shear, areas)
-        reference = np.zeros((len(nodes), 18, 3))
-        reference[:, :9, :2] = nodes
-        reference[:, 9:, 2] = 1.0
-        return cls(reference, stiffness, areas)
+        return cls(*_built(nodes, *section))
+
+    @cached_property
+    def flat_jacobian(self) -> np.ndarray:
+        """det J at the Gauss points (m, 9) [m²], below zero where r, s turn clockwise."""
+        found: np.ndarray = np.linalg.det(jacobians(self.reference[:, :9, :2], AT_GAUSS[1]))
+        return found
+
+    @cached_property
+    def sides(self) -> np.ndarray:
+        """Lengths along r and s, (m, 2) [m]."""
+        across = self.reference[:, [5, 6], :2] - self.reference[:, [7, 4], :2]
+        found: np.ndarray = np.linalg.norm(across, axis=2)
+        return found
 
     def strain(self, change: np.ndarray) -> np.ndarray:
         """Sampled strains e (m, 54) of the change q (m, 18, 3) of positions and directors: its product with
@@ -181,19 +187,20 @@ def magnitudes(vectors: np.ndarray, stress: np.ndarray) -> np.ndarray:
     return found
 
 
-def tangents(
+def add_tangents(
+    data: np.ndarray,
+    slots: np.ndarray,
     element: Element,
     vectors: np.ndarray,
     moduli: np.ndarray,
     stress: np.ndarray,
     on: np.ndarray,
     frames: np.ndarray,
-) -> np.ndarray:
-    """Bᵀ D B + Σ s_k H_k on the elements' unknowns (m, 45, 45); on: their nodes (m, 9), whose frames are
-    (n, 3, 2)."""
+) -> None:
+    """Add Bᵀ D B + Σ s_k H_k on the elements' unknowns to a matrix's data, at slots (m, 45, 45); on: their
+    nodes (m, 9), whose frames are (n, 3, 2)."""
     forms = (stress @ _OF_POSITIONS).reshape(-1, 9, 18)
-    found: np.ndarray = tangent.tangents(vectors, moduli, element.coupled, forms, frames, on, TABLES)
-    return found
+    tangent.add_tangents(vectors, moduli, element.coupled, forms, frames, on, TABLES, slots, data)
 
 
 def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -201,6 +208,22 @@ def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     ones, (m, 9, 3, 21) each, of elements with nodes (m, 9, 2)."""
     _, in_plane, bending, _ = _geometry(nodes)
     return in_plane, bending
+
+
+@kept(last=4, most=1 << 16)
+def _built(
+    nodes: np.ndarray, membrane: np.ndarray, bending: np.ndarray, shear: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Reference, stiffness and areas of elements with nodes (m, 9, 2) and a section."""
+    areas, stretching, bent, slanted = _geometry(nodes)
+    stiffness = np.zeros((len(nodes), STRAINS, STRAINS))
+    stiffness[:, MEMBRANE, MEMBRANE] = _integrate(stretching, membrane, areas)
+    stiffness[:, BENDING, BENDING] = _integrate(bent, bending, areas)
+    stiffness[:, SHEAR, SHEAR] = _integrate(slanted, shear, areas)
+    reference = np.zeros((len(nodes), 18, 3))
+    reference[:, :9, :2] = nodes
+    reference[:, 9:, 2] = 1.0
+    return reference, stiffness, areas
 
 
 @kept(last=4, most=1 << 16)

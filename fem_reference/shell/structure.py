@@ -25,7 +25,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
-from fem_reference.shell.element import Element, forces_of, strain_of, tangents, weighed
+from fem_reference.shell.element import Element, add_tangents, forces_of, strain_of, weighed
 from fem_reference.shell.reduction import projected
 from fem_reference.shell.state import Forces, State
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surface
@@ -33,7 +33,7 @@ from fem_reference.surface.loads import Follower
 from fem_reference.surface.rod_elements import Strained
 from fem_reference.surface.supports import Supports
 from sheetbench.numerics.fronts import Fronts
-from sheetbench.numerics.sparsity import Pattern, pattern_of
+from sheetbench.numerics.sparsity import Pattern, add_blocks, pattern_of
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -201,25 +201,27 @@ class ShellStructure:
             stress, rod_stress = state.stress, state.rod_stress
             pressing = pressing + self._pull(forces, stress - forces.stress, rod_stress - forces.rods.stress)
 
-        stiffness = tangents(self.element, vectors, moduli, stress, self.element_nodes, frames)
+        data, nodes = self.pattern.zeros(self._multiplier(state, pressing)), self.element_nodes
+        add_tangents(data, self.pattern.slots[0], self.element, vectors, moduli, stress, nodes, frames)
         of_step = self.gather(self._split(step)[0])
         pull = forces_of(vectors, weighed(moduli, strain_of(vectors, of_step))) + forces_of(of_step, stress)
         for load in self.followers:
             tangent = -load_factor * load.tangent(vectors[load.elements])
             pull[load.elements] += np.einsum("eicjd,ejd->eic", tangent, of_step[load.elements])
-            stiffness[load.elements] += projected(tangent, frames[self.element_nodes[load.elements]])
+            add_blocks(
+                data, self.pattern.slots[0][load.elements], projected(tangent, frames[nodes[load.elements]])
+            )
 
-        blocks, total, aside = [stiffness], forces.residual + self._scatter(pull), forces.aside
+        total, aside = forces.residual + self._scatter(pull), forces.aside
         if self.rods.rods:
             full = self.rods.elements.tangent(forces.rods.gradient, rod_stress)
             onto = self._onto_rods(frames)
             on_rods = self.rods.elements.product(full, self.rods.gather(step))
             on_sheet, on_aside = self._split(self.rods.scatter(on_rods, self._vectors))
-            blocks.append(onto.swapaxes(1, 2) @ full @ onto)
+            add_blocks(data, self.pattern.slots[1], onto.swapaxes(1, 2) @ full @ onto)
             total, aside = total + on_sheet, aside + on_aside
-        matrix = self.pattern.matrix(*blocks, diagonal=self._multiplier(state, pressing))
-        couple = np.concatenate([total[1], aside])
-        return matrix, -self._of_unknowns(total[0], np.einsum("nc,nck->nk", couple, frames))
+        couple = np.einsum("nc,nck->nk", np.concatenate([total[1], aside]), frames)
+        return self.pattern.with_data(data), -self._of_unknowns(total[0], couple)
 
     def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
         """The state after a step (unknowns,), with the stresses it extrapolates."""
@@ -255,8 +257,15 @@ class ShellStructure:
 
     def frames(self, state: State) -> np.ndarray:
         """T (n + q, 3, 2) ⊥ d, and ⊥ m of the rods."""
-        free = self.supports.tilt & ~self.supports.director[:, None]
-        return tangent_frames(self.directors(state), *np.nonzero(free))
+        return tangent_frames(self.directors(state), self._held_axes)
+
+    @cached_property
+    def _held_axes(self) -> np.ndarray:
+        """The axis that is the first tangent of every director (n + q,), −1 for any."""
+        axes = np.full(len(self.turns), -1)
+        nodes, along = np.nonzero(self.supports.tilt & ~self.supports.director[:, None])
+        axes[nodes] = along
+        return axes
 
     @cached_property
     def lever(self) -> float:

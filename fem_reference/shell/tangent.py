@@ -21,7 +21,7 @@ AT_ONCE = 3  # strains and unknowns that are gone through together, whose number
 
 
 @njit(cache=True, fastmath=REORDERED)
-def tangents(
+def add_tangents(
     vectors: np.ndarray,
     moduli: np.ndarray,
     coupled: bool,
@@ -29,13 +29,16 @@ def tangents(
     frames: np.ndarray,
     nodes: np.ndarray,
     tables: np.ndarray,
-) -> np.ndarray:
-    """K (m, 45, 45) of elements with vectors (m, 18, 3), D (m, 54, 54) and Σ s_k H_k (m, 9, 18), rows of
-    positions; frames: T (n, 3, 2) of all nodes; nodes: (m, 9); tables: of `sampling`."""
+    slots: np.ndarray,
+    data: np.ndarray,
+) -> None:
+    """Add K of elements with vectors (m, 18, 3), D (m, 54, 54) and Σ s_k H_k (m, 9, 18), rows of positions,
+    to the data of a matrix, at slots (m, 45, 45), −1 for none; frames: T (n, 3, 2) of all nodes; nodes:
+    (m, 9); tables: of `sampling`."""
     plane, strains = PLANE, tables.shape[1]
-    out = np.zeros((len(vectors), UNKNOWNS, UNKNOWNS))
     full, at = np.zeros((strains, 18, 3)), np.empty((6, strains))
     gradient, weighed = np.zeros((strains, UNKNOWNS)), np.empty((strains, UNKNOWNS))
+    lower = np.empty((UNKNOWNS, UNKNOWNS))
     for e in range(len(vectors)):
         sampled(vectors[e], tables, at, full)
         for k in range(strains):
@@ -48,13 +51,13 @@ def tangents(
                         turned = turn[0] * frame[0, t] + turn[1] * frame[1, t] + turn[2] * frame[2, t]
                         gradient[k, MOVES + 2 * i + t] = turned
         weighed[:] = 0.0
+        lower[:] = 0.0
         _add_weighed(moduli[e], gradient, 0, plane, 0, plane, MOVES, weighed)
         _add_weighed(moduli[e], gradient, plane, 2 * plane, plane, 2 * plane, UNKNOWNS, weighed)
         _add_weighed(moduli[e], gradient, 2 * plane, strains, 2 * plane, strains, UNKNOWNS, weighed)
         if coupled:
             _add_weighed(moduli[e], gradient, 0, plane, plane, 2 * plane, MOVES, weighed)
             _add_weighed(moduli[e], gradient, plane, 2 * plane, 0, plane, MOVES, weighed)
-        lower = out[e]
         _add_product(gradient, weighed, 0, 0, MOVES, lower)
         _add_product(gradient, weighed, plane, MOVES, UNKNOWNS, lower)
         for i in range(9):
@@ -64,9 +67,11 @@ def tangents(
                     for t in range(2):
                         lower[MOVES + 2 * j + t, 3 * i + c] += forms[e, i, 9 + j] * frames[nodes[e, j], c, t]
         for i in range(UNKNOWNS):
-            for j in range(i):
-                lower[j, i] = lower[i, j]
-    return out
+            for j in range(i + 1):
+                if slots[e, i, j] >= 0:
+                    data[slots[e, i, j]] += lower[i, j]
+                    if j < i:
+                        data[slots[e, j, i]] += lower[i, j]
 
 
 @njit(cache=True, inline="always")

@@ -27,7 +27,7 @@ from fem_reference.shell.state import State
 from fem_reference.shell.structure import ShellStructure
 from fem_reference.solving.path import Fault, Path
 from fem_reference.solving.stability import stability
-from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
+from fem_reference.surface.biquadratic import AT_GAUSS, cross
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, Status, outside_model
 
@@ -55,10 +55,9 @@ def inverted(structure: ShellStructure, state: State) -> Fault | None:
     value, slope = AT_GAUSS
     reference = structure.element.reference
     now = reference + structure.gather(state.change)
-    along, across = np.einsum("agi,eic->aegc", slope, now[:, :9])
-    area = np.einsum("egc,gi,eic->eg", np.cross(along, across), value, now[:, 9:])
-    flat = np.linalg.det(jacobians(reference[:, :9, :2], slope))
-    share = (area / flat).min(axis=1)
+    along, across, director = slope[0] @ now[:, :9], slope[1] @ now[:, :9], value @ now[:, 9:]
+    area = (cross(along, across) * director).sum(axis=2)
+    share = (area / structure.element.flat_jacobian).min(axis=1)
     worst = int(np.argmin(share))
     if share[worst] > FLAT:
         return None
@@ -69,7 +68,7 @@ def inverted(structure: ShellStructure, state: State) -> Fault | None:
 
 def stretch(structure: ShellStructure, state: State, thickness: float) -> float:
     """The largest (h κ/2) (b/l)² of all elements, κ the curvature along their shorter side."""
-    sides = _sides(structure)
+    sides = structure.element.sides
     strain = structure.element.strain(structure.gather(state.change))[:, BENDING]
     bent = np.stack([np.abs(strain[:, part]).max(axis=1) for part in (slice(0, 6), slice(6, 12))], axis=1)
     surface = 0.5 * thickness * bent / (0.5 * sides) ** 2
@@ -80,14 +79,8 @@ def membrane_strain(structure: ShellStructure, state: State) -> float:
     """The mid-surface's largest stretching along an element's sides, √(1 + 2 E) − 1 of Green's strain E."""
     strain = structure.element.strain(structure.gather(state.change))[:, MEMBRANE]
     along = np.stack([strain[:, part].mean(axis=1) for part in (slice(0, 6), slice(6, 12))], axis=1)
-    green = along / (0.5 * _sides(structure)) ** 2
+    green = along / (0.5 * structure.element.sides) ** 2
     return float(np.max(np.abs(np.sqrt(np.maximum(1.0 + 2.0 * green, 0.0)) - 1.0)))
-
-
-def _sides(structure: ShellStructure) -> np.ndarray:
-    """Lengths of the elements along r and s, (m, 2) [m]."""
-    nodes = structure.element.reference[:, :9, :2]
-    return np.stack([np.linalg.norm(nodes[:, a] - nodes[:, b], axis=1) for a, b in ((5, 7), (6, 4))], axis=1)
 
 
 def judge(

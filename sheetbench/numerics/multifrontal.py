@@ -48,14 +48,14 @@ class NoFactorsError(ArithmeticError):
 @njit(cache=True, nogil=True, fastmath=REORDERED)
 def factor(data: np.ndarray, fronts: Fronts, factors: np.ndarray, signs: np.ndarray) -> bool:
     """The factors of the matrix with this data into `factors` and `signs` (n,); False if there are none."""
-    front = np.empty(fronts.widest**2)
+    front, panel = np.empty((fronts.widest + 1) * fronts.widest), np.empty(PANEL * fronts.widest)
     waiting, top = np.empty(fronts.waiting), 0
     where, diagonal = np.empty(len(fronts.order), np.int64), np.abs(data[fronts.diagonal])
-    indefinite = False
+    local, indefinite = np.empty(fronts.widest, np.int64), False
     for f in range(len(fronts.own)):
         own, start, end = fronts.own[f], fronts.starts[f], fronts.starts[f + 1]
         width = end - start
-        dense = front[: width * width].reshape(width, width)
+        dense = front[: (width + 1) * width].reshape(width + 1, width)
         dense[:] = 0.0
         flat = front[: own * width]
         for t in range(fronts.entries[f], fronts.entries[f + 1]):
@@ -69,12 +69,15 @@ def factor(data: np.ndarray, fronts: Fronts, factors: np.ndarray, signs: np.ndar
                 rest = len(left)
                 top -= rest * rest
                 update = waiting[top : top + rest * rest].reshape(rest, rest)
+                for i in range(rest):
+                    local[i] = where[left[i]]
                 for j in range(rest):
-                    column = dense[where[left[j]]]
+                    column = dense[local[j]]
                     for i in range(j, rest):
-                        column[where[left[i]]] += update[j, i]
+                        column[local[i]] += update[j, i]
         first = fronts.first[f]
-        if not _eliminate(dense, diagonal[first : first + own], signs[first : first + own]):
+        room = panel[: PANEL * width].reshape(PANEL, width)
+        if not _eliminate(dense, diagonal[first : first + own], signs[first : first + own], room):
             return False
         for k in range(own):
             indefinite = indefinite or signs[first + k] < 0.0
@@ -85,40 +88,47 @@ def factor(data: np.ndarray, fronts: Fronts, factors: np.ndarray, signs: np.ndar
         factors[fronts.kept[f] : fronts.kept[f + 1]] = flat
         rest = width - own
         update = waiting[top : top + rest * rest].reshape(rest, rest)
-        update[:] = dense[own:, own:]
+        for j in range(rest):
+            update[j, j:] = dense[own + j, own + j :]
         top += rest * rest
     return True
 
 
 @njit(cache=True, nogil=True, inline="always", fastmath=REORDERED)
-def _eliminate(dense: np.ndarray, diagonal: np.ndarray, signs: np.ndarray) -> bool:
-    """Turn the first columns of a lower triangle, stored in rows, into those of its factor, and the others
-    into what is left; False at a pivot that is not finite, or nothing but rounding."""
-    width, own = len(dense), len(signs)
+def _eliminate(dense: np.ndarray, diagonal: np.ndarray, signs: np.ndarray, panel: np.ndarray) -> bool:
+    """Turn the first columns of a lower triangle, stored in rows with one to spare, into those of its factor,
+    and the others into what is left; False at a pivot that is not finite, or nothing but rounding. panel:
+    room (PANEL, width), where columns that are missing are zero."""
+    width, own = dense.shape[1], len(signs)
     block = BLOCK if width > WIDE else max(own, 1)
+    shares, inverse, sign = np.zeros((PANEL, PANEL)), np.zeros(PANEL), np.zeros(PANEL)
     for b0 in range(0, own, block):
         b1 = min(own, b0 + block)
         limit = b1 if width > WIDE else width
         for k0 in range(b0, b1, PANEL):
             start = min(b1, k0 + PANEL)
+            if start < k0 + PANEL:
+                panel[:] = 0.0
+                shares[:] = 0.0
+                sign[:] = 0.0
             for k in range(k0, start):
-                column = dense[k]
+                column, p = dense[k], k - k0
                 pivot = np.abs(column[k])
                 if not (pivot > NOTHING * diagonal[k] and pivot > 0.0 and pivot < np.inf):
                     return False
-                sign = 1.0 if column[k] > 0.0 else -1.0
-                root = np.sqrt(pivot)
-                inverse = sign / root
-                signs[k] = sign
-                column[k] = root
-                for i in range(k + 1, width):
-                    column[i] *= inverse
-                for j in range(k + 1, start if start - k0 == PANEL else limit):
-                    share, other = sign * column[j], dense[j]
-                    for i in range(j, width):
-                        other[i] -= share * column[i]
-            if start - k0 == PANEL:
-                _update(dense[k0:start], signs[k0:start], dense, start, limit)
+                sign[p] = 1.0 if column[k] > 0.0 else -1.0
+                column[k] = np.sqrt(pivot)
+                signs[k], inverse[p] = sign[p], sign[p] / column[k]
+                for j in range(k + 1, start):
+                    column[j] *= inverse[p]
+                    shares[p, j - k0] = sign[p] * column[j]
+                    for i in range(k + 1, j + 1):
+                        dense[i, j] -= shares[p, i - k0] * column[j]
+                panel[p, start:] = column[start:]
+            _below(panel[:, start:], shares, inverse)
+            for p in range(start - k0):
+                dense[k0 + p, start:] = panel[p, start:]
+            _update(panel, sign, dense, start, limit)
         if limit < width:
             left = dense[b0:b1, limit:].T.copy()
             signed = left * signs[b0:b1]
@@ -129,32 +139,40 @@ def _eliminate(dense: np.ndarray, diagonal: np.ndarray, signs: np.ndarray) -> bo
 
 
 @njit(cache=True, nogil=True, inline="always", fastmath=REORDERED)
-def _update(panel: np.ndarray, signs: np.ndarray, dense: np.ndarray, start: int, limit: int) -> None:
-    """Take the products of PANEL columns of the factor off the columns start … limit."""
+def _below(panel: np.ndarray, shares: np.ndarray, inverse: np.ndarray) -> None:
+    """Columns of the factor below their own square, all of a panel at once."""
     l0, l1, l2, l3, l4, l5 = panel[0], panel[1], panel[2], panel[3], panel[4], panel[5]
-    width = len(l0)
-    if signs.min() < 0.0:  # seldom: a column at a time
-        for k in range(PANEL):
-            for j in range(start, limit):
-                share, one = signs[k] * panel[k, j], dense[j]
-                for i in range(j, width):
-                    one[i] -= share * panel[k, i]
-        return
-    for j in range(start, limit - 1, 2):
-        f0, f1, f2, f3, f4, f5 = l0[j], l1[j], l2[j], l3[j], l4[j], l5[j]
-        g0, g1, g2, g3, g4, g5 = l0[j + 1], l1[j + 1], l2[j + 1], l3[j + 1], l4[j + 1], l5[j + 1]
-        one, two = dense[j], dense[j + 1]  # what is above the second's diagonal is never looked at
-        for i in range(j, width):
+    d0, d1, d2, d3, d4, d5 = inverse[0], inverse[1], inverse[2], inverse[3], inverse[4], inverse[5]
+    s01, s02, s03, s04, s05 = shares[0, 1], shares[0, 2], shares[0, 3], shares[0, 4], shares[0, 5]
+    s12, s13, s14, s15 = shares[1, 2], shares[1, 3], shares[1, 4], shares[1, 5]
+    s23, s24, s25, s34, s35 = shares[2, 3], shares[2, 4], shares[2, 5], shares[3, 4], shares[3, 5]
+    s45 = shares[4, 5]
+    for i in range(len(l0)):
+        m0 = l0[i] * d0
+        m1 = (l1[i] - s01 * m0) * d1
+        m2 = (l2[i] - (s02 * m0 + s12 * m1)) * d2
+        m3 = (l3[i] - (s03 * m0 + s13 * m1 + s23 * m2)) * d3
+        m4 = (l4[i] - (s04 * m0 + s14 * m1 + s24 * m2 + s34 * m3)) * d4
+        m5 = (l5[i] - (s05 * m0 + s15 * m1 + s25 * m2 + s35 * m3 + s45 * m4)) * d5
+        l0[i], l1[i], l2[i], l3[i], l4[i], l5[i] = m0, m1, m2, m3, m4, m5
+
+
+@njit(cache=True, nogil=True, inline="always", fastmath=REORDERED)
+def _update(panel: np.ndarray, sign: np.ndarray, dense: np.ndarray, start: int, limit: int) -> None:
+    """Take the products of a panel off the columns start … limit."""
+    l0, l1, l2, l3, l4, l5 = panel[0], panel[1], panel[2], panel[3], panel[4], panel[5]
+    s0, s1, s2, s3, s4, s5 = sign[0], sign[1], sign[2], sign[3], sign[4], sign[5]
+    for j in range(start, limit, 2):
+        f0, f1, f2, f3, f4, f5 = s0 * l0[j], s1 * l1[j], s2 * l2[j], s3 * l3[j], s4 * l4[j], s5 * l5[j]
+        g0 = g1 = g2 = g3 = g4 = g5 = 0.0
+        k = j + 1
+        if k < limit:
+            g0, g1, g2, g3, g4, g5 = s0 * l0[k], s1 * l1[k], s2 * l2[k], s3 * l3[k], s4 * l4[k], s5 * l5[k]
+        one, two = dense[j], dense[k]  # what is above the second's diagonal is never looked at
+        for i in range(j, len(l0)):
             m0, m1, m2, m3, m4, m5 = l0[i], l1[i], l2[i], l3[i], l4[i], l5[i]
             one[i] -= f0 * m0 + f1 * m1 + f2 * m2 + f3 * m3 + f4 * m4 + f5 * m5
             two[i] -= g0 * m0 + g1 * m1 + g2 * m2 + g3 * m3 + g4 * m4 + g5 * m5
-    if (limit - start) % 2:
-        j = limit - 1
-        one = dense[j]
-        for i in range(j, width):
-            one[i] -= (l0[j] * l0[i] + l1[j] * l1[i] + l2[j] * l2[i]) + (
-                l3[j] * l3[i] + l4[j] * l4[i] + l5[j] * l5[i]
-            )
 
 
 @njit(cache=True, nogil=True, fastmath=REORDERED)

@@ -6,6 +6,7 @@ are left out.
 
 from __future__ import annotations
 
+from copy import copy
 from functools import cached_property
 from itertools import pairwise
 
@@ -21,7 +22,8 @@ class Pattern:
     """Of one kind of element or of several.
 
     unknowns: for every kind (m, k), the number of each element's unknowns in 0 … size − 1, or −1 where held;
-    places: of all elements in the plane (M, 2), which the order of elimination goes by.
+    places: of all elements in the plane (M, 2), which the order of elimination goes by. slots: for every kind
+    (m, k, k), where in the data an entry goes, −1 where it is left out.
     """
 
     def __init__(self, *unknowns: np.ndarray, size: int, places: np.ndarray | None = None):
@@ -40,7 +42,10 @@ class Pattern:
         blocks = np.concatenate([[0], np.cumsum(widths**2)])
         slots = _slots(self._columns, self._starts, entries, starts, touching, element, ends, blocks)
         kinds = pairwise(np.cumsum([0, *(number.size * number.shape[1] for number in unknowns)]))
-        self._slots = [slots[first:last] for first, last in kinds]
+        parts = zip(unknowns, kinds, strict=True)
+        self.slots = [
+            slots[first:last].reshape(*number.shape, number.shape[1]) for number, (first, last) in parts
+        ]
         self._diagonal = np.flatnonzero(self._columns == np.repeat(np.arange(size), np.diff(self._starts)))
 
     @cached_property
@@ -61,14 +66,30 @@ class Pattern:
 
     def matrix(self, *blocks: np.ndarray, diagonal: np.ndarray | None = None) -> csr_matrix:
         """Sum of element matrices (m, k, k) by kind, kinds left out being zero, and of a diagonal (size,)."""
+        data = self.zeros(diagonal)
+        for slots, block in zip(self.slots, blocks, strict=False):
+            add_blocks(data, slots, block)
+        return self.with_data(data)
+
+    def zeros(self, diagonal: np.ndarray | None = None) -> np.ndarray:
+        """The data of a zero matrix, or of one with a diagonal (size,), for blocks to be added to."""
         data = np.zeros(len(self._columns))
-        for slots, block in zip(self._slots, blocks, strict=False):
-            _add(data, slots, block.ravel())
         if diagonal is not None:
-            data[self._diagonal] += diagonal
-        assembled = csr_matrix((data, self._columns, self._starts), shape=(self.size, self.size))
-        assembled.has_canonical_format = True
-        return assembled
+            data[self._diagonal] = diagonal
+        return data
+
+    def with_data(self, data: np.ndarray) -> csr_matrix:
+        """The matrix (size, size) with this data."""
+        matrix = copy(self._empty)  # SciPy would look at the indices again
+        matrix.data = data
+        return matrix
+
+    @cached_property
+    def _empty(self) -> csr_matrix:
+        shape = (self.size, self.size)
+        matrix = csr_matrix((np.zeros(len(self._columns)), self._columns, self._starts), shape=shape)
+        matrix.has_canonical_format = True
+        return matrix
 
 
 @kept(last=8, most=1 << 20)
@@ -110,8 +131,10 @@ def _slots(
 
 
 @njit(cache=True)
-def _add(data: np.ndarray, slots: np.ndarray, values: np.ndarray) -> None:
-    """Add values to the data at their slots."""
-    for i in range(len(slots)):
-        if slots[i] >= 0:
-            data[slots[i]] += values[i]
+def add_blocks(data: np.ndarray, slots: np.ndarray, blocks: np.ndarray) -> None:
+    """Add element matrices (m, k, k) to a matrix's data at their slots, −1 for none."""
+    for e in range(len(slots)):
+        for i in range(slots.shape[1]):
+            for j in range(slots.shape[2]):
+                if slots[e, i, j] >= 0:
+                    data[slots[e, i, j]] += blocks[e, i, j]

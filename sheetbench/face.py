@@ -12,21 +12,17 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from comparisons.models import registry, springs
-from comparisons.models.candidate import Candidate
+from comparisons.models.candidate import Candidate, lattices
 from comparisons.models.grading import Grading
-from comparisons.models.grids import GridLike, scene_grid
+from comparisons.models.grids import GridLike
 from comparisons.report.work import silent
 from sheetbench.choices import CALIBRATION, REFERENCES
-from sheetbench.scenes import AnyScene, Clamped, History, Material, Scene, Sheet, Solution, scene_of
-from sheetbench.scenes.errors import BadInput
-from sheetbench.scenes.template import EARTH
+from sheetbench.scenes import AnyScene, History, Solution, scene_of
 
 if TYPE_CHECKING:
     from comparisons.runs.campaign import Progress
     from comparisons.tradeoff.statics import Tradeoff
     from lumped import Calibration
-
-DENSITY = 1000.0  # kg/m³, unless given
 
 
 def calibrate(
@@ -56,38 +52,13 @@ def calibrate(
     as the scene's layers need. Raises BadInput for what does not exist or go together, and unless `large` for
     a fit that takes more memory than there is.
     """
-    asked = _sheet_of(scene, young, poisson, thickness, side, density)
+    from comparisons.calibration.calibrate import calibrate, subject
+
+    sides = [side] if isinstance(side, float | int | str | None) else side
+    values = {"young": young, "poisson": poisson, "thickness": thickness, "density": density}
+    of = subject(scene, {**values, "length_x": sides[0], "length_y": sides[-1]})
     spec = springs.LatticeSpec(grid, method, k, layer_distance, grading)
-    springs.check_lattice(method, k, layer_distance, grading)
-    found = springs.resolve(asked, spec, own=False)
-    if not large and springs.is_fitted(found.calibration):
-        springs.require_room_to_fit(asked, found.grid)
-    return found.springs(asked, training=None if scene is None else [asked])
-
-
-def _sheet_of(
-    scene: AnyScene | None,
-    young: float | str | None,
-    poisson: float | None,
-    thickness: float | str | None,
-    side: float | str | Sequence[float | str] | None,
-    density: float | str | None,
-) -> Scene:
-    """The scene with what is given in place of its own, or the sheet clamped at one edge."""
-    given = {"young": young, "poisson": poisson, "thickness": thickness, "density": density}
-    values: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
-    if side is not None:
-        both = (side, side) if isinstance(side, float | int | str) else tuple(side)
-        values |= {"length_x": both[0], "length_y": both[-1]}
-    if scene is not None:
-        return scene_of(scene).replace(**values) if values else scene_of(scene)
-    needed = {"young": "young", "poisson": "poisson", "thickness": "thickness", "length_x": "side"}
-    if missing := [f"{name}=" for key, name in needed.items() if key not in values]:
-        raise BadInput(f"calibrate: missing {', '.join(missing)}; give them, or a scene to take them from")
-    values = {"density": DENSITY, **values}
-    sheet = Sheet(**{key: values[key] for key in Sheet.model_fields})
-    material = Material(**{key: values[key] for key in Material.model_fields if key in values})
-    return Scene(name="sheet", sheet=sheet, material=material, gravity=EARTH, supports=(Clamped("x0"),))
+    return calibrate(of, spec, named=scene is not None, large=large)
 
 
 def solve(scene: AnyScene, model: str = "lumped", **settings: Any) -> Solution:
@@ -125,6 +96,7 @@ def tradeoff(
     *,
     lumped: Sequence[GridLike] = (3, 5, 9, 17),
     calibration: Sequence[str] = (CALIBRATION,),
+    grading: Grading = None,
     plate: Sequence[int] = (),
     shell: Sequence[int] = (4, 8, 16),
     solid: Sequence[int] = (),
@@ -137,20 +109,16 @@ def tradeoff(
 ) -> Tradeoff:
     """Error against time over lattices (grids), references (elements along the shorter side) and others.
 
-    models: further ones, plug-ins too. repeats: timed solves of every row, at least. out: a folder that
-    keeps the rows, so that the same call goes on where an earlier one was stopped. large: even where a model
-    takes more memory than there is. Rows are computed in
+    grading: of the lattices whose calibration takes one. models: further ones, plug-ins too. repeats: timed
+    solves of every row, at least. out: a folder that keeps the rows, so that the same call goes on where an
+    earlier one was stopped. large: even where a model takes more memory than there is. Rows are computed in
     processes of their own: a script calls this under `if __name__ == "__main__":`.
     """
     from comparisons.runs.campaign import campaign
     from comparisons.tradeoff.statics import tradeoff
 
     asked = scene_of(scene)
-    candidates = [
-        Candidate("lumped", {"grid": list(scene_grid(asked, grid)), "calibration": name})
-        for name in calibration
-        for grid in lumped
-    ]
+    candidates, reasons = springs.resolve_each(asked, lattices(asked, lumped, calibration), grading)
     for name, meshes in zip(REFERENCES, (plate, shell, solid), strict=True):
         candidates += [Candidate(name, {"elements": count}) for count in meshes]
     with ExitStack() as stack:
@@ -164,5 +132,6 @@ def tradeoff(
             repeats=repeats,
             workers=workers,
             large=large,
+            reasons=reasons,
             progress=progress,
         )

@@ -128,7 +128,10 @@ def test_scene_that_floats_leaves_with_2_and_names_the_file(
         (("calibrate", "two-edges-clamped", "--side", "18q"), ["--side", "18q"]),
         (("calibrate", "two-edges-clamped", "--side", "0.001"), ["thickness", "0.001"]),
         (("calibrate", "two-edges-clamped", "--method", "guess"), ["guess", "consistent"]),
-        (("calibrate", "two-edges-clamped", "--k", "550"), ["k", "consistent", "uniform"]),
+        (
+            ("calibrate", "two-edges-clamped", "--method", "consistent", "--k", "550"),
+            ["k", "consistent", "uniform"],
+        ),
         (("calibrate", "two-edges-clamped", "--toml", "--json"), ["--toml", "--json"]),
     ],
 )

@@ -11,9 +11,9 @@ from commands import one_line, run
 
 import lumped
 import sheetbench as sb
-from comparisons.models.candidate import Candidate
-from comparisons.models.grading import GRADED, graded, grading_of, read
+from comparisons.models.grading import GRADED, grading_of, read
 from comparisons.models.registry import solve
+from comparisons.models.springs import resolve_each
 from comparisons.transfer.scenes import transfer_scenes
 from comparisons.transfer.study import _Study
 from sheetbench.scenes import BadInput, load
@@ -144,14 +144,14 @@ def test_of_many_lattices_those_are_graded_whose_calibration_takes_it(monkeypatc
     lattices = [candidate for candidate in seen[0][0][1] if candidate.model == "lumped"]
     assert [candidate.settings.get("grading") for candidate in lattices] == [0.3, None]
     assert seen[1][1]["lattice"].grading == "0.3" and "bent by 4 1/m" in seen[0][1]["reasons"][0]
-    shown, reasons = graded(load("curved-edge"), lattices[1:], "auto")
+    shown, reasons = resolve_each(load("curved-edge"), lattices[1:], "auto")
     assert shown == lattices[1:] and reasons == ()
     study = _Study(transfer_scenes(), ("consistent", "uniform"), (9, 513), 8, "auto")
     chosen, reasons = study.gradings("tenth-of-young")
     assert chosen == {"consistent": [0.3, 0.0], "uniform": [0.0, 0.0]}
     assert len(reasons) == 2 and "bends the sheet within 68.6 mm" in reasons[0]
     with pytest.raises(BadInput, match="none of these calibrations"):
-        graded(load("curved-edge"), [Candidate("lumped", {"grid": [3, 3, 2], "calibration": "uniform"})], 0.5)
+        resolve_each(load("curved-edge"), lattices[1:], 0.5)
 
 
 def test_python_takes_it_too() -> None:

@@ -89,14 +89,14 @@ def test_the_bar_stands_in_the_comparison() -> None:
 
 def test_pairs_are_written_and_refused() -> None:
     scene = load("two-edges-clamped")
-    (candidate,) = pairs(scene.sheet, ["5:9"], ["consistent", "uniform"])
+    (candidate,) = pairs(scene, ["5:9"], ["consistent", "uniform"])
     assert candidate.settings == {"grid": [9, 9, 2], "coarser": [5, 5, 2], "calibration": "consistent"}
     assert candidate.series == "lumped-pair consistent"
     row = TradeoffRow("lumped-pair", "", candidate.settings, "converged", "", candidate.series, None, "", "")
     assert row.size == "5×5×2:9×9×2"
     for text, calibrations in (("5", ["consistent"]), ("5:9", ["uniform"])):
         with pytest.raises(BadInput, match="--lumped-pair"):
-            pairs(scene.sheet, [text], calibrations)
+            pairs(scene, [text], calibrations)
     for settings in ({"coarser": 9}, {"calibration": "uniform"}, {"k": 1e5}, {"grid": 2}):
         with pytest.raises(BadInput, match="lumped-pair"):
             solve(scene, "lumped-pair", **settings)

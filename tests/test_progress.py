@@ -16,12 +16,14 @@ from rich.console import Console
 import fem_reference
 import lumped
 import sheetbench as sb
+from comparisons.calibration.calibrate import calibrate
 from comparisons.cli import console
 from comparisons.cli import lines as cli_lines
 from comparisons.cli.lines import BETWEEN, QUIET, Lines
 from comparisons.models import registry
 from comparisons.models.candidate import Candidate
-from comparisons.models.springs import calibrate
+from comparisons.models.springs import LatticeSpec
+from comparisons.models.training import training_scenes
 from comparisons.report import amounts, work
 from comparisons.report.work import Pace, Work
 from comparisons.runs.campaign import GOING, Progress, campaign, carry_out
@@ -171,7 +173,8 @@ def test_other_verbs_tell_too(tmp_path: Path) -> None:
 
 def test_a_fit_tells_what_it_is_trained_on() -> None:
     told: list[Work] = []
-    calibrate(*parts(), grid=4, calibration="fit-modal", progress=told.append)
+    spec = LatticeSpec(4, "fit-modal")
+    calibrate(training_scenes(*parts())[0], spec, named=False, progress=told.append)
     assert [one.doing.split()[0] for one in told] == ["training", "training", "fitting"]
 
 

@@ -97,8 +97,8 @@ def test_order_is_the_slope_of_the_logarithms() -> None:
 
 
 def test_lists_of_sizes_become_rows_with_near_square_cells() -> None:
-    sheet = Sheet(length_x=0.1, length_y=0.2, thickness=0.001)
-    found = lattices(sheet, ["5", "3x4x3"], ["consistent", "uniform"])
+    scene = scenes.load("one-edge-clamped").replace(length_x=0.1, length_y=0.2, thickness=0.001)
+    found = lattices(scene, ["5", "3x4x3"], ["consistent", "uniform"])
     assert [c.settings["grid"] for c in found] == [[5, 9, 2], [3, 4, 3]] * 2
     assert found[3].series == "lumped uniform 3 layers"
     assert series("shell", {"elements": 4}) == "shell"

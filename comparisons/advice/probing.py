@@ -20,17 +20,16 @@ from comparisons.comparison.comparison import error
 from comparisons.comparison.model_error import ModelError, model_error
 from comparisons.models import registry as models
 from comparisons.models.candidate import Candidate, series
-from comparisons.models.grading import Grading, grading_of, plain, read
-from comparisons.models.method import chosen
+from comparisons.models.grading import Grading, plain
 from comparisons.models.sizes import has_room, require_room
-from comparisons.models.springs import check_lattice
+from comparisons.models.springs import LatticeSpec, resolve
 from comparisons.models.symmetry import planes
 from comparisons.report.work import Progress, silent
 from comparisons.runs import load
 from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.grid import LAYERS, MASSES, near_square
+from sheetbench.scenes.grid import MASSES, near_square
 
 JUDGES = (4, 6, 8, 12, 16, 24, 32)  # elements along the shorter side
 FIRST = 3  # of them are always solved
@@ -69,12 +68,10 @@ class Probing:
         graded too; calibration: which springs they may have too, by `comparisons.models.method`. Raises
         BadInput where these are none or do not go together and where the first judges take too much memory,
         otherwise the larger models are left out."""
-        check_lattice(calibration, None, None, grading)
         self.scene, self.large, self.progress = scene, large, progress
-        self.grading = read(grading)
-        usual = (MASSES, MASSES, LAYERS)
-        method, self.because = chosen(scene, usual, calibration, self.grading)
-        self.method = method or CALIBRATION
+        usual = resolve(scene, LatticeSpec(MASSES, calibration, grading=grading), own=False)
+        self.grading, self.method = grading, usual.calibration or CALIBRATION
+        self.because = usual.reasons.get("calibration_reason", "")
         self.points = scene.probe_points()
         self.planes = planes(scene)
         self.trials: dict[str, Trial] = {}
@@ -117,8 +114,8 @@ class Probing:
 
     def grading_of(self, lattice: Candidate) -> tuple[Graded | None, str]:
         """The grading that a lattice may have, and why where that is chosen."""
-        settings = lattice.settings
-        return grading_of(self.scene, settings["grid"], self.grading, calibration=settings["calibration"])
+        found = resolve(self.scene, LatticeSpec.of({**lattice.settings, "grading": self.grading}))
+        return found.grading, found.reasons.get("grading_reason", "")
 
     def trial(self, candidate: Candidate, repeats: int = REPEATS) -> Trial:
         """The candidate's answer and time; solved once, whoever asks."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Annotated
 
 import typer
@@ -13,6 +12,7 @@ from comparisons.cli.options import (
     Grading,
     Grid,
     Json,
+    K,
     Large,
     LayerDistance,
     Out,
@@ -22,7 +22,6 @@ from comparisons.cli.options import (
     Thickness,
     Young,
 )
-from comparisons.cli.quantity import quantity_in
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 
 
@@ -47,12 +46,7 @@ def command(
             show_default=False,
         ),
     ] = None,
-    k: Annotated[
-        float | None,
-        typer.Option(
-            metavar="N/M", parser=quantity_in("N/m"), help="Stiffness of every spring (uniform only)."
-        ),
-    ] = None,
+    k: K = None,
     layer_distance: LayerDistance = None,
     toml: Annotated[
         bool, typer.Option("--toml", help="Print the \\[springs] table for a scene file.")
@@ -79,55 +73,30 @@ def command(
     The fitted methods train on the SCENE; without one, on the sheet under its own weight with one edge and
     with two adjacent edges clamped. --export is of the SCENE, or of the sheet with one edge clamped.
     """
-    from comparisons.calibration import asked, tables
+    from comparisons.calibration import tables
+    from comparisons.calibration.calibrate import calibrate, expected, subject
     from comparisons.cli.finish import finish
     from comparisons.models.candidate import Candidate
-    from comparisons.models.grids import parse_grid
     from comparisons.models.quantities import sides
     from comparisons.models.sizes import require_room
-    from comparisons.models.springs import calibrate
+    from comparisons.models.springs import LatticeSpec
     from sheetbench.scenes.errors import BadInput
-    from sheetbench.scenes.grid import MASSES, grid_of
 
     if toml and json:
         raise BadInput("--toml and --json: choose one")
     if simulators and export is None:
         raise BadInput("--for: goes with --export DIR")
-    sheet, material = asked.sheet_and_material(
-        scene,
-        {"thickness": thickness, **sides(side)},
-        {"young": young, "poisson": poisson, "density": density},
-    )
-    about = {"sheet": sheet.model_dump(mode="json"), "material": material.model_dump(mode="json")}
+    values = {"young": young, "poisson": poisson, "thickness": thickness, "density": density, **sides(side)}
+    of = subject(scene, values, "--")
+    about = {"sheet": of.sheet.model_dump(mode="json"), "material": of.material.model_dump(mode="json")}
     with finish("calibrate", json, out, overwrite, about=about) as end:
-        masses = parse_grid(sheet, grid) if grid is not None else grid_of(sheet, MASSES)
         if export is not None and not large:
-            lattice = Candidate("lumped", {"grid": masses})
-            require_room(asked.exported(scene, sheet, material), lattice, "--grid")
-        own = {"k": k, "layer_distance": layer_distance}
-        method, because = asked.method(scene, sheet, material, masses, method, grading, own)
-        method = method or CALIBRATION
-        graded, why = asked.grading(scene, sheet, material, masses, grading, {"calibration": method, **own})
-        found = calibrate(
-            sheet,
-            material,
-            grid=masses,
-            calibration=method,
-            k=k,
-            layer_distance=layer_distance,
-            grading=graded,
-            training=asked.training(scene, sheet, material),
-            large=large,
-            progress=end.progress,
-        )
-        notes = [f"grading {graded:g}: {why}"] if why else []
-        notes += [f"{method}: {because}"] if because else []
-        notes += asked.foretold(scene, sheet, material, masses)
-        found = replace(found, notes=(*notes, *found.notes))
-        own_scale = k is not None or layer_distance is not None
-        off = None if own_scale else asked.expected(scene, sheet, material, found, end.progress)
-        report = tables.report(found, sheet, material, off)
+            require_room(of, Candidate("lumped", {"grid": grid}), "--grid")
+        lattice = LatticeSpec(grid, method, k, layer_distance, grading)
+        found = calibrate(of, lattice, scene is not None, large, end.progress)
+        foretold = scene is not None and k is None and layer_distance is None
+        off = expected(of, found, end.progress) if foretold else None
+        report = tables.report(found, of.sheet, of.material, off)
         if export is not None:
-            of = asked.exported(scene, sheet, material)
             report = end.export(export, of, found, report, overwrite, simulators or ())
         end(report, instead=tables.to_toml(found.as_dict()) if toml else None)

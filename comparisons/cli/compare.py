@@ -70,7 +70,7 @@ def command(
     from comparisons.comparison.comparison import compare, load_static
     from comparisons.models.candidate import parse_model
     from comparisons.models.grids import parse_elements
-    from comparisons.models.springs import scene_springs
+    from comparisons.models.springs import LatticeSpec
     from comparisons.report.vtk import write_solution
     from sheetbench.scenes.errors import BadInput
 
@@ -108,6 +108,6 @@ def command(
         )
         report = found.report(advice)
         if export is not None:
-            springs, _ = scene_springs(asked, **lattice)
+            springs, _ = LatticeSpec(**lattice).springs(asked)
             report = end.export(export, asked, springs, report, overwrite)
         end(report)

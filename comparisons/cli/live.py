@@ -41,16 +41,19 @@ def command(
     from comparisons.comparison.comparison import load_static
     from comparisons.live import redirection, server
     from comparisons.live.panel import Panel
-    from comparisons.models.grading import fixed
+    from comparisons.models.registry import check
+    from comparisons.models.springs import LatticeSpec, resolve
     from sheetbench.scenes.errors import BadInput
 
     if not 0 <= port <= 65535:
         raise BadInput(f"--port = {port}: from 0 to 65535")
     asked = load_static(scene)
-    graded = fixed(grading)
-    if not isinstance(graded, float | None):
-        raise BadInput(f"grading = {graded}: this page grades towards all edges; give a number")
-    panel = Panel(asked, elements, grid=lumped, grading=graded, calibration=calibration)
+    lattice = LatticeSpec(lumped, calibration, grading=grading)
+    check(asked, lattice.candidate)
+    meant = resolve(asked, lattice)
+    if not isinstance(meant.grading, float | None):
+        raise BadInput(f"grading = {meant.grading}: this page grades towards all edges; give a number")
+    panel = Panel(asked, elements, grid=lumped, grading=meant.grading, calibration=meant.calibration)
 
     with redirection.kept() as leads_to:
 

@@ -73,7 +73,7 @@ def command(
     from comparisons.models.candidate import Candidate
     from comparisons.models.registry import check, simulate
     from comparisons.models.sizes import size
-    from comparisons.models.springs import scene_springs
+    from comparisons.models.springs import LatticeSpec
     from comparisons.motion.history import read_measured, require_within
     from comparisons.motion.tables import report
     from comparisons.report import amounts
@@ -125,6 +125,6 @@ def command(
         end.place("frames/")
         shown = report(history, asked, truth, animate)
         if export is not None:
-            springs, _ = scene_springs(asked, **lattice)
+            springs, _ = LatticeSpec(**lattice).springs(asked)
             shown = end.export(export, asked, springs, shown, overwrite)
         end(shown)

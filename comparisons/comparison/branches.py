@@ -17,7 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from comparisons.models.candidate import Candidate
-from comparisons.models.springs import scene_springs
+from comparisons.models.springs import LatticeSpec
 from sheetbench.scenes import Scene, Solution, Status
 
 FAR = 0.2  # of the largest displacement, from which on another branch is looked for
@@ -40,8 +40,7 @@ def joined(
     import fem_reference
     import lumped
 
-    asked = {key: value for key, value in lattice.settings.items() if key != "branch"}
-    springs, _ = scene_springs(scene, **asked)
+    springs, _ = LatticeSpec.of(lattice.settings).springs(scene)
     again = lumped.solve(scene, springs, near=shape(scene, reference, first.mesh.points))
     if _on_branch(again, points, right, own):
         return _begun(again, first, reference), reference, _said(first, reference, own, right)

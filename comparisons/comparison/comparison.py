@@ -29,7 +29,7 @@ from comparisons.models.grids import Elements, GridLike
 from comparisons.models.plugins import shown_name
 from comparisons.models.registry import answer, check, check_reference
 from comparisons.models.sizes import has_room
-from comparisons.models.springs import LatticeSpec, has_own_springs
+from comparisons.models.springs import LatticeSpec, resolve
 from comparisons.report.report import Report
 from comparisons.report.work import Progress, silent
 from sheetbench.choices import ELEMENTS, REFERENCE
@@ -293,9 +293,7 @@ def compare(
     for candidate in (first, judge, *others):
         check(scene, candidate, large)
     named = {first.model if first.model != reference else f"{first.model}-advised": first, reference: judge}
-    left_open = (
-        calibration is None and k is None and not has_own_springs(scene, layer_distance=layer_distance)
-    )
+    left_open = calibration is None and k is None and resolve(scene, lattice).calibration is not None
     if choice is None and companion and left_open:
         named[COMPANION] = first.but(calibration="uniform", grading=None)
     for other in others:

@@ -12,9 +12,8 @@ from collections.abc import Callable
 import numpy as np
 
 from comparisons.models.candidate import Candidate
-from comparisons.models.grids import scene_grid
 from comparisons.models.layers import layers
-from comparisons.models.springs import scene_springs
+from comparisons.models.springs import LatticeSpec, resolve
 from sheetbench.choices import listed
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.summary import few
@@ -51,8 +50,9 @@ def said(
     known = reasons(scene, lattice, first, reference)
     because = f" ({'; '.join(known)})" if known else ""
     finer = None
-    if scene.springs is None or lattice.settings.get("calibration") is not None:
-        nx, ny, layers = scene_grid(scene, lattice.settings.get("grid"))
+    meant = resolve(scene, LatticeSpec.of(lattice.settings))
+    if meant.calibration is not None:
+        nx, ny, layers = meant.grid
         finer = solve(lattice.but(grid=(2 * nx - 1, 2 * ny - 1, layers)))
     if finer is None or finer.status is not Status.CONVERGED:
         ended = "" if finer is None else f"; on twice as many cells a side the lattice ends {finer.status}"
@@ -91,8 +91,7 @@ def reasons(scene: Scene, lattice: Candidate, first: Solution, reference: Soluti
     layer = min(layers(scene), default=None)
     if layer is not None and layer.width < cell:
         found.append(f"{layer}, {few(layer.width / cell)} cells of {1e3 * cell:.3g} mm")
-    asked = {k: v for k, v in lattice.settings.items() if k not in ("linear", "symmetry", "branch")}
-    moduli = scene_springs(scene, **asked)[0].as_dict()["moduli"]
+    moduli = LatticeSpec.of(lattice.settings).springs(scene)[0].as_dict()["moduli"]
     off = [(abs(row["got"] / row["asked"] - 1.0), row["name"]) for row in moduli if row["asked"]]
     if (missed := max(off, default=(0.0, "")))[0] > MISSED:
         found.append(f"the springs miss {missed[1]} by {few(100.0 * missed[0])} %")

@@ -44,10 +44,10 @@ from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading
 from comparisons.models.grids import Elements, GridLike
 from comparisons.models.registry import check, check_reference, solve_reference
-from comparisons.models.springs import LatticeSpec
+from comparisons.models.springs import LatticeSpec, resolve
 from comparisons.report.work import Work, silent
-from lumped import CALIBRATIONS, identifiability
-from sheetbench.choices import ELEMENTS, REFERENCES, method_of
+from lumped import identifiability
+from sheetbench.choices import ELEMENTS, REFERENCES
 from sheetbench.scenes import AnyScene, Scene, SpringTable, require_static, scene_of
 from sheetbench.scenes.errors import BadInput
 
@@ -222,7 +222,7 @@ def _check(measured: Measured, asked: _Question) -> None:
         if law is not None:
             raise BadInput(f"law = '{law}': of a shell or solid; the lattice's is that of its springs")
         lattice = asked.lattice
-        if CALIBRATIONS[method_of(lattice.calibration, lattice.k)].fitted:
+        if resolve(asked.scene, lattice, own=False).fitted:
             raise BadInput(
                 f"calibration = '{lattice.calibration}': its springs do not follow from what is sought"
             )

@@ -32,8 +32,7 @@ class Model:
 def lattice_model(scene: Scene, asked: LatticeSpec) -> Model:
     """The lattice asked for, what it leaves open chosen by the scene's own values."""
     chosen = resolve(scene, asked, own=False)
-    settings = {"grid": list(chosen.grid), "calibration": chosen.calibration, **chosen.options}
-    settings |= {**as_settings(chosen.grading or 0.0), **chosen.reasons}
+    settings = {**chosen.settings, **as_settings(chosen.grading or 0.0)}
 
     def predictor(measured: Measured) -> Predictor:
         if isinstance(measured, Displacements) and measured.time is not None:

@@ -17,7 +17,7 @@ from comparisons.comparison.comparison import error
 from comparisons.live.panel import Question
 from comparisons.models import registry
 from comparisons.models.candidate import Candidate
-from comparisons.models.springs import scene_springs
+from comparisons.models.springs import LatticeSpec
 from comparisons.report.vtk import plan_mesh
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 
@@ -75,7 +75,7 @@ def lattice(scene: Scene, question: Question, last: Answered | None = None) -> A
     import lumped
 
     registry.check(scene, Candidate("lumped", question.own))
-    springs, _ = scene_springs(scene, **question.own)
+    springs, _ = LatticeSpec(**question.own).springs(scene)
     near = last.displacement if last is not None and last.starts(question) else None
     return Answered(question, scene, lumped.solve(scene, springs, near=near), near is None)
 

@@ -13,10 +13,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from comparisons.models import plugins
-from comparisons.models.grids import parse_elements, parse_grid
+from comparisons.models.grids import GridLike, parse_elements, scene_grid
 from comparisons.models.programs import PREFIX
 from sheetbench.choices import AUTO, EXTRAPOLATED
-from sheetbench.scenes import Sheet
+from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import LAYERS
 from sheetbench.scenes.quantities import LARGEST
@@ -58,9 +58,9 @@ def series(model: str, settings: dict[str, Any]) -> str:
     return " ".join(part for part in (model, *said) if part)
 
 
-def lattices(sheet: Sheet, grids: Iterable[str], calibrations: Iterable[str]) -> list[Candidate]:
-    """Every calibration on every grid, coarse grids first. Raises BadInput for what is not a grid."""
-    shapes = [parse_grid(sheet, text) for text in grids]
+def lattices(scene: Scene, grids: Iterable[GridLike], calibrations: Iterable[str]) -> list[Candidate]:
+    """Every calibration on every grid, in their order. Raises BadInput for what is not a grid."""
+    shapes = [scene_grid(scene, grid) for grid in grids]
     return [
         Candidate("lumped", {"grid": list(shape), "calibration": name})
         for name in calibrations
@@ -68,14 +68,14 @@ def lattices(sheet: Sheet, grids: Iterable[str], calibrations: Iterable[str]) ->
     ]
 
 
-def pairs(sheet: Sheet, grids: Iterable[str], calibrations: Iterable[str]) -> list[Candidate]:
+def pairs(scene: Scene, grids: Iterable[str], calibrations: Iterable[str]) -> list[Candidate]:
     """Every calibration that is extrapolated on every pair of grids, 5:9. Raises BadInput for other text."""
     shapes = []
     for text in grids:
         coarser, colon, finer = text.partition(":")
         if not colon:
             raise BadInput(f"--lumped-pair = '{text}': two grids are written 5:9, the coarser first")
-        shapes.append({"grid": list(parse_grid(sheet, finer)), "coarser": list(parse_grid(sheet, coarser))})
+        shapes.append({"grid": list(scene_grid(scene, finer)), "coarser": list(scene_grid(scene, coarser))})
     named = [name for name in calibrations if name in (AUTO, *EXTRAPOLATED)]
     if shapes and not named:
         raise BadInput(f"--lumped-pair: of calibrations there is none of {', '.join(EXTRAPOLATED)}")

@@ -14,7 +14,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from comparisons.models.candidate import Candidate
 from comparisons.models.layers import layers
 from sheetbench.choices import AUTO, CALIBRATIONS, method_of
 from sheetbench.scenes import Clamped, Scene
@@ -68,30 +67,7 @@ def grading_of(
     chosen = read(asked)
     if not isinstance(chosen, str):
         return chosen, ""
-    return (0.0, why_not) if (why_not := _impossible(grid, settings)) else _by_layers(scene, grid)
-
-
-def graded(
-    scene: Scene, candidates: Sequence[Candidate], asked: Grading
-) -> tuple[list[Candidate], tuple[str, ...]]:
-    """The candidates, the lattices among them on the grading asked for where their calibration takes one, and
-    for "auto" the reasons. Raises BadInput where a grading is asked of none that takes it."""
-    found: list[Candidate] = []
-    reasons: list[str] = []
-    takers = 0
-    for candidate in candidates:
-        settings = candidate.settings
-        lattice = candidate.model in ("lumped", "lumped-pair")
-        if asked is not None and lattice and not _impossible(settings["grid"], settings):
-            takers += 1
-            value, why = grading_of(scene, settings["grid"], asked, calibration=settings["calibration"])
-            masses = f"{settings['grid'][0]} × {settings['grid'][1]}"
-            reasons += [f"{masses}, grading {value:g}: {why}"] if why else []
-            candidate = candidate.but(grading=plain(value)) if value else candidate
-        found.append(candidate)
-    if fixed(asked) and not takers:
-        raise BadInput(f"grading = {asked}: none of these calibrations is for cells that differ")
-    return found, tuple(dict.fromkeys(reasons))
+    return (0.0, why_not) if (why_not := one_size(grid, settings)) else _by_layers(scene, grid)
 
 
 def told(settings: Mapping[str, Any]) -> tuple[str, ...]:
@@ -106,8 +82,8 @@ def told(settings: Mapping[str, Any]) -> tuple[str, ...]:
     return tuple(found)
 
 
-def _impossible(grid: Sequence[int], settings: Mapping[str, Any]) -> str:
-    """Why these springs cannot be had cell by cell, or nothing."""
+def one_size(grid: Sequence[int], settings: Mapping[str, Any]) -> str:
+    """Why these springs cannot be had cell by cell, "" where they can."""
     method = method_of(settings.get("calibration"), settings.get("k"))
     if "grading" not in CALIBRATIONS[method].takes:
         return f"the calibration {method} is for cells of one size"

@@ -8,16 +8,12 @@ from functools import partial
 from inspect import Parameter, signature
 from typing import Any
 
-from comparisons.models.grading import fixed
-from comparisons.models.grids import scene_grid
-from comparisons.models.springs import calibrate, check_lattice, has_own_springs, scene_springs
+from comparisons.models.springs import LatticeSpec, resolve
 from comparisons.models.symmetry import by_parts, cut_axes
 from sheetbench.choices import BRANCHES
 from sheetbench.scenes import Iteration, Scene, Solution
 from sheetbench.scenes.errors import BadInput, require_choice
 from sheetbench.scenes.grading import mirrored
-
-ASIDE = ("training", "large", "progress")  # of `calibrate`, but no settings
 
 Watch = Callable[[Iteration], None]  # called once an iteration
 Solve = Callable[[Watch | None], Solution]
@@ -26,14 +22,14 @@ Solve = Callable[[Watch | None], Solution]
 def lattice(
     scene: Scene, *, linear: bool = False, symmetry: bool = False, branch: str = "path", **settings: Any
 ) -> Solve:
-    """The lattice with the settings of `scene_springs`, ready to be solved.
+    """The lattice with the settings of a `LatticeSpec`, ready to be solved.
 
     linear: one step with the flat sheet's tangent. symmetry: solve a half or a quarter where scene and grid
     allow it (see `comparisons.models.symmetry`). branch: one of `choices.BRANCHES`.
     """
     import lumped
 
-    springs, because = scene_springs(scene, **settings)
+    springs, because = LatticeSpec(**settings).springs(scene)
     axes = cut_axes(scene, springs.grid, masses=True) if symmetry and branch == "path" else []
     axes = [axis for axis in axes if mirrored(springs.grading, axis)]
     for axis in axes:
@@ -50,24 +46,17 @@ def lattice(
 
 def check_settings(scene: Scene, settings: Mapping[str, Any]) -> None:
     """Raise BadInput for settings of a lattice that it does not have or cannot use on this scene."""
-    require_known("lumped", settings, calibrate, lattice)
+    require_known("lumped", settings, LatticeSpec, lattice)
     require_choice("branch", settings.get("branch", "path"), BRANCHES)
-    check_lattice(*(settings.get(name) for name in ("calibration", "k", "layer_distance", "grading")))
-    grid = scene_grid(scene, settings.get("grid"))
-    if has_own_springs(scene, **settings):
-        import lumped
-
-        lumped.given(scene, grid, fixed(settings.get("grading")))
+    meant = resolve(scene, LatticeSpec.of(settings))
+    if meant.calibration is None:
+        meant.springs(scene)
 
 
 def require_known(model: str, settings: Mapping[str, Any], *functions: Callable[..., Any]) -> None:
-    """Raise BadInput for a setting that is none of the functions' keywords."""
-    known = [
-        parameter.name
-        for function in functions
-        for parameter in signature(function).parameters.values()
-        if parameter.kind is Parameter.KEYWORD_ONLY and parameter.name not in ASIDE
-    ]
+    """Raise BadInput for a setting that none of the functions takes beside a scene."""
+    takes = {name: one.kind for function in functions for name, one in signature(function).parameters.items()}
+    known = [name for name, kind in takes.items() if name != "scene" and kind is not Parameter.VAR_KEYWORD]
     for name in settings:
         if name not in known:
             raise BadInput(f"{model}: no setting '{name}'; it has {', '.join(known)}")

@@ -20,7 +20,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from comparisons.models.candidate import Candidate
 from comparisons.models.scales import scales
 from sheetbench.choices import AUTO, CALIBRATION
 from sheetbench.scenes import EDGES, Clamped, Curved, Hinged, Scene
@@ -42,20 +41,6 @@ def chosen(
     if grid[2] != LAYERS:
         return CALIBRATION, f"the usual one, of {grid[2]} layers"
     return method_for(scene)
-
-
-def named(scene: Scene, candidates: Sequence[Candidate]) -> tuple[list[Candidate], tuple[str, ...]]:
-    """The candidates, each once, those whose calibration is "auto" with that of this scene; and why."""
-    found: list[Candidate] = []
-    reasons: list[str] = []
-    for candidate in candidates:
-        if candidate.settings.get("calibration") == AUTO:
-            name, why = chosen(scene, candidate.settings["grid"], AUTO)
-            reasons.append(f"calibration {name}: {why}")
-            candidate = candidate.but(calibration=name)
-        if candidate not in found:
-            found.append(candidate)
-    return found, tuple(dict.fromkeys(reasons))
 
 
 def method_for(scene: Scene) -> tuple[str, str]:

@@ -25,8 +25,8 @@ import numpy as np
 from comparisons.models.grading import Grading
 from comparisons.models.grids import GridLike, scene_grid
 from comparisons.models.lattice import Solve, Watch, lattice, require_known
-from comparisons.models.springs import LatticeSpec, check_lattice, has_own_springs, resolve
-from sheetbench.choices import AUTO, EXTRAPOLATED, listed
+from comparisons.models.springs import LatticeSpec, resolve
+from sheetbench.choices import EXTRAPOLATED, listed
 from sheetbench.scenes import FieldMesh, Scene, Solution
 from sheetbench.scenes.balance import Balance
 from sheetbench.scenes.errors import BadInput
@@ -86,16 +86,15 @@ def size(grid: Sequence[int]) -> str:
 def check_pair(scene: Scene, settings: Mapping[str, Any]) -> None:
     """Raise BadInput for settings of a pair that it does not have or cannot use on this scene."""
     require_known("lumped-pair", settings, lattice_pair)
-    method = settings.get("calibration")
-    check_lattice(method, None, settings.get("layer_distance"), settings.get("grading"))
-    if method not in (None, AUTO, *EXTRAPOLATED):
+    fine, _ = grids(scene, settings.get("grid"), settings.get("coarser"))
+    method = resolve(scene, LatticeSpec.of({**settings, "grid": fine})).calibration
+    if method is None:
+        raise BadInput("lumped-pair: the scene's [springs] are of one grid; name a calibration")
+    if method not in EXTRAPOLATED:
         raise BadInput(
             f"lumped-pair: with the calibration {method} answers need not tend to the sheet's as cells "
             f"shrink; choose {listed(EXTRAPOLATED)}"
         )
-    if has_own_springs(scene, **settings):
-        raise BadInput("lumped-pair: the scene's [springs] are of one grid; name a calibration")
-    grids(scene, settings.get("grid"), settings.get("coarser"))
 
 
 def extrapolated(coarse: Solution, fine: Solution) -> Solution:

@@ -26,13 +26,14 @@ def sides(text: str | None) -> dict[str, float]:
     return {"length_x": lengths[0], "length_y": lengths[-1]}
 
 
-def checked(kind: type[Quantities], data: dict[str, Any]) -> Quantities:
-    """The validated object, or BadInput naming the first option that is out of bounds."""
+def checked(kind: type[Quantities], data: dict[str, Any], option: str = "--") -> Quantities:
+    """The validated object, or BadInput naming the first option that is out of bounds; option: what stands
+    before its name."""
     try:
         return kind.model_validate(data)
     except ValidationError as error:
         said = in_one_line(error, kind)
         if error.errors()[0]["loc"]:
             key = str(error.errors()[0]["loc"][0])
-            said = f"--{'side' if key.startswith('length') else key}{said.removeprefix(key)}"
+            said = f"{option}{'side' if key.startswith('length') else key}{said.removeprefix(key)}"
         raise BadInput(said) from None

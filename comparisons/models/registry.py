@@ -15,11 +15,11 @@ from typing import Any
 from comparisons.models import plugins
 from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading
-from comparisons.models.grids import GridLike, scene_grid
+from comparisons.models.grids import GridLike
 from comparisons.models.lattice import Solve, Watch, check_settings, lattice
 from comparisons.models.pair import check_pair, lattice_pair
 from comparisons.models.sizes import mesh, require_room, size
-from comparisons.models.springs import LatticeSpec, is_fitted, require_room_to_fit
+from comparisons.models.springs import LatticeSpec, resolve
 from comparisons.models.symmetry import by_parts, cut_axes
 from comparisons.report.work import Progress, Work, silent
 from sheetbench.choices import ELEMENTS, REFERENCE, REFERENCES
@@ -186,9 +186,8 @@ def check(scene: Scene, candidate: Candidate, large: bool = False, option: str =
     _check_settings(scene, candidate)
     if not large:
         require_room(scene, candidate, option)
-        fitted = candidate.model in LATTICES and is_fitted(candidate.settings.get("calibration"))
-        if fitted and candidate.settings.get("k") is None:
-            require_room_to_fit(scene, scene_grid(scene, candidate.settings.get("grid")))
+        if candidate.model in LATTICES:
+            resolve(scene, LatticeSpec.of(candidate.settings)).require_room_to_fit(scene)
 
 
 def _check_settings(scene: Scene, candidate: Candidate) -> None:

@@ -6,22 +6,22 @@ are made of that. Every verb that has a lattice goes this way.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field, fields
 from typing import TYPE_CHECKING, Any
 from warnings import warn
 
 from comparisons.models.candidate import Candidate
-from comparisons.models.grading import Grading, fixed, grading_of
+from comparisons.models.grading import Grading, fixed, grading_of, one_size, plain
 from comparisons.models.grids import GridLike, scene_grid
 from comparisons.models.method import chosen
 from comparisons.models.sizes import require_room
 from comparisons.report.work import Progress, silent
-from sheetbench.choices import AUTO, CALIBRATION, CALIBRATIONS, method_of
-from sheetbench.scenes import Material, Scene, Sheet
+from sheetbench.choices import AUTO, CALIBRATIONS, method_of
+from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput, Implausible, require_choice
 from sheetbench.scenes.grading import Graded
-from sheetbench.scenes.grid import MASSES, Grid, grid_of
+from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.plausibility import layer_slips
 from sheetbench.scenes.quantities import require_positive
 
@@ -41,6 +41,11 @@ class LatticeSpec:
     layer_distance: float | None = None
     grading: Grading = None
 
+    @classmethod
+    def of(cls, settings: Mapping[str, Any]) -> LatticeSpec:
+        """Return the lattice of a candidate's settings, which may have others too."""
+        return cls(**{one.name: settings.get(one.name) for one in fields(cls)})
+
     @property
     def candidate(self) -> Candidate:
         """The lattice as a model with settings."""
@@ -50,6 +55,22 @@ class LatticeSpec:
         """The springs for a scene, and the reasons for what was chosen, as settings."""
         found = resolve(scene, self)
         return found.springs(scene), found.reasons
+
+    def check(self) -> None:
+        """Raise BadInput for a calibration that does not exist, k or layer_distance not above zero, a grading
+        that is not one or that the calibration does not take."""
+        if self.calibration is not None:
+            require_choice("calibration", self.calibration, (*CALIBRATIONS, AUTO))
+        require_positive("k", self.k, "N/m")
+        require_positive("layer-distance", self.layer_distance, "m")
+        if graded := fixed(self.grading):
+            takers = [name for name, method in CALIBRATIONS.items() if "grading" in method.takes]
+            method = method_of(self.calibration, self.k)
+            if method not in takers:
+                raise BadInput(
+                    f"grading = {graded:g}: the calibration {method} is for cells of one size; "
+                    f"cell by cell are {', '.join(takers)}"
+                )
 
 
 @dataclass(frozen=True)
@@ -65,42 +86,66 @@ class Resolved:
     reasons: dict[str, str] = field(default_factory=dict)
 
     @property
-    def options(self) -> dict[str, float]:
-        """k and layer_distance, where they are given."""
-        own = {"k": self.k, "layer_distance": self.layer_distance}
-        return {name: value for name, value in own.items() if value is not None}
+    def settings(self) -> dict[str, Any]:
+        """The lattice as settings of a candidate, plain data, with the reasons."""
+        own: dict[str, Any] = {"k": self.k, "layer_distance": self.layer_distance}
+        found = {name: value for name, value in own.items() if value is not None}
+        found |= {} if self.grading is None else {"grading": plain(self.grading)}
+        return {"grid": list(self.grid), "calibration": self.calibration, **found, **self.reasons}
+
+    @property
+    def fitted(self) -> bool:
+        """Whether the springs are fitted to targets."""
+        return self.calibration is not None and self.k is None and CALIBRATIONS[self.calibration].fitted
+
+    def require_room_to_fit(self, scene: Scene) -> None:
+        """Raise BadInput where the springs are fitted and there is too little memory for the lattice or for
+        the shell that it is fitted to."""
+        if self.fitted:
+            from comparisons.models.training import ELEMENTS
+
+            require_room(scene, Candidate("lumped", {"grid": self.grid}))
+            instead = "take a calibration that is not fitted"
+            require_room(scene, Candidate("shell", {"elements": ELEMENTS}), instead=instead)
 
     def springs(
         self, scene: Scene, training: Sequence[Scene] | None = None, progress: Progress = silent
     ) -> Calibration:
-        """The springs for a scene, which may be another one of the same sides."""
-        if self.calibration is None:
-            import lumped
+        """Return the springs for a scene, which may be another one of the same sides.
 
+        training: what fitted ones are fitted to, see `comparisons.models.training`; progress: told what a fit
+        is doing. Raises BadInput for options that a calibration does not take; warns of a layer distance that
+        is hardly meant.
+        """
+        import lumped
+
+        if self.calibration is None:
             return lumped.given(scene, self.grid, self.grading)
-        return _calibrate(
-            scene.sheet,
-            scene.material,
-            self.grid,
-            self.calibration,
-            self.k,
-            self.layer_distance,
-            self.grading or 0.0,
-            training,
-            progress,
-        )
+        sheet, material, grading = scene.sheet, scene.material, self.grading or 0.0
+        if self.layer_distance is not None:
+            for said in layer_slips(sheet, self.layer_distance, "layer-distance"):
+                warn(Implausible(said), stacklevel=2)
+        own: dict[str, Any] = {"layer_distance": self.layer_distance, "grading": grading}
+        if self.fitted:
+            from comparisons.models.training import fitted
+
+            own |= {"training": training, "progress": progress}
+            return fitted(sheet, material, self.grid, self.calibration, **own)
+        return lumped.calibrate(sheet, material, self.grid, self.calibration, k=self.k, **own)
 
 
 def resolve(scene: Scene, asked: LatticeSpec, own: bool = True) -> Resolved:
-    """The lattice that is meant on a scene, of settings that `check_lattice` has seen.
+    """The lattice that is meant on a scene. Raises BadInput as `LatticeSpec.check` does.
 
     own: whether the scene's [springs], where it has them, are meant if no calibration, k or layer distance
     is given, on their own grid and grading. The grading "auto" chooses the calibration too where none is
     given, as the calibration "auto" does (`comparisons.models.grading`, `comparisons.models.method`).
     """
+    asked.check()
     masses = scene_grid(scene, asked.grid)
     choices = {"k": asked.k, "layer_distance": asked.layer_distance}
-    if own and has_own_springs(scene, calibration=asked.calibration, **choices):
+    open_choice = asked.calibration is None and all(value is None for value in choices.values())
+    if own and scene.springs is not None and open_choice:
         return Resolved(masses, None, grading=fixed(asked.grading))
     method, because = chosen(scene, masses, asked.calibration, asked.grading, **choices)
     method = method_of(method, asked.k)
@@ -110,105 +155,27 @@ def resolve(scene: Scene, asked: LatticeSpec, own: bool = True) -> Resolved:
     return Resolved(masses, method, asked.k, asked.layer_distance, grading, said)
 
 
-def calibrate(
-    sheet: Sheet,
-    material: Material,
-    *,
-    grid: int | Sequence[int] = MASSES,
-    calibration: str | None = None,
-    k: float | None = None,
-    layer_distance: float | None = None,
-    grading: Grading = None,
-    training: Sequence[Scene] | None = None,
-    large: bool = False,
-    progress: Progress = silent,
-) -> Calibration:
-    """Springs of a lattice; by default consistent ones for nine masses along the shorter side.
+def resolve_each(
+    scene: Scene, lattices: Sequence[Candidate], grading: Grading = None
+) -> tuple[list[Candidate], tuple[str, ...]]:
+    """Lattices and pairs of grids with every choice made, and the reasons.
 
-    grid: a number is along the shorter side, with near-square cells; or (nx, ny), (nx, ny, layers).
-
-    k [N/m] and layer_distance [m] are the calibration's own options; grading: from 0, cells of one size,
-    to 1, cells finest at the edges, or 0.5:x0 at one (`lumped.grid_lines`); training: the scenes that a
-    fitted one is fitted to, see `comparisons.models.training`; progress: told what a fit is doing. Raises
-    BadInput for a name that is not a calibration or lengths that are not above zero, for options it does not
-    take, and unless `large` for a fit that takes more memory than there is; warns of a layer
-    distance that is hardly meant.
+    grading: of those whose calibration and layers take one. Raises BadInput where none of them does.
     """
-    check_lattice(calibration, k, layer_distance, grading)
-    if not large and k is None and is_fitted(calibration):
-        from comparisons.models.training import training_scenes
-
-        for scene in training_scenes(sheet, material) if training is None else training:
-            require_room_to_fit(scene, grid)
-    graded = fixed(grading) or 0.0
-    return _calibrate(sheet, material, grid, calibration, k, layer_distance, graded, training, progress)
-
-
-def _calibrate(
-    sheet: Sheet,
-    material: Material,
-    grid: int | Sequence[int],
-    calibration: str | None = None,
-    k: float | None = None,
-    layer_distance: float | None = None,
-    grading: Graded = 0.0,
-    training: Sequence[Scene] | None = None,
-    progress: Progress = silent,
-) -> Calibration:
-    import lumped
-
-    if layer_distance is not None:
-        for said in layer_slips(sheet, layer_distance, "layer-distance"):
-            warn(Implausible(said), stacklevel=2)
-    method = calibration or CALIBRATION
-    if k is None and is_fitted(calibration):
-        from comparisons.models.training import fitted
-
-        whole = grid_of(sheet, grid)
-        return fitted(sheet, material, whole, method, layer_distance, grading, training, progress)
-    own: dict[str, Any] = {"k": k, "layer_distance": layer_distance, "grading": grading}
-    return lumped.calibrate(sheet, material, grid=grid, method=method, **own)
-
-
-def is_fitted(calibration: str | None) -> bool:
-    """Whether a calibration, the usual one for None, is fitted to targets."""
-    return CALIBRATIONS[method_of(calibration, None)].fitted
-
-
-def require_room_to_fit(scene: Scene, grid: int | Sequence[int]) -> None:
-    """Raise BadInput where there is too little memory for a lattice or for the shell that it is fitted to."""
-    from comparisons.models.training import ELEMENTS
-
-    require_room(scene, Candidate("lumped", {"grid": grid}))
-    instead = "take a calibration that is not fitted"
-    require_room(scene, Candidate("shell", {"elements": ELEMENTS}), instead=instead)
-
-
-def check_lattice(
-    calibration: str | None, k: float | None, layer_distance: float | None, grading: Grading = None
-) -> None:
-    """Raise BadInput for a calibration that does not exist, k or layer_distance not above zero, a grading
-    that is not one or that the calibration does not take."""
-    if calibration is not None:
-        require_choice("calibration", calibration, (*CALIBRATIONS, AUTO))
-    require_positive("k", k, "N/m")
-    require_positive("layer-distance", layer_distance, "m")
-    if graded := fixed(grading):
-        takers = [name for name, method in CALIBRATIONS.items() if "grading" in method.takes]
-        method = method_of(calibration, k)
-        if method not in takers:
-            raise BadInput(
-                f"grading = {graded:g}: the calibration {method} is for cells of one size; "
-                f"cell by cell are {', '.join(takers)}"
-            )
-
-
-def has_own_springs(scene: Scene, **settings: Any) -> bool:
-    """Whether the scene's own [springs] are to be used: it has them and nothing else is asked for."""
-    choices = (settings.get(name) for name in ("calibration", "k", "layer_distance"))
-    return scene.springs is not None and all(choice is None for choice in choices)
-
-
-def scene_springs(scene: Scene, **settings: Any) -> tuple[Calibration, dict[str, str]]:
-    """The springs of a `LatticeSpec` of these settings for a scene, and the reasons for what was chosen."""
-    return LatticeSpec(**settings).springs(scene)
+    found, methods, gradings = [], list[str](), list[str]()
+    for one in lattices:
+        LatticeSpec.of(one.settings).check()
+    takers = [one for one in lattices if not one_size(one.settings["grid"], one.settings)]
+    if fixed(grading) and not takers:
+        raise BadInput(f"grading = {grading}: none of these calibrations is for cells that differ")
+    for one in lattices:
+        graded = grading if one in takers else None
+        meant = resolve(scene, LatticeSpec.of({**one.settings, "grading": graded}))
+        found.append(one.but(calibration=meant.calibration))
+        if meant.grading:
+            found[-1] = found[-1].but(grading=plain(meant.grading))
+        if why := meant.reasons.get("grading_reason"):
+            gradings.append(f"{meant.grid[0]} × {meant.grid[1]}, grading {meant.grading:g}: {why}")
+        if why := meant.reasons.get("calibration_reason"):
+            methods.append(f"calibration {meant.calibration}: {why}")
+    return found, tuple(dict.fromkeys((*methods, *gradings)))

@@ -19,7 +19,7 @@ import numpy as np
 
 from comparisons.comparison.comparison import error as probe_error
 from comparisons.models.grading import Grading
-from comparisons.models.springs import scene_springs
+from comparisons.models.springs import LatticeSpec
 from comparisons.stability.study import LARGE, Row, percent
 from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import Clamped, Gravity, Load, Material, Scene, Sheet, Solution, Status
@@ -62,7 +62,7 @@ def lattice(scene: Scene, grid: tuple[int, int], **options: Any) -> Solution:
 
 
 def _consistent(scene: Scene, grid: tuple[int, int], grading: Grading) -> Any:
-    return scene_springs(scene, grid=grid, calibration=CALIBRATION, grading=grading)[0]
+    return LatticeSpec(grid, CALIBRATION, grading=grading).springs(scene)[0]
 
 
 def shell(scene: Scene, elements: int = ELEMENTS) -> Solution:

@@ -6,10 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 from comparisons.models.candidate import Candidate, items, lattices, pairs, parse_model, references
-from comparisons.models.grading import Grading, graded
+from comparisons.models.grading import Grading
 from comparisons.models.grids import parse_elements
-from comparisons.models.method import named
-from comparisons.models.springs import LatticeSpec
+from comparisons.models.springs import LatticeSpec, resolve_each
 from comparisons.tradeoff.motion import DynamicTradeoff, dynamic_tradeoff
 from comparisons.tradeoff.statics import Tradeoff, tradeoff
 from sheetbench.choices import REFERENCE
@@ -38,9 +37,9 @@ def of_statics(
     Raises BadInput for what cannot be read, no model at all, and a reference of a single element.
     """
     springs = items(calibrations)
-    asked = lattices(scene.sheet, items(grids), springs) + pairs(scene.sheet, items(of_two), springs)
-    asked, chosen = named(scene, asked)
-    candidates, reasons = graded(scene, asked, grading)
+    asked = lattices(scene, items(grids), springs) + pairs(scene, items(of_two), springs)
+    resolved, reasons = resolve_each(scene, asked, grading)
+    candidates = [one for i, one in enumerate(resolved) if one not in resolved[:i]]
     for name, sizes in meshes.items():
         candidates += references(name, items(sizes))
     if symmetry:
@@ -49,7 +48,7 @@ def of_statics(
     if not candidates:
         raise BadInput("no model left to measure")
     judge = None if elements is None else Candidate(REFERENCE, {"elements": _halved_too(elements)})
-    return partial(tradeoff, scene, candidates, reference=judge, repeats=repeats, reasons=chosen + reasons)
+    return partial(tradeoff, scene, candidates, reference=judge, repeats=repeats, reasons=reasons)
 
 
 def _halved_too(text: str) -> int | list[int]:

@@ -27,7 +27,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from comparisons.models.grading import plain
 from comparisons.models.registry import check, simulate
 from comparisons.models.springs import LatticeSpec, resolve
 from comparisons.report.look import Look
@@ -234,8 +233,7 @@ def dynamic_tradeoff(
     meant = resolve(scene, lattice)
     springs = meant.springs(scene)
     period = shortest_period(scene, springs)
-    kept: dict[str, Any] = {"grid": list(meant.grid), "calibration": meant.calibration, **meant.options}
-    kept |= {} if meant.grading is None else {"grading": plain(meant.grading)}
+    kept = {name: value for name, value in meant.settings.items() if name not in meant.reasons}
 
     def run(integrator: str, step: float, timed: bool) -> Run:
         arguments = {

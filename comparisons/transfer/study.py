@@ -22,10 +22,10 @@ from typing import Any
 import numpy as np
 
 from comparisons.comparison.comparison import error
-from comparisons.models.candidate import Candidate
-from comparisons.models.grading import Grading, graded
-from comparisons.models.method import method_for
+from comparisons.models.candidate import Candidate, lattices
+from comparisons.models.grading import Grading
 from comparisons.models.sizes import require_room
+from comparisons.models.springs import LatticeSpec, resolve, resolve_each
 from comparisons.report.report import Report
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
@@ -159,12 +159,10 @@ class _Study:
 
     def gradings(self, name: str) -> tuple[dict[str, list[float | str]], tuple[str, ...]]:
         """Of the scene's lattices by method, one a grid, and the reasons where they were chosen."""
-        grids = [[n, n, 2] for n in self.grids]
-        taken = [self._method(name, method) for method in self.methods]
-        asked = [Candidate("lumped", {"grid": g, "calibration": m}) for m in taken for g in grids]
-        chosen, reasons = graded(self.scenes[name], asked, self.grading)
+        asked = lattices(self.scenes[name], [(n, n) for n in self.grids], self.methods)
+        chosen, reasons = resolve_each(self.scenes[name], asked, self.grading)
         values = [candidate.settings.get("grading", 0.0) for candidate in chosen]
-        count = len(grids)
+        count = len(self.grids)
         return {m: values[i * count : (i + 1) * count] for i, m in enumerate(self.methods)}, reasons
 
     def limits(self) -> list[dict[str, Any]]:
@@ -256,8 +254,8 @@ class _Study:
         ]
 
     def _method(self, name: str, method: str) -> str:
-        """The calibration of a scene's lattices, "auto" as `comparisons.models.method` has it."""
-        return method_for(self.scenes[name])[0] if method == AUTO else method
+        """The calibration of a scene's lattices, "auto" as it has it."""
+        return resolve(self.scenes[name], LatticeSpec(calibration=method)).calibration or method
 
     def _lattice(
         self,

@@ -13,7 +13,7 @@ import numpy as np
 
 from comparisons.identification.surface import plan_grid, plan_points
 from comparisons.models.registry import solve_reference
-from comparisons.models.springs import calibrate
+from comparisons.models.springs import LatticeSpec, resolve
 from sheetbench.scenes import Scene, Sheet
 
 POINTS = 5  # along each side
@@ -93,9 +93,7 @@ def _springs(
     grading: float | str = 0.0,
 ) -> Any:
     chosen = None if training is None else [Scene.model_validate(data) for data in training]
-    sheet, material = scene.sheet, scene.material
-    own: dict[str, Any] = {"calibration": method, "grading": grading, "training": chosen}
-    return calibrate(sheet, material, grid=tuple(grid), large=True, **own)
+    return resolve(scene, LatticeSpec(grid, method, grading=grading)).springs(scene, chosen)
 
 
 def _answer(solution: Any, scene: Scene) -> dict[str, Any]:

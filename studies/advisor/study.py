@@ -89,8 +89,8 @@ def _arrangements(curvature: float) -> list[tuple[AnySupport, ...]]:
 
 def rows(scene: Scene) -> list[Candidate]:
     """The dozen rows that the choice is to stand up to."""
-    found = lattices(scene.sheet, ["3", "5", "9", "17"], ["consistent"])
-    found += lattices(scene.sheet, ["5"], ["uniform"])
+    found = lattices(scene, ["3", "5", "9", "17"], ["consistent"])
+    found += lattices(scene, ["5"], ["uniform"])
     return [*found, *references("plate", ["4"]), *references("shell", ["2", "3", "4", "6", "8", "12"])]
 
 

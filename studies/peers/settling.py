@@ -21,7 +21,7 @@ from scipy.integrate import solve_ivp
 
 import lumped
 from comparisons.models.registry import simulate
-from comparisons.models.springs import scene_springs
+from comparisons.models.springs import LatticeSpec
 from sheetbench.choices import INTEGRATORS
 from sheetbench.scenes import Scene, load
 from studies.peers.row import PeerRow, repeated
@@ -38,7 +38,7 @@ class Equations:
     """The lattice's motion as SciPy takes it: y = (free displacements, their velocities)."""
 
     def __init__(self, scene: Scene):
-        springs, _ = scene_springs(scene, grid=GRID)
+        springs, _ = LatticeSpec(GRID).springs(scene)
         self.system = lumped.System(scene, lumped.pose(scene, springs))
         self.free = self.system.moving_part
         self.mass = self.system.reduced_mass.diagonal()

@@ -1,0 +1,94 @@
+"""The springs of a sheet and material: those of a scene, of values alone, or of a scene changed by values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from math import prod
+from typing import Any
+from warnings import warn
+
+import lumped
+from comparisons.models.candidate import Candidate
+from comparisons.models.expected_error import MOST, ExpectedError, expected_error
+from comparisons.models.grading import told
+from comparisons.models.quantities import checked
+from comparisons.models.registry import answer
+from comparisons.models.springs import LatticeSpec, resolve
+from comparisons.models.training import training_scenes
+from comparisons.report.work import Progress, silent
+from sheetbench.choices import AUTO, EXTRAPOLATED
+from sheetbench.scenes import AnyScene, Material, Scene, SceneError, Sheet, Solution, require_static, scene_of
+from sheetbench.scenes.errors import BadInput, Implausible
+from sheetbench.scenes.plausibility import material_slips, sheet_slips
+
+DENSITY = 1000.0  # kg/m³, unless given
+NEEDED = {"young": "young", "poisson": "poisson", "thickness": "thickness", "length_x": "side"}
+
+
+def subject(scene: AnyScene | None, values: Mapping[str, Any], option: str = "") -> Scene:
+    """Return the scene with these keys of its sheet and material in place of its own; without a scene the
+    sheet that they describe, clamped at one edge under its own weight.
+
+    values: None where a key is not given; option: what stands before a key where the user reads it, as "--".
+    Probes go where the sheet is another. Raises BadInput for what is missing or out of bounds, and warns of
+    what the values make implausible.
+    """
+    given = {key: value for key, value in values.items() if value is not None}
+    known: list[str] = []  # slips of the scene's own, which loading it has told
+    parts: dict[type[Sheet] | type[Material], dict[str, Any]] = {Sheet: {}, Material: {"density": DENSITY}}
+    loaded = None if scene is None else scene_of(scene)
+    if loaded is not None:
+        known = [*sheet_slips(loaded.sheet), *material_slips(loaded.material)]
+        parts = {Sheet: loaded.sheet.model_dump(), Material: loaded.material.model_dump()}
+    elif missing := [option + name for key, name in NEEDED.items() if key not in given]:
+        raise BadInput(f"missing {', '.join(missing)}; give them, or a SCENE to take them from")
+    for kind, data in parts.items():
+        data |= {key: value for key, value in given.items() if key in kind.model_fields}
+    sheet, material = checked(Sheet, parts[Sheet], option), checked(Material, parts[Material], option)
+    for said in [*sheet_slips(sheet), *material_slips(material)]:
+        if said not in known:
+            warn(Implausible(said), stacklevel=3)
+    if loaded is None:
+        return training_scenes(sheet, material)[0]
+    probes = loaded.probes if sheet == loaded.sheet else {}
+    return loaded.replace(sheet=sheet, material=material, probes=probes)
+
+
+def calibrate(
+    scene: Scene, lattice: LatticeSpec, named: bool = True, large: bool = False, progress: Progress = silent
+) -> lumped.Calibration:
+    """Return the springs of a lattice for a scene's sheet and material, whatever [springs] the scene has.
+
+    named: whether the user named the scene: a fitted method trains on it, "auto" goes by it, and what is
+    known before solving of how far its answer will be off is among the notes. Raises BadInput for a lattice
+    that cannot be had, and unless `large` for a fit that takes more memory than there is.
+    """
+    for name, what in (("method", lattice.calibration), ("grading", lattice.grading)):
+        if what == AUTO and not named:
+            raise BadInput(f"{name} = auto: goes by a SCENE's edges and load; name one, or choose yourself")
+    found = resolve(scene, lattice, own=False)
+    if not large:
+        found.require_room_to_fit(scene)
+    springs = found.springs(scene, [scene] if named else None, progress)
+    known = [said] if named and (said := lumped.polygons(scene, found.grid)) else []
+    return replace(springs, notes=(*told(found.settings), *known, *springs.notes))
+
+
+def expected(scene: Scene, springs: lumped.Calibration, progress: Progress = silent) -> ExpectedError | None:
+    """The grid error to expect of these springs in a scene, from two solves of it; None too where the scene
+    has no static answer or the lattice is too large to be solved for a remark."""
+    if prod(springs.grid[:2]) > MOST or springs.method not in EXTRAPOLATED:
+        return None
+    try:
+        require_static(scene)
+    except SceneError:
+        return None
+    lattice = Candidate(
+        "lumped", {"grid": springs.grid, "calibration": springs.method, "grading": springs.grading or None}
+    )
+
+    def solve(candidate: Candidate) -> Solution:
+        return answer(scene, candidate, progress=progress)
+
+    return expected_error(scene, lattice, solve(lattice), solve)

@@ -1,0 +1,195 @@
+"""The same words mean the same lattice, whichever verb or function is asked: its constants, caught where the
+solver gets them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from commands import run
+
+import lumped
+import sheetbench as sb
+from comparisons.advice.probing import Probing
+from comparisons.crosscheck import study as crosscheck
+from comparisons.live import server
+from comparisons.models import registry
+from comparisons.models.springs import LatticeSpec, resolve
+from comparisons.runs.tasks import function
+from comparisons.tradeoff import motion, statics
+from comparisons.transfer import study as transfer
+from sheetbench.scenes import Scene, SpringTable
+
+CONSUMERS = ("solve", "simulate", "modes", "linearise", "sensitivity", "describe", "pose")
+WORDS = frozenset({"grid", "calibration", "k", "layer_distance", "grading"})
+LISTS = {"grid": "9", "calibration": "consistent"}  # of verbs that take several, unless given
+OPTIONS: tuple[dict[str, Any], ...] = (
+    {},
+    {"grid": "5"},
+    {"grid": "5x7"},
+    {"calibration": "van-gelder"},
+    {"calibration": "auto"},
+    {"k": 550.0},
+    {"layer_distance": 0.004},
+    {"grid": "4", "k": 550.0, "layer_distance": 0.004},
+    {"grading": "0.3"},
+    {"grading": "0.4:x0"},
+    {"grading": "auto"},
+    {"calibration": "consistent", "grading": "auto"},
+)
+SCENE = "curved-edge"  # whose calibration and grading "auto" are others than the usual ones
+
+
+class Used(BaseException):
+    """The springs that a solver was given."""
+
+
+def used(scene: Scene, springs: lumped.Calibration, *_: Any, **__: Any) -> None:
+    raise Used(springs)
+
+
+def carried_out(runs: list[Any], *_: Any, **__: Any) -> None:
+    """The lattices among the runs of a campaign, here."""
+    for one in runs:
+        if one.arguments.get("model", "lumped") == "lumped":
+            function(one.task)(**one.arguments)
+
+
+@pytest.fixture(autouse=True)
+def caught(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in CONSUMERS:
+        monkeypatch.setattr(lumped, name, used)
+    for module in (crosscheck, motion, statics, transfer):
+        monkeypatch.setattr(module, "carry_out", carried_out)
+    monkeypatch.setattr(motion, "shortest_period", lambda *_: 1.0)
+    monkeypatch.setattr(motion, "explicit_limit", lambda *_: 1.0)
+    monkeypatch.setattr(registry, "warm", lambda _: None)
+    monkeypatch.setattr(server, "run", lambda panel, *_: used(panel.scene, _of_panel(panel)))
+
+
+def _of_panel(panel: Any) -> lumped.Calibration:
+    return LatticeSpec(**panel.first().own).springs(panel.scene)[0]
+
+
+def verb(name: str, *others: str, renamed: dict[str, str] | None = None) -> Callable[..., None]:
+    """The command line with the options of a lattice."""
+
+    def ask(scene: str, folder: Path, **options: Any) -> None:
+        flags = {f"--{(renamed or {}).get(key, key).replace('_', '-')}": options[key] for key in options}
+        more = [part.format(scene=scene, folder=folder) for part in others]
+        run(name, *more, *(str(part) for pair in flags.items() for part in pair))
+
+    return ask
+
+
+def python(ask: Callable[..., Any]) -> Callable[..., None]:
+    """A function of the package: a grid as text is a number there, or numbers."""
+
+    def call(scene: str, folder: Path, grid: str | None = None, **options: Any) -> None:
+        shape = {} if grid is None else {"grid": int(grid) if grid.isdigit() else grid}
+        found = ask(sb.load(scene), folder, **shape, **options)
+        if isinstance(found, lumped.Calibration):
+            raise Used(found)
+
+    return call
+
+
+def of_advice(scene: Scene, folder: Path, **options: Any) -> lumped.Calibration:
+    """Of the last lattice of 9 × 9 masses that may be chosen."""
+    found = [c for c in Probing(scene, large=True, **options).candidates(linear=False) if c.model == "lumped"]
+    (*_, last) = [c for c in found if c.settings["grid"] == [9, 9, 2]]
+    return LatticeSpec.of(last.settings).springs(scene)[0]
+
+
+def listed(scene: Scene, folder: Path, grid: Any = 9, calibration: str = "consistent", **options: Any) -> Any:
+    return sb.tradeoff(scene, lumped=[grid], calibration=[calibration], shell=(), **options)
+
+
+MEASURED = ("--measured", "{folder}/measured.csv", "--unknown", "thickness")
+FILE = "x,y,uz\n0.094,0.094,-0.002\n0.188,0.188,-0.013\n"
+GRIDS = WORDS - {"k", "layer_distance"}
+VERBS: dict[str, tuple[Callable[..., None], frozenset[str]]] = {
+    "compare": (verb("compare", "{scene}"), WORDS),
+    "view": (verb("view", "{scene}", "--out", "{folder}/v.html"), WORDS),
+    "simulate": (verb("simulate", "{scene}", "--duration", "0.01"), WORDS),
+    "modes": (verb("modes", "{scene}"), WORDS),
+    "linearise": (verb("linearise", "{scene}"), WORDS),
+    "identify": (verb("identify", "{scene}", *MEASURED), WORDS),
+    "calibrate": (
+        verb("calibrate", "{scene}", "--export", "{folder}/lattice", renamed={"calibration": "method"}),
+        WORDS,
+    ),
+    "tradeoff of a motion": (verb("tradeoff", "{scene}", "--duration", "0.01"), WORDS),
+    "tradeoff": (verb("tradeoff", "{scene}", "--shell", "", "--solid", "", "--plate", ""), GRIDS),
+    "crosscheck": (verb("crosscheck", "{scene}", "--grid", "9,13", "--shell", ""), GRIDS - {"grid"}),
+    "transfer": (
+        verb("transfer", "--scenes", SCENE, "--part", "static", renamed={"calibration": "methods"}),
+        GRIDS - {"grid"},
+    ),
+    "advise": (python(of_advice), GRIDS - {"grid"}),
+    "live": (verb("live", "{scene}", "--no-browser"), GRIDS),
+    "sb.solve": (python(lambda scene, _, **own: sb.solve(scene, **own)), WORDS),
+    "sb.compare": (python(lambda scene, _, **own: sb.compare(scene, **own)), WORDS),
+    "sb.simulate": (python(lambda scene, _, **own: sb.simulate(scene, 0.01, **own)), WORDS),
+    "sb.modes": (python(lambda scene, _, **own: sb.modes(scene, **own)), WORDS),
+    "sb.linearise": (python(lambda scene, _, **own: sb.linearise(scene, **own)), WORDS),
+    "sb.identify": (
+        python(lambda scene, at, **own: sb.identify(scene, at / "measured.csv", "thickness", **own)),
+        WORDS,
+    ),
+    "sb.calibrate": (
+        python(lambda scene, _, calibration=None, **own: sb.calibrate(scene, method=calibration, **own)),
+        WORDS,
+    ),
+    "sb.export": (python(lambda scene, at, **own: sb.export(scene, at / "lattice", **own)), WORDS),
+    "sb.tradeoff": (python(listed), GRIDS),
+}
+ANEW = {"calibrate", "sb.calibrate", "identify", "sb.identify"}  # make the springs, whatever the scene has
+NAMED = {"tradeoff", "sb.tradeoff", "transfer"}  # list their calibrations, where the others leave them open
+CHOSEN = {*NAMED, "crosscheck", "advise"}
+UNABLE = {"live": ("5x7", "0.4:x0")}  # one number for the grid, one grading for all edges
+
+
+@pytest.mark.parametrize("name", VERBS)
+def test_the_same_words_are_the_same_lattice(name: str, tmp_path: Path) -> None:
+    ask, words = VERBS[name]
+    (tmp_path / "measured.csv").write_text(FILE, encoding="utf-8")
+    scene = sb.load(SCENE)
+    for options in OPTIONS:
+        if not words >= options.keys() or not set(UNABLE.get(name, ())).isdisjoint(options.values()):
+            continue
+        usual = {key: value for key, value in LISTS.items() if key in words} if name in NAMED else {}
+        meant = LatticeSpec(**{**usual, **options})
+        with pytest.raises(Used) as asked:
+            ask(SCENE, tmp_path, **{**usual, **options})
+        expected, _ = meant.springs(scene)
+        assert constants(asked) == constants(expected), options
+
+
+@pytest.mark.parametrize("name", [name for name in VERBS if name not in CHOSEN])
+def test_so_are_a_scene_s_own_springs(name: str, tmp_path: Path) -> None:
+    """Where nothing is named the scene's own [springs] are meant, but where springs are to be made; in any
+    case their grid is the usual one."""
+    ask, words = VERBS[name]
+    plain = sb.load(SCENE)
+    springs = lumped.calibrate(plain.sheet, plain.material, grid=(4, 6), method="uniform", k=400.0)
+    table = {**springs.as_dict()["springs"], "layer_distance": springs.layer_distance, "grid": [4, 6, 2]}
+    scene = plain.replace(springs=SpringTable.model_validate(table))
+    scene.save(tmp_path / "own.toml")
+    (tmp_path / "measured.csv").write_text(FILE, encoding="utf-8")
+    for options in ({}, {"calibration": "van-gelder"}, {"k": 550.0}):
+        if words >= options.keys() and not (name == "live" and options):  # whose grid is the slider's
+            with pytest.raises(Used) as asked:
+                ask(str(tmp_path / "own.toml"), tmp_path, **options)
+            expected = resolve(scene, LatticeSpec(**options), own=name not in ANEW).springs(scene)
+            assert constants(asked) == constants(expected), options
+            assert tuple(expected.grid) == (4, 6, 2)
+
+
+def constants(found: Any) -> Any:
+    """What a lattice is made of."""
+    springs = found.value.args[0] if isinstance(found, pytest.ExceptionInfo) else found
+    document = springs.as_dict()
+    return {key: document.get(key) for key in ("method", "grid", "grading", "springs", "layer_distance")}

@@ -24,7 +24,7 @@ import numpy as np
 from lumped.actuators import joints
 from lumped.actuators.actuator import Acting, Drive
 from lumped.actuators.binding import bind, mass_matrix
-from lumped.actuators.frames import Frames
+from lumped.actuators.frames import Frames, SharedEnd
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Sheet
 from sheetbench.scenes import Chain as ChainData
@@ -35,7 +35,7 @@ UP = np.array([0.0, 0.0, 1.0])
 class Chain:
     """One or several chains on one edge, as a `Body`. scale: σ [N/m], like the sheet's E h; held: its ends
     (0 the start, 1 the end) where another edge holds position and director; shared: those where another
-    chain shares the corner, and whether the director's row is this chain's own."""
+    chain shares the corner."""
 
     def __init__(
         self,
@@ -46,7 +46,7 @@ class Chain:
         masses: np.ndarray,
         scale: float,
         held: tuple[int, ...] = (),
-        shared: Mapping[int, bool] | None = None,
+        shared: Mapping[int, SharedEnd] | None = None,
     ):
         first = chains[0]
         self.edge: str = first.edge

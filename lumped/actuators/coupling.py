@@ -2,11 +2,11 @@
 
 A mass of an edge moved rigidly follows the motion, whatever else acts on it: scenes refuse what the motion
 would contradict; where two motions share a corner they share its force. Any other mass that a support holds,
-in whichever component, stays with its support. Two chains on neighbouring edges have the corner in common
-(`lumped.actuators.corners`). A chain that ends at a corner whose director a support holds is held there too,
-unless the support moves over time: with an end that moves so the integrators do not keep the balance of
-energy. There, and beside an edge moved rigidly, the sheet alone holds it. Chains on one edge are one actuator
-model.
+in whichever component, stays with its support; a corner at which a chain has its base is that chain's. Two
+chains on neighbouring edges have the corner in common (`lumped.actuators.corners`). A chain that ends at a
+corner whose director a support or another chain's base holds is held there too, unless the support moves over
+time: with an end that moves so the integrators do not keep the balance of energy. There, and beside an edge
+moved rigidly, the sheet alone holds it. Chains on one edge are one actuator model.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import numpy as np
 
 from lumped.actuators.actuator import Acting, Actuator, Body, Drive
 from lumped.actuators.chain import Chain
-from lumped.actuators.corners import SharedCorner, Tie, held_ends, shared_corners
+from lumped.actuators.corners import SharedCorner, Tie, based_beside, held_ends, shared_corners, shared_ends
 from lumped.actuators.edge_motion import RigidMotion
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Scene
@@ -41,6 +41,13 @@ class Coupling:
         self._bodies: list[tuple[Body, slice]] = list(zip(chains, places, strict=True))
         begin = {chain.edge: (chain, place.start) for chain, place in zip(chains, places, strict=True)}
         self.ties = [_tie(corner, *(begin[edge] for edge in corner.edges)) for corner in shared]
+        bases = {edge: next(iter(here.values())).held_as for edge, here in scene.chains().items()}
+        self._held_by = {  # number and end of a chain that another's base holds → the base
+            (number, end): bases[beside]
+            for number, chain in enumerate(chains)
+            for end in chain.corners
+            if (beside := based_beside(scene, chain.edge, end))
+        }
         by_edge: dict[str, tuple[Actuator, slice]] = {motion.edge: (motion, slice(0)) for motion in motions}
         by_edge |= {body.edge: (body, place) for body, place in self._bodies}
         self._all = [by_edge[edge] for edge in dict.fromkeys(str(a.edge) for a in scene.actuators)]
@@ -192,6 +199,10 @@ class Coupling:
         found: dict[str, np.ndarray] = {}
         for actuator, acting in self._acting(np.zeros_like(exerted), exerted):
             found |= actuator.reactions(acting)
+        for (chain, end), base in self._held_by.items():
+            body, place = self._bodies[chain]
+            on_rows = exerted[place] + body.binding.T @ exerted[body.masses]
+            found[base] = found[base] + body.corner_force(end, on_rows)
         return found
 
     def held_moment(self, u: np.ndarray, exerted: np.ndarray, drive: Drive) -> np.ndarray:
@@ -249,15 +260,21 @@ def _chains(scene: Scene, lattice: Lattice, moved: np.ndarray) -> tuple[list[Cha
     for support in scene.supports:
         taken[lattice.edge_columns(support.edge)] = True
     shared = shared_corners(scene, lattice, taken)
+    brought = shared_ends(scene, shared)
     found: list[Chain] = []
     for edge, here in scene.chains().items():
-        masses = lattice.edge_columns(edge).ravel()
-        masses = masses[~taken[masses]]
+        columns = lattice.edge_columns(edge)
+        others = taken.copy()
+        for end in held_ends(scene, edge):
+            others[columns[-end]] = True
+        masses = columns.ravel()
+        masses = masses[~others[masses]]
         taken[masses] = True
         scale = scene.material.young * scene.sheet.thickness
-        own = {c.ends[c.edges.index(edge)]: edge == c.edges[0] for c in shared if edge in c.edges}
         held = held_ends(scene, edge)
-        chain = Chain(list(here.values()), tuple(here), scene.sheet, lattice, masses, scale, held, own)
+        chain = Chain(
+            list(here.values()), tuple(here), scene.sheet, lattice, masses, scale, held, brought[edge]
+        )
         found.append(chain)
     return found, shared
 
@@ -271,5 +288,4 @@ def _tie(corner: SharedCorner, first: tuple[Chain, int], second: tuple[Chain, in
     (one, _), (other, _) = first, second
     above = (other.offset - one.offset) / one.frames.length
     weights = np.array([[1.0, above], [0.0, other.frames.length / one.frames.length]])
-    first_tied = 0 if corner.tied else 1
-    return Tie(rows[1][first_tied:], rows[0], weights[first_tied:])
+    return Tie(rows[1], rows[0], weights)

@@ -18,21 +18,35 @@ multipliers, and a joint of half length (but for "inplane") between n_c and the 
     corner      n_c·b = 0;  "inplane": n_c·b = n_c·t = 0;   measures n_c·t, 0, n_c·n
 
 so that the segment may turn about n_c. A corner shared with another chain has the same joint; its n_c is free
-but of unit length, and for one of the two chains a multiple of the other's (`lumped.actuators.corners`).
-Chains are inextensible, untwisted and, in a plane, straight across
-it: what one anchor holds so, another must not hold again (`_slides`). Source: Betsch and Steinmann (2001),
-García de Jalón's natural coordinates.
+but of unit length, and for one of the two chains a multiple of the other's (`lumped.actuators.corners`). What
+the chains around it hold there already is left out (`SharedEnd`). Source: Betsch and Steinmann (2001), García
+de Jalón's natural coordinates.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from sheetbench.scenes import Chain
 
 T, N, B = range(3)
+
+
+@dataclass(frozen=True)
+class SharedEnd:
+    """What a chain's end brings to a corner that another chain shares.
+
+    own: whether the director's row is this chain's own; across, along: whether it makes n_c normal to its b
+    and, if "inplane", to its t; level: of "inplane", whether it keeps the end at its height.
+    """
+
+    own: bool
+    across: bool = True
+    along: bool = True
+    level: bool = True
 
 
 class _Quantities:
@@ -52,8 +66,8 @@ class _Quantities:
 class Frames:
     """Geometry of one chain. axes: the undeformed t, n, b as rows of a (3, 3) matrix; start: (3,) [m].
 
-    held: ends (0, 1) held at a corner; shared: ends whose corner another chain shares, and whether n_c is
-    this chain's own.
+    held: ends (0, 1) held at a corner, at most one, and none with a base; shared: ends whose corner another
+    chain shares.
 
     quantities: the constraints (first `constraints` of them), then three measures a joint.
     gradient and products below are with respect to the coordinate rows only, (coordinates, 3).
@@ -66,13 +80,12 @@ class Frames:
         length: float,
         axes: np.ndarray,
         held: tuple[int, ...] = (),
-        shared: Mapping[int, bool] | None = None,
+        shared: Mapping[int, SharedEnd] | None = None,
     ):
         count = chain.segments
         self.segments, self.length, self.axes, self.base = count, length / count, axes, chain.base
         self.points = count + 1
-        based = {"start": 0, "end": 1}.get(chain.base)
-        self.held = tuple(end for end in held if end != based)
+        self.held = held
         self.shared = dict(shared or {})
         self.corners = (*self.held, *self.shared)
         self.corner_row = {end: self.points + 2 * count + k for k, end in enumerate(self.corners)}
@@ -86,9 +99,7 @@ class Frames:
         self.free[fixed] = False
         self.base_points = [row for row in fixed if row < self.points]
         for end in self.held:
-            self.free[self.corner_row[end]] = False
-            kinds = [kind for kind in (T, N, B) if not self._slides(chain, end, kind)]
-            self.free[self.end_point(end), np.abs(axes[kinds]).argmax(axis=1)] = False
+            self.free[[self.corner_row[end], self.end_point(end)]] = False
         quantities = _Quantities()
         self._constrain(chain, quantities)
         self.constraints = len(quantities.target)
@@ -108,8 +119,8 @@ class Frames:
         self.command = np.array([*range(len(self.joints)), *ends], dtype=int)  # whose curvature a joint has
 
     def _constrain(self, chain: Chain, quantities: _Quantities) -> None:
-        """Rigid segments that are not held, joints of the plane, the first corner of a chain without a base
-        and shared corners. An n_c that is shared takes one direction of each chain, never one twice."""
+        """Rigid segments that are not held, joints of the plane, held and shared corners."""
+        level = self._joints_left_level()
         for i in range(self.segments):
             if self._held(i):
                 continue
@@ -117,19 +128,24 @@ class Frames:
                 same = first == second
                 pair = (self._vector(i, first), self._vector(i, second), 0.5 if same else 1.0)
                 quantities.add(0.5 * same, pair)
-        for before, after, _ in self.joints:
-            for products in _JOINT_CONSTRAINTS[chain.plane]:
+        for joint, (before, after, _) in enumerate(self.joints):
+            for products in _JOINT_CONSTRAINTS[chain.plane][joint in level :]:
                 pairs = [(self._vector(before, p), self._vector(after, q), w) for p, q, w in products]
                 quantities.add(0.0, *pairs)
         for end in self.corners:
-            if self.shared.get(end, False):
+            here = self.shared.get(end, SharedEnd(own=False, along=not level or bool(self.joints)))
+            if here.own:
                 quantities.add(0.5, (self._corner(end), self._corner(end), 0.5))
-            first = chain.base == "free" and end == self.corners[0]
-            if not first and (end in self.held or chain.plane == "inplane"):
-                continue
-            for kind in (T, B) if chain.plane == "inplane" else (B,):
+            kinds = [B] * here.across + [T] * (here.along and chain.plane == "inplane")
+            for kind in kinds:
                 pair = (self._corner(end), self._vector(self.end_segment(end), kind), 1.0)
                 quantities.add(0.0, pair)
+
+    def _joints_left_level(self) -> set[int]:
+        """Joints beside ends that are kept at their height by what they share a corner with. Such a joint,
+        or without joints the held corner, leaves n·t' = 0 out: it follows from the rest."""
+        ends = [end for end, here in self.shared.items() if not here.level]
+        return {(len(self.joints) - 1) * end for end in ends}
 
     def _measure(self, chain: Chain, hinged: tuple[int, ...], quantities: _Quantities) -> None:
         """Three measures of every joint, and of those between corners and the segments hinged to them."""
@@ -216,17 +232,6 @@ class Frames:
 
     def _corner(self, end: int) -> int:
         return 3 * self.segments + 3 + self.corners.index(end)
-
-    def _slides(self, chain: Chain, end: int, kind: int) -> bool:
-        """Whether an end's point is left free along t, n or b, where another anchor holds it already; along
-        t both of two ends are, for symmetry."""
-        based = chain.base != "free"
-        if kind == T:
-            return based or len(self.held) == 2
-        again = based or end != self.held[0]
-        return (chain.plane == "inplane" and kind == N and again) or (
-            chain.plane == "normal" and kind == B and based
-        )
 
     def _vector(self, frame: int, kind: int) -> int:
         return 3 * self.segments + kind if frame == self.segments else kind * self.segments + frame

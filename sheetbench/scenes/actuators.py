@@ -11,6 +11,8 @@ curvature [1/m] is a number, a list with one value a joint (in the order of the 
 the half-length joints beside it), or a table {time, value}: linear between samples, the last value kept.
 Statics take the last value of a table, and of a motion.
 
+A chain that is held along itself at two places could not bend, and is refused (`sheetbench.scenes.anchors`).
+
 An actuator's name is its edge, or, where an edge has several, its edge and its number in the scene: "x1.2".
 What holds it is named among the reactions: a motion as its edge, the base of an edge's chains as "EDGE base".
 
@@ -95,6 +97,12 @@ class Chain(Frozen):
     def held_as(self) -> str:
         """The name of its base among the reactions, where it is held."""
         return f"{self.edge} base"
+
+    @property
+    def base_ends(self) -> tuple[int, ...]:
+        """Ends that its base holds: 0 where the edge starts, 1 where it ends. A single segment has both."""
+        only = (0, 1) if self.segments == 1 else ()
+        return {"free": (), "start": (0,), "middle": only, "end": (1,)}[self.base]
 
     def axis_height(self, thickness: float) -> float:
         """Height [m] of its axis along the director of a sheet of a thickness [m]."""

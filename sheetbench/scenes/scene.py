@@ -16,6 +16,7 @@ from pydantic import Field, ValidationError, model_validator
 
 from sheetbench.scenes import corners, summary
 from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion, disagreement
+from sheetbench.scenes.anchors import held_twice
 from sheetbench.scenes.errors import Implausible
 from sheetbench.scenes.loads import Load, PointLoad
 from sheetbench.scenes.plausibility import slips
@@ -101,6 +102,8 @@ class Scene(Frozen):
             raise ValueError(f"support: {said}")
         if said := disagreement(self.actuators, {support.edge for support in self.supports}):
             raise ValueError(f"actuator: {said}")
+        if said := held_twice(self.actuators, self.supports):
+            raise ValueError(f"actuator {said}")
         if said := corners.conflict(self.actuators, self.supports, self.sheet):
             raise ValueError(f"actuator: {said}")
         return self

@@ -57,6 +57,23 @@ def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front() -> None:
     ]  # fmt: skip
 
 
+def test_time_is_predicted_by_the_models_own_family() -> None:
+    def lattice(masses: int) -> Candidate:
+        return Candidate("lumped", {"grid": [masses, masses, 2]})
+
+    shell, plate = (Candidate(model, {"elements": [8, 8]}) for model in ("shell", "plate"))
+    took = ((lattice(5), 0.001), (shell, 0.1), (lattice(9), 0.008))
+    trials = {repr(one): SimpleNamespace(candidate=one, seconds=seconds) for one, seconds in took}
+    asked = (shell, lattice(17), shell.but(elements=[16, 16]), plate)
+    found = [probing.Probing.predicted_seconds(SimpleNamespace(trials=trials), one) for one in asked]  # type: ignore[arg-type]
+    # as measured; 8 times as long for 4 times the cells; by the usual power of one; by the unknowns alone
+    assert found == pytest.approx([0.1, 0.064, 0.1 * 4**probing.EXPONENT, probing.unknowns(plate) * 1e-5])
+
+
+def test_maps_are_as_wide_as_both_columns_of_a_paper() -> None:
+    assert {study.size[0] for study in STUDIES.values()} == {7.2}  # inches: 183 mm
+
+
 def test_tiles_reach_half_way_to_their_neighbours() -> None:
     _, axis = subplots()
     rows = [{"x": x, "y": y} for x in (4.0, 1.0, 3.0) for y in (1.0, 100.0)]

@@ -40,6 +40,19 @@ def test_bricks_show_their_outer_faces_alone():
     assert len(sheets._quads(mesh)) == 10
 
 
+@pytest.mark.parametrize(("cells", "lines"), [(1, 2), (8, 9), (64, 9), (256, 9), (257, 258)])
+def test_a_fine_regular_surface_shows_its_shape_by_nine_lines(cells, lines):
+    """Up to four cells in one of the finest picture; with more lines the mesh is no regular one."""
+    x, y = np.meshgrid(np.arange(cells + 1.0), [0.0, 1.0])
+    points = np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
+    first = np.arange(cells)[:, None]
+    mesh = FieldMesh(
+        points, [("quad", first + np.array([0, 1, cells + 2, cells + 1]))], {"displacement": 0.0 * points}
+    )
+    sides = points[sheets._shape_lines(mesh)]
+    assert len(np.unique(sides[sides[:, 0, 0] == sides[:, 1, 0], 0, 0])) == lines
+
+
 def options() -> dict:
     """Two sheets of 8 × 8 cells, one of which moves, and a lattice of two masses a side."""
     scene = load("two-edges-clamped")

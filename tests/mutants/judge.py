@@ -3,7 +3,7 @@
 Usage, in the tree to be judged: python judge.py ASKED VERDICT
 ASKED, JSON: files of tests, the nearest first; tests to be skipped; words that promising tests use; seconds
 that may be spent, and what single tests are known to take. VERDICT, JSON: the test that failed or null, the
-seconds of processor time spent, and what each test took.
+seconds of processor time spent, and what each test took; the test that runs until there is a verdict.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ def spent() -> float:
 class Watch:
     """Orders the tests, remembers what failed, ends the run when time is over."""
 
-    def __init__(self, asked: dict[str, Any]):
-        self.asked = asked
+    def __init__(self, asked: dict[str, Any], verdict: Path):
+        self.asked, self.verdict = asked, verdict
         self.files = [name.partition("::")[0] for name in asked["files"]]
         self.failed: str | None = None
         self.took: dict[str, float] = {}
@@ -64,8 +64,9 @@ class Watch:
         if report.failed:
             self.failed = self.failed or report.nodeid
 
-    def pytest_runtest_logstart(self) -> None:
+    def pytest_runtest_logstart(self, nodeid: str) -> None:
         self._since = spent()
+        self.verdict.write_text(json.dumps({"running": nodeid}))  # what stays where the test does not end
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         if report.failed:
@@ -82,7 +83,7 @@ class Watch:
 
 def main() -> None:
     asked, verdict = (Path(name) for name in sys.argv[1:])
-    watch = Watch(json.loads(asked.read_text()))
+    watch = Watch(json.loads(asked.read_text()), verdict)
     limit = math.ceil(HUNG * watch.asked["seconds"])
     resource.setrlimit(resource.RLIMIT_CPU, (limit, limit))
     options = ["-q", "-x", "-p", "no:cacheprovider", "--no-header", "--tb=line"]

@@ -43,7 +43,7 @@ AS_PYTHON = (
 ENOUGH = 25.0  # seconds after which a fault has survived
 COMPILING = 30.0  # seconds more where kernels are compiled anew
 HUNG = 1800  # seconds on the clock
-NO_END = "no end, or a crash"
+NO_END = "no end, or a crash: "
 NEAREST = (4, 9, 20)  # files of tests: the nearest, more, and the last that are tried
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
 
@@ -71,8 +71,8 @@ class Session:
         self.folder.mkdir(parents=True, exist_ok=True)
         if not self.tree.exists():
             subprocess.run(["git", "clone", "--quiet", ".", str(self.tree)], check=True)
-        self.git("fetch", "--quiet", str(Path.cwd()), commit)
-        self.git("checkout", "--quiet", "--force", "--detach", "FETCH_HEAD")  # also of a killed run's fault
+        self.git("fetch", "--quiet", str(Path.cwd()), "HEAD")
+        self.git("checkout", "--quiet", "--force", "--detach", commit)  # also of a killed run's fault
         self.commit = self.git("rev-parse", "--short", "HEAD").strip()
         self._sound: dict[tuple[str, bool], bool] = {}
         self._nearest = Nearest(self.tree)
@@ -101,7 +101,7 @@ class Session:
             with self.cache_of_the_fault(compiled and DRAWS[draw].kernels) as cache:
                 failed, spent, some = self.first_to_notice(fault, groups, most, cache, compiled)
             seconds, run = seconds + spent, run | some
-            if failed and (compiled or failed != NO_END):
+            if failed:
                 break
         code = (self.tree / fault.module).read_text().splitlines()[fault.line - 1].strip()
         row = {"draw": draw, "fault": fault.name, "code": code, "commit": self.commit, "failed": failed}
@@ -123,7 +123,9 @@ class Session:
                 with self.faulty(fault):
                     failed, seconds = self.verdict(files, words, unfit, most - spent, cache, compiled)
                 spent, run = spent + seconds, run | set(files)
-                if failed and (failed == NO_END or self.is_sound(failed, compiled)):
+                if failed and not compiled and failed.startswith(NO_END):
+                    self._sound[failed.removeprefix(NO_END), compiled] = False  # or too slow as Python
+                elif failed and self.is_sound(failed.removeprefix(NO_END), compiled):
                     return failed, spent, run
         return None, spent, run
 
@@ -163,12 +165,12 @@ class Session:
     def verdict(
         self, files: list[str], words: list[str], skipped: list[str], most: float, cache: Path, compiled: bool
     ) -> tuple[str | None, float]:
-        """The test that noticed and the seconds spent; a run without an end, or a verdict, has noticed."""
+        """The test that noticed and the seconds spent; one that does not end or crashes has noticed."""
         question, verdict, book = (self.folder / name for name in ("asked.json", "verdict.json", "took.json"))
         took = json.loads(book.read_text()) if book.exists() else {}
         about = {"files": files, "words": words, "skipped": skipped, "seconds": most}
         question.write_text(json.dumps({**about, "took": took if compiled else {}}))
-        verdict.unlink(missing_ok=True)
+        verdict.write_text(json.dumps({"running": files[0]}))  # of what ends before a test is begun
         run = subprocess.Popen(
             [sys.executable, str(JUDGE), str(question), str(verdict)],
             cwd=self.tree,
@@ -184,9 +186,9 @@ class Session:
                 if run.poll() is None:
                     os.killpg(run.pid, signal.SIGKILL)
                     run.wait()
-        if not verdict.exists():
-            return NO_END, most
         found = json.loads(verdict.read_text())
+        if "running" in found:
+            return NO_END + found["running"], most
         if compiled and cache == self.cache:
             book.write_text(json.dumps({**took, **found["took"]}))
         return found["failed"], found["seconds"]
@@ -218,7 +220,7 @@ def trials() -> dict[str, list[dict[str, Any]]]:
 def main() -> None:
     asked = argparse.ArgumentParser(description=__doc__)
     asked.add_argument("folder", type=Path)
-    asked.add_argument("--commit", default="HEAD")
+    asked.add_argument("--commit", default="FETCH_HEAD", metavar="HASH", help="the last unless given")
     asked.add_argument("--survivors", default="", metavar="TEXT", help="try again those whose names have it")
     asked.add_argument("--tests", nargs="+", default=[], metavar="FILE", help="instead of the nearest")
     options = asked.parse_args()

@@ -19,7 +19,9 @@ from sheetbench.scenes.errors import BadInput, require_choice
 
 MODELS = {name: f"fem_reference.{name}.statics" for name in REFERENCES}
 
-__all__ = ["MODELS", "check", "modes", "options", "solve"]
+_LATER = {"modes": "fem_reference.vibration", "simulate": "fem_reference.motion.simulation"}
+
+__all__ = ["MODELS", "check", "modes", "options", "simulate", "solve"]
 
 
 def solve(
@@ -80,6 +82,6 @@ def _solver(model: str) -> Any:
 
 
 def __getattr__(name: str) -> Any:
-    if name == "modes":
-        return import_module("fem_reference.vibration").modes
+    if name in _LATER:
+        return getattr(import_module(_LATER[name]), name)
     raise AttributeError(f"module 'fem_reference' has no attribute {name!r}")

@@ -16,6 +16,7 @@ from fem_reference.verification import (
     natural_frequencies,
     patch,
     roll_up,
+    settling_strip,
     slit_annulus,
     strain_laws,
 )
@@ -27,6 +28,7 @@ CASES: dict[str, Case] = {
     "roll-up": Case("cantilever rolled up to a full circle", roll_up.rows),
     "slit-annulus": Case("slit annular plate, lifted", slit_annulus.rows, quick=False),
     "heavy-elastica": Case("strip under its own weight", heavy_elastica.rows),
+    "settling-strip": Case("strip that settles under its own weight", settling_strip.rows),
     "mindlin-simple": Case("Mindlin plate, hard simple support", mindlin_plates.simply_supported),
     "mindlin-clamped": Case("Mindlin plate, clamped", mindlin_plates.clamped),
     "nafems-fv16": Case("cantilevered square plate", natural_frequencies.fv16),

@@ -1,0 +1,145 @@
+"""Generalised-α with constraints, its step by the error: one integrator for every reference.
+
+    M a₁ + g(q₁, v₁, t₁) ⊥ Z(q₁)                             equilibrium at the step's end
+    (1 − αm) a'₁ + αm a'₀ = (1 − αf) a₁ + αf a₀              a': the algorithm's acceleration
+    q₁ = q₀ + h v₀ + h² ((½ − β) a'₀ + β a'₁),   v₁ = v₀ + h ((1 − γ) a'₀ + γ a'₁)
+
+    αm = (2ρ − 1)/(ρ + 1),  αf = ρ/(ρ + 1),  γ = ½ + αf − αm,  β = ¼ (γ + ½)²
+
+ρ is the spectral radius at high frequencies. Chung & Hulbert 1993 in the form of Arnold & Brüls 2007, second
+order with constraints too. a' is the acceleration at t + (αm − αf) h, which gives the local error of q,
+
+    h² (β + ½ (αm − αf) − 1/6) |a'₁ − a'₀|,
+
+and what becomes of a' where h changes: a + (a' − a) h/h_before. Where a history or a motion bends a step ends
+and the next begins with new accelerations; velocities that a motion changes at once pass their impulse on.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fem_reference.motion.moving import Motion, Moving
+from sheetbench.numerics.direct import Factor, SingularMatrixError
+
+RADIUS = 0.8
+ERROR = 1e-5  # of a step, relative to the largest displacement so far
+SOLVED = 1e-3  # last correction, relative to the error allowed
+ROUNDED = 1e-13  # correction, relative to the displacement
+CORRECTIONS = 12
+QUICK = 0.1  # a correction's share of the one before, up to which factors are kept
+SMALLEST = 1e-9  # step, relative to the run
+
+
+class StepFailed(ArithmeticError):
+    """A step that did not converge however short."""
+
+
+class GeneralisedAlpha:
+    """Steps of a reference. step [s]: fixed, or None for one by the error; first: the first one tried."""
+
+    def __init__(self, model: Moving, step: float | None, error: float, first: float, radius: float = RADIUS):
+        self._am, self._af = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
+        self._gamma = 0.5 + self._af - self._am
+        self._beta = 0.25 * (self._gamma + 0.5) ** 2
+        self._model, self._fixed, self._error = model, step is not None, error
+        self.step = self._first = first if step is None else step
+        self._before, self._taken = 0.0, 0.0  # the last step, and the one that factors are of
+        self._factor: Factor | None = None
+        self._solver = model.solver()
+        self._largest, self._local = (
+            1e-9,
+            1.0,
+        )  # displacement [m], and the last step's error over that allowed
+        self.factorisations = self.rejected = 0
+
+    def begin(self, time: float, q: np.ndarray, v: np.ndarray) -> Motion:
+        """The motion from a time on, its velocities as motions have them and with the accelerations of its
+        forces."""
+        model = self._model
+        basis = model.basis(q)
+        rate = model.rate_placed(q, v, time)
+        factor = model.solver().factor((basis.T @ model.mass @ basis).tocsr())
+        rate = rate - basis @ factor.solve(basis.T @ (model.mass @ (rate - v)))
+        a = model.centripetal(q, rate)
+        forces = model.forces(q, rate, time)
+        a = a - basis @ factor.solve(basis.T @ (model.mass @ a + forces))
+        self._before, self._factor = 0.0, None
+        if not self._fixed:
+            fastest = float(np.abs(model.displacement(a)).max())
+            allowed = self._error * self._largest
+            self.step = min(self._first, np.sqrt(2.0 * allowed / max(fastest, 1e-30)))
+        return Motion(time, q, rate, a, a, model.mass @ a + forces)
+
+    def advance(self, motion: Motion, at_most: float) -> Motion:
+        """One step of at most so long [s]. Raises StepFailed."""
+        smallest = SMALLEST * max(motion.time, at_most)
+        while True:
+            count = np.ceil(at_most / self.step - 1e-9)
+            h = at_most / count if count < 4 else self.step
+            try:
+                after = self._advanced(motion, h)
+            except (StepFailed, SingularMatrixError) as failure:
+                self._factor = None
+                if self._fixed or h < smallest:
+                    raise StepFailed(f"{failure} in a step of {h:.3g} s") from None
+                self.step = 0.25 * h
+                self.rejected += 1
+                continue
+            jump = self._model.displacement(after.algorithm - self._shifted(motion, h))
+            shown = self._model.displacement(after.q)
+            largest = max(self._largest, float(np.abs(shown).max()))
+            constant = self._beta + 0.5 * (self._am - self._af) - 1.0 / 6.0
+            error = h * h * abs(constant) * float(np.abs(jump).max()) / (self._error * largest)
+            if not self._fixed and error > 1.0 and h > smallest:
+                self.step = h * max(0.2, 0.9 * error ** (-1.0 / 3.0))
+                self.rejected += 1
+                continue
+            self._before, self._largest, self._local = h, largest, error
+            wanted = 0.9 * max(error, 1e-9) ** (-1.0 / 3.0)
+            if not self._fixed and (wanted < 0.95 or wanted > 1.25):
+                self.step = h * min(wanted, 2.0)
+            return after
+
+    def _shifted(self, motion: Motion, h: float) -> np.ndarray:
+        """The algorithm's acceleration as steps of this length have it."""
+        scale = h / self._before if self._before else 1.0
+        return motion.a + scale * (motion.algorithm - motion.a)
+
+    def _advanced(self, motion: Motion, h: float) -> Motion:
+        model, time = self._model, motion.time + h
+        am, af, beta, gamma = self._am, self._af, self._beta, self._gamma
+        old = self._shifted(motion, h)
+        by_a, by_v = (1.0 - am) / ((1.0 - af) * beta * h * h), gamma / (beta * h)
+        start = motion.q + h * motion.v + h * h * (0.5 - beta) * old
+
+        def at(q: np.ndarray) -> Motion:
+            new = (q - start) / (beta * h * h)
+            v = motion.v + h * ((1.0 - gamma) * old + gamma * new)
+            a = ((1.0 - am) * new + am * old - af * motion.a) / (1.0 - af)
+            return Motion(time, q, v, a, new, model.mass @ a + model.forces(q, v, time))
+
+        found = at(model.placed(start + h * h * beta * old, time))
+        largest = max(self._largest, float(np.abs(model.displacement(found.q)).max()))
+        enough = max(SOLVED * self._error * min(self._local, 1.0), ROUNDED) * largest
+        if self._taken != h:
+            self._factor = None
+        last: float | None = None
+        for _ in range(CORRECTIONS):
+            basis = model.basis(found.q)
+            if self._factor is None:
+                matrix = model.tangent(found.q, found.v, time, found.exerted, by_a, by_v)
+                self._factor, self._taken = self._solver.factor(matrix), h
+                self.factorisations += 1
+            step = basis @ self._factor.once(-(basis.T @ found.exerted))
+            length = float(np.abs(model.displacement(step)).max())
+            if not np.isfinite(length):
+                raise StepFailed("a number overflowed")
+            found = at(model.moved(found.q, step))
+            share = length / last if last is not None else 1.0
+            if length * min(share, 1.0) <= enough:
+                return found
+            if last is not None and share > QUICK:
+                self._factor = None
+            last = length
+        raise StepFailed("the corrections do not shrink")

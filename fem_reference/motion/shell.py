@@ -1,0 +1,254 @@
+"""The shell in motion: positions and directors, kinetic energy ½ ρh |u̇|² + ½ ρh³/12 |ḋ|² per area.
+
+Viscous stresses are those of the rate of strain under the elastic moduli, s = D (e + τ ė) with ė = B u̇ and
+τ the material's `damping_time`. Their tangent leaves out how B changes with the shape, which is of the order
+of the turn in a step. `damping_rate` α adds α M u̇. See `moving` for the coordinates.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.sparse import block_diag, csc_matrix, csr_matrix, kron
+
+from fem_reference.motion.loads import Factor, factor_at, single_loads
+from fem_reference.motion.moving import Energies, Motion
+from fem_reference.shell.directors import multiplier, tangent_frames
+from fem_reference.shell.element import forces_of, strain_of, tangents, weighed
+from fem_reference.shell.reduction import projected
+from fem_reference.shell.statics import discretise, field_mesh, trace_on
+from fem_reference.shell.structure import UP
+from fem_reference.surface import loads
+from fem_reference.surface.biquadratic import AT_GAUSS
+from fem_reference.surface.loads import Follower
+from fem_reference.surface.location import interpolate
+from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from sheetbench.choices import STRAIN_LAW
+from sheetbench.numerics.direct import DirectSolver
+from sheetbench.scenes import Chain, FieldMesh, Scene
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.kinematics import MovedEdge, bent_or_tilted
+from sheetbench.scenes.tables import PiecewiseLinear
+
+_FLAT = np.array([np.zeros(3), UP])[:, None]  # what directors change from
+
+
+class MovingShell:
+    """The shell of a scene in motion; q: displacements and changes of directors, (2, n, 3)."""
+
+    model = "shell"
+
+    def __init__(self, scene: Scene, elements: Elements = 16, graded: bool = True, law: str = STRAIN_LAW):
+        if any(isinstance(actuator, Chain) for actuator in scene.actuators):
+            raise BadInput("actuator: a chain does not move with a reference, only the lattice knows how")
+        counts = divisions(scene.sheet, elements)
+        self.label = f"shell {counts[0]} × {counts[1]}"
+        self.settings: dict[str, Any] = {"elements": list(counts), "graded": graded, "law": law}
+        supports = tuple(support.replace(motion=None) for support in scene.supports)
+        self._still = scene.replace(loads=(), gravity=None, supports=supports)
+        self._plan = mesh_of(scene, counts, graded)
+        self._structure, self._nodes = discretise(self._plan, self._still, law=law)
+        structure, thickness = self._structure, scene.sheet.thickness
+        self._element, self._on, self._n = structure.element, structure.element_nodes, structure.count
+        self._held = np.array([structure.supports.position, np.zeros((self._n, 3), bool)])
+        self._held[1] = structure.supports.director[:, None]
+        self._tau, self._alpha = scene.material.damping_time, scene.material.damping_rate
+        self._set_mass(scene.material.density * thickness, thickness**2 / 12.0)
+        self.unknowns = structure.unknowns
+        self._set_basis()
+        self._dead: list[tuple[np.ndarray, Factor]] = []
+        self._followers: list[tuple[Follower, Factor]] = []
+        for alone, factor in single_loads(scene):
+            dead, followers = loads.of_scene(alone, self._plan, self._on, self._nodes)
+            self._dead += [(dead, factor)] if dead.any() else []
+            self._followers += [(follower, factor) for follower in followers]
+        self._shifts = [
+            (*structure.supports.edges[s.edge], PiecewiseLinear(s.motion.time, s.motion.displacement))
+            for s in scene.supports
+            if s.motion is not None
+        ]
+        moved = structure.supports.moved.values()
+        self._edges = [(d.edge, d.nodes, d.points) for d in moved if isinstance(d.edge, MovedEdge)]
+
+    def _set_mass(self, per_area: float, rotary: float) -> None:
+        value = AT_GAUSS[0]
+        products = np.einsum("eg,gi,gj->eij", per_area * self._element.areas, value, value)
+        rows, columns = np.repeat(self._on, 9, axis=1).ravel(), np.tile(self._on, (1, 9)).ravel()
+        of_nodes = csr_matrix((products.ravel(), (rows, columns)), (self._n, self._n))
+        by_axis = kron(of_nodes, np.eye(3))
+        self.mass = block_diag([by_axis, rotary * by_axis], format="csr")
+        self._on_places = np.einsum("eij,ab->eiajb", products, np.eye(3)).reshape(-1, 27, 27)
+        self._on_turns = rotary * products
+
+    def _set_basis(self) -> None:
+        """Where the entries of Z lie: a column has one of a displacement, three of a rotation."""
+        number = self._structure.number
+        node, field = np.nonzero(number >= 0)  # in the order of the unknowns
+        self._turn = node[field >= 3], field[field >= 3] - 3
+        widths = np.where(field < 3, 1, 3)
+        self._starts = np.concatenate([[0], np.cumsum(widths)])
+        rows = np.where(field < 3, 3 * node + field, 3 * (self._n + node))
+        within = np.arange(self._starts[-1]) - np.repeat(self._starts[:-1], widths)
+        self._rows, self._turning = np.repeat(rows, widths) + within, np.repeat(field >= 3, widths)
+
+    def start(self) -> np.ndarray:
+        """As `Moving` has it."""
+        state = self._structure.rest()
+        if bent_or_tilted(self._still.supports, self._still.sheet):
+            state, _, _ = trace_on(self._still, self._structure)
+        return self.placed(state.change.ravel(), 0.0)
+
+    def placed(self, q: np.ndarray, time: float) -> np.ndarray:
+        """As `Moving` has it."""
+        supports = self._structure.supports
+        target = supports.change(1.0)
+        for nodes, axes, over_time in self._shifts:
+            target[0][np.ix_(nodes, axes)] += over_time.at(time)[axes]
+        for edge, nodes, points in self._edges:
+            placed = edge.placed(points, 1.0, time)
+            target[0, nodes], target[1, nodes] = placed.displacement, placed.director
+        change = np.where(self._held, target, q.reshape(target.shape))
+        directors = change[1] + UP
+        unit = directors / np.linalg.norm(directors, axis=1)[:, None] - UP
+        change[1] = np.where(self._held[1], change[1], unit)
+        return change.ravel()
+
+    def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
+        """As `Moving` has it."""
+        rate = np.where(self._held, 0.0, v.reshape(self._held.shape))
+        for nodes, axes, over_time in self._shifts:
+            rate[0][np.ix_(nodes, axes)] = over_time.slope(time)[axes]
+        for edge, nodes, points in self._edges:
+            low, high = (edge.velocity(points, np.full(len(points), at), time) for at in (0.0, 1.0))
+            rate[0, nodes], rate[1, nodes] = low, high - low
+        directors = self._directors(q)
+        rate[1] -= np.einsum("nc,nc->n", rate[1], directors)[:, None] * directors
+        return rate.ravel()
+
+    def centripetal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """−|ḋ|² d of the directors that are free."""
+        rate = v.reshape(self._held.shape)[1]
+        inward = -np.sum(rate**2, axis=1)[:, None] * self._directors(q)
+        return np.array([np.zeros_like(rate), np.where(self._held[1], 0.0, inward)]).ravel()
+
+    def basis(self, q: np.ndarray) -> csc_matrix:
+        """As `Moving` has it."""
+        data = np.ones(len(self._rows))
+        node, tangent = self._turn
+        data[self._turning] = self._frames(q)[node, :, tangent].ravel()
+        return csc_matrix((data, self._rows, self._starts), (6 * self._n, self.unknowns))
+
+    def forces(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
+        """As `Moving` has it."""
+        vectors, strain, rate = self._strained(q, v)
+        on_elements = forces_of(vectors, self._stress(strain, rate))
+        for follower, factor in self._followers:
+            on_elements[follower.elements] -= factor_at(factor, time) * follower.force(
+                vectors[follower.elements]
+            )
+        out = self._scattered(on_elements)
+        for dead, factor in self._dead:
+            out[: dead.size] -= factor_at(factor, time) * dead.ravel()
+        return out + self._alpha * (self.mass @ v) if self._alpha else out
+
+    def tangent(
+        self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
+    ) -> csr_matrix:
+        """As `Moving` has it."""
+        vectors, strain, rate = self._strained(q, v)
+        moduli, frames = (1.0 + by_v * self._tau) * self._element.moduli(strain), self._frames(q)
+        blocks = tangents(self._element, vectors, moduli, self._stress(strain, rate), self._on, frames)
+        of_elements, inertia = frames[self._on], by_a + self._alpha * by_v
+        blocks[:, :27, :27] += inertia * self._on_places
+        turned = np.einsum("eica,ejcb->eiajb", of_elements, of_elements)
+        turned *= inertia * self._on_turns[:, :, None, :, None]
+        blocks[:, 27:, 27:] += turned.reshape(-1, 18, 18)
+        for follower, factor in self._followers:
+            on = follower.elements
+            by_shape = projected(follower.tangent(vectors[on]), of_elements[on])
+            blocks[on] -= factor_at(factor, time) * by_shape
+        along = multiplier(self._directors(q), residual.reshape(2, -1, 3)[1])
+        number = self._structure.number
+        on_turns = np.zeros(number.shape)
+        on_turns[:, 3:] = along[:, None]
+        return self._structure.pattern.matrix(blocks, diagonal=on_turns[number >= 0])
+
+    def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """As `Moving` has it."""
+        change = (q + step).reshape(2, -1, 3)
+        directors = change[1] + UP
+        directors = directors / np.linalg.norm(directors, axis=1)[:, None]
+        change[1] = np.where(self._held[1], change[1], directors - UP)
+        return change.ravel()
+
+    def solver(self) -> DirectSolver:
+        """As `Moving` has it."""
+        return DirectSolver(all(f.conservative for f, _ in self._followers), self._structure.fronts)
+
+    def displacement(self, q: np.ndarray) -> np.ndarray:
+        """As `Moving` has it."""
+        return q.reshape(2, -1, 3)[0]
+
+    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """As `Moving` has it."""
+        return interpolate(self._plan, self._on, displacement, points)
+
+    def energies(self, q: np.ndarray, v: np.ndarray) -> Energies:
+        """As `Moving` has it."""
+        change = q.reshape(2, -1, 3)
+        strain = self._element.strain(self._structure.gather(change))
+        constant = (float(np.sum(dead * change[0])) for dead, factor in self._dead if factor is None)
+        elastic = sum(self._element.energies(strain).values())
+        return Energies(0.5 * float(v @ (self.mass @ v)), elastic, -sum(constant))
+
+    def spent(self, start: Motion, end: Motion) -> np.ndarray:
+        """As `Moving` has it."""
+        h, step, held = end.time - start.time, end.q - start.q, self._held.ravel()
+        middle, moved = 0.5 * (start.q + end.q), self._structure.gather(step.reshape(2, -1, 3))
+        vectors, strain, change = self._strained(middle, step)
+        viscous = float(np.sum(change * weighed(self._element.moduli(strain), change)))
+        damped = (self._tau * viscous + self._alpha * float(step @ (self.mass @ step))) / h
+        work = 0.5 * float((start.exerted + end.exerted)[held] @ step[held])
+        half_way = 0.5 * (start.time + end.time)
+        for dead, factor in self._dead:
+            if factor is not None:
+                work += factor_at(factor, half_way) * float(dead.ravel() @ step[: dead.size])
+        for follower, factor in self._followers:
+            on = follower.elements
+            force = factor_at(factor, half_way) * follower.force(vectors[on])
+            work += float(np.sum(force * moved[on]))
+        return np.array([damped, work])
+
+    def reactions(self, exerted: np.ndarray) -> dict[str, np.ndarray]:
+        """As `Moving` has it."""
+        return self._structure.supports.reactions(exerted.reshape(2, -1, 3)[0])
+
+    def mesh(self, displacement: np.ndarray) -> FieldMesh:
+        """As `Moving` has it."""
+        upright = np.tile(UP, (self._n, 1))
+        return field_mesh(self._nodes, self._on, displacement, upright)
+
+    def _strained(self, q: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Of the elements Q (m, 18, 3), strains and their rates (m, 54)."""
+        change = self._structure.gather(q.reshape(2, -1, 3))
+        vectors = self._element.reference + change
+        rate = strain_of(vectors, self._structure.gather(v.reshape(2, -1, 3)))
+        return vectors, self._element.strain(change), rate
+
+    def _stress(self, strain: np.ndarray, rate: np.ndarray) -> np.ndarray:
+        elastic = self._element.stress(strain)
+        return elastic + self._tau * weighed(self._element.moduli(strain), rate) if self._tau else elastic
+
+    def _scattered(self, on_elements: np.ndarray) -> np.ndarray:
+        both = np.concatenate([self._on, self._n + self._on], axis=1)
+        components = (3 * both.ravel()[:, None] + np.arange(3)).ravel()
+        return np.bincount(components, on_elements.ravel(), 6 * self._n)
+
+    def _directors(self, q: np.ndarray) -> np.ndarray:
+        return q.reshape(2, -1, 3)[1] + UP
+
+    def _frames(self, q: np.ndarray) -> np.ndarray:
+        supports = self._structure.supports
+        free = supports.tilt & ~supports.director[:, None]
+        return tangent_frames(self._directors(q), *np.nonzero(free))

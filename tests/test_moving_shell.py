@@ -1,0 +1,133 @@
+"""The shell in motion against modes, closed forms and its own statics; published values: test_verify."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+import fem_reference
+from fem_reference.motion.generalised_alpha import GeneralisedAlpha
+from fem_reference.motion.shell import MovingShell
+from fem_reference.verification import settling_strip
+from sheetbench.scenes import Chain, Gravity, History, Scene, load
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.supports import Clamped, Motion
+from sheetbench.scenes.tables import FactorTable
+
+
+@pytest.fixture(scope="module")
+def strip() -> Scene:
+    return settling_strip.scene()
+
+
+def test_steps_of_a_half_have_a_quarter_of_the_error(strip):
+    ends = [
+        fem_reference.simulate(strip, "shell", 0.1, elements=(4, 1), step=step, every=0.1, error=1e-8)
+        for step in (4e-3, 2e-3, 1e-3)
+    ]
+    coarse, fine = (np.abs(a.probes["tip"][-1] - b.probes["tip"][-1]).max() for a, b in pairwise(ends))
+    assert np.log2(coarse / fine) == pytest.approx(2.0, abs=0.15)
+    assert fine < 2e-4
+
+
+def test_a_sheet_let_go_swings_at_its_lowest_frequency(strip):
+    """Under a weight so small that it stays linear the first mode's coordinate is c (1 − cos ωt); steps of
+    1/200 of its period T lengthen it by 1.5e-4, and at 2.25 T the coordinate is c off by 2π 2.25 as much."""
+    light = strip.replace(damping_time=0.0, gravity=Gravity(acceleration=(0.0, 0.0, -1e-4)))
+    mode = fem_reference.modes(strip, "shell", (4, 2), count=1, graded=False)
+    period = 1.0 / mode.frequencies[0]
+    model = MovingShell(light, (4, 2), graded=False)
+    method = GeneralisedAlpha(model, period / 200.0, 1e-6, 0.0)
+    motion = method.begin(0.0, model.start(), np.zeros(model.mass.shape[0]))
+    shape = np.zeros((2, len(mode.shapes[0]), 3))
+    shape[0, :, 2] = mode.shapes[0][:, 2]
+    coordinate = [0.0]
+    while motion.time < 2.2499 * period:
+        motion = method.advance(motion, 2.25 * period - motion.time)
+        coordinate.append(float(shape.ravel() @ (model.mass @ motion.q)))
+    assert len(coordinate) == 451
+    static = coordinate[-1]
+    assert coordinate[100::100] == pytest.approx(
+        [2.0 * static, 0.0, 2.0 * static, 0.0], abs=5e-3 * abs(static)
+    )
+
+
+def test_a_damped_sheet_comes_to_rest_where_statics_have_it(strip):
+    slow = strip.replace(damping_rate=20.0, damping_time=0.02)
+    motion = fem_reference.simulate(slow, "shell", 2.0, elements=(4, 1), every=0.1)
+    still = fem_reference.solve(strip, "shell", elements=(4, 1))
+    truth = still.displacement(strip.probe_points())
+    ours = np.array([motion.probes[name][-1] for name in strip.probes])
+    assert np.abs(ours - truth).max() < 1e-3 * np.abs(truth).max()
+    assert motion.reactions["x0"][-1] == pytest.approx(still.reactions["x0"], abs=1e-3 * 0.35)
+
+
+def test_energy_is_kept_in_account(strip):
+    """Weight that comes on over time does work; an edge that moves too."""
+    ramp = FactorTable(time=(0.0, 0.05), factor=(0.0, 1.0))
+    raised = Motion(time=(0.0, 0.1), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.02)))
+    scene = strip.replace(
+        damping_time=1e-3,
+        gravity=Gravity(acceleration=(0.0, 0.0, -9.81), history=ramp),
+        supports=(Clamped(edge="x0", motion=raised),),
+    )
+    motion = fem_reference.simulate(scene, "shell", 0.2, elements=(4, 1), error=1e-6)
+    largest = max(float(np.abs(energy).max()) for energy in motion.energies.values())
+    assert motion.energies["work"].max() > 0.1 * largest
+    assert np.ptp(motion.balance) < 1e-3 * largest
+
+
+def test_a_clamp_that_rises_carries_its_edge_along(strip):
+    raised = Motion(time=(0.0, 0.1), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.02)))
+    scene = strip.replace(
+        gravity=None, supports=(Clamped(edge="x0", motion=raised),), probes={"E": (0.0, 0.045)}
+    )
+    motion = fem_reference.simulate(scene, "shell", 0.15, elements=(2, 1), every=0.05)
+    assert motion.probes["E"][:, 2] == pytest.approx([0.0, 0.01, 0.02, 0.02], abs=1e-9)
+
+
+def spun(scene: Scene, turn: np.ndarray, drift: np.ndarray) -> tuple[MovingShell, np.ndarray, np.ndarray]:
+    """A free sheet that drifts and spins as a rigid body: the model, q and its rate."""
+    model = MovingShell(scene.replace(supports=(), gravity=None, damping_time=0.0), (3, 2))
+    q = model.start()
+    places = model.mesh(model.displacement(q)).points - [0.09, 0.045, 0.0]
+    rate = np.array(
+        [drift + np.cross(turn, places), np.tile(np.cross(turn, [0.0, 0.0, 1.0]), (len(places), 1))]
+    )
+    return model, q, rate.ravel()
+
+
+def momentum(model: MovingShell, v: np.ndarray) -> np.ndarray:
+    return (model.mass @ v).reshape(2, -1, 3)[0].sum(axis=0)
+
+
+def test_a_sheet_thrown_and_spinning_keeps_its_momentum(strip):
+    model, q, v = spun(strip, np.array([3.0, -20.0, 5.0]), np.array([1.0, 0.5, -2.0]))
+    method = GeneralisedAlpha(model, 1e-3, 1e-8, 1e-3)
+    motion = method.begin(0.0, q, v)
+    before = momentum(model, motion.v)
+    for _ in range(50):
+        motion = method.advance(motion, 1e-3)
+    mass = 1100.0 * 0.18 * 0.09 * 0.002
+    assert before == pytest.approx(mass * np.array([1.0, 0.5, -2.0]), rel=1e-12)
+    assert momentum(model, motion.v) == pytest.approx(before, rel=1e-9)
+    turned = motion.q.reshape(2, -1, 3)[1] + [0.0, 0.0, 1.0]
+    assert np.linalg.norm(turned, axis=1) == pytest.approx(1.0, abs=1e-12)
+
+
+def test_what_does_not_move_yet_is_refused(strip):
+    chain = Chain(edge="x1", segments=4, bending_stiffness=1e-3, line_density=0.01, radius=1e-3)
+    with pytest.raises(BadInput, match="chain"):
+        fem_reference.simulate(strip.replace(actuators=(chain,)), "shell", 0.1, elements=2)
+    with pytest.raises(BadInput, match="duration"):
+        fem_reference.simulate(strip, "shell", -1.0)
+    with pytest.raises(BadInput, match="model"):
+        fem_reference.simulate(strip, "beam", 0.1)
+
+
+def test_a_run_keeps_the_frames_asked_for():
+    motion: History = fem_reference.simulate(load("two-edges-settling"), "shell", 0.01, elements=2, frames=3)
+    points = np.array([[0.188, 0.188]])
+    last = motion.extra["sample"](motion.extra["frames"][-1], points)[0]
+    assert motion.extra["frame_times"][-1] == motion.time[-1]
+    assert last == pytest.approx(motion.probes["P4"][-1], abs=1e-15)

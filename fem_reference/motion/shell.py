@@ -14,9 +14,10 @@ from scipy.sparse import block_diag, csc_matrix, csr_matrix, kron
 
 from fem_reference.motion.loads import Factor, factor_at, single_loads
 from fem_reference.motion.moving import Energies, Motion
-from fem_reference.shell.directors import multiplier, tangent_frames
-from fem_reference.shell.element import forces_of, strain_of, tangents, weighed
+from fem_reference.shell.directors import multiplier
+from fem_reference.shell.element import add_tangents, forces_of, strain_of, weighed
 from fem_reference.shell.reduction import projected
+from fem_reference.shell.state import State
 from fem_reference.shell.statics import discretise, field_mesh, trace_on
 from fem_reference.shell.structure import UP
 from fem_reference.surface import loads
@@ -26,6 +27,7 @@ from fem_reference.surface.location import interpolate
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import DirectSolver
+from sheetbench.numerics.sparsity import add_blocks
 from sheetbench.scenes import Chain, FieldMesh, Scene
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.kinematics import MovedEdge, bent_or_tilted
@@ -158,21 +160,25 @@ class MovingShell:
         """As `Moving` has it."""
         vectors, strain, rate = self._strained(q, v)
         moduli, frames = (1.0 + by_v * self._tau) * self._element.moduli(strain), self._frames(q)
-        blocks = tangents(self._element, vectors, moduli, self._stress(strain, rate), self._on, frames)
+        along = multiplier(self._directors(q), residual.reshape(2, -1, 3)[1])
+        number, pattern = self._structure.number, self._structure.pattern
+        on_turns = np.zeros(number.shape)
+        on_turns[:, 3:] = along[:, None]
+        data, slots = pattern.zeros(on_turns[number >= 0]), pattern.slots[0]
+        stress = self._stress(strain, rate)
+        add_tangents(data, slots, self._element, vectors, moduli, stress, self._on, frames)
         of_elements, inertia = frames[self._on], by_a + self._alpha * by_v
-        blocks[:, :27, :27] += inertia * self._on_places
+        blocks = np.zeros(slots.shape)
+        blocks[:, :27, :27] = inertia * self._on_places
         turned = np.einsum("eica,ejcb->eiajb", of_elements, of_elements)
         turned *= inertia * self._on_turns[:, :, None, :, None]
-        blocks[:, 27:, 27:] += turned.reshape(-1, 18, 18)
+        blocks[:, 27:, 27:] = turned.reshape(-1, 18, 18)
         for follower, factor in self._followers:
             on = follower.elements
             by_shape = projected(follower.tangent(vectors[on]), of_elements[on])
             blocks[on] -= factor_at(factor, time) * by_shape
-        along = multiplier(self._directors(q), residual.reshape(2, -1, 3)[1])
-        number = self._structure.number
-        on_turns = np.zeros(number.shape)
-        on_turns[:, 3:] = along[:, None]
-        return self._structure.pattern.matrix(blocks, diagonal=on_turns[number >= 0])
+        add_blocks(data, slots, blocks)
+        return pattern.with_data(data)
 
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
         """As `Moving` has it."""
@@ -249,6 +255,4 @@ class MovingShell:
         return q.reshape(2, -1, 3)[1] + UP
 
     def _frames(self, q: np.ndarray) -> np.ndarray:
-        supports = self._structure.supports
-        free = supports.tilt & ~supports.director[:, None]
-        return tangent_frames(self._directors(q), *np.nonzero(free))
+        return self._structure.frames(State(q.reshape(2, -1, 3)))

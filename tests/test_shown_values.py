@@ -22,7 +22,7 @@ from comparisons.linearisation.tables import poles
 from comparisons.models.candidate import Candidate
 from comparisons.modes.spectra import spectra
 from comparisons.pages import plots
-from comparisons.report.look import PLAIN
+from comparisons.report.look import PLAIN, WIDTHS
 from comparisons.report.table import Table
 from comparisons.reproduction import figure
 from comparisons.runs.store import Finished
@@ -70,8 +70,18 @@ def test_time_is_predicted_by_the_models_own_family() -> None:
     assert found == pytest.approx([0.1, 0.064, 0.1 * 4**probing.EXPONENT, probing.unknowns(plate) * 1e-5])
 
 
+@pytest.mark.parametrize(("name", "key"), [
+    ("slenderness", "slenderness"), ("slenderness", "load_number"), ("load", "size"),
+    ("damping", "damping_ratio"), ("mass", "ratio"), ("curved-edge", "turn"),
+])  # fmt: skip
+def test_quick_maps_reach_as_far_as_full_ones(name: str, key: str) -> None:
+    quick, full = ([cell[key] for cell in STUDIES[name].cells(full)] for full in (False, True))
+    assert (min(quick), max(quick)) == (min(full), max(full)) and set(quick) <= set(full)
+
+
 def test_maps_are_as_wide_as_both_columns_of_a_paper() -> None:
-    assert {study.size[0] for study in STUDIES.values()} == {7.2}  # inches: 183 mm
+    widths = [study.size[0] for study in STUDIES.values()]
+    assert widths == pytest.approx([WIDTHS["double"]] * len(widths), abs=0.05)
 
 
 def test_tiles_reach_half_way_to_their_neighbours() -> None:

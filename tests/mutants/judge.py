@@ -20,7 +20,7 @@ from typing import Any
 import pytest
 from nearest import SPOKEN_OF, has
 
-HUNG = 2  # times the time that may be spent: no test that is begun takes as long
+HUNG = 60.0  # seconds beyond those that may be spent: no test that is begun takes as long
 NEW = 100.0  # in favour of a test that was not run yet: such are written for what has survived
 
 
@@ -84,7 +84,7 @@ class Watch:
 def main() -> None:
     asked, verdict = (Path(name) for name in sys.argv[1:])
     watch = Watch(json.loads(asked.read_text()), verdict)
-    limit = math.ceil(HUNG * watch.asked["seconds"])
+    limit = math.ceil(HUNG + watch.asked["seconds"])
     resource.setrlimit(resource.RLIMIT_CPU, (limit, limit))
     options = ["-q", "-x", "-p", "no:cacheprovider", "--no-header", "--tb=line"]
     pytest.main([*options, *watch.asked["files"]], plugins=[watch])

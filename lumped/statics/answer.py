@@ -77,7 +77,8 @@ def _at(problem: Problem, outcome: Outcome) -> tuple[np.ndarray, dict[str, float
     the energies [J]."""
     state = outcome.state
     energies = outcome.energies or problem.assembly.energies(state.u)
-    return -problem.residual(state.u, state.load_factor).force, energies
+    residual = state.residual or problem.residual(state.u, state.load_factor)
+    return -residual.force, energies
 
 
 def _of_small_displacements(problem: Problem, state: State) -> tuple[np.ndarray, dict[str, float]]:

@@ -50,7 +50,8 @@ from sheetbench.numerics.reduced import Factor, SingularMatrixError
 class State:
     """An equilibrium: displacement, load factor, blocks and factors of the true tangent there.
 
-    negative: real eigenvalues of the tangent below zero, None when not known.
+    negative: real eigenvalues of the tangent below zero, None when not known; residual: at u, where it was
+    looked at.
     """
 
     u: np.ndarray
@@ -58,6 +59,7 @@ class State:
     blocks: np.ndarray
     factor: Factor
     negative: int | None
+    residual: Residual | None = None
 
 
 class StepFailed(ArithmeticError):
@@ -221,7 +223,7 @@ def polish(
             u, left = u + step, after
             problem.note(load_factor, left.relative, float(np.abs(step).max()))
         if left.relative < aim:
-            return State(u, load_factor, near.blocks, near.factor, problem.negative(near.factor))
+            return State(u, load_factor, near.blocks, near.factor, problem.negative(near.factor), left)
     raise StepFailed("the residual stagnates")
 
 

@@ -14,10 +14,8 @@ from lumped.assembly import Assembly
 from lumped.lattice import Lattice
 from lumped.springs.families import Links
 from lumped.statics.limits import COLLAPSED
-from lumped.statics.soundness import long_enough, upright
+from lumped.statics.soundness import long_enough, surface, upright
 from sheetbench.scenes import Status
-
-TINY = float(np.finfo(float).tiny)
 
 
 class Fault(NamedTuple):
@@ -76,18 +74,9 @@ def cell_corners(field: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray,
     return field[:-1, :-1], field[:-1, 1:], field[1:, 1:], field[1:, :-1]
 
 
-def surface(lattice: Lattice, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Mid-surface positions (ny, nx, 3) [m] and unit directors, from the bottom layer to the top."""
-    nx, ny, layers = lattice.grid
-    now = (lattice.positions + u).reshape(ny, nx, layers, 3)
-    across = now[:, :, -1] - now[:, :, 0]
-    size = np.sqrt((across**2).sum(axis=2, keepdims=True))
-    return now.sum(axis=2) / layers, across / np.maximum(size, TINY)
-
-
 def _facing(lattice: Lattice, u: np.ndarray) -> np.ndarray:
     """Normal times mean director of every cell, over their area when flat, (ny − 1, nx − 1)."""
-    middle, director = surface(lattice, u)
+    middle, director = surface(lattice.columns(), lattice.positions, u)
     a, b, c, d = cell_corners(middle)
     normal = 0.5 * np.cross(c - a, d - b)
     mean = sum(cell_corners(director)) / 4.0

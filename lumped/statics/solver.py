@@ -15,6 +15,7 @@ from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
 from lumped.lattice import Weights
 from lumped.loads import Loads
+from lumped.springs.families import Links
 from lumped.statics import validity
 from lumped.statics.answer import Outcome, solution
 from lumped.statics.coarse_start import FROM, halved, refined
@@ -157,7 +158,8 @@ def flat_step(scene: Scene, problem: Problem) -> Outcome:
         return _singular(problem, error)
     u = predictor(problem, start, 1.0)
     state = replace(start, u=u, load_factor=1.0)
-    if outside := outside_model(scene, link_stretch(problem.assembly, u, linear=True), STRETCH):
+    links = problem.assembly.links
+    if outside := outside_model(scene, link_stretch(links, links.elongations(u, linear=True)), STRETCH):
         return Outcome(Status.STRAIN_OUTSIDE_MODEL, state, notes=(outside,))
     return Outcome(Status.CONVERGED, state)
 
@@ -260,7 +262,9 @@ def judged(
     whether it is stable. snaps, known: on the way there, and what there was to say."""
     notes = list(known)
     status = Status.CONVERGED
-    if outside := outside_model(scene, link_stretch(problem.assembly, state.u), STRETCH):
+    links = problem.assembly.links
+    elongations = links.elongations(state.u)
+    if outside := outside_model(scene, link_stretch(links, elongations), STRETCH):
         status = Status.STRAIN_OUTSIDE_MODEL
         notes.append(outside)
     elif state.negative:
@@ -269,7 +273,7 @@ def judged(
     elif state.negative is None:
         notes.append(UNKNOWN)
     energies = problem.assembly.energies(state.u)
-    doubts = validity.layers(scene, problem.assembly, state.u, sum(energies.values()))
+    doubts = validity.layers(scene, problem.assembly, state.u, elongations, sum(energies.values()))
     rounded = validity.digits(problem, state)
     if rounded is not None and status is Status.CONVERGED:
         status = rounded.status
@@ -293,8 +297,7 @@ def judged(
     return Outcome(status, state, tuple(snaps), tuple(notes), energies)
 
 
-def link_stretch(assembly: Assembly, u: np.ndarray, linear: bool = False) -> float:
-    """Return the largest relative change of length of the in-plane central links, or what is linear of it."""
-    links = assembly.links
-    stretch = np.abs(links.elongations(u, linear) / links.rest_length)
+def link_stretch(links: Links, elongations: np.ndarray) -> float:
+    """Return the largest relative change of length of the in-plane links, from their elongations (m,) [m]."""
+    stretch = np.abs(elongations / links.rest_length)
     return float(stretch.max(where=links.offset[:, 2] == 0.0, initial=0.0))

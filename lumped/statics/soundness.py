@@ -1,4 +1,6 @@
-"""Whether links have a length left and cells face upwards, as compiled loops (`lumped.statics.faults`)."""
+"""What every answer and every sample of a motion is looked at for, as compiled loops: whether links have a
+length left and cells face upwards (`lumped.statics.faults`), how sharply the sheet bends, what rounding its
+links carry (`lumped.statics.validity`)."""
 
 from __future__ import annotations
 
@@ -8,6 +10,9 @@ import numpy as np
 from numba import njit
 
 from lumped.springs.links import measure
+
+TINY = float(np.finfo(float).tiny)
+TIED = 1.0 + 1e-9  # of mirror images, which rounding tells apart, the first is named
 
 
 @njit(cache=True)
@@ -24,10 +29,10 @@ def long_enough(
 
 
 @njit(cache=True)
-def upright(columns: np.ndarray, positions: np.ndarray, areas: np.ndarray, u: np.ndarray) -> bool:
-    """Whether the normal of every mid-surface cell points the way that the directors of its corners do.
+def surface(columns: np.ndarray, positions: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the mid-surface (ny, nx, 3) [m] and the unit directors from the bottom layer to the top.
 
-    columns: (ny, nx, layers) masses; positions (n, 3) [m] at rest; areas (ny − 1, nx − 1) [m²] of the cells.
+    columns: (ny, nx, layers) masses; positions (n, 3) [m] at rest; u (n, 3) [m].
     """
     ny, nx, layers = columns.shape
     middle, director = np.zeros((ny, nx, 3)), np.empty((ny, nx, 3))
@@ -43,7 +48,16 @@ def upright(columns: np.ndarray, positions: np.ndarray, areas: np.ndarray, u: np
                 director[j, i, q] = across
                 square += across * across
             for q in range(3):
-                director[j, i, q] /= max(math.sqrt(square), np.finfo(np.float64).tiny)
+                director[j, i, q] /= max(math.sqrt(square), TINY)
+    return middle, director
+
+
+@njit(cache=True)
+def upright(columns: np.ndarray, positions: np.ndarray, areas: np.ndarray, u: np.ndarray) -> bool:
+    """Return whether the normal of every mid-surface cell points the way that the directors of its corners
+    do; areas (ny − 1, nx − 1) [m²] of the cells, the rest as in `surface`."""
+    ny, nx, _ = columns.shape
+    middle, director = surface(columns, positions, u)
     first, second, mean = np.empty(3), np.empty(3), np.empty(3)
     for j in range(ny - 1):
         for i in range(nx - 1):
@@ -59,3 +73,46 @@ def upright(columns: np.ndarray, positions: np.ndarray, areas: np.ndarray, u: np
             if not 0.125 * facing / areas[j, i] > 0.0:
                 return False
     return True
+
+
+@njit(cache=True)
+def sharpest_bend(
+    columns: np.ndarray,
+    positions: np.ndarray,
+    areas: np.ndarray,
+    u: np.ndarray,
+    longest: np.ndarray,
+) -> tuple[float, int, int]:
+    """Return the largest ℓ² √|κ₁ κ₂| [m] of all cells and the cell (j, i); longest: ℓ (ny − 1, nx − 1) [m], a
+    cell's longer side; κ₁ κ₂ from the directors' changes along x and y."""
+    ny, nx, _ = columns.shape
+    middle, director = surface(columns, positions, u)
+    largest, row, column = -1.0, 0, 0
+    for j in range(ny - 1):
+        for i in range(nx - 1):
+            xx = xy = yx = yy = 0.0
+            for q in range(3):
+                m, d = middle[j : j + 2, i : i + 2, q], director[j : j + 2, i : i + 2, q]
+                m_x, m_y = m[0, 1] - m[0, 0] + m[1, 1] - m[1, 0], m[1, 0] - m[0, 0] + m[1, 1] - m[0, 1]
+                d_x, d_y = d[0, 1] - d[0, 0] + d[1, 1] - d[1, 0], d[1, 0] - d[0, 0] + d[1, 1] - d[0, 1]
+                xx, xy, yx, yy = xx + m_x * d_x, xy + m_x * d_y, yx + m_y * d_x, yy + m_y * d_y
+            gauss = 0.25 * math.sqrt(abs(xx * yy - (0.5 * (xy + yx)) ** 2)) / areas[j, i]
+            bent = longest[j, i] ** 2 * gauss
+            if bent > TIED * largest:
+                largest, row, column = bent, j, i
+    return largest, row, column
+
+
+@njit(cache=True)
+def carried_by_links(u: np.ndarray, nodes: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
+    """Return k |Δu| of the links at every mass, summed, (n,) [N]."""
+    out = np.zeros(len(u))
+    for m in range(len(nodes)):
+        a, b = nodes[m, 0], nodes[m, 1]
+        square = 0.0
+        for q in range(3):
+            square += (u[b, q] - u[a, q]) ** 2
+        pull = stiffness[m] * math.sqrt(square)
+        out[a] += pull
+        out[b] += pull
+    return out

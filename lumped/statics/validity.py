@@ -25,10 +25,10 @@ from functools import lru_cache
 import numpy as np
 
 from lumped.assembly import Assembly
-from lumped.lattice import Lattice
 from lumped.statics.equilibrium import State
-from lumped.statics.faults import Fault, place, surface
+from lumped.statics.faults import Fault, place
 from lumped.statics.problem import Problem
+from lumped.statics.soundness import carried_by_links, sharpest_bend
 from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import Scene, Status
 from sheetbench.scenes.summary import few
@@ -50,10 +50,7 @@ def digits(problem: Problem, state: State) -> Fault | None:
     if state.factor is None or largest == 0.0:
         return None
     links = problem.assembly.links
-    a, b = links.nodes.T
-    pull = links.stiffness * np.sqrt(((state.u[b] - state.u[a]) ** 2).sum(axis=1))
-    size = len(state.u)
-    carried = (np.bincount(a, pull, size) + np.bincount(b, pull, size))[:, None]
+    carried = carried_by_links(state.u, links.nodes, links.stiffness)[:, None]
     share = 0.0
     for sample in _noise(state.u.shape):
         moved = problem.expand(state.factor.once(problem.reduce(carried * sample)))
@@ -78,21 +75,19 @@ def _noise(shape: tuple[int, ...]) -> np.ndarray:
     return frozen(np.random.default_rng(0).standard_normal((SAMPLES, *shape)))
 
 
-def layers(scene: Scene, assembly: Assembly, u: np.ndarray, energy: float) -> str:
-    """A sentence where the sheet's stretching lies in layers thinner than the grid's cells, else nothing.
-    energy: all that the springs store [J]."""
+def layers(scene: Scene, assembly: Assembly, u: np.ndarray, elongations: np.ndarray, energy: float) -> str:
+    """Return a sentence where the sheet's stretching lies in layers thinner than the grid's cells, else
+    nothing. elongations: of the links (m,) [m]; energy: all that the springs store [J]."""
     lattice = assembly.lattice
-    stretched = _stretch_share(assembly, u, energy)
-    if stretched < FREE_OF_STRETCH:
+    if _stretch_share(assembly, elongations, energy) < FREE_OF_STRETCH:
         return ""
-    kappa = _double_curvature(lattice, u[: lattice.mass_count])
     x, y = lattice.lines
     longest = np.maximum(x.widths[None, :], y.widths[:, None])
-    j, i = np.unravel_index(np.argmax(longest**2 * kappa), kappa.shape)
-    if kappa[j, i] == 0.0:
+    bent, j, i = sharpest_bend(*assembly.plan, u, longest)
+    if not bent > 0.0:
         return ""
     h, nu = scene.sheet.thickness, scene.material.poisson
-    width = np.sqrt(h / kappa[j, i]) / (12.0 * (1.0 - nu**2)) ** 0.25
+    width = longest[j, i] * np.sqrt(h / bent) / (12.0 * (1.0 - nu**2)) ** 0.25
     ratio = longest[j, i] / width
     if ratio < RESOLVED:
         return ""
@@ -103,18 +98,7 @@ def layers(scene: Scene, assembly: Assembly, u: np.ndarray, energy: float) -> st
     )
 
 
-def _double_curvature(lattice: Lattice, u: np.ndarray) -> np.ndarray:
-    """√|κ₁ κ₂| of every cell from the directors' changes along x and y, (ny − 1, nx − 1) [1/m]."""
-    both = np.array(surface(lattice, u))
-    by_x, by_y = both[:, :, 1:] - both[:, :, :-1], both[:, 1:] - both[:, :-1]
-    changes = 0.5 * np.array([by_x[:, :-1] + by_x[:, 1:], by_y[:, :, :-1] + by_y[:, :, 1:]])
-    # of the middle along axis a times that of the director along b
-    (xx, xy), (yx, yy) = np.einsum("ajiq,bjiq->abji", changes[:, 0], changes[:, 1])
-    gauss: np.ndarray = np.sqrt(np.abs(xx * yy - (0.5 * (xy + yx)) ** 2)) / lattice.cell_areas
-    return gauss
-
-
-def _stretch_share(assembly: Assembly, u: np.ndarray, total: float) -> float:
+def _stretch_share(assembly: Assembly, elongations: np.ndarray, total: float) -> float:
     """Energy of the layers' mean stretch, as the in-plane links have it, over the elastic energy [J]."""
     links, layers_ = assembly.links, assembly.lattice.grid[2]
     in_plane = np.flatnonzero(links.offset[:, 2] == 0.0)
@@ -122,5 +106,5 @@ def _stretch_share(assembly: Assembly, u: np.ndarray, total: float) -> float:
         return 0.0
     # links between the same columns follow each other, layer by layer, and are as stiff as each other
     stiffness = links.stiffness[in_plane].reshape(-1, layers_)
-    mean = links.elongations(u)[in_plane].reshape(-1, layers_).mean(axis=1)
+    mean = elongations[in_plane].reshape(-1, layers_).mean(axis=1)
     return float(0.5 * (stiffness.sum(axis=1) @ mean**2) / total)

@@ -19,6 +19,7 @@ from fem_reference.solving.equilibrium import TOLERANCE
 from fem_reference.solving.path import Path
 from fem_reference.surface.actuator_forces import OnEdge
 from fem_reference.surface.balance import Surface, applied
+from fem_reference.surface.biquadratic import cross
 from sheetbench.scenes import Balance, Scene
 
 
@@ -32,13 +33,13 @@ def balance(
 ) -> Balance:
     """The balance at the end of a path, where the sheet lies as `surface` and the rods on its edges exert
     `edges`."""
-    state, share = path.state, path.load_factor
+    share = path.load_factor
     force, moment = applied(scene, surface, edges)
     reactions = structure.supports.reactions(forces.residual[0])
-    on_nodes, on_directors = _held(structure, state, forces)
-    moment = share * moment + np.cross(surface.position, on_nodes).sum(axis=0)
-    moment += np.cross(structure.directors(state), on_directors).sum(axis=0)
-    left = max(TOLERANCE * forces.size, structure.imbalance(state, forces))
+    on_nodes, on_directors = _held(structure, forces)
+    moment = share * moment + cross(surface.position, on_nodes).sum(axis=0)
+    moment += cross(forces.directors, on_directors).sum(axis=0)
+    left = max(TOLERANCE * forces.size, structure.imbalance(path.state, forces))
     return Balance(
         force=share * force + np.sum(list(reactions.values()), axis=0),
         moment=moment,
@@ -48,11 +49,10 @@ def balance(
     )
 
 
-def _held(structure: ShellStructure, state: State, forces: Forces) -> tuple[np.ndarray, np.ndarray]:
+def _held(structure: ShellStructure, forces: Forces) -> tuple[np.ndarray, np.ndarray]:
     """What holds the nodes (n, 3) [N], and the directors (n + q, 3) [N·m], across themselves."""
-    frames = forces.frames
-    couple = np.einsum("nc,nck->nk", np.concatenate([forces.residual[1], forces.aside]), frames)
-    on_directors = np.einsum("nck,nk->nc", frames, np.where(structure.turns < 0, couple, 0.0))
+    couple = np.where(structure.turns < 0, forces.couple, 0.0)
+    on_directors = np.einsum("nck,nk->nc", forces.frames, couple)
     return np.where(structure.supports.position, forces.residual[0], 0.0), on_directors
 
 

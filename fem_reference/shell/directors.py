@@ -32,7 +32,7 @@ def tangent_frames(directors: np.ndarray, axes: np.ndarray) -> np.ndarray:
 def to_unit(directors: np.ndarray) -> np.ndarray:
     """The step (n, 3) along d with d · δd = ½ (1 − d · d)."""
     square = np.einsum("nc,nc->n", directors, directors)
-    return (0.5 * (1.0 - square) / square)[:, None] * directors
+    return (0.5 / square - 0.5)[:, None] * directors
 
 
 def multiplier(directors: np.ndarray, couple: np.ndarray) -> np.ndarray:

@@ -19,6 +19,7 @@ NODES = 2.0 * ElementQuad2.doflocs.T - 1.0
 ALONG = {"rr": (0, 0), "ss": (1, 1), "rs": (0, 1)}  # e_αβ in the order of their samples
 _TO_NODES = {name: interpolation(*GRIDS[name], NODES) for name in ALONG}
 _AT_SAMPLES = {name: shape(*product_grid(*GRIDS[name])) for name in ALONG}
+_AT_NODES = shape(*NODES)[1]
 _ENDS = np.cumsum([len(points.T) for points in _TO_NODES.values()])
 
 
@@ -27,7 +28,7 @@ def at_nodes(nodes: np.ndarray, element_nodes: np.ndarray, strain: np.ndarray) -
     along = zip(_TO_NODES.values(), np.split(strain, _ENDS[:-1], axis=1), strict=True)
     rr, ss, rs = (samples @ to_nodes.T for to_nodes, samples in along)
     tensor = np.moveaxis(np.array([[rr, rs], [rs, ss]]), (0, 1), (2, 3))
-    inverse = np.linalg.inv(jacobians(nodes, shape(*NODES)[1]))  # ∂ξ_a/∂x_b
+    inverse = np.linalg.inv(jacobians(nodes, _AT_NODES))  # ∂ξ_a/∂x_b
     sums = np.zeros((element_nodes.max() + 1, 2, 2))
     np.add.at(sums, element_nodes, inverse.swapaxes(2, 3) @ tensor @ inverse)
     return sums / np.bincount(element_nodes.ravel())[:, None, None]

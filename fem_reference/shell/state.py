@@ -22,16 +22,33 @@ class State:
 
 @dataclass(frozen=True)
 class Forces:
-    """At a state: of the elements Q (m, 18, 3), s (m, 54), D (m, 54, 54); T (n + q, 3, 2) of the directors; B
-    and s of the rods; residuals R (2, n, 3) on the sheet and aside (q, 3) on the rods' m; size of the forces
-    that balance [N]; short: the step (2n + q, 3) to what is prescribed."""
+    """At a state: of the elements Q (m, 18, 3), s (m, 54), D (m, 54, 54); directors d and m (n + q, 3) and
+    their T (n + q, 3, 2); B and s of the rods; residuals (2n + q, 3) on u, d and m; size of the forces that
+    balance [N]; short: the step (2n + q, 3) to what is prescribed."""
 
     vectors: np.ndarray
     stress: np.ndarray
     moduli: np.ndarray
+    directors: np.ndarray
     frames: np.ndarray
     rods: Strained
-    residual: np.ndarray
-    aside: np.ndarray
+    residuals: np.ndarray
     size: float
     short: np.ndarray
+
+    @property
+    def residual(self) -> np.ndarray:
+        """Residuals (2, n, 3) on the sheet."""
+        return self.residuals[: len(self.residuals) - len(self.aside)].reshape(2, -1, 3)
+
+    @property
+    def aside(self) -> np.ndarray:
+        """Residuals (q, 3) on the rods' m."""
+        return self.residuals[2 * (len(self.residuals) - len(self.directors)) :]
+
+    @property
+    def couple(self) -> np.ndarray:
+        """Residuals on the directors, in their tangent planes (n + q, 2)."""
+        turning = self.residuals[len(self.residuals) - len(self.directors) :]
+        found: np.ndarray = np.einsum("nc,nck->nk", turning, self.frames)
+        return found

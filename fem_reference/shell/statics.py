@@ -30,6 +30,7 @@ from fem_reference.surface import loads, rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import Held, exerted, on_edges
 from fem_reference.surface.balance import Surface
+from fem_reference.surface.biquadratic import cross
 from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
@@ -174,7 +175,7 @@ def _solution(
     displacement, turn = path.state.change
     forces = structure.forces(path.state, path.load_factor)
     director = turn + UP
-    couple = np.cross(director, forces.residual[1])
+    couple = cross(director, forces.residual[1])
     position = structure.rest_positions + displacement
     held = Held(np.concatenate([forces.residual[0], couple], axis=1), position)
     edges = on_edges(structure.rods, forces.rods.pull, held, director)

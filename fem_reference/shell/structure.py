@@ -154,74 +154,70 @@ class ShellStructure:
 
     def forces(self, state: State, load_factor: float) -> Forces:
         """Internal less external forces, and what they are measured against."""
-        change = self.gather(state.change)
+        change, n = self.gather(state.change), self.count
         vectors, strain = self.element.reference + change, self.element.strain(change)
         stress = self.element.stress(strain)
-        internal = self._scatter(forces_of(vectors, stress))
-        external = load_factor * self._external(change)
-        size = np.abs(external[0]).sum() + np.abs(internal[0][self.supports.position]).sum()
-        size += np.abs(external[1]).sum() / self.lever
-
-        residual, aside = internal - external, np.zeros_like(self.rods.own)
+        residuals = self._scatter(forces_of(vectors, stress))
+        external = load_factor * self._external(vectors)
+        size = np.abs(external[:n]).sum() + np.abs(residuals[:n][self.supports.position]).sum()
+        size += np.abs(external[n:]).sum() / self.lever
+        residuals -= external
+        rods = self._no_rods
         if self.rods.rods:
             elements = self.rods.elements
             rods = elements.strained(self._on_rods(state), load_factor)
             driving = load_factor * elements.driving(rods.gradient)
             size += load_factor * np.abs(elements.weight[:, :3]).sum()
             size += np.abs(driving[:, :3]).sum() + np.abs(driving[:, 3:]).sum() / self.lever
-            pull, aside = self._split(self.rods.scatter(rods.pull, self._vectors))
-            residual += pull
-        else:
-            rods = self._no_rods
-        moduli, frames = self.element.moduli(strain), self.frames(state)
-        short = self._to_constraints(state, load_factor)
-        return Forces(vectors, stress, moduli, frames, rods, residual, aside, float(size), short)
+            residuals += self.rods.scatter(rods.pull, self._vectors)
+        moduli, directors = self.element.moduli(strain), self.directors(state)
+        frames = tangent_frames(directors, self._held_axes)
+        short = self._to_constraints(state, directors, load_factor)
+        return Forces(vectors, stress, moduli, directors, frames, rods, residuals, float(size), short)
 
     def imbalance(self, state: State, forces: Forces) -> float:
         """Sum of the free unknowns' residuals [N], directors' moments over the sheet's size."""
-        couple = np.concatenate([forces.residual[1], forces.aside])
-        moment = np.einsum("nc,nck->nk", couple, forces.frames) / self.lever
-        left = self._of_unknowns(forces.residual[0], moment)
+        left = self._of_unknowns(forces.residuals[: self.count], forces.couple / self.lever)
         return float(np.abs(left).sum())
 
     def gap(self, state: State, load_factor: float) -> float:
         """Largest distance from the prescribed values and from |d| = 1, relative to the sheet's size."""
-        step = np.abs(self._to_constraints(state, load_factor))
+        step = np.abs(self._to_constraints(state, self.directors(state), load_factor))
         return float(max(step[: self.count].max() / self.lever, step[self.count :].max()))
 
     def system(
         self, state: State, forces: Forces, load_factor: float, mixed: bool = True
     ) -> tuple[csr_matrix, np.ndarray]:
         """Tangent (unknowns, unknowns) and right-hand side of the step to equilibrium and constraints."""
-        frames, vectors, moduli = forces.frames, forces.vectors, forces.moduli
-        step = forces.short
-        pressing = np.concatenate([*forces.residual, forces.aside])
-        stress, rod_stress = forces.stress, forces.rods.stress
+        frames, vectors, moduli, n = forces.frames, forces.vectors, forces.moduli, self.count
+        step, residuals = forces.short, forces.residuals
+        pressing, stress, rod_stress = residuals, forces.stress, forces.rods.stress
         if mixed and state.stress is not None and state.rod_stress is not None:
             stress, rod_stress = state.stress, state.rod_stress
-            pressing = pressing + self._pull(forces, stress - forces.stress, rod_stress - forces.rods.stress)
+            pressing = pressing + self._scatter(forces_of(vectors, stress - forces.stress))
+            if self.rods.rods:
+                more = self.rods.elements.force(forces.rods.gradient, rod_stress - forces.rods.stress)
+                pressing += self.rods.scatter(more, self._vectors)
 
-        data, nodes = self.pattern.zeros(self._multiplier(state, pressing)), self.element_nodes
+        along = np.repeat(multiplier(forces.directors, pressing[n:])[:, None], 2, axis=1)
+        data, nodes = self.pattern.zeros(self._of_unknowns(np.zeros((n, 3)), along)), self.element_nodes
         add_tangents(data, self.pattern.slots[0], self.element, vectors, moduli, stress, nodes, frames)
-        of_step = self.gather(self._split(step)[0])
+        of_step = self.gather(step)
         pull = forces_of(vectors, weighed(moduli, strain_of(vectors, of_step))) + forces_of(of_step, stress)
         for load in self.followers:
-            tangent = -load_factor * load.tangent(vectors[load.elements])
-            pull[load.elements] += np.einsum("eicjd,ejd->eic", tangent, of_step[load.elements])
-            add_blocks(
-                data, self.pattern.slots[0][load.elements], projected(tangent, frames[nodes[load.elements]])
-            )
-
-        total, aside = forces.residual + self._scatter(pull), forces.aside
+            on = load.elements
+            tangent = -load_factor * load.tangent(vectors[on])
+            pull[on] += np.einsum("eicjd,ejd->eic", tangent, of_step[on])
+            add_blocks(data, self.pattern.slots[0][on], projected(tangent, frames[nodes[on]]))
+        total = residuals + self._scatter(pull)
         if self.rods.rods:
             full = self.rods.elements.tangent(forces.rods.gradient, rod_stress)
             onto = self._onto_rods(frames)
             on_rods = self.rods.elements.product(full, self.rods.gather(step))
-            on_sheet, on_aside = self._split(self.rods.scatter(on_rods, self._vectors))
             add_blocks(data, self.pattern.slots[1], onto.swapaxes(1, 2) @ full @ onto)
-            total, aside = total + on_sheet, aside + on_aside
-        couple = np.einsum("nc,nck->nk", np.concatenate([total[1], aside]), frames)
-        return self.pattern.with_data(data), -self._of_unknowns(total[0], couple)
+            total += self.rods.scatter(on_rods, self._vectors)
+        couple = np.einsum("nc,nck->nk", total[n:], frames)
+        return self.pattern.with_data(data), -self._of_unknowns(total[:n], couple)
 
     def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
         """The state after a step (unknowns,), with the stresses it extrapolates."""
@@ -230,19 +226,20 @@ class ShellStructure:
         vectors, turn = forces.short.copy(), every[3 * self.count :].reshape(-1, 2)
         vectors[: self.count] += every[: 3 * self.count].reshape(-1, 3)
         vectors[self.count :] += np.einsum("nck,nk->nc", forces.frames, turn)
-        change, aside = self._split(vectors)
-        of_step = weighed(forces.moduli, strain_of(forces.vectors, self.gather(change)))
+        of_step = weighed(forces.moduli, strain_of(forces.vectors, self.gather(vectors)))
         rod_stress = forces.rods.stress
         if self.rods.rods:
             rod_stress = self.rods.elements.extrapolated(forces.rods, self.rods.gather(vectors))
-        return State(state.change + change, state.aside + aside, forces.stress + of_step, rod_stress)
+        sheet = 2 * self.count
+        change, aside = state.change + vectors[:sheet].reshape(2, -1, 3), state.aside + vectors[sheet:]
+        return State(change, aside, forces.stress + of_step, rod_stress)
 
     def length(self, start: State, end: State) -> float:
         """Largest nodal displacement between two states, relative to the sheet's size."""
         return float(np.abs(end.change[0] - start.change[0]).max() / self.lever)
 
     def gather(self, nodal: np.ndarray) -> np.ndarray:
-        """(2, n, 3) of nodes to (m, 18, 3) of elements."""
+        """Vectors (2, n, 3) of nodes, or (2n + q, 3) of everything, to (m, 18, 3) of elements."""
         return nodal.reshape(-1, 3).take(self._both, axis=0)
 
     @cached_property
@@ -275,10 +272,6 @@ class ShellStructure:
     def _vectors(self) -> int:
         return 2 * self.count + len(self.rods.own)
 
-    def _split(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Vectors (2n + q, 3) as those of the sheet (2, n, 3) and of the rods (q, 3)."""
-        return vectors[: 2 * self.count].reshape(2, -1, 3), vectors[2 * self.count :]
-
     def _on_rods(self, state: State) -> np.ndarray:
         """The change of the rods' vectors (k, 9, 3)."""
         return self.rods.gather(np.concatenate([*state.change, state.aside]))
@@ -288,43 +281,35 @@ class ShellStructure:
         return np.concatenate([state.change[1] + UP, state.aside + self.rods.own])
 
     def _scatter(self, elementwise: np.ndarray) -> np.ndarray:
-        """Sums (m, 18, 3) of elements into (2, n, 3) of nodes."""
-        sums = np.bincount(self._components, elementwise.ravel(), 6 * self.count)
-        return sums.reshape(2, self.count, 3)
-
-    def _pull(self, forces: Forces, stress: np.ndarray, rod_stress: np.ndarray) -> np.ndarray:
-        """Bᵀ s of stresses of elements and rods, (2n + q, 3)."""
-        out = np.zeros((self._vectors, 3))
-        if self.rods.rods:
-            out = self.rods.scatter(self.rods.elements.force(forces.rods.gradient, rod_stress), self._vectors)
-        self._split(out)[0][:] += self._scatter(forces_of(forces.vectors, stress))
-        return out
+        """Sums (m, 18, 3) of elements into all vectors (2n + q, 3)."""
+        return np.bincount(self._components, elementwise.ravel(), 3 * self._vectors).reshape(-1, 3)
 
     @cached_property
     def _no_rods(self) -> Strained:
         """Of a sheet without any."""
         return self.rods.elements.strained(np.zeros((0, 9, 3)), 0.0)
 
-    def _external(self, change: np.ndarray) -> np.ndarray:
-        external = np.array([self.dead, np.zeros_like(self.dead)])
+    def _external(self, vectors: np.ndarray) -> np.ndarray:
+        """Loads (2n + q, 3) in full on elements with vectors (m, 18, 3), but for the rods' weight."""
+        external = self._dead if not self.followers else self._dead.copy()
         for load in self.followers:
-            force = np.zeros_like(change)
-            force[load.elements] = load.force((self.element.reference + change)[load.elements])
+            force = np.zeros_like(vectors)
+            force[load.elements] = load.force(vectors[load.elements])
             external += self._scatter(force)
         return external
 
-    def _to_constraints(self, state: State, load_factor: float) -> np.ndarray:
-        """The step (2n + q, 3) to the prescribed values and, along free directors, to |d| = 1."""
-        target = self.supports.change(load_factor) - state.change
-        position = np.where(self.supports.position, target[0], 0.0)
-        held = np.concatenate([self.supports.director, self.rods.held])
-        turn = np.concatenate([target[1], -state.aside])
-        return np.concatenate([position, np.where(held[:, None], turn, to_unit(self.directors(state)))])
+    @cached_property
+    def _dead(self) -> np.ndarray:
+        return np.concatenate([self.dead, np.zeros((self._vectors - self.count, 3))])
 
-    def _multiplier(self, state: State, pressing: np.ndarray) -> np.ndarray:
-        """What |d|² = 1 adds to the diagonal (unknowns,), of residuals (2n + q, 3)."""
-        along = multiplier(self.directors(state), pressing[self.count :])
-        return self._of_unknowns(np.zeros((self.count, 3)), np.repeat(along[:, None], 2, axis=1))
+    def _to_constraints(self, state: State, directors: np.ndarray, load_factor: float) -> np.ndarray:
+        """The step (2n + q, 3) to the prescribed values and, along free directors, to |d| = 1."""
+        n, change = self.count, self.supports.change(load_factor) - state.change
+        step = np.concatenate([np.where(self.supports.position, change[0], 0.0), to_unit(directors)])
+        step[n : 2 * n][self.supports.director] = change[1][self.supports.director]
+        if self.rods.rods:
+            step[2 * n :][self.rods.held] = -state.aside[self.rods.held]
+        return step
 
     def _of_unknowns(self, positions: np.ndarray, turns: np.ndarray) -> np.ndarray:
         """Values (n, 3) of displacements and (n + q, 2) of rotations, of the free ones (unknowns,)."""

@@ -18,6 +18,8 @@ from fem_reference.shell.sampling import PLANE, REORDERED, sampled
 
 MOVES, UNKNOWNS = 27, 45  # of an element: displacements, and with them rotations
 AT_ONCE = 3  # strains and unknowns that are gone through together, whose numbers by part it divides
+LANES = 4  # numbers in a vector instruction: loops go on to whole vectors, into columns that nothing looks at
+FEW, ALL = -(-MOVES // LANES) * LANES, -(-UNKNOWNS // LANES) * LANES
 
 
 @njit(cache=True, fastmath=REORDERED)
@@ -36,28 +38,24 @@ def add_tangents(
     to the data of a matrix, at slots (m, 45, 45), −1 for none; frames: T (n, 3, 2) of all nodes; nodes:
     (m, 9); tables: of `sampling`."""
     plane, strains = PLANE, tables.shape[1]
-    full, at = np.zeros((strains, 18, 3)), np.empty((6, strains))
-    gradient, weighed = np.zeros((strains, UNKNOWNS)), np.empty((strains, UNKNOWNS))
-    lower = np.empty((UNKNOWNS, UNKNOWNS))
+    gradient, at = np.zeros((strains, 54)), np.empty((6, strains))
+    weighed, lower = np.empty((strains, ALL)), np.empty((UNKNOWNS, ALL))
     for e in range(len(vectors)):
-        sampled(vectors[e], tables, at, full)
-        for k in range(strains):
-            for i in range(9):
-                for c in range(3):
-                    gradient[k, 3 * i + c] = full[k, i, c]
-                if k >= plane:
-                    turn, frame = full[k, 9 + i], frames[nodes[e, i]]
-                    for t in range(2):
-                        turned = turn[0] * frame[0, t] + turn[1] * frame[1, t] + turn[2] * frame[2, t]
-                        gradient[k, MOVES + 2 * i + t] = turned
+        sampled(vectors[e], tables, at, gradient.reshape(strains, 18, 3))
+        for i in range(9):
+            frame, turn, turned = frames[nodes[e, i]], MOVES + 3 * i, MOVES + 2 * i
+            for k in range(plane, strains):  # in place
+                x, y, z = gradient[k, turn], gradient[k, turn + 1], gradient[k, turn + 2]
+                gradient[k, turned] = x * frame[0, 0] + y * frame[1, 0] + z * frame[2, 0]
+                gradient[k, turned + 1] = x * frame[0, 1] + y * frame[1, 1] + z * frame[2, 1]
         weighed[:] = 0.0
         lower[:] = 0.0
-        _add_weighed(moduli[e], gradient, 0, plane, 0, plane, MOVES, weighed)
-        _add_weighed(moduli[e], gradient, plane, 2 * plane, plane, 2 * plane, UNKNOWNS, weighed)
-        _add_weighed(moduli[e], gradient, 2 * plane, strains, 2 * plane, strains, UNKNOWNS, weighed)
+        _add_weighed(moduli[e], gradient, 0, plane, 0, plane, FEW, weighed)
+        _add_weighed(moduli[e], gradient, plane, 2 * plane, plane, 2 * plane, ALL, weighed)
+        _add_weighed(moduli[e], gradient, 2 * plane, strains, 2 * plane, strains, ALL, weighed)
         if coupled:
-            _add_weighed(moduli[e], gradient, 0, plane, plane, 2 * plane, MOVES, weighed)
-            _add_weighed(moduli[e], gradient, plane, 2 * plane, 0, plane, MOVES, weighed)
+            _add_weighed(moduli[e], gradient, 0, plane, plane, 2 * plane, FEW, weighed)
+            _add_weighed(moduli[e], gradient, plane, 2 * plane, 0, plane, FEW, weighed)
         _add_product(gradient, weighed, 0, 0, MOVES, lower)
         _add_product(gradient, weighed, plane, MOVES, UNKNOWNS, lower)
         for i in range(9):
@@ -111,12 +109,13 @@ def _add_product(
     """Adds Bᵀ (D B) of strains from `start` on to the rows first … last of the lower triangle."""
     for i in range(first, last, AT_ONCE):
         row0, row1, row2 = lower[i], lower[i + 1], lower[i + 2]
+        columns = -(-(i + AT_ONCE) // LANES) * LANES
         for k in range(start, len(gradient), AT_ONCE):
             b00, b01, b02 = gradient[k, i], gradient[k, i + 1], gradient[k, i + 2]
             b10, b11, b12 = gradient[k + 1, i], gradient[k + 1, i + 1], gradient[k + 1, i + 2]
             b20, b21, b22 = gradient[k + 2, i], gradient[k + 2, i + 1], gradient[k + 2, i + 2]
             w0, w1, w2 = weighed[k], weighed[k + 1], weighed[k + 2]
-            for j in range(i + AT_ONCE):  # what is above the diagonal is written over
+            for j in range(columns):
                 x, y, z = w0[j], w1[j], w2[j]
                 row0[j] += b00 * x + b10 * y + b20 * z
                 row1[j] += b01 * x + b11 * y + b21 * z

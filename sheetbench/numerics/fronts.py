@@ -193,7 +193,7 @@ def _fronts(
         most = max(most, waiting)
 
     lower = (len(columns) + size) // 2
-    target, source = np.empty(lower, np.int64), np.empty(lower, np.int64)
+    target, source = np.empty(lower, np.int32), np.empty(lower, np.int32)
     diagonal = np.full(size, -1)
     local, filled = np.empty(size, np.int64), 0
     for f in range(count):

@@ -28,7 +28,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.sparse import bsr_matrix, csr_matrix
-from scipy.sparse.linalg import LinearOperator, eigsh
 
 from fem_reference.plate import statics as plate
 from fem_reference.shell import statics as shell
@@ -38,7 +37,7 @@ from fem_reference.solid import supports as column_supports
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
 from sheetbench.clock import now
-from sheetbench.numerics.direct import DirectSolver
+from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import About, AnyScene, Scene, require_static, scene_of, summary
 from sheetbench.scenes.errors import BadInput
@@ -134,7 +133,7 @@ def modes(
         if not 1 <= count < len(free) - rigid:
             raise BadInput(f"count = {count}: 1 to {len(free) - rigid - 1} on this mesh")
         stiffness, mass = (matrix[free][:, free] for matrix in (rest.stiffness, rest.mass))
-        values, vectors = _lowest(stiffness, mass, count + rigid, scene)
+        values, vectors = lowest_modes(stiffness, mass, count + rigid, -(_slow(scene) ** 2), dense=0)
         done = now()
     shapes = np.zeros((count, rest.held.size))
     shapes[:, free] = vectors[:, rigid:].T
@@ -150,19 +149,6 @@ def modes(
         solve_seconds=done - ready,
         sample=rest.sample,
     )
-
-
-def _lowest(
-    stiffness: csr_matrix, mass: csr_matrix, count: int, scene: Scene
-) -> tuple[np.ndarray, np.ndarray]:
-    """The lowest eigenvalues ω² (count,) and vectors (n, count), rising."""
-    shift = -(_slow(scene) ** 2)
-    factor = DirectSolver().factor(stiffness - shift * mass)
-    inverse = LinearOperator(stiffness.shape, matvec=factor.solve, dtype=float)
-    start = np.random.default_rng(0).uniform(-1.0, 1.0, stiffness.shape[0])
-    values, vectors = eigsh(stiffness, count, mass, sigma=shift, OPinv=inverse, v0=start)
-    order = np.argsort(values)
-    return values[order], vectors[:, order]
 
 
 def _slow(scene: Scene) -> float:

@@ -21,6 +21,7 @@ Craig and Kurdila, Fundamentals of Structural Dynamics, 2006, on modal truncatio
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -37,6 +38,8 @@ from lumped.sensitivity import rates
 from lumped.state_space import StateSpace
 from lumped.statics.problem import Problem
 from lumped.statics.solver import pose, settle
+from sheetbench.numerics.direct import SingularMatrixError
+from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import (
     About,
@@ -86,11 +89,7 @@ class Linear:
         if not 1 <= count <= size:
             raise BadInput(f"modes = {count}: the lattice has {size}")
         with one_blas_thread():
-            squares, shapes = scipy.linalg.eigh(
-                self.stiffness.toarray(), self.mass.toarray(), subset_by_index=[0, count - 1]
-            )
-            if squares[0] <= 0.0:
-                raise BadInput("the equilibrium is not stable: it has no oscillations to speak of")
+            squares, shapes = self._lowest(count)
             omega = np.sqrt(squares)
             drag = shapes.T @ (self.damping @ shapes)
             a = np.block([[np.zeros((count, count)), np.diag(omega)], [-np.diag(omega), -drag]])
@@ -101,6 +100,15 @@ class Linear:
             if count < size:
                 d = self.jacobian - (self.output @ shapes / squares) @ (shapes.T @ self.force)
         return StateSpace(a, b, c, d, omega / (2.0 * np.pi))
+
+    def _lowest(self, count: int) -> tuple[np.ndarray, np.ndarray]:
+        """ω² (count,) [1/s²] and shapes (m, count) of the lowest modes. Raises BadInput where K is not
+        positive definite."""
+        with suppress(SingularMatrixError):
+            squares, shapes = lowest_modes(self.stiffness, self.mass, count)
+            if squares[0] > 0.0:
+                return squares, shapes
+        raise BadInput("the equilibrium is not stable: it has no oscillations to speak of")
 
 
 def linearise(scene: AnyScene, calibration: Calibration | None = None, about: About = "deformed") -> Linear:

@@ -10,9 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
 import scipy.sparse as sp
-from scipy.sparse.linalg import LinearOperator, eigsh
 
 from lumped.calibration import Calibration, default
 from lumped.lattice import Lattice
@@ -21,6 +19,8 @@ from lumped.mid_surface import MidSurface
 from lumped.springs import constants
 from lumped.statics.problem import Problem
 from lumped.statics.solver import pose, settle
+from sheetbench.numerics.direct import Factor
+from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import (
     About,
@@ -33,8 +33,6 @@ from sheetbench.scenes import (
     summary,
 )
 from sheetbench.scenes.errors import BadInput, NoEquilibrium
-
-DENSE = 600  # unknowns below which all eigenvalues are computed
 
 
 @dataclass(frozen=True, repr=False)
@@ -102,15 +100,16 @@ def modes(
     mass = sp.csc_array(transform.T @ sp.kron(inertia, sp.eye_array(3)) @ transform)
     blocks = problem.assembly.tangent(at)
     stiffness = problem.system.matrix(blocks)
-    wanted = count + rigid
+    wanted, shift = count + rigid, _shift(scene)
+
+    def factor() -> Factor:
+        shifted, shared = blocks.copy(), problem.assembly.pattern.slots(*inertia.coords)
+        shifted[shared] -= shift * inertia.data[:, None, None] * np.eye(3)
+        return problem.factor(shifted)
+
     with one_blas_thread():
-        if unknowns <= max(DENSE, wanted):
-            values, vectors = scipy.linalg.eigh(
-                stiffness.toarray(), mass.toarray(), subset_by_index=[0, wanted - 1]
-            )
-        else:
-            values, vectors = _shift_invert(scene, problem, blocks, stiffness, mass, inertia, wanted)
-    order = np.argsort(values)[rigid:]
+        values, vectors = lowest_modes(stiffness, mass, wanted, shift, factor)
+    order = np.arange(rigid, wanted)
     shapes = np.stack([problem.expand(vectors[:, k]) for k in order])
     shapes /= np.abs(shapes).max(axis=(1, 2), keepdims=True)
     frequencies = np.sqrt(np.maximum(values[order], 0.0)) / (2.0 * np.pi)
@@ -170,29 +169,13 @@ def _product(problem: Problem, rest: np.ndarray, shape: np.ndarray) -> np.ndarra
     return problem.system.apply(problem.assembly.tangent(rest), shape)
 
 
-def _shift_invert(
-    scene: Scene,
-    problem: Problem,
-    blocks: np.ndarray,
-    stiffness: sp.csc_array,
-    mass: sp.csc_array,
-    inertia: sp.coo_array,
-    wanted: int,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Lanczos on (K − σM)⁻¹, σ = −100 E h²/(12 ρ a⁴), as far below zero as the lowest elastic eigenvalue of a
-    plate is above it (12 to 1300 of E h²/(12 ρ a⁴), by its supports).
+def _shift(scene: Scene) -> float:
+    """σ = −100 E h²/(12 ρ a⁴) [1/s²], as far below zero as the lowest elastic eigenvalue of a plate is above
+    it (12 to 1300 of E h²/(12 ρ a⁴), by its supports).
 
     A free sheet's K − σM has the condition λ_max/|σ|, so its solutions, and with them the eigenvalues, are
     wrong by ε λ_max/|σ|: with this σ no more than the rounding of K itself, ε λ_max/λ.
     """
     sheet, material = scene.sheet, scene.material
     slope = sheet.thickness / max(sheet.lengths) ** 2
-    shift = -100.0 * slope**2 * material.young / (12.0 * material.density)
-    shifted = blocks.copy()
-    shared = problem.assembly.pattern.slots(*inertia.coords)
-    shifted[shared] -= shift * inertia.data[:, None, None] * np.eye(3)
-    factor = problem.factor(shifted)
-    size = problem.system.unknowns
-    inverse = LinearOperator((size, size), matvec=factor.solve, dtype=float)
-    start = np.random.default_rng(0).standard_normal(size)
-    return eigsh(stiffness, k=wanted, M=mass, sigma=shift, OPinv=inverse, which="LM", v0=start)
+    return -100.0 * slope**2 * material.young / (12.0 * material.density)

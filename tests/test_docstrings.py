@@ -13,6 +13,7 @@ MODULES = [
     "lumped.statics.buckling",
     "lumped.statics.solver",
     "lumped.vibration",
+    "sheetbench.numerics.eigenmodes",
 ]
 
 

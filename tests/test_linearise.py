@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -191,3 +192,16 @@ def test_the_response_drawn_is_of_the_probe_that_moves_most_and_units_have_names
     assert [c.name for c in tables.poles(found).columns if not c.detail] == ["frequency", "imaginary"]
     damped = linearise(with_material(strip, damping_rate=RATE), grid=4, modes=3)
     assert not any(column.detail for column in tables.poles(damped).columns)
+
+
+def test_few_modes_need_no_dense_matrices(flat: lumped.Linear, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By Lanczos on the factors of K they are those of dense matrices; what is unstable is refused alike."""
+    dense = flat.state_space(6)
+    monkeypatch.setattr("sheetbench.numerics.eigenmodes.DENSE", 0)
+    monkeypatch.setattr("scipy.linalg.eigh", lambda *given, **named: pytest.fail("dense"))
+    sparse = flat.state_space(6)
+    np.testing.assert_allclose(sparse.frequencies, dense.frequencies, rtol=1e-9)
+    at_rest = [one.d - one.c @ np.linalg.solve(one.a, one.b) for one in (sparse, dense)]
+    np.testing.assert_allclose(*at_rest, atol=1e-8 * np.abs(flat.jacobian).max())
+    with pytest.raises(BadInput, match="not stable"):
+        replace(flat, stiffness=-flat.stiffness).state_space(6)

@@ -68,18 +68,18 @@ def test_dense_and_sparse_eigensolvers_agree(monkeypatch):
     """To the rounding of K, ε λ_max/λ of the lowest elastic λ: 2e-9 with an edge clamped, 2e-10 free."""
     scene = plate("x0", thickness=0.005)
     dense = parameters(scene, 9)
-    monkeypatch.setattr("lumped.vibration.DENSE", 0)
+    monkeypatch.setattr("sheetbench.numerics.eigenmodes.DENSE", 0)
     assert parameters(scene, 9) == pytest.approx(dense, rel=1e-8)
     springs = lumped.calibrate(scene.sheet, scene.material, (9, 9))
     free = plate(thickness=0.005)
     sparse = lumped.modes(free, springs, 3).frequencies
-    monkeypatch.setattr("lumped.vibration.DENSE", 10**6)
+    monkeypatch.setattr("sheetbench.numerics.eigenmodes.DENSE", 10**6)
     assert sparse == pytest.approx(lumped.modes(free, springs, 3).frequencies, rel=1e-8)
 
 
 @pytest.mark.parametrize("dense", [600, 0])
 def test_a_lattice_gives_every_mode_that_it_has_and_no_more(dense, monkeypatch):
-    monkeypatch.setattr("lumped.vibration.DENSE", dense)
+    monkeypatch.setattr("sheetbench.numerics.eigenmodes.DENSE", dense)
     scene = plate("x0")
     springs = lumped.calibrate(scene.sheet, scene.material, (3, 3))
     unknowns = lumped.modes(scene, springs, 1).unknowns

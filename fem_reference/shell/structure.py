@@ -162,8 +162,9 @@ class ShellStructure:
         size = np.abs(external[:n]).sum() + np.abs(residuals[:n][self.supports.position]).sum()
         size += np.abs(external[n:]).sum() / self.lever
         residuals -= external
-        rods = self._no_rods
-        if self.rods.rods:
+        if not self.rods.rods:
+            rods = self._no_rods
+        else:
             elements = self.rods.elements
             rods = elements.strained(self._on_rods(state), load_factor)
             driving = load_factor * elements.driving(rods.gradient)

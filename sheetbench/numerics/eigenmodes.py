@@ -1,0 +1,65 @@
+"""The lowest modes of K φ = λ M φ, K symmetric and M symmetric positive definite."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import scipy.linalg
+from scipy.sparse.linalg import LinearOperator, eigsh
+
+from sheetbench.numerics.direct import DirectSolver, Factor
+
+DENSE = 600  # unknowns up to which dense matrices are quicker
+SHARE = 2  # where half of all modes are wanted, too
+
+
+def lowest_modes(
+    stiffness: Any,
+    mass: Any,
+    count: int,
+    shift: float = 0.0,
+    factor: Callable[[], Factor] | None = None,
+    dense: int | None = None,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the lowest eigenvalues, rising, and their eigenvectors, scaled to φᵀ M φ = 1.
+
+    Parameters
+    ----------
+    stiffness, mass : sparse matrices (n, n)
+    count : int
+        How many modes, at most n.
+    shift : float
+        σ below the spectrum, or 0 for a positive definite K: Lanczos goes on (K − σM)⁻¹.
+    factor : callable, optional
+        What makes the factors of K − σM, where that is better than `DirectSolver` without fronts.
+    dense : int, optional
+        Unknowns up to which dense matrices are used, DENSE unless given.
+
+    Returns
+    -------
+    eigenvalues (count,), eigenvectors (n, count)
+
+    Raises
+    ------
+    SingularMatrixError
+        Where K − σM has no factors.
+
+    Examples
+    --------
+    >>> import scipy.sparse as sp
+    >>> values, vectors = lowest_modes(sp.diags_array([4.0, 1.0, 9.0]), sp.eye_array(3), 2)
+    >>> values
+    array([1., 4.])
+    """
+    n = stiffness.shape[0]
+    if n <= max(DENSE if dense is None else dense, SHARE * count):
+        found = scipy.linalg.eigh(stiffness.toarray(), mass.toarray(), subset_by_index=[0, count - 1])
+        return found[0], found[1]
+    factors = factor() if factor else DirectSolver().factor(stiffness - shift * mass if shift else stiffness)
+    inverse = LinearOperator((n, n), matvec=factors.solve, dtype=float)
+    start = np.random.default_rng(0).uniform(-1.0, 1.0, n)
+    values, vectors = eigsh(stiffness, count, mass, sigma=shift, OPinv=inverse, v0=start)
+    order = np.argsort(values)
+    return values[order], vectors[:, order]

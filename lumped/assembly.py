@@ -148,7 +148,7 @@ class Assembly:
         u, and of the stiffness the material part and this share of the rest (`lumped.springs.laws`)."""
         stresses = stresses or tuple(family.no_stress for family in self.springs)
         if self.all_families is not None:
-            return self.all_families.tangent(u, stresses, self.pattern.blocks, share)
+            return self.all_families.tangent(u, stresses, self.pattern, share)
         blocks = np.zeros((self.pattern.blocks, 3, 3))
         for family, stress in zip(self.springs, stresses, strict=True):
             family.add_tangent(u, stress, blocks, share)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -27,6 +27,12 @@ class Pattern:
         self.rows, self.indices = keys // size, (keys % size).astype(np.int32)
         self.indptr = np.searchsorted(self.rows, np.arange(size + 1)).astype(np.int32)
         self._found: dict[tuple[tuple[int, ...], bytes], np.ndarray] = {}
+
+    @cached_property
+    def mirror(self) -> np.ndarray:
+        """Block numbers of every pair (row, column) below the diagonal and of (column, row), (k, 2)."""
+        below = np.flatnonzero(self.rows > self.indices).astype(np.int32)
+        return np.stack([below, self.slots(self.indices[below], self.rows[below])], axis=1)
 
     @property
     def blocks(self) -> int:

@@ -21,11 +21,12 @@ from sheetbench.numerics import banded
 
 
 class Tangent(NamedTuple):
-    """Springs; number of blocks of their tangent, and which are each mass's own, (n,); masses (n,) [kg] and
-    their damping [kg/s]; the dampers' time t [s]; where the entries go."""
+    """Springs; number of blocks of their tangent, `Pattern.mirror`, and which are each mass's own, (n,);
+    masses (n,) [kg] and their damping [kg/s]; the dampers' time t [s]; where the entries go."""
 
     springs: Springs
     blocks: int
+    mirror: np.ndarray
     own: np.ndarray
     mass: np.ndarray
     rate: np.ndarray
@@ -41,14 +42,15 @@ def tangent_of(system: System) -> Tangent | None:
     own = np.arange(len(system.lattice_mass))
     pattern = system.assembly.pattern
     mass, rate = np.ascontiguousarray(system.lattice_mass), np.ascontiguousarray(damping.rate)
-    return Tangent(springs.springs, pattern.blocks, pattern.slots(own, own), mass, rate, damping.time, band)
+    place = pattern.blocks, pattern.mirror, pattern.slots(own, own)
+    return Tangent(springs.springs, *place, mass, rate, damping.time, band)
 
 
 @njit(cache=True, nogil=True)
 def factorised(u: np.ndarray, by_u: float, by_v: float, tangent: Tangent) -> tuple[bool, np.ndarray]:
     """Whether the tangent at u (n, 3) [m] with c₂ [1/s²] and c₁ [1/s] is positive definite; its factors."""
     both = 1.0 + by_v * tangent.time
-    blocks = all_families.own_tangent(u, tangent.springs, 1.0 / both, tangent.blocks)
+    blocks = all_families.own_tangent(u, tangent.springs, 1.0 / both, tangent.blocks, tangent.mirror)
     for i in range(len(tangent.own)):
         inert = (by_u * tangent.mass[i] + by_v * tangent.rate[i]) / both
         for q in range(3):

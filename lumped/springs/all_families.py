@@ -15,11 +15,13 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from lumped.pattern import Pattern
 from lumped.springs import cells, links
 from lumped.springs.cells import CellArrays
 from lumped.springs.families import Cells, Links
 from lumped.springs.family import Family
 from lumped.springs.links import LinkArrays
+from lumped.springs.tiles import YES
 
 
 class Springs(NamedTuple):
@@ -60,10 +62,11 @@ class AllFamilies:
             extrapolated(np.ascontiguousarray(u), np.ascontiguousarray(step), self.springs)
         )
 
-    def tangent(self, u: np.ndarray, stress: Stresses, count: int, share: float = 1.0) -> np.ndarray:
-        """Return blocks (count, 3, 3) [N/m] of the tangent with these stresses, or the share of the springs'
-        own where they are empty, and with M + share (D − M)."""
-        blocks: np.ndarray = tangent(np.ascontiguousarray(u), self.springs, self.every(stress), share, count)
+    def tangent(self, u: np.ndarray, stress: Stresses, pattern: Pattern, share: float = 1.0) -> np.ndarray:
+        """Return blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the springs' own
+        where they are empty, and with M + share (D − M)."""
+        every, place = self.every(stress), (pattern.blocks, pattern.mirror)
+        blocks: np.ndarray = tangent(np.ascontiguousarray(u), self.springs, every, share, *place)
         return blocks
 
     def every(self, stress: Stresses) -> Stresses:
@@ -126,23 +129,25 @@ def extrapolated(u: np.ndarray, step: np.ndarray, springs: Springs) -> Stresses:
 
 
 @njit(cache=True, nogil=True)
-def tangent(u: np.ndarray, springs: Springs, stress: Stresses, share: float, count: int) -> np.ndarray:
-    """Return blocks (count, 3, 3) [N/m] of the tangent (`add_tangent`)."""
+def tangent(
+    u: np.ndarray, springs: Springs, stress: Stresses, share: float, count: int, mirror: np.ndarray
+) -> np.ndarray:
+    """Return blocks (count, 3, 3) [N/m] of the tangent with these stresses, or the share of the springs' own
+    where they are empty, and with M + share (D − M). It is symmetric: what is above the diagonal is copied,
+    mirror (k, 2) `Pattern.mirror`."""
     blocks = np.zeros((count, 3, 3))
-    add_tangent(u, springs, stress, share, blocks)
+    links.add_tangent(u, springs.links, stress[0], share, YES, blocks)
+    cells.add_tangent(u, springs.layers, stress[1], share, YES, blocks)
+    cells.add_tangent(u, springs.middle, stress[2], share, YES, blocks)
+    for k in range(len(mirror)):
+        below, above = blocks[np.uint64(mirror[k, 0])], blocks[np.uint64(mirror[k, 1])]
+        for q in range(3):
+            for r in range(3):
+                above[q, r] = below[r, q]
     return blocks
 
 
 @njit(cache=True, nogil=True)
-def add_tangent(u: np.ndarray, springs: Springs, stress: Stresses, share: float, blocks: np.ndarray) -> None:
-    """Add the tangent with these stresses, or the share of the springs' own where they are empty, and with
-    M + share (D − M), to blocks (count, 3, 3) [N/m]."""
-    links.add_tangent(u, springs.links, stress[0], share, blocks)
-    cells.add_tangent(u, springs.layers, stress[1], share, blocks)
-    cells.add_tangent(u, springs.middle, stress[2], share, blocks)
-
-
-@njit(cache=True, nogil=True)
-def own_tangent(u: np.ndarray, springs: Springs, share: float, count: int) -> np.ndarray:
+def own_tangent(u: np.ndarray, springs: Springs, share: float, count: int, mirror: np.ndarray) -> np.ndarray:
     """Return blocks (count, 3, 3) [N/m] of the tangent with this share of the springs' stresses at u."""
-    return tangent(u, springs, (np.empty(0), np.empty((0, 3)), np.empty((0, 3))), share, count)
+    return tangent(u, springs, (np.empty(0), np.empty((0, 3)), np.empty((0, 3))), share, count, mirror)

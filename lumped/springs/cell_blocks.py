@@ -51,8 +51,9 @@ def to_diagonals(stress: Three, a: Vector, b: Vector, rows: Rows, out: np.ndarra
 
 
 @njit(cache=True, error_model="numpy")
-def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, blocks: np.ndarray) -> None:
-    """Add a tangent in a cell's diagonals, (4, 9), to the blocks of its corners, each a mean of p masses."""
+def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, lower: bool, blocks: np.ndarray) -> None:
+    """Add a tangent in a cell's diagonals, (4, 9), to the blocks of its corners, each a mean of p masses, or
+    to those on and below the diagonal."""
     flat, share = blocks.reshape(-1, 9), 1.0 / (p * p)
     for corner in range(4):
         for other in range(4):
@@ -60,6 +61,9 @@ def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, blocks: np.n
             sign = share if (corner < 2) == (other < 2) else -share
             for s in range(p):
                 for t in range(p):
-                    block = flat[np.uint64(slots[corner * p + s, other * p + t])]
+                    row, column = corner * p + s, other * p + t
+                    if lower and slots[row, column] < slots[column, row]:
+                        continue
+                    block = flat[np.uint64(slots[row, column])]
                     for e in range(9):
                         block[e] += sign * part[e]

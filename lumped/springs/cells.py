@@ -191,10 +191,10 @@ def add_damping_forces(u: np.ndarray, v: np.ndarray, cells: CellArrays, force: n
 
 @njit(cache=True, error_model="numpy")
 def add_tangent(
-    u: np.ndarray, cells: CellArrays, stress: np.ndarray, share: float, blocks: np.ndarray
+    u: np.ndarray, cells: CellArrays, stress: np.ndarray, share: float, lower: bool, blocks: np.ndarray
 ) -> None:
     """Add the tangent of every cell with this stress, or with the share of its own where `stress` is empty,
-    and with M + share (D − M), to the 3×3 blocks."""
+    and with M + share (D − M), to the 3×3 blocks; lower: to those on and below the diagonal alone."""
     in_diagonals = np.empty((4, 9))
     own = len(stress) == 0
     for c in range(len(cells.nodes)):
@@ -209,7 +209,7 @@ def add_tangent(
             by_sides((k[4], k[5], k[2]), a, b),
         )
         to_diagonals(s, a, b, rows, in_diagonals)
-        add_blocks(in_diagonals, cells.nodes.shape[2], cells.slots[c], blocks)
+        add_blocks(in_diagonals, cells.nodes.shape[2], cells.slots[c], lower, blocks)
 
 
 @njit(cache=True, error_model="numpy")
@@ -242,4 +242,4 @@ def add_damping_tangent(u: np.ndarray, v: np.ndarray, cells: CellArrays, blocks:
             both(by_sides(r3, a, b), by_sides((k[4], k[5], k[2]), va, vb)),
         )
         to_diagonals(times_six(k, moving), a, b, rows, in_diagonals)
-        add_blocks(in_diagonals, cells.nodes.shape[2], cells.slots[c], blocks)
+        add_blocks(in_diagonals, cells.nodes.shape[2], cells.slots[c], False, blocks)

@@ -29,9 +29,10 @@ def add_forces(u: np.ndarray, links: LinkArrays, force: np.ndarray) -> float:
 
 @njit(cache=True)
 def add_tangent(
-    u: np.ndarray, links: LinkArrays, stress: np.ndarray, share: float, blocks: np.ndarray
+    u: np.ndarray, links: LinkArrays, stress: np.ndarray, share: float, lower: bool, blocks: np.ndarray
 ) -> None:
-    """Tangent of the per-direction law, diag(k) [n nᵀ + (e/r)(I − n nᵀ)], whatever the stress."""
+    """Tangent of the per-direction law, diag(k) [n nᵀ + (e/r)(I − n nᵀ)], whatever the stress. It is
+    unsymmetric: all of it is added."""
     n = np.empty(3)
     for m in range(len(links.nodes)):
         change, square, r = measure(u, links.nodes, links.offset, m)

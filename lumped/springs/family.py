@@ -60,7 +60,7 @@ class Family(ABC):
 
     def add_tangent(self, u: np.ndarray, stress: np.ndarray, blocks: np.ndarray, share: float = 1.0) -> None:
         """Add the tangent with this stress, and with M + share (D − M), to the 3×3 blocks [N/m]."""
-        self.loops.add_tangent(u, self.arrays, stress, share, blocks)
+        self.loops.add_tangent(u, self.arrays, stress, share, False, blocks)
 
     @abstractmethod
     def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:

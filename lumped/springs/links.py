@@ -121,17 +121,17 @@ def add_damping_forces(u: np.ndarray, v: np.ndarray, links: LinkArrays, force: n
 
 @njit(cache=True, error_model="numpy")
 def add_tangent(
-    u: np.ndarray, links: LinkArrays, stress: np.ndarray, share: float, blocks: np.ndarray
+    u: np.ndarray, links: LinkArrays, stress: np.ndarray, share: float, lower: bool, blocks: np.ndarray
 ) -> None:
     """Add the tangent of every link with this stress, or with the share of its own where `stress` is empty,
-    and with M + share (D − M), to the 3×3 blocks."""
+    and with M + share (D − M), to the 3×3 blocks; lower: to those on and below the diagonal alone."""
     flat = blocks.reshape(-1, 9)
     own = len(stress) == 0
     for m in range(len(links.nodes)):
         change, square, r = measure(u, links.nodes, links.offset, m)
         _, at_u, material, rest = elongation(HALF, change, square, links.rest_length[m], links.constants[m])
         across = 2.0 * (share * at_u if own else stress[m])
-        _add_blocks(flat, links.slots, m, across, times(4.0 * (material + share * rest), r), r)
+        _add_blocks(flat, links.slots, m, across, times(4.0 * (material + share * rest), r), r, lower)
 
 
 @njit(cache=True, error_model="numpy")
@@ -144,16 +144,21 @@ def add_damping_tangent(u: np.ndarray, v: np.ndarray, links: LinkArrays, blocks:
         resisting = links.constants[m] / square
         along = dot(r, moving)
         turned = less(moving, times(2.0 * along / square, r))
-        _add_blocks(flat, links.slots, m, resisting * along, times(resisting, r), turned)
+        _add_blocks(flat, links.slots, m, resisting * along, times(resisting, r), turned, False)
 
 
 @njit(cache=True, error_model="numpy")
-def _add_blocks(flat: np.ndarray, slots: np.ndarray, m: int, across: float, a: Vector, b: Vector) -> None:
-    """Add ± (across I + a bᵀ) to the blocks of link m."""
+def _add_blocks(
+    flat: np.ndarray, slots: np.ndarray, m: int, across: float, a: Vector, b: Vector, lower: bool
+) -> None:
+    """Add ± (across I + a bᵀ) to the blocks of link m, or to those on and below the diagonal."""
     xx, xy, xz = a[0] * b[0] + across, a[0] * b[1], a[0] * b[2]
     yx, yy, yz = a[1] * b[0], a[1] * b[1] + across, a[1] * b[2]
     zx, zy, zz = a[2] * b[0], a[2] * b[1], a[2] * b[2] + across
+    above = 4 if not lower else 1 if slots[m, 1] < slots[m, 2] else 2
     for e in range(4):
+        if e == above:
+            continue
         block = flat[np.uint64(slots[m, e])]
         sign = 1.0 if e == 0 or e == 3 else -1.0
         block[0] += sign * xx

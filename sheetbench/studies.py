@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from comparisons.models.grading import Grading
 from comparisons.models.grids import GridLike
 from comparisons.models.springs import LatticeSpec
-from sheetbench.choices import REFERENCES
+from sheetbench.choices import REFERENCE, REFERENCES
 from sheetbench.scenes import AnyScene, Scene, scene_of
 from sheetbench.scenes.errors import require_choice
 from sheetbench.scenes.schema import for_editors
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from comparisons.report.report import Report
     from comparisons.runs.store import Store
     from comparisons.scoring.score import Score
+    from comparisons.stability.extremes import Stability
     from comparisons.transfer.study import Transfer
     from lumped import Calibration
 
@@ -97,26 +98,40 @@ def crosscheck(
 
 
 def stability(
-    studies: Sequence[str] | None = None,
+    scene: AnyScene,
     *,
-    full: bool = False,
+    varied: Sequence[str] | None = None,
+    grid: GridLike = None,
+    calibration: str | None = None,
+    k: float | None = None,
+    layer_distance: float | None = None,
     grading: Grading = None,
+    reference: str = REFERENCE,
+    elements: int = 12,
     workers: int = 1,
     out: str | Path | None = None,
     large: bool = False,
-) -> Report:
-    """Map where each solver is accurate, degrades, refuses or fails; all studies unless some are named.
+) -> Stability:
+    """Map where each model of a scene holds, degrades, refuses or fails, as its sheet goes to extremes.
 
-    full: every cell of the published maps. out: a folder that keeps the rows of an interrupted call.
+    varied: "load", "slenderness", "young", "grid", "damping", "time-step", all unless some are named. out: a
+    folder that keeps the rows of an interrupted call.
     """
-    from comparisons.stability import STUDIES, survey
-    from comparisons.stability.texts import report
+    from comparisons.stability.extremes import VARIED
+    from comparisons.stability.extremes import stability as measure
 
-    for name in studies or ():
-        require_choice("studies", name, STUDIES)
-    chosen = [STUDIES[name] for name in studies or STUDIES]
+    lattice = LatticeSpec(grid, calibration, k, layer_distance, grading)
     with _store(out) as store:
-        return report(chosen, survey(chosen, store, full=full, grading=grading, workers=workers, large=large))
+        return measure(
+            scene_of(scene),
+            store,
+            varied=varied or VARIED,
+            lattice=lattice,
+            reference=reference,
+            elements=elements,
+            workers=workers,
+            large=large,
+        )
 
 
 def transfer(

@@ -14,4 +14,5 @@ STUDIES = {
     "reference-set": "the reference set of suite and score, computed anew",
     "reproduction": "the study of Habibi et al. in depth: its contradictions, the nearest sheets",
     "simulators": "other simulators with what is exported for them",
+    "stability": "where each solver holds, degrades, refuses or breaks: eight published maps",
 }

@@ -56,7 +56,7 @@ def test_the_other_functions_return_what_their_verbs_report_on(tmp_path: Path) -
     sb.export("one-edge-clamped", tmp_path / "lattice", grid=3)
     assert sb.report(tmp_path) == tmp_path / "report.html" and (tmp_path / "report.html").is_file()
     with pytest.raises(sb.BadInput, match="nosuch"):
-        sb.stability(["nosuch"])
+        sb.stability("one-edge-clamped", varied=["nosuch"])
     with pytest.raises(sb.BadInput, match="nosuch"):
         sb.verify(["nosuch"])
     with pytest.raises(sb.BadInput, match="nosuch"):

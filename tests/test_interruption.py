@@ -62,7 +62,9 @@ main()
 def test_a_second_interrupt_shows_no_traceback(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It met what was being cleared up, and the end of the interpreter."""
     monkeypatch.chdir(tmp_path)
-    terminal = Terminal(LINGERS, "stability", "--study", "mass", "--workers", "1", "--out", "kept")
+    terminal = Terminal(
+        LINGERS, "stability", "one-edge-clamped", "--vary", "load", "--workers", "1", "--out", "kept"
+    )
     terminal.wait_for("0/")
     terminal.press(CTRL_C)
     terminal.press(CTRL_C)

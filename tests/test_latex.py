@@ -20,8 +20,8 @@ from pylatexenc.latexwalker import (
 
 from comparisons.report.latex import latex
 from comparisons.report.table import Column, Table
-from comparisons.stability import STUDIES
-from comparisons.stability.texts import table as study_table
+from studies.stability import STUDIES
+from studies.stability.texts import table as study_table
 
 COMMANDS = r"""
 textbackslash textasciicircum textasciitilde textasciigrave dots frac times cdot pm ge le approx ne to infty

@@ -178,5 +178,5 @@ def test_the_option(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert not left & {".png", ".pdf", ".svg"} and {".json", ".csv", ".vtu"} <= left
     assert run(*asked, "--figure", "jpg", "--out", str(out)) == 2
     assert "--figure" in one_line(capsys)
-    assert run("stability", "--study", "mass", "--figure", "pdf:single", "--out", str(tmp_path / "s")) == 2
+    assert run("stability", "one-edge-clamped", "--figure", "pdf:single", "--out", str(tmp_path / "s")) == 2
     assert "both columns" in one_line(capsys) and not (tmp_path / "s").exists()

@@ -8,7 +8,6 @@ from scipy.integrate import simpson
 from scipy.optimize import minimize_scalar
 
 from comparisons.comparison.comparison import error
-from comparisons.stability import equilibria
 from fem_reference.shell import statics as shell
 from fem_reference.shell.state import State
 from fem_reference.shell.structure import ShellStructure
@@ -23,6 +22,7 @@ from sheetbench import scenes
 from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
 from sheetbench.scenes import Chain, Curved, Hinged, Material, Scene, Sheet, Status
 from sheetbench.scenes.kinematics import Placed
+from studies.stability import equilibria
 
 SIDE, WIDTH, THICKNESS, YOUNG = 1.0, 0.1, 0.002, 1e7
 SHORTER = 0.002  # shortening of the strip

@@ -26,14 +26,14 @@ from comparisons.report.look import PLAIN, WIDTHS
 from comparisons.report.table import Table
 from comparisons.reproduction import figure
 from comparisons.runs.store import Finished
-from comparisons.stability import STUDIES
-from comparisons.stability import figure as stability_figure
+from comparisons.stability import tiles as stability_figure
 from comparisons.tradeoff import figure as tradeoff_figure
 from comparisons.tradeoff import statics
 from comparisons.tradeoff.motion import DynamicTradeoff
 from comparisons.tradeoff.tables import rows as statics_rows
 from sheetbench import scenes
 from studies.reproduction.tables import nearest
+from studies.stability import STUDIES
 
 PUBLISHED = Path(__file__).parent.parent / "docs" / "stability"
 

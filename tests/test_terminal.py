@@ -74,7 +74,10 @@ SMALL = {
         *("--judges", "", "--workers", "1", "--out", "crosscheck"),
     ],
     "advise": ["advise", "one-edge-clamped", "--tolerance", "0.2"],
-    "stability": ["stability", "--study", "mass", "--workers", "1", "--out", "stability"],
+    "stability": [
+        *("stability", SEED, "--lumped", "3", "--elements", "2", "--vary", "slenderness"),
+        *("--vary", "time-step", "--workers", "1", "--out", "stability"),
+    ],
     "verify": ["verify", "--case", "patch"],
     "reproduce": ["reproduce", "--part", "tables", "--elements", "2"],
     "modes": ["modes", SEED, "--lumped", "3", "--elements", "2", "--count", "3"],

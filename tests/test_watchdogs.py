@@ -7,8 +7,7 @@ import pytest
 
 import fem_reference
 import lumped
-from comparisons.stability.equilibria import loaded, sheet
-from comparisons.stability.vibrating import start, system
+from comparisons.stability.limit import start, system
 from fem_reference.shell import validity
 from fem_reference.shell.state import State as ShellState
 from fem_reference.shell.statics import discretise
@@ -18,6 +17,7 @@ from lumped.dynamics.system import State
 from lumped.statics import faults
 from lumped.statics.solver import pose
 from sheetbench.scenes import EdgeLoad, Scene, Status
+from studies.stability.equilibria import loaded, sheet
 
 HEAVY = sheet(0.016, 1e3)  # statics stand a load number of a thousand, a fall from the flat sheet does not
 

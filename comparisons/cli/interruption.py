@@ -16,7 +16,7 @@ from contextlib import contextmanager
 
 STATUS = 130  # 128 + SIGINT, as shells have it
 PATIENCE = 1.2  # s, from the signal to the end of a process that does not heed it
-RESUMED = ("simulate", "tradeoff", "transfer", "stability")  # with --out
+RESUMED = ("simulate", "tradeoff", "stability", "transfer", "coverage", "advisor")  # with --out
 
 _left_behind = "nothing was kept"
 

@@ -6,6 +6,9 @@ from collections.abc import Sequence
 
 VERBS: dict[str, str] = {}
 OPTIONS = {
+    ("stability", "--study"): "'sheetbench study stability' has the published maps, in a checkout; "
+    "'sheetbench stability SCENE --vary NAME' those of your sheet",
+    ("stability", "--full"): "'sheetbench study stability --full' has the published maps, in a checkout",
     ("verify", "--coverage"): "run 'sheetbench study coverage' in a checkout",
 }
 

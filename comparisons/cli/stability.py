@@ -1,4 +1,4 @@
-"""`sheetbench stability`: maps of where each solver holds, degrades, refuses or breaks."""
+"""`sheetbench stability SCENE`: where each model of a scene holds, degrades, refuses or fails."""
 
 from __future__ import annotations
 
@@ -6,34 +6,43 @@ from typing import Annotated
 
 import typer
 
+from comparisons.cli.lattice_options import Lattice, with_lattice
 from comparisons.cli.options import (
     Figure,
-    Grading,
     Json,
     Large,
     NoPictures,
     Out,
     Overwrite,
     Retry,
+    Scene,
     Scheduler,
     Wait,
     Workers,
 )
+from sheetbench.choices import REFERENCE, REFERENCES, listed
 
 
+@with_lattice
 def command(
-    study: Annotated[
+    scene: Scene,
+    lattice: Lattice,
+    vary: Annotated[
         list[str] | None,
         typer.Option(
-            "--study",
+            "--vary",
             metavar="NAME",
-            help="Only this study, may be repeated: time-step, stiffness, slenderness, grid, load, damping, "
-            "mass or curved-edge. All unless given.",
+            help="Only load, slenderness, young, grid, damping or time-step; may be repeated. All unless "
+            "given.",
             show_default=False,
         ),
     ] = None,
-    full: Annotated[bool, typer.Option("--full", help="Every cell: finer maps, grids to 257 × 257.")] = False,
-    grading: Grading = None,
+    reference: Annotated[
+        str, typer.Option(metavar="MODEL", help=f"What errors are against: {listed(REFERENCES)}.")
+    ] = REFERENCE,
+    elements: Annotated[
+        int, typer.Option(min=1, metavar="N", help="Elements of the references along the shorter side.")
+    ] = 12,
     workers: Workers = None,
     scheduler: Scheduler = None,
     wait: Wait = False,
@@ -45,36 +54,38 @@ def command(
     no_pictures: NoPictures = False,
     overwrite: Overwrite = False,
 ) -> None:
-    """Map where each solver is accurate, degrades, refuses or fails; an interrupted run can be resumed.
+    """Map the extremes of a scene's sheet: where each model holds, degrades, refuses or fails.
 
-    Every cell ends in a status. With --out the maps, tables and texts are written there. --grading is of the
-    studies curved-edge, load and slenderness; the others have cells of one size.
+    Its load, thickness, Young's modulus, grid, damping and time step are varied over decades; of the explicit
+    integrators the largest stable step is measured. With --out an interrupted run is resumed.
     """
     import os
 
     from comparisons.cli.finish import finish
+    from comparisons.models.springs import LatticeSpec
     from comparisons.report.look import parse_figure
-    from comparisons.stability import STUDIES, survey
-    from comparisons.stability.texts import report
-    from sheetbench.scenes.errors import BadInput, require_choice
+    from comparisons.stability.extremes import VARIED, stability
+    from sheetbench.scenes import load
+    from sheetbench.scenes.errors import BadInput
 
     if parse_figure(figure).narrow:
         raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")
-    names = [name.strip().replace(" ", "-") for name in study or STUDIES]
-    for name in names:
-        require_choice("study", name, STUDIES)
-    chosen = [STUDIES[name] for name in dict.fromkeys(names)]
-    with finish("stability", json, out, overwrite, figure=figure, pictures=not no_pictures) as end:
+    asked = load(scene)
+    with finish(
+        "stability", json, out, overwrite, scene=asked, figure=figure, pictures=not no_pictures
+    ) as end:
         with end.campaign(scheduler, wait) as (store, pool, progress):
-            rows = survey(
-                chosen,
+            found = stability(
+                asked,
                 store,
-                full=full,
-                grading=grading,
+                varied=vary or VARIED,
+                lattice=LatticeSpec(**lattice),
+                reference=reference,
+                elements=elements,
                 workers=workers or os.cpu_count() or 1,
                 pool=pool,
                 retry=retry,
                 large=large,
                 progress=progress,
             )
-        end(report(chosen, rows))
+        end(found.report())

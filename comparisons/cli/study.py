@@ -23,7 +23,7 @@ def command(
     ] = None,
     options: Annotated[
         list[str] | None,
-        typer.Argument(metavar="…", help="Options of the study, which sheetbench study NAME --help lists."),
+        typer.Argument(metavar="ARGUMENTS", help="Those of the study: sheetbench study NAME --help."),
     ] = None,
     no_pictures: NoPictures = False,
 ) -> None:

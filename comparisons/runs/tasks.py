@@ -13,20 +13,13 @@ from typing import Any
 TASKS = {
     "timing": "comparisons.tradeoff.timing:measure",
     "motion": "comparisons.tradeoff.motion:measure",
+    "stability.run": "comparisons.stability.tasks:run",
     "crosscheck": "comparisons.crosscheck.task:answer",
     "transfer.lattice": "comparisons.transfer.tasks:lattice",
     "transfer.reference": "comparisons.transfer.tasks:reference",
     "transfer.homogenised": "comparisons.transfer.tasks:homogenised",
     "transfer.lattice_frequencies": "comparisons.transfer.tasks:lattice_frequencies",
     "transfer.reference_frequencies": "comparisons.transfer.tasks:reference_frequencies",
-    "stability.time-step": "comparisons.stability.time_step:measure",
-    "stability.stiffness": "comparisons.stability.stiffness:measure",
-    "stability.slenderness": "comparisons.stability.slenderness:measure",
-    "stability.grid": "comparisons.stability.grid:measure",
-    "stability.load": "comparisons.stability.load:measure",
-    "stability.damping": "comparisons.stability.damping:measure",
-    "stability.mass": "comparisons.stability.mass:measure",
-    "stability.curved-edge": "comparisons.stability.curved_edge:measure",
 }
 
 

@@ -1,118 +1,50 @@
-"""Maps: cells as tiles coloured by how they ended, errors written in them, theory drawn over them."""
+"""The picture of a scene's stability: a panel for what is varied, a strip of tiles a model."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import matplotlib
-import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch, Rectangle
 
-from comparisons.report.look import PLAIN, Look
-from comparisons.report.style import GREY, STYLE, save
-from comparisons.stability.study import LARGE, Row, Study, percent
+from comparisons.report.look import Look
+from comparisons.report.style import save
+from comparisons.stability import tiles as maps
+from comparisons.stability.rows import VARIED, Row, place, who
 
-MAP_STYLE = {**STYLE, "axes.titlesize": 8, "axes.titleweight": "bold", "axes.titlelocation": "left"}
-# Light enough to write on; told apart in grey and by those who do not see red and green alike.
-OUTCOMES = {
-    "within 1 %": "#a8d5c2",
-    "within 5 %": "#d9ecd2",
-    "off by more than 5 %": "#f6c667",
-    "converged": "#bfd5ea",
-    "unstable": "#c9b3e0",
-    "strain-outside-model": "#d0d0d0",
-    "step-limit": "#ee9a7a",
-    "diverged": "#d9634c",
-    "singular": "#b98a6f",
-    "inverted": "#8f6f9f",
-    "non-finite": "#6b3030",
-    "refused": "#ffffff",
-    "failed": "#000000",
-    "lost": "#000000",
-}
-THEORY: Any = {"color": "#b2182b", "lw": 1.3, "zorder": 5}
+if TYPE_CHECKING:
+    from comparisons.stability.extremes import Stability
 
 
-def picture(study: Study, rows: list[Row], paths: Sequence[Path], look: Look = PLAIN) -> None:
-    """Write a study's map to every path, in the format of its suffix."""
-    with matplotlib.rc_context(MAP_STYLE):
-        figure = Figure(figsize=study.size, layout="constrained")
-        study.draw(figure, rows)
+def draw(found: Stability, paths: Sequence[Path], look: Look) -> None:
+    """Write the picture to every path."""
+    by_study = {name: [r for r in found.rows if r["study"] == name] for name in VARIED if name != "damping"}
+    panels = {name: rows for name, rows in by_study.items() if rows}
+    models = {name: list(dict.fromkeys(map(who, rows)))[::-1] for name, rows in panels.items()}
+    heights = [1.0 + len(of) for of in models.values()]
+    with matplotlib.rc_context(maps.MAP_STYLE):
+        figure = Figure(figsize=(look.width, 0.8 + 0.24 * sum(heights)), layout="constrained")
+        axes = figure.subplots(len(panels), 1, height_ratios=heights, squeeze=False)[:, 0]
+        for axis, (name, rows) in zip(axes, panels.items(), strict=True):
+            of = models[name]
+            heights_of = {model: float(i) for i, model in enumerate(of)}
+
+            def height(row: Row, at: dict[str, float] = heights_of) -> float:
+                return at[who(row)]
+
+            maps.tiles(axis, rows, place, height, scale=("log", "linear"))
+            axis.set_yticks(range(len(of)), of)
+            axis.set_xlabel(VARIED[name])
+            if name == "time-step":
+                axis.xaxis.set_major_formatter(lambda x, _: f"{1e3 * x:g}")
+            else:
+                at = sorted(set(map(place, rows)))
+                axis.set_xticks(at, [f"{x:g}" for x in at])
+                axis.set_xticks([], minor=True)
         if look.titled:
-            figure.suptitle(study.title, x=0.01, ha="left", fontsize=9, fontweight="bold")
+            title = f"Where each model of {found.scene.name} holds; errors in %"
+            figure.suptitle(title, x=0.01, ha="left", fontsize=9, fontweight="bold")
+        maps.key(figure, [maps.outcome(row) for rows in panels.values() for row in rows])
         save(figure, paths)
-
-
-def outcome(row: Row) -> str:
-    """The colour key of a row."""
-    error = row.get("error")
-    if row["status"] != "converged" or error is None:
-        return str(row["status"])  # "converged" where there is no reference to be off from
-    if error > LARGE:
-        return "off by more than 5 %"
-    return "within 1 %" if error <= 0.01 else "within 5 %"
-
-
-def tiles(
-    axis: Axes,
-    rows: Sequence[Row],
-    x: Callable[[Row], float],
-    y: Callable[[Row], float],
-    *,
-    of: Callable[[Row], str] = outcome,
-    text: Callable[[Row], str] | None = None,
-    scale: tuple[str, str] = ("log", "log"),
-) -> None:
-    """One tile a row at (x, y), reaching half-way to its neighbours; several rows at one place share it."""
-    edges = []
-    for value, kind in ((x, scale[0]), (y, scale[1])):
-        places = np.unique([value(row) for row in rows])
-        at = np.log(places) if kind == "log" else places
-        middle = 0.5 * (at[1:] + at[:-1])
-        half = 0.5 * np.diff(at)[[0, -1]] if len(at) > 1 else np.array([0.5, 0.5])
-        ends = np.concatenate([[at[0] - half[0]], middle, [at[-1] + half[1]]])
-        edges.append((places, np.exp(ends) if kind == "log" else ends))
-    for row in rows:
-        (xs, across), (ys, up) = edges
-        i, j = int(np.searchsorted(xs, x(row))), int(np.searchsorted(ys, y(row)))
-        corner, size = (across[i], up[j]), (across[i + 1] - across[i], up[j + 1] - up[j])
-        axis.add_patch(Rectangle(corner, *size, facecolor=OUTCOMES[of(row)], edgecolor="white", lw=0.8))
-        said = text(row) if text is not None else percent(row.get("error"))
-        axis.text(
-            _mid(across, i, scale[0]), _mid(up, j, scale[1]), said, fontsize=5.2, ha="center", va="center"
-        )
-    axis.set_xscale(scale[0])
-    axis.set_yscale(scale[1])
-    axis.set_xlim(edges[0][1][0], edges[0][1][-1])
-    axis.set_ylim(edges[1][1][0], edges[1][1][-1])
-    axis.tick_params(which="both", width=0.5, length=2)
-    axis.spines[["top", "right"]].set_visible(False)
-
-
-def _mid(edges: np.ndarray, i: int, scale: str) -> float:
-    return float(np.sqrt(edges[i] * edges[i + 1]) if scale == "log" else 0.5 * (edges[i] + edges[i + 1]))
-
-
-def key(figure: Figure, found: Sequence[str], *lines: Any, columns: int = 4) -> None:
-    """The colours that occur, and the theory's lines, below the panels."""
-    patches = [Patch(facecolor=c, edgecolor=GREY, lw=0.4, label=n) for n, c in OUTCOMES.items() if n in found]
-    figure.legend(
-        handles=[*patches, *lines],
-        loc="outside lower center",
-        ncols=columns,
-        frameon=False,
-        fontsize=6.8,
-        handlelength=1.6,
-    )
-
-
-def plain(axis: Axes) -> None:
-    """Axes of curves in the same dress as the maps."""
-    axis.grid(which="major", color="#e4e4e4", lw=0.5)
-    axis.set_axisbelow(True)
-    axis.tick_params(which="both", width=0.5, length=2)
-    axis.spines[["top", "right"]].set_visible(False)

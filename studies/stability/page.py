@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-FOLDER = Path(__file__).parent / "stability"
+FOLDER = Path(__file__).parents[2] / "docs" / "stability"
 PAGE = FOLDER.parent / "stability.md"
 STUDIES = ("time-step", "stiffness", "slenderness", "grid", "load", "damping", "mass", "curved-edge")
 WIDTH = 120

@@ -16,10 +16,11 @@ from matplotlib.lines import Line2D
 
 from comparisons.report.style import DARK
 from comparisons.report.table import Column
-from comparisons.stability import figure as maps
-from comparisons.stability.equilibria import compare, sheet
-from comparisons.stability.study import Cell, Row, Study
+from comparisons.stability import tiles as maps
+from comparisons.stability.rows import Cell, Row
 from sheetbench.scenes.strains import WEIGHT_LIMIT
+from studies.stability.equilibria import compare, sheet
+from studies.stability.study import Study
 
 SLENDERNESS, SCALED_LOAD, CONTRAST_LOAD = 0.016, 10.0, 3.0
 FAMILIES = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
@@ -93,7 +94,7 @@ STUDY = Study(
     "to 1e4 at E = 10 MPa; one family of springs multiplied by 1e-6 to 1e6. `error` against the shell; "
     "`single error`: of single precision against double. Boundary: ρ g a/E = 0.05.",
     cells=cells,
-    measure="stability.stiffness",
+    measure="studies.stability.stiffness:measure",
     columns=(
         Column("young", "Pa", "Pa", 1.0, "g"),
         Column("load number", form="g"),

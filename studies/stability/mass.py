@@ -11,9 +11,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from comparisons.report.table import Column
-from comparisons.stability import figure as maps
-from comparisons.stability.study import Cell, Row, Study
-from comparisons.stability.vibrating import energy, follow, measured_limit, noise, start, system, weightless
+from comparisons.stability import tiles as maps
+from comparisons.stability.limit import energy, measured_limit, noise, start, system
+from comparisons.stability.rows import Cell, Row
+from studies.stability.study import Study
+from studies.stability.vibrating import follow, weightless
 
 IMPLICIT_STEPS = 50
 PER_LIMIT = 20.0  # the implicit step over the explicit limit
@@ -108,7 +110,7 @@ STUDY = Study(
     says="Masses alternate like a chess board. `error`: of the computed limit of velocity Verlet against the "
     "measured one. The conserving midpoint rule runs at twenty times that limit.",
     cells=cells,
-    measure="stability.mass",
+    measure="studies.stability.mass:measure",
     columns=(
         Column("masses", form="d"),
         Column("ratio", form="g"),

@@ -15,10 +15,11 @@ from matplotlib.lines import Line2D
 
 from comparisons.report.style import DARK, GREY
 from comparisons.report.table import Column
-from comparisons.stability import figure as maps
-from comparisons.stability.equilibria import compare, distance, outcome, sheet
-from comparisons.stability.study import LARGE, Cell, Row, Study, percent
+from comparisons.stability import tiles as maps
+from comparisons.stability.rows import LARGE, Cell, Row, percent
 from sheetbench.scenes.sheet import EdgeName
+from studies.stability.equilibria import compare, distance, outcome, sheet
+from studies.stability.study import Study
 
 SLENDERNESS, LOAD = 0.016, 3.0
 EDGES: dict[int, tuple[EdgeName, ...]] = {1: ("x0",), 2: ("x0", "y0")}
@@ -180,7 +181,7 @@ STUDY = Study(
     "refused. Cells of 20 : 1 and more, narrower than the layers are apart, let the compressed layer zigzag "
     "between its short links: `unstable`, though the equilibrium is as good as with wider cells.",
     cells=cells,
-    measure="stability.grid",
+    measure="studies.stability.grid:measure",
     columns=(
         Column("clamped", form="d"),
         Column("masses", form="d"),

@@ -10,9 +10,10 @@ from comparisons.models.sizes import require_room
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
-from comparisons.stability.study import Row, Study
+from comparisons.stability.rows import Row
 from sheetbench.scenes import load
 from sheetbench.scenes.errors import BadInput
+from studies.stability.study import Study
 
 
 def survey(

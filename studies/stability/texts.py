@@ -11,7 +11,8 @@ from typing import Any
 from comparisons.report.look import Look
 from comparisons.report.report import Picture, Report
 from comparisons.report.table import Column, Table
-from comparisons.stability.study import Row, Study, doubtful, percent
+from comparisons.stability.rows import Row, doubtful, percent
+from studies.stability.study import Study
 
 _COMMON = (
     Column("status"),
@@ -24,7 +25,7 @@ _COMMON = (
 
 
 def report(studies: Sequence[Study], rows: list[Row]) -> Report:
-    """What `sheetbench stability` shows of the rows of studies."""
+    """What `sheetbench study stability` shows of the rows of studies."""
     of = {study.name: [row for row in rows if row["study"] == study.name] for study in studies}
     broken = [row for row in rows if row["status"] in ("failed", "lost")]
     return Report(
@@ -43,7 +44,7 @@ def report(studies: Sequence[Study], rows: list[Row]) -> Report:
 
 
 def _draw(study: Study, rows: list[Row], paths: Sequence[Path], look: Look) -> None:
-    from comparisons.stability.figure import picture
+    from studies.stability.figure import picture
 
     picture(study, rows, paths, look)
 

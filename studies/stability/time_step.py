@@ -16,19 +16,13 @@ from matplotlib.lines import Line2D
 
 from comparisons.report.style import DARK, GREY
 from comparisons.report.table import Column
-from comparisons.stability import figure as maps
-from comparisons.stability.equilibria import FALLEN
-from comparisons.stability.study import LARGE, Cell, Row, Study, percent
-from comparisons.stability.vibrating import (
-    FirstMode,
-    energy,
-    follow,
-    measured_limit,
-    start,
-    system,
-    weightless,
-)
+from comparisons.stability import tiles as maps
+from comparisons.stability.limit import energy, measured_limit, start, system
+from comparisons.stability.rows import LARGE, Cell, Row, percent
 from sheetbench.scenes import Gravity
+from studies.stability.equilibria import FALLEN
+from studies.stability.study import Study
+from studies.stability.vibrating import FirstMode, follow, weightless
 
 IMPLICIT = ("generalised-alpha", "midpoint")
 COLOURS = dict(zip(IMPLICIT, ("#0072b2", "#009e73"), strict=True))
@@ -215,7 +209,7 @@ STUDY = Study(
     "default steps, nine tenths of the limit, under gravity. Implicit: the first mode's period (`error`), "
     "amplitude and energy over steps from 1e-6 s to 1 s.",
     cells=cells,
-    measure="stability.time-step",
+    measure="studies.stability.time_step:measure",
     columns=(
         Column("integrator"),
         Column("masses", form="d"),

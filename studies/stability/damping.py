@@ -18,10 +18,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from comparisons.report.table import Column
-from comparisons.stability import figure as maps
-from comparisons.stability.equilibria import FALLEN
-from comparisons.stability.study import LARGE, Cell, Row, Study, percent
-from comparisons.stability.vibrating import FirstMode, follow, start, system, weightless
+from comparisons.stability import tiles as maps
+from comparisons.stability.limit import start, system
+from comparisons.stability.rows import LARGE, Cell, Row, percent
+from studies.stability.equilibria import FALLEN
+from studies.stability.study import Study
+from studies.stability.vibrating import FirstMode, follow, weightless
 
 RATIOS = (0.0, 0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
 INTEGRATORS = ("generalised-alpha", "midpoint", "verlet")
@@ -145,7 +147,7 @@ STUDY = Study(
     says="The first mode's coordinate against the exact damped oscillator, over one period from rest, at a "
     "hundred steps a period or Verlet's default step. `error` is relative to the start.",
     cells=cells,
-    measure="stability.damping",
+    measure="studies.stability.damping:measure",
     columns=(
         Column("integrator"),
         Column("damping of"),

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 from matplotlib.figure import Figure
 
 from comparisons.report.table import Column
-
-Row = dict[str, Any]
-Cell = dict[str, Any]
-LARGE = 0.05  # an error that has to be explained
+from comparisons.stability.rows import Cell, Row
 
 
 @dataclass(frozen=True)
@@ -34,19 +30,3 @@ class Study:
     draw: Callable[[Figure, list[Row]], None]
     size: tuple[float, float] = (7.2, 3.4)
     graded: bool = False
-
-
-def doubtful(row: Row) -> bool:
-    """Whether a row is converged and still off by more than LARGE."""
-    return row["status"] == "converged" and row.get("error") is not None and row["error"] > LARGE
-
-
-def percent(error: float | None) -> str:
-    """An error as it stands in a map or a text, in percent and without the sign."""
-    if error is None:
-        return ""
-    if error < 5e-5:
-        return "0"
-    if error >= 1.0:
-        return f"{100 * error:.0f}"
-    return f"{100 * error:.2f}" if error < 0.01 else f"{100 * error:.2g}"

@@ -17,11 +17,12 @@ from matplotlib.lines import Line2D
 
 from comparisons.models.grading import Grading
 from comparisons.report.table import Column
-from comparisons.stability import figure as maps
-from comparisons.stability.equilibria import compare, sheet
-from comparisons.stability.study import Cell, Row, Study
+from comparisons.stability import tiles as maps
+from comparisons.stability.rows import Cell, Row
 from sheetbench.scenes.sheet import EdgeName
 from sheetbench.scenes.strains import WEIGHT_LIMIT
+from studies.stability.equilibria import compare, sheet
+from studies.stability.study import Study
 
 EDGES: dict[int, tuple[EdgeName, ...]] = {1: ("x0",), 2: ("x0", "y0")}
 MASSES = {1: 33, 2: 17}
@@ -121,7 +122,7 @@ STUDY = Study(
     "`error` against the shell with 12 elements a side. Boundaries: ρ g a/E = 0.05; cells twice as long as "
     "the layer in which a sheet clamped at two edges stretches.",
     cells=cells,
-    measure="stability.slenderness",
+    measure="studies.stability.slenderness:measure",
     columns=(
         Column("clamped", form="d"),
         Column("slenderness", form="g"),

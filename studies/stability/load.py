@@ -22,11 +22,12 @@ from matplotlib.lines import Line2D
 
 from comparisons.models.grading import Grading
 from comparisons.report.table import Column
-from comparisons.stability import figure as maps
-from comparisons.stability.equilibria import SIDE, compare, lattice, loaded, outcome, sheet
-from comparisons.stability.study import Cell, Row, Study, percent
+from comparisons.stability import tiles as maps
+from comparisons.stability.rows import Cell, Row, percent
 from sheetbench.scenes import EdgeLoad, PointLoad
 from sheetbench.scenes.strains import WEIGHT_LIMIT
+from studies.stability.equilibria import SIDE, compare, lattice, loaded, outcome, sheet
+from studies.stability.study import Study
 
 SLENDERNESS, POISSON, ONE_G = 0.016, 0.48, 2.0
 GRID = (9, 9)
@@ -136,7 +137,7 @@ STUDY = Study(
     "Green's strain, which hardens (a wrong limit, by as much as the strain). Under a point force the "
     "shell's exact answer is infinite, and each grid and mesh has its own.",
     cells=cells,
-    measure="stability.load",
+    measure="studies.stability.load:measure",
     columns=(Column("kind"), Column("size", form="g"), Column("moved", "side", "%", 100.0, ".3g")),
     draw=draw,
     size=(7.2, 5.6),

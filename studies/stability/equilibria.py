@@ -20,7 +20,7 @@ import numpy as np
 from comparisons.comparison.comparison import error as probe_error
 from comparisons.models.grading import Grading
 from comparisons.models.springs import LatticeSpec
-from comparisons.stability.study import LARGE, Row, percent
+from comparisons.stability.rows import LARGE, Row, percent
 from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import Clamped, Gravity, Load, Material, Scene, Sheet, Solution, Status
 from sheetbench.scenes.sheet import EdgeName

@@ -18,10 +18,11 @@ from matplotlib.lines import Line2D
 
 from comparisons.models.grading import Grading
 from comparisons.report.table import Column
-from comparisons.stability import figure as maps
-from comparisons.stability.equilibria import SIDE, compare, sheet
-from comparisons.stability.study import Cell, Row, Study, percent
+from comparisons.stability import tiles as maps
+from comparisons.stability.rows import Cell, Row, percent
 from sheetbench.scenes import Curved
+from studies.stability.equilibria import SIDE, compare, sheet
+from studies.stability.study import Study
 
 SLENDERNESS, GRID, ELEMENTS = 0.008, (17, 17), 12
 
@@ -101,7 +102,7 @@ STUDY = Study(
     "to 30 (100 in the full map). Boundary: L/2 = (1 ± ν)|κ a|, where the weight can carry a tape spring's "
     "fold.",
     cells=cells,
-    measure="stability.curved-edge",
+    measure="studies.stability.curved_edge:measure",
     columns=(Column("turn", form="g"), Column("load number", form="g")),
     draw=draw,
     size=(7.2, 3.6),

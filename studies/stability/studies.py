@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from comparisons.stability import (
+from studies.stability import (
     curved_edge,
     damping,
     grid,
@@ -12,7 +12,7 @@ from comparisons.stability import (
     stiffness,
     time_step,
 )
-from comparisons.stability.study import Study
+from studies.stability.study import Study
 
 STUDIES: dict[str, Study] = {
     module.STUDY.name: module.STUDY

@@ -1,0 +1,271 @@
+"""Where each model of a scene holds, degrades, refuses or fails, as one thing about the sheet is varied.
+
+load         the weight and all loads, times a factor
+slenderness  the thickness, times a factor
+young        Young's modulus, times a factor
+grid         the cells of the lattice, the elements of the references, along the shorter side
+damping      the damping time, such that the lowest mode has a share of critical damping: how runs of every
+             integrator end, and the largest stable step of the explicit ones
+time-step    the steps of every integrator: shares of the largest of explicit ones, else of the lowest period
+
+At rest, an error is the one at the probes against the reference on the same sheet, on the grid study against
+its finest mesh; in motion, the largest difference from a run of the midpoint rule with a fine step, over the
+largest displacement.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from comparisons.comparison.comparison import error
+from comparisons.models.candidate import Candidate
+from comparisons.models.grading import plain, read
+from comparisons.models.registry import check
+from comparisons.models.springs import LatticeSpec
+from comparisons.runs.campaign import Progress, Run, carry_out
+from comparisons.runs.executors import Pool, processes
+from comparisons.runs.store import Finished, Store
+from comparisons.stability import tables
+from comparisons.stability.rows import Row
+from comparisons.tradeoff.motion import explicit_limit, shortest_period
+from sheetbench.choices import INTEGRATORS, REFERENCE
+from sheetbench.scenes import Scene, Status
+from sheetbench.scenes.errors import BadInput, require_choice
+from sheetbench.scenes.parameters import put
+from sheetbench.scenes.tables import FactorTable, Loading
+
+if TYPE_CHECKING:
+    from comparisons.report.report import Report
+
+FACTORS = {
+    "load": (0.001, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0),
+    "slenderness": (0.03, 0.1, 0.3, 1.0, 3.0, 10.0),
+    "young": (0.001, 0.01, 0.1, 1.0, 10.0, 100.0, 1000.0),
+}
+CELLS = {"lumped": (2, 4, 8, 16, 32), "references": (2, 4, 8)}  # along the shorter side
+DAMPING = (0.0, 0.01, 0.1, 1.0, 10.0, 100.0)  # of the lowest mode's critical one
+SHARES = (0.3, 0.9, 1.1)  # of the largest stable step
+DIVISIONS = (200, 50, 20, 8, 4, 2, 1)  # steps a period
+FINE, PERIODS, SAMPLES = (
+    400,
+    3.0,
+    40,
+)  # steps a period of the midpoint rule; length of a run; samples a period
+VARIED = (*FACTORS, "grid", "damping", "time-step")
+
+
+@dataclass(frozen=True)
+class Stability:
+    """The rows of what was varied of a scene; period: of its lowest mode [s], None unless it was needed."""
+
+    scene: Scene
+    reference: str
+    period: float | None
+    rows: tuple[Row, ...]
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON document: SI units, errors as fractions."""
+        return {
+            "scene": self.scene.document(),
+            "reference": self.reference,
+            "period": self.period,
+            "rows": list(self.rows),
+        }
+
+    def report(self) -> Report:
+        """What is shown of it."""
+        return tables.report(self)
+
+
+@dataclass(frozen=True)
+class _Cell:
+    """A cell, its run, and the run of its reference; refusal: why there is no run."""
+
+    study: str
+    cell: dict[str, Any]
+    run: Run | None
+    truth: Run | None = None
+    refusal: str = ""
+
+
+def stability(
+    scene: Scene,
+    store: Store,
+    *,
+    varied: Sequence[str] = VARIED,
+    lattice: LatticeSpec = LatticeSpec(),  # noqa: B008  # frozen
+    reference: str = REFERENCE,
+    elements: int = 12,
+    workers: int = 1,
+    pool: Pool = processes,
+    retry: bool = False,
+    large: bool = False,
+    progress: Callable[[Progress], None] = lambda progress: None,
+) -> Stability:
+    """Vary a scene's sheet and solve it by every model, through a campaign's store.
+
+    varied: some of `VARIED`. lattice: with what is not varied. elements: of the references, along the shorter
+    side. retry: what failed or was lost before is run again. Raises BadInput for what cannot be varied, for
+    settings that do not go together, and unless `large` for models that take more memory than there is.
+    """
+    for name in varied:
+        require_choice("vary", name, VARIED)
+    graded = read(lattice.grading)
+    own = {**vars(lattice), "grading": graded if graded is None or isinstance(graded, str) else plain(graded)}
+    check(scene, Candidate("lumped", own), large)
+    check(scene, Candidate(reference, {"elements": elements}), large)
+    maker = _Maker(scene, own, reference, elements)
+    cells = [cell for name in VARIED if name in varied for cell in maker.cells(name)]
+    runs = [run for cell in cells for run in (cell.run, cell.truth) if run is not None]
+    done = carry_out(runs, store, workers=workers, pool=pool, retry=retry, progress=progress)
+    found = {run.key: outcome for run, outcome in zip(runs, done, strict=True)}
+    return Stability(scene, reference, maker.period, tuple(_row(cell, found) for cell in cells))
+
+
+class _Maker:
+    """Makes the cells of a scene."""
+
+    def __init__(self, scene: Scene, lattice: dict[str, Any], reference: str, elements: int) -> None:
+        self.scene, self.lattice, self.reference, self.elements = scene, lattice, reference, elements
+        self.period: float | None = None
+
+    def cells(self, name: str) -> Iterator[_Cell]:
+        """Those of a study."""
+        if name in FACTORS:
+            yield from self._scaled(name)
+        elif name == "grid":
+            yield from self._grids()
+        else:
+            springs, _ = LatticeSpec(**self.lattice).springs(self.scene)
+            self.period = self.period or shortest_period(self.scene, springs)
+            yield from (self._damped if name == "damping" else self._stepped)(self.period)
+
+    def _models(self) -> dict[str, dict[str, Any]]:
+        """The settings of every model."""
+        references = dict.fromkeys(("plate", "shell", self.reference))
+        return {"lumped": self.lattice, **{name: {"elements": self.elements} for name in references}}
+
+    def _static(self, scene: Scene, model: str, settings: dict[str, Any], label: str) -> Run:
+        arguments = {"scene": scene.document(), "model": model, "settings": settings}
+        return Run("crosscheck", arguments, f"{model} {label}")
+
+    def _scaled(self, name: str) -> Iterator[_Cell]:
+        if name == "load" and self.scene.gravity is None and not self.scene.loads:
+            return
+        for factor in FACTORS[name]:
+            try:
+                scene = scaled(self.scene, name, factor)
+            except BadInput as error:
+                for model in self._models():
+                    yield _Cell(name, {"factor": factor, "model": model}, None, refusal=str(error))
+                continue
+            label = f"{name} × {factor:g}"
+            truth = self._static(scene, self.reference, self._models()[self.reference], label)
+            for model, settings in self._models().items():
+                cell = {"factor": factor, "model": model}
+                yield _Cell(name, cell, self._static(scene, model, settings, label), truth)
+
+    def _grids(self) -> Iterator[_Cell]:
+        settings = self._models()[self.reference]
+        truth = self._static(self.scene, self.reference, settings, f"{self.elements} cells")
+        for model, settings in self._models().items():
+            size = "grid" if model == "lumped" else "elements"
+            counts = CELLS.get(model) or sorted({*CELLS["references"], self.elements})
+            for count in counts:
+                run = self._static(
+                    self.scene, model, {**settings, size: count + (model == "lumped")}, f"{count} cells"
+                )
+                yield _Cell("grid", {"cells": count, "model": model}, run, truth)
+
+    def _damped(self, period: float) -> Iterator[_Cell]:
+        for ratio in (None, *DAMPING):
+            scene = self.scene
+            if ratio is not None:
+                damping = {"damping_time": ratio * period / np.pi, "damping_rate": 0.0}
+                scene = scene.replace(material=scene.material.replace(**damping))
+            for name in INTEGRATORS:
+                arguments = {"scene": scene.document(), "lattice": self.lattice, "integrator": name}
+                label = f"{name} {'own damping' if ratio is None else f'damping {ratio:g}'}"
+                run = Run("stability.run", {**arguments, "period": period}, label)
+                yield _Cell("damping", {"damping_ratio": ratio, "integrator": name}, run)
+
+    def _stepped(self, period: float) -> Iterator[_Cell]:
+        import lumped
+
+        springs, _ = LatticeSpec(**self.lattice).springs(self.scene)
+
+        def run(integrator: str, step: float, duration: float) -> Run:
+            arguments = {
+                "scene": self.scene.document(),
+                "lattice": self.lattice,
+                "integrator": integrator,
+                "step": step,
+                "duration": duration,
+                "every": max(step, period / SAMPLES),
+            }
+            return Run("motion", arguments, f"{integrator} {step:.3g} s")
+
+        truth = run("midpoint", period / FINE, PERIODS * period)
+        for name in INTEGRATORS:
+            steps = [period / n for n in DIVISIONS]
+            if lumped.INTEGRATORS[name].explicit:
+                limit = explicit_limit(name, self.scene, springs)
+                steps = [share * limit for share in SHARES]
+            for step in steps:
+                yield _Cell(
+                    "time-step", {"integrator": name, "step": step}, run(name, step, PERIODS * period), truth
+                )
+
+
+def scaled(scene: Scene, name: str, factor: float) -> Scene:
+    """Return the scene with its load, thickness or Young's modulus times a factor. Raises BadInput where it
+    cannot be."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # extremes are implausible
+        if name == "young":
+            return put(scene, "young", factor * scene.material.young)
+        if name == "slenderness":
+            return put(scene, "thickness", factor * scene.sheet.thickness)
+        acting = {"loads": tuple(_times(load, factor) for load in scene.loads)}
+        return scene.replace(gravity=scene.gravity and _times(scene.gravity, factor), **acting)
+
+
+def _times(acting: Loading, factor: float) -> Any:
+    """A load or gravity, times a factor."""
+    table = acting.history or FactorTable(time=(0.0,), factor=(1.0,))
+    return acting.replace(history=table.replace(factor=tuple(factor * sample for sample in table.factor)))
+
+
+def _row(cell: _Cell, found: Mapping[str, Finished]) -> Row:
+    """A cell's row: how it ended, and its error where its reference has an answer too."""
+    row: Row = {"study": cell.study, "cell": cell.cell, "error": None, "iterations": None, "seconds": None}
+    if cell.run is None:
+        return {**row, "status": str(Status.REFUSED), "message": cell.refusal}
+    outcome = found[cell.run.key]
+    row |= {"status": outcome.status, "message": outcome.message, "seconds": outcome.seconds}
+    kept = ("iterations", "computed", "measured", "advised")
+    row |= {name: outcome.row[name] for name in kept if name in outcome.row}
+    row["iterations"] = row["iterations"] or outcome.row.get("steps")
+    truth = found[cell.truth.key] if cell.truth is not None else None
+    if truth is None or truth is outcome or any(one.status != Status.CONVERGED for one in (outcome, truth)):
+        return row
+    if "displacement" in outcome.row:
+        u, known = (np.array(one.row["displacement"]) for one in (outcome, truth))
+        return {**row, "error": error(u, known)}
+    return {**row, "error": _motion_error(outcome.row, truth.row)}
+
+
+def _motion_error(row: Mapping[str, Any], truth: Mapping[str, Any]) -> float | None:
+    """The largest difference of the probes' displacements over the largest displacement, None at rest."""
+    largest = off = 0.0
+    for name, known in truth["probes"].items():
+        for axis, values in enumerate(np.array(known).T):
+            expected = np.interp(row["time"], truth["time"], values)
+            off = max(off, float(np.abs(np.array(row["probes"][name])[:, axis] - expected).max()))
+            largest = max(largest, float(np.abs(values).max()))
+    return off / largest if largest > 0.0 else None

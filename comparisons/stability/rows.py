@@ -1,0 +1,51 @@
+"""Rows of a map: a cell, how it ended, how far it is off."""
+
+from __future__ import annotations
+
+from typing import Any
+
+Row = dict[str, Any]
+Cell = dict[str, Any]
+LARGE = 0.05  # an error that has to be explained
+VARIED = {
+    "load": "loads, times",
+    "slenderness": "thickness, times",
+    "young": "E, times",
+    "grid": "cells along the shorter side",
+    "damping": "damping of the lowest mode, of critical",
+    "time-step": "time step [ms]",
+}
+KEYS = {"grid": "cells", "damping": "damping_ratio", "time-step": "step"}  # else factor
+
+
+def verdict(row: Row) -> str:
+    """How a cell ended: holds, off by more than `LARGE`, refuses, or fails."""
+    if row["status"] == "converged":
+        return "off" if (row["error"] or 0.0) > LARGE else "holds"
+    return "refuses" if row["status"] in ("refused", "strain-outside-model") else "fails"
+
+
+def place(row: Row) -> Any:
+    """Where a cell lies on what is varied."""
+    return row["cell"][KEYS.get(row["study"], "factor")]
+
+
+def who(row: Row) -> str:
+    """The model or integrator of a cell."""
+    return str(row["cell"].get("model") or row["cell"]["integrator"])
+
+
+def doubtful(row: Row) -> bool:
+    """Whether a row is converged and still off by more than LARGE."""
+    return row["status"] == "converged" and row.get("error") is not None and row["error"] > LARGE
+
+
+def percent(error: float | None) -> str:
+    """An error as it stands in a map or a text, in percent and without the sign."""
+    if error is None:
+        return ""
+    if error < 5e-5:
+        return "0"
+    if error >= 1.0:
+        return f"{100 * error:.0f}"
+    return f"{100 * error:.2f}" if error < 0.01 else f"{100 * error:.2g}"

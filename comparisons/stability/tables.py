@@ -1,0 +1,140 @@
+"""The tables of a scene's stability: where each model holds, the largest stable steps, every cell."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import partial
+from itertools import groupby
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from comparisons.report.look import Look
+from comparisons.report.report import Picture, Report
+from comparisons.report.table import Column, Table, number
+from comparisons.stability.rows import LARGE, VARIED, Row, place, verdict, who
+
+if TYPE_CHECKING:
+    from comparisons.stability.extremes import Stability
+
+ERROR = Column("error", "", "%", 100.0, ".3g")
+
+
+def report(found: Stability) -> Report:
+    """What `sheetbench stability` shows."""
+    broken = [row for row in found.rows if row["status"] in ("failed", "lost")]
+    steps = [] if not _limits(found) else [limits(found)]
+    drawn = any(row["study"] != "damping" for row in found.rows)
+    return Report(
+        name="stability",
+        title="stability",
+        subtitle=f"where each model of {found.scene.name} holds",
+        document=found.as_dict(),
+        tables=(summary(found), *steps, *map(cells, _studies(found))),
+        printed=(summary(found), *steps),
+        notes=(
+            f"holds: converged and within {100.0 * LARGE:g} % of the {found.reference} on the same sheet, in "
+            "motion of a run with a fine step.",
+        ),
+        complaints=tuple(f"{r['study']} {r['cell']}: {r['status']}: {r['message']}" for r in broken),
+        pictures=(Picture(("stability.png", "stability.pdf"), partial(_draw, found)),) if drawn else (),
+        scene=found.scene,
+        settings={"studies": list(dict.fromkeys(row["study"] for row in found.rows))},
+        met=not broken,
+    )
+
+
+def _draw(found: Stability, paths: Sequence[Path], look: Look) -> None:
+    from comparisons.stability.figure import draw
+
+    draw(found, paths, look)
+
+
+def summary(found: Stability) -> Table:
+    """A row per study and model: over what it holds, degrades, refuses and fails, the worst error held."""
+    rows = []
+    for (study, name), some in groupby(
+        sorted(found.rows, key=lambda r: (list(VARIED).index(r["study"]), _order(found, r))),
+        key=lambda r: (r["study"], who(r)),
+    ):
+        of = [row for row in some if place(row) is not None]
+        ended = {end: _ranges(of, end) for end in ("holds", "off", "refuses", "fails")}
+        errors = [row["error"] for row in of if verdict(row) == "holds" and row["error"] is not None]
+        rows.append((VARIED[study], name, *ended.values(), max(errors, default=None)))
+    columns = (
+        Column("varied"),
+        Column("model"),
+        Column("holds", prose=True),
+        Column(f"off by more than {100.0 * LARGE:g} %", prose=True),
+        Column("refuses", prose=True),
+        Column("fails", prose=True),
+        Column("largest error where it holds", "", "%", 100.0, ".2g"),
+    )
+    return Table("Where each model holds", columns, tuple(rows), "holds", grouped=True)
+
+
+def _order(found: Stability, row: Row) -> int:
+    return list(dict.fromkeys(map(who, found.rows))).index(who(row))
+
+
+def _ranges(rows: Iterable[Row], end: str) -> str:
+    """The places of the cells that ended so, neighbours as a range."""
+    ordered = sorted(rows, key=place)
+    said = []
+    for here, some in groupby(ordered, key=lambda row: verdict(row) == end):
+        places = [place(row) * (1e3 if row["study"] == "time-step" else 1.0) for row in some]
+        if here:
+            ends = [number(at, ".4g") for at in dict.fromkeys((places[0], places[-1]))]
+            said.append(" to ".join(ends))
+    return ", ".join(said) or "–"
+
+
+def _limits(found: Stability) -> list[Row]:
+    return [row for row in found.rows if row["study"] == "damping" and row.get("computed") is not None]
+
+
+def limits(found: Stability) -> Table:
+    """A row per explicit integrator and damping: its largest stable step, computed and measured."""
+    rows = tuple(
+        (
+            who(row),
+            "the scene's" if place(row) is None else f"{number(place(row), 'g')} of critical",
+            row["computed"],
+            row.get("measured"),
+            row["advised"],
+            row["status"],
+        )
+        for row in sorted(_limits(found), key=lambda row: _order(found, row))
+    )
+    columns = (
+        Column("integrator"),
+        Column("damping"),
+        Column("largest step", "s", "µs", 1e6, ".4g"),
+        Column("measured", "s", "µs", 1e6, ".4g"),
+        Column("default step", "s", "µs", 1e6, ".4g"),
+        Column("a run with it"),
+    )
+    return Table("Largest stable steps", columns, rows, "steps", grouped=True)
+
+
+def _studies(found: Stability) -> list[tuple[str, list[Row]]]:
+    return [(study, list(rows)) for study, rows in groupby(found.rows, key=lambda row: row["study"])]
+
+
+def cells(study: tuple[str, list[Row]]) -> Table:
+    """A row per cell of what was varied."""
+    name, of = study
+    rows = tuple(
+        (place(r), who(r), r["status"], r["error"], r["iterations"], r["seconds"], r["message"]) for r in of
+    )
+    head = VARIED[name].partition(" [")[0].partition(",")[0]
+    unit = ("s", "ms", 1e3) if name == "time-step" else ("", "", 1.0)
+    columns = (
+        Column(head, *unit, ".4g"),
+        Column("integrator" if "integrator" in of[0]["cell"] else "model"),
+        Column("status"),
+        ERROR,
+        Column("iterations", form="d"),
+        Column("seconds", "s", "s", 1.0, ".2f"),
+        Column("message", prose=True, detail=True),
+    )
+    return Table(f"{VARIED[name].partition(' [')[0].capitalize()}: every cell", columns, rows, name)

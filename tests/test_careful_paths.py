@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
+import scipy.sparse as sp
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import fem_reference
 import lumped
+from fem_reference.solving import equilibrium
+from fem_reference.solving.careful import BRANCHING, DEARER
+from fem_reference.solving.structure import Structure
 from lumped.statics.continuation import trace
+from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, Status
 
 STRIP = Sheet(length_x=0.2, length_y=0.05, thickness=0.001)
@@ -64,3 +71,77 @@ def test_a_fold_that_large_steps_jump_over_is_told_with_its_load() -> None:
     turning = np.flatnonzero(np.diff(path.load_factors) < 0.0)[0]
     assert found.status is Status.CONVERGED
     assert found.snaps == pytest.approx([path.load_factors[turning]], rel=0.01)
+
+
+@dataclass
+class Sizes:
+    residual: np.ndarray
+    size: float = 1.0
+
+
+@dataclass
+class Bistable(Structure[np.ndarray, Sizes]):
+    """Two springs, x + x³ = 2 λ and −y = 0: unstable at rest already, and nothing else happens."""
+
+    symmetric: bool = True
+
+    def rest(self) -> np.ndarray:
+        return np.zeros(2)
+
+    def forces(self, state: np.ndarray, load_factor: float) -> Sizes:
+        x, y = state
+        return Sizes(np.array([x + x**3 - 2.0 * load_factor, -y]))
+
+    def imbalance(self, state: np.ndarray, forces: Sizes) -> float:
+        return float(np.abs(forces.residual).max())
+
+    def gap(self, state: np.ndarray, load_factor: float) -> float:
+        return 0.0
+
+    def system(self, state, forces, load_factor, mixed=True):
+        return sp.csr_matrix(np.diag([1.0 + 3.0 * state[0] ** 2, -1.0])), -forces.residual
+
+    def advance(self, state, forces, load_factor, step):
+        return state + step
+
+    def length(self, start: np.ndarray, end: np.ndarray) -> float:
+        return float(np.abs(end - start).max())
+
+
+def test_what_is_unstable_at_rest_is_followed_in_long_steps() -> None:
+    """The careful path begins with the eigenvalues that are negative there, and loses no stability."""
+    path = equilibrium.trace(Bistable(), DirectSolver())
+    assert path.status is Status.UNSTABLE and path.load_factor == 1.0
+    np.testing.assert_allclose(path.state, [1.0, 0.0], atol=1e-8)
+    careful = [entry.load_factor for entry in path.history][6:]
+    assert min(careful) > BRANCHING
+    assert path.factorisations < 50
+
+
+@pytest.mark.parametrize("force", [300.0, 3000.0])
+def test_a_look_for_folds_costs_a_few_times_the_path(monkeypatch, force) -> None:
+    """A sheet pulled straight up: nothing is found."""
+    scene = Scene(
+        name="up", sheet=Sheet(length_x=0.15, length_y=0.15, thickness=0.002),
+        material=Material(young=1e7, poisson=0.45, density=1200.0), supports=(Clamped(edge="x0"),),
+        loads=(EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, force)),), probes={"P": (0.15, 0.075)},
+    )  # fmt: skip
+    looked = fem_reference.solve(scene, model="shell", elements=4)
+    monkeypatch.setattr(equilibrium, "worth", lambda *_: 0)
+    plain = fem_reference.solve(scene, model="shell", elements=4)
+    assert plain.iterations < looked.iterations <= (1 + DEARER) * plain.iterations
+    assert looked.message == plain.message and looked.snaps == plain.snaps == ()
+    at = scene.probe_points()
+    np.testing.assert_allclose(looked.displacement(at), plain.displacement(at), atol=1e-8)
+
+
+def test_a_look_that_finds_no_end_leaves_the_answer_and_says_so(monkeypatch) -> None:
+    monkeypatch.setattr(equilibrium, "worth", lambda *_: 20)
+    scene = Scene(
+        name="up", sheet=Sheet(length_x=0.15, length_y=0.15, thickness=0.002),
+        material=Material(young=1e7, poisson=0.45, density=1200.0), supports=(Clamped(edge="x0"),),
+        loads=(EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, 300.0)),), probes={"P": (0.15, 0.075)},
+    )  # fmt: skip
+    found = fem_reference.solve(scene, model="shell", elements=4)
+    assert found.status is Status.CONVERGED and found.load_factor == 1.0
+    assert "after 20 factorisations" in found.message and "another branch" in found.message

@@ -30,7 +30,7 @@ from typing import Generic
 
 import numpy as np
 
-from fem_reference.solving.careful import continuous, doubtful
+from fem_reference.solving.careful import continuous, negatives, worth
 from fem_reference.solving.path import FACTORISATIONS, Fault, Path, Progress, StepFailed
 from fem_reference.solving.stability import stability
 from fem_reference.solving.structure import Forces, State, Structure
@@ -49,11 +49,12 @@ GROWTH = 4.0
 FIRST_REACH = 8.0  # sizes of the structure that the first linear step may move it
 SMALLEST_STEP = 2.0**-10
 FARTHEST = 1e3  # a step beyond so many sizes of the structure has diverged
-CAREFUL_REACH = 0.1  # sizes of the structure that a careful linear step may move it
+CAREFUL_REACH = 0.1  # sizes of the structure that the first careful linear step may move it
+SHORTEST = 5e-4  # the same, of one that fails and is the last: half of what may cross a bifurcation
+CLOSE = 3e-3  # residual at which a careful load step ends, but for the last
 NEAR = 0.25  # of a start's displacement: an equilibrium farther from it may be on another branch
 SNAPS = 12  # of one path
 SNAP_STEP = 0.01  # in load factor, past the limit point
-CAREFUL = FACTORISATIONS  # more of them, where the path is followed with care
 SNAPPING = 4 * FACTORISATIONS  # in all, where the structure snaps
 
 
@@ -84,11 +85,12 @@ def trace(
         careful, reached = False, None
         if near is None or not _arrived(structure, solver, path, inspect, near):
             ended = _follow(structure, solver, path, inspect)
-            careful = not isinstance(ended, Fault) and doubtful(structure, solver, path)
+            more = 0 if isinstance(ended, Fault) else worth(structure, solver, path)
+            careful = more > 0
             if careful:
                 reached = path.state if ended is None else None
                 path.state, path.load_factor, path.factor = structure.rest(), 0.0, None
-                path.limit += CAREFUL
+                path.limit = path.factorisations + more
                 ended = _follow(structure, solver, path, inspect, careful)
         while isinstance(ended, StepFailed):
             tried = ""
@@ -106,9 +108,10 @@ def trace(
             ended = _give_up(structure, solver, path, ended, tried)
         if ended is not None and reached is not None:
             if path.load_factor > 0.0:
+                here = f"small load steps end at load factor {path.load_factor:.4g}"
+                left = f", after {more} factorisations" if path.factorisations >= path.limit else ""
                 path.notes.append(
-                    f"small load steps end at load factor {path.load_factor:.4g}: this equilibrium, which "
-                    "large ones led to, may be on another branch"
+                    f"{here}{left}: this equilibrium, which large ones led to, may be on another branch"
                 )
             path.state, path.load_factor, path.factor, ended = reached, 1.0, None, None
         path.fault = ended
@@ -156,32 +159,47 @@ def _follow(
 ) -> StepFailed | Fault | None:
     """Lead a path on to load factor 1: what has ended it before, if anything. careful: no load step may leave
     the branch that it begins on."""
-    farthest = CAREFUL_REACH if careful else np.inf
-    size, reach, negative = 1.0, min(FIRST_REACH, farthest), 0
+    size, reach = 1.0, CAREFUL_REACH if careful else FIRST_REACH
     factor: Factor | None = None
+    negative: int | None = None
     while path.load_factor < 1.0:
         before = path.factorisations
         try:
             first = _Predictor(structure, solver, path, min(1.0, path.load_factor + size), reach, factor)
             factor = first.factor if structure.symmetric else None
-            state, found = newton(structure, solver, path, first)
+            close = CLOSE if careful and first.target < 1.0 else 0.0
+            state, found = newton(structure, solver, path, first, close)
             if careful:
-                found, negative = continuous(
-                    structure, solver, path, first, state, found, negative, TOLERANCE
-                )
+                negative = negatives(first.factor) if negative is None else negative
+                found, longest = continuous(structure, solver, path, first, state, negative, TOLERANCE)
         except StepFailed as failure:
             size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
-            if size < SMALLEST_STEP or path.factorisations >= path.limit:
+            shortest = size < SMALLEST_STEP and (not careful or reach < SHORTEST)
+            if shortest or path.factorisations >= path.limit:
+                if careful and path.load_factor > 0.0:
+                    path.state = _refined(structure, solver, path)
                 return failure
             continue
         grown = first.target - path.load_factor
         path.state, path.load_factor, path.factor = state, first.target, found
-        factor = None  # those of the last correction are too far off to step with: a thin sheet's path halts
         if (fault := inspect(path)) is not None:
             return fault
+        if careful:
+            factor, negative = found, negatives(found)
+            size, reach = GROWTH * grown, longest
+            continue
+        factor = None  # those of the last correction are too far off to step with: a thin sheet's path halts
         easy = path.factorisations - before <= EASY
-        size, reach = (GROWTH * grown, min(GROWTH * reach, farthest)) if easy else (grown, reach)
+        size, reach = (GROWTH * grown, GROWTH * reach) if easy else (grown, reach)
     return None
+
+
+def _refined(structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> State:
+    """The state that a careful path ends at, to the tolerance, where Newton's method gets there."""
+    try:
+        return newton(structure, solver, path, Start(path.state, path.load_factor, 1.0, 0.0))[0]
+    except StepFailed:
+        return path.state
 
 
 def _at_limit_point(path: Path[State], failure: StepFailed) -> bool:
@@ -272,9 +290,11 @@ def newton(
     solver: DirectSolver,
     path: Path[State],
     first: Start[State] | _Predictor[State, Forces],
+    close: float = 0.0,
 ) -> tuple[State, Factor | None]:
     """The equilibrium at the load factor of a start, and the factors of its tangent where those of the last
-    correction are, which was next to nothing. Raises StepFailed."""
+    correction are, which was next to nothing. close: a residual that is good enough, but
+    not the factors. Raises StepFailed."""
     state, target, before = first.state, first.target, np.inf
     factor: Factor | None = None
     works, lengths = [first.work], [first.length]
@@ -290,6 +310,8 @@ def newton(
             # the extrapolated stress, too, is off by the square of the correction before
             alike = factor is not None and max(lengths[-1], lengths[-2] ** 2) <= path.alike
             return state, factor if alike else None
+        if relative <= close:
+            return state, None
         if len(lengths) > BACK and lengths[-1] >= lengths[-1 - BACK]:
             raise StepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
         if path.factorisations >= path.limit:

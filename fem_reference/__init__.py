@@ -19,9 +19,10 @@ from sheetbench.scenes.errors import BadInput, require_choice
 
 MODELS = {name: f"fem_reference.{name}.statics" for name in REFERENCES}
 
-_LATER = {"modes": "fem_reference.vibration", "simulate": "fem_reference.motion.simulation"}
+_MOTION = "fem_reference.motion.simulation"
+_LATER = {"modes": "fem_reference.vibration", "simulate": _MOTION, "require_moving": _MOTION}
 
-__all__ = ["MODELS", "check", "modes", "options", "simulate", "solve"]
+__all__ = ["MODELS", "check", "modes", "options", "require_moving", "simulate", "solve"]
 
 
 def solve(

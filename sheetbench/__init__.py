@@ -18,14 +18,14 @@ if _TYPE_CHECKING:
     import sheetbench.scenes as scenes
     from comparisons.advice.advisor import advise
     from comparisons.check.check import check
-    from comparisons.comparison.comparison import compare, error
+    from comparisons.comparison.comparison import error
     from comparisons.identification.identification import identify
     from comparisons.identification.measurements import Displacements
     from comparisons.linearisation.linearisation import linearise
     from comparisons.modes.spectra import spectra as modes
     from comparisons.reproduction.reproduction import reproduce
     from comparisons.suite.tables import report as suite
-    from sheetbench.face import calibrate, simulate, solve, tradeoff
+    from sheetbench.face import calibrate, compare, simulate, solve, tradeoff
     from sheetbench.scenes import (
         BadInput,
         Chain,
@@ -57,7 +57,7 @@ _ELSEWHERE = {  # name: module and what it is called there; all else is of sheet
     "advise": ("comparisons.advice.advisor", "advise"),
     "calibrate": ("sheetbench.face", "calibrate"),
     "check": ("comparisons.check.check", "check"),
-    "compare": ("comparisons.comparison.comparison", "compare"),
+    "compare": ("sheetbench.face", "compare"),
     "crosscheck": ("sheetbench.studies", "crosscheck"),
     "error": ("comparisons.comparison.comparison", "error"),
     "export": ("sheetbench.studies", "export"),

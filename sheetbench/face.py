@@ -9,17 +9,19 @@ from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 from comparisons.models import registry, springs
 from comparisons.models.candidate import Candidate, lattices
 from comparisons.models.grading import Grading
 from comparisons.models.grids import GridLike
 from comparisons.report.work import silent
-from sheetbench.choices import CALIBRATION, REFERENCES
+from sheetbench.choices import CALIBRATION, REFERENCE, REFERENCES
 from sheetbench.scenes import AnyScene, History, Solution, scene_of
 
 if TYPE_CHECKING:
+    from comparisons.comparison.comparison import Comparison
+    from comparisons.motion.comparison import MotionComparison
     from comparisons.runs.campaign import Progress
     from comparisons.tradeoff.statics import Tradeoff
     from lumped import Calibration
@@ -89,6 +91,43 @@ def simulate(
     """
     lattice = vars(springs.LatticeSpec(grid, calibration, k, layer_distance, grading))
     return registry.simulate(scene_of(scene), duration, **lattice, **settings)
+
+
+@overload
+def compare(scene: AnyScene, *, duration: None = None, **settings: Any) -> Comparison: ...
+
+
+@overload
+def compare(scene: AnyScene, *, duration: float, **settings: Any) -> MotionComparison: ...
+
+
+def compare(
+    scene: AnyScene,
+    *,
+    duration: float | None = None,
+    grid: GridLike = None,
+    calibration: str | None = None,
+    reference: str = REFERENCE,
+    elements: int | tuple[int, int] | None = None,
+    **settings: Any,
+) -> Comparison | MotionComparison:
+    """The lattice beside a reference, "plate", "shell" or "solid": at rest, or over `duration` [s] of motion.
+
+    grid: masses, 9 along the shorter side unless given; elements: the reference's likewise, 16 unless given
+    and 8 in motion. settings: further ones of `comparisons.comparison.comparison.compare` (`k`, `grading`,
+    `law`, `uncertainty`, `branch` …) or, with a duration, of `comparisons.motion.comparison.compare_motion`
+    (`every`, `frames` …). Raises SceneError for a scene without an answer, BadInput for choices that do not
+    exist; a solve that fails is a status.
+    """
+    settings |= {"grid": grid, "calibration": calibration, "reference": reference}
+    settings |= {} if elements is None else {"elements": elements}
+    if duration is not None:
+        from comparisons.motion.comparison import compare_motion
+
+        return compare_motion(scene, duration, **settings)
+    from comparisons.comparison.comparison import compare
+
+    return compare(scene, **settings)
 
 
 def tradeoff(

@@ -141,7 +141,17 @@ def test_no_file_imports_itself_by_way_of_others(package):
 SLOW = ("lumped", "fem_reference", "scipy", "matplotlib", "vtkmodules", "pyvista", "meshio", "pandas")
 SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "pypardiso", "comparisons.models.training")
 SLOW += ("numba.core.extending", "numba.np")  # what compiles, where nothing is compiled
-DRAWS = ("figure", "probes_figure", "motion_figure", "animation", "offscreen", "locking", "vtk", "toml")
+DRAWS = (
+    "figure",
+    "probes_figure",
+    "motion_figure",
+    "comparison_figure",
+    "animation",
+    "offscreen",
+    "locking",
+    "vtk",
+    "toml",
+)
 AT_ONCE = ("comparisons/cli/", *(f"sheetbench/{n}.py" for n in ("face", "studies", "__init__", "__main__")))
 
 

@@ -121,7 +121,7 @@ def test_what_does_not_move_yet_is_refused(strip):
         fem_reference.simulate(strip.replace(actuators=(chain,)), "shell", 0.1, elements=2)
     with pytest.raises(BadInput, match="duration"):
         fem_reference.simulate(strip, "shell", -1.0)
-    with pytest.raises(BadInput, match="model"):
+    with pytest.raises(BadInput, match="beam"):
         fem_reference.simulate(strip, "beam", 0.1)
 
 

@@ -8,7 +8,6 @@ import typer
 
 from comparisons.cli.lattice_options import Lattice, given, with_lattice
 from comparisons.cli.options import (
-    Elements,
     Export,
     Figure,
     Json,
@@ -21,7 +20,10 @@ from comparisons.cli.options import (
     Scene,
     Symmetry,
 )
+from comparisons.cli.quantity import quantity_in
 from sheetbench.choices import BRANCHES, ELEMENTS, REFERENCE, REFERENCES, listed
+
+FRAMES = 100  # of a motion
 
 
 @with_lattice
@@ -29,7 +31,15 @@ def command(
     scene: Scene,
     lattice: Lattice,
     reference: Annotated[str, typer.Option(metavar="MODEL", help=f"{listed(REFERENCES)}.")] = REFERENCE,
-    elements: Elements = str(ELEMENTS),
+    elements: Annotated[
+        str | None,
+        typer.Option(
+            "--elements",
+            metavar="N",
+            help="The reference's elements along the shorter side, or 8x4 along x and y; "
+            f"{ELEMENTS} unless given, 8 with --duration.",
+        ),
+    ] = None,
     law: Law = None,
     symmetry: Symmetry = False,
     model: Models = None,
@@ -53,6 +63,14 @@ def command(
         float | None,
         typer.Option(metavar="FRACTION", help="Error that --auto may make; 0.01 unless given."),
     ] = None,
+    duration: Annotated[
+        float | None,
+        typer.Option(
+            metavar="S",
+            parser=quantity_in("s"),
+            help="Compare the sheet's motion over so long, from rest.",
+        ),
+    ] = None,
     export: Export = None,
     large: Large = False,
     json: Json = False,
@@ -71,11 +89,41 @@ def command(
     from comparisons.models.candidate import parse_model
     from comparisons.models.grids import parse_elements
     from comparisons.models.springs import LatticeSpec
+    from comparisons.motion.comparison import compare_motion
     from comparisons.report.vtk import write_solution
+    from sheetbench import scenes
     from sheetbench.scenes.errors import BadInput
 
+    if duration is not None:
+        statics: dict[str, object] = {"--symmetry": symmetry, "--model": model, "--branch": branch != "path"}
+        statics |= {"--auto": auto, "--tolerance": tolerance, "--export": export}
+        for option, value in statics.items():
+            if value:
+                raise BadInput(f"{option}: is for statics; leave it out with --duration")
+        moving = scenes.load(scene)
+        chosen = None if elements is None else parse_elements(elements)
+        run = {"--duration": duration, "--reference": reference}
+        with finish(
+            "compare", json, out, overwrite, scene=moving, apart=run, figure=figure, pictures=not no_pictures
+        ) as end:
+            for name in ("lumped", reference, "difference") if out is not None else ():
+                end.place(f"{name}/")
+            both = compare_motion(
+                moving,
+                duration,
+                **lattice,
+                reference=reference,
+                elements=chosen,
+                law=law,
+                uncertainty=uncertainty is not False,
+                frames=FRAMES if out is not None else 0,
+                large=large,
+                progress=end.progress,
+            )
+            end(both.report())
+        return
     asked = load_static(scene)
-    size, others = parse_elements(elements), [parse_model(text) for text in model or ()]
+    size, others = parse_elements(elements or str(ELEMENTS)), [parse_model(text) for text in model or ()]
     check_auto(auto, tolerance, given(lattice))
     if auto and export is not None:
         raise BadInput("--export: the advisor may choose a model without springs; leave --auto out")

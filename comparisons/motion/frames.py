@@ -6,6 +6,7 @@ the order of their edges in the scene.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -62,12 +63,14 @@ def frames(history: History) -> list[tuple[float, Frame]]:
     return found
 
 
-def write_series(path: Path, shown: list[tuple[float, Frame]]) -> None:
-    """Write frames as NAME/0000.vtu … and the PVD file that lists them with their times."""
+def write_series(path: Path, shown: Sequence[tuple[float, Frame | FieldMesh]]) -> None:
+    """Write frames or meshes as NAME/0000.vtu … and the PVD file that lists them with their times."""
     inside = folder(path.with_suffix(""))
     lines = ['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1">', "  <Collection>"]
     for number, (time, frame) in enumerate(shown):
         name = f"{number:04d}.vtu"
-        write_mesh(inside / name, frame.with_axes() if frame.axes else frame.mesh)
+        if isinstance(frame, Frame):
+            frame = frame.with_axes() if frame.axes else frame.mesh
+        write_mesh(inside / name, frame)
         lines.append(f'    <DataSet timestep="{time!r}" part="0" file="{inside.name}/{name}"/>')
     write_text(path, "\n".join([*lines, "  </Collection>", "</VTKFile>", ""]))

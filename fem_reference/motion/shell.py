@@ -28,8 +28,7 @@ from fem_reference.surface.mesh import Elements, divisions, mesh_of
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import add_blocks
-from sheetbench.scenes import Chain, FieldMesh, Scene
-from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes import FieldMesh, Scene
 from sheetbench.scenes.kinematics import MovedEdge, bent_or_tilted
 from sheetbench.scenes.tables import PiecewiseLinear
 
@@ -42,8 +41,6 @@ class MovingShell:
     model = "shell"
 
     def __init__(self, scene: Scene, elements: Elements = 16, graded: bool = True, law: str = STRAIN_LAW):
-        if any(isinstance(actuator, Chain) for actuator in scene.actuators):
-            raise BadInput("actuator: a chain does not move with a reference, only the lattice knows how")
         counts = divisions(scene.sheet, elements)
         self.label = f"shell {counts[0]} × {counts[1]}"
         self.settings: dict[str, Any] = {"elements": list(counts), "graded": graded, "law": law}

@@ -21,7 +21,7 @@ from sheetbench.choices import REFERENCE, listed
 from sheetbench.clock import now
 from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import AnyScene, History, Scene, Status, scene_of
+from sheetbench.scenes import AnyScene, Chain, History, Scene, Status, scene_of
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.quantities import require_positive
 
@@ -58,8 +58,7 @@ def simulate(
     >>> history.status, float(history.time[-1])
     (<Status.CONVERGED: 'converged'>, 0.01)
     """
-    if model not in MODELS:
-        raise BadInput(f"model = '{model}': {listed(MODELS)} move")
+    require_moving(scene_of(scene), model)
     for name, value in {"duration": duration, "step": step, "every": every, "error": error}.items():
         require_positive(name, value, "s")
     began = now()
@@ -95,6 +94,15 @@ def simulate(
             "factorisations": run.method.factorisations,
         },
     )
+
+
+def require_moving(scene: Scene, model: str) -> None:
+    """Raise BadInput for a model that does not move, or a scene with what no reference moves."""
+    if model not in MODELS:
+        raise BadInput(f"reference = '{model}': {listed(MODELS)} can move")
+    for name, actuator in scene.named_actuators().items():
+        if isinstance(actuator, Chain):
+            raise BadInput(f"actuator {name}: a chain moves with the lattice only, with no reference")
 
 
 def _sample_times(scene: Scene, duration: float, every: float | None) -> np.ndarray:

@@ -1,0 +1,201 @@
+"""A scene's motion as the lattice and as a finite-element reference have it, side by side.
+
+The reference moves a second time on elements twice as large, and a third time with steps of about twice the
+length: how far it goes then is what mesh and step leave uncertain (`uncertainty`), on the safe side, for
+both errors are at least halved by the finer run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from comparisons.models import sizes
+from comparisons.models.candidate import Candidate
+from comparisons.models.grading import Grading
+from comparisons.models.grids import GridLike
+from comparisons.models.registry import check, check_reference, simulate
+from comparisons.motion import comparison_tables
+from comparisons.motion.measures import difference, measured_alike
+from comparisons.report import amounts
+from comparisons.report.work import Pace, Progress, Work, silent
+from sheetbench.choices import REFERENCE
+from sheetbench.scenes import AnyScene, History, Scene, Status, scene_of, summary
+from sheetbench.scenes.grid import near_square
+
+if TYPE_CHECKING:
+    from comparisons.report.report import Report
+
+ELEMENTS = 8  # of a moving reference along the shorter side
+LONGER = 8.0  # error of a step: steps twice as long
+STEPS_PER_PERIOD = 100, 900  # of the lowest mode, with dampers of the springs and without
+SOLVES = 0.08  # of a static solve's time that a step takes
+EVEN = 0.02  # of the duration, until which steps grow and tell nothing of the pace
+
+
+@dataclass(frozen=True, repr=False)
+class MotionComparison(summary.Summarised):
+    """Histories by model, the lattice's first, the reference's last; uncertainty: how far the reference may
+    be off by its mesh and by its steps, as `largest` and `rms` are measured; None where it was not asked."""
+
+    scene: Scene
+    histories: dict[str, History]
+    uncertainty: dict[str, float | None] = field(default_factory=dict)
+
+    @property
+    def reference(self) -> str:
+        """The model that the others are measured against."""
+        return list(self.histories)[-1]
+
+    @property
+    def converged(self) -> bool:
+        """Whether all runs reached their end."""
+        return all(history.status is Status.CONVERGED for history in self.histories.values())
+
+    @property
+    def differences(self) -> list[dict[str, Any]]:
+        """Of every other model from the reference."""
+        against, truth = self.reference, self.histories[self.reference]
+        others = (name for name in self.histories if name != against)
+        return [
+            {"of": name, "against": against, **difference(self.histories[name], truth)} for name in others
+        ]
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench compare --duration`: metres, newtons, seconds, joules."""
+        truth = self.histories[self.reference]
+        return {
+            "scene": self.scene.document(),
+            "motion": {
+                "time": truth.time,
+                "probes": {name: history.probes for name, history in self.histories.items()},
+                "energies": {name: history.energies for name, history in self.histories.items()},
+                "reactions": {name: history.reactions for name, history in self.histories.items()},
+                "measures": {
+                    name: measured_alike(history, truth)[0].as_dict()
+                    for name, history in self.histories.items()
+                },
+                "differences": self.differences,
+                "uncertainty": self.uncertainty,
+            },
+            "solutions": [
+                {
+                    "model": name,
+                    "label": history.label,
+                    "integrator": history.integrator,
+                    "settings": history.settings,
+                    "status": str(history.status),
+                    "message": history.message,
+                    "steps": history.steps,
+                    "setup_seconds": history.setup_seconds,
+                    "solve_seconds": history.solve_seconds,
+                }
+                for name, history in self.histories.items()
+            ],
+        }
+
+    def report(self) -> Report:
+        """What is shown of it."""
+        return comparison_tables.report(self)
+
+    def _summary(self) -> tuple[str, summary.Facts]:
+        facts = [
+            (
+                name,
+                f"{history.status}, {history.steps} steps in {summary.milliseconds(history.solve_seconds)}",
+            )
+            for name, history in self.histories.items()
+        ]
+        off = [
+            (f"{d['of']} off by", f"{100 * d['largest']:.3g} % at most, {100 * d['rms']:.3g} % rms")
+            for d in self.differences
+        ]
+        return f"Motion of {self.scene.name}; .report() has tables, pictures and files", [*facts, *off]
+
+
+def compare_motion(
+    scene: AnyScene,
+    duration: float,
+    *,
+    grid: GridLike = None,
+    calibration: str | None = None,
+    k: float | None = None,
+    layer_distance: float | None = None,
+    grading: Grading = None,
+    reference: str = REFERENCE,
+    elements: int | tuple[int, int] | None = None,
+    law: str | None = None,
+    uncertainty: bool = True,
+    every: float | None = None,
+    frames: int = 0,
+    large: bool = False,
+    progress: Progress = silent,
+) -> MotionComparison:
+    """Move a scene's sheet for `duration` [s] with the lattice and with a reference, from rest.
+
+    elements: 8 along the shorter side unless given. uncertainty: move the reference twice more, on elements
+    twice as large and with steps twice as long. every [s]: distance of samples, 1/100 of the lowest period
+    unless given. frames: whole displacements to keep. progress: told what is being done, how large it is and
+    how long it may take. Raises BadInput as `compare` and `simulate` do, and for what no reference moves.
+    """
+    import fem_reference
+
+    asked = scene_of(scene)
+    size: Any = ELEMENTS if elements is None else elements
+    options = {} if law is None else {"law": law}
+    check_reference(reference, size, options)
+    check(asked, Candidate(reference, {"elements": size, **options}), large)
+    along = near_square(asked.sheet, size) if isinstance(size, int) else tuple(size)
+
+    def told(doing: str, begin: Work) -> Callable[[float], None]:
+        pace = Pace(duration)
+        progress(begin)
+
+        def reached(time: float) -> None:
+            left = pace.left(time) if time >= EVEN * duration else None
+            soon = "" if left is None else f", {amounts.duration(left)} left"
+            progress(Work(f"{doing}: {time:.3g} of {duration:g} s{soon}"))
+
+        return reached
+
+    def moved(counts: tuple[int, int], name: str, spacing: float, **settings: Any) -> History:
+        candidate, doing = Candidate(reference, {"elements": counts, **options}), f"moving the {name}"
+        steps = _expected_steps(asked, duration)
+        each = sizes.size(asked, candidate)
+        expected = each and replace(each, seconds=steps * SOLVES * each.seconds)
+        watch = told(doing, Work(f"{doing}, some {amounts.count(steps)} steps", expected))
+        return fem_reference.simulate(
+            asked, reference, duration, elements=counts, every=spacing, progress=watch, **options, **settings
+        )
+
+    fem_reference.require_moving(asked, reference)
+    lattice = simulate(
+        asked, duration, grid=grid, calibration=calibration, k=k, layer_distance=layer_distance,
+        grading=grading, large=large, every=every, frames=frames, 
+        progress=told("moving the lattice", Work("moving the lattice")),
+    )  # fmt: skip
+    spacing = lattice.settings["every"]
+    truth = moved(along, reference, spacing, frames=frames)
+    bars: dict[str, float | None] = {}
+    if uncertainty and truth.status is Status.CONVERGED:
+        half = (max(1, along[0] // 2), max(1, along[1] // 2))
+        coarse = moved(half, f"{reference} on larger elements", spacing)
+        longer = moved(along, f"{reference} in longer steps", spacing, error=LONGER * truth.settings["error"])
+        bars = {"mesh": _largest(coarse, truth), "step": _largest(longer, truth)}
+    return MotionComparison(asked, {"lumped": lattice, reference: truth}, bars)
+
+
+def _largest(one: History, other: History) -> float | None:
+    return difference(one, other)["largest"] if one.status is Status.CONVERGED else None
+
+
+def _expected_steps(scene: Scene, duration: float) -> int:
+    """Steps that a reference takes, roughly."""
+    import fem_reference
+
+    lowest = float(fem_reference.modes(scene, "plate", 2, count=1).frequencies[0])
+    each = STEPS_PER_PERIOD[scene.material.damping_time == 0.0]
+    return int(np.ceil(each * max(duration * lowest, 0.5)))

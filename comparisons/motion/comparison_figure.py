@@ -1,0 +1,83 @@
+"""The picture of two motions: probes over time, what differs below, then the energies."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+
+from comparisons.report.look import PLAIN, Look
+from comparisons.report.style import DARK, SERIES, STYLE, plain, save
+
+if TYPE_CHECKING:
+    from comparisons.motion.comparison import MotionComparison
+
+MOST = 3  # probes
+ABOVE: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "frameon": False}
+
+
+def plot(paths: Sequence[Path], found: MotionComparison, look: Look = PLAIN) -> None:
+    """Write the picture."""
+    with matplotlib.rc_context(STYLE):
+        save(compose(found, look), paths)
+
+
+def compose(found: MotionComparison, look: Look = PLAIN) -> Figure:
+    """A panel a probe, of its component that moves farthest, a panel of differences, one of energies."""
+    truth = found.histories[found.reference]
+    farthest = {name: float(np.abs(u).max()) for name, u in truth.probes.items()}
+    kept = set(sorted(farthest, key=lambda name: farthest[name], reverse=True)[:MOST])
+    shown = [name for name in truth.probes if name in kept]
+    figure = Figure(figsize=(look.width, 1.3 * len(shown) + 3.0), layout="constrained")
+    panels = figure.subplots(len(shown) + 2, 1, sharex=True, squeeze=False)[:, 0]
+    scale = max(farthest.values()) or 1.0
+    for number, (axis, probe) in enumerate(zip(panels, shown, strict=False)):
+        component = int(np.abs(truth.probes[probe]).max(axis=0).argmax())
+        for (name, history), colour in zip(found.histories.items(), (SERIES[5], SERIES[0]), strict=True):
+            values = 1e3 * history.probes[probe][:, component]
+            dashed = "-" if name == found.reference else (0, (4, 2))
+            axis.plot(
+                history.time,
+                values,
+                ls=dashed,
+                color=colour,
+                lw=1.0,
+                zorder=2 + (name != found.reference),
+                label=plain(history.label, longest=40),
+            )
+        axis.set_title(f"$u_{'xyz'[component]}$ of {plain(probe, longest=40)}", loc="left", fontsize=7.5)
+        axis.set_ylabel("displacement [mm]")
+        if number == 0:
+            axis.legend(ncols=2, **ABOVE)
+        ours = next(history for name, history in found.histories.items() if name != found.reference)
+        count = min(len(ours.time), len(truth.time))
+        apart = ours.probes[probe][:count] - truth.probes[probe][:count]
+        panels[-2].plot(
+            truth.time[:count],
+            100.0 * np.abs(apart).max(axis=1) / scale,
+            lw=1.0,
+            label=plain(probe, longest=20),
+        )
+    panels[-2].set_ylabel("difference\n[% of the peak]")
+    panels[-2].legend(ncols=MOST, **ABOVE)
+    for i, name in enumerate(("kinetic", "elastic", "potential", "dissipated")):
+        for model, history in found.histories.items():
+            dashed = "-" if model == found.reference else (0, (4, 2))
+            label = name if model == found.reference else None
+            panels[-1].plot(
+                history.time, 1e3 * history.energies[name], ls=dashed, color=SERIES[i], lw=0.9, label=label
+            )
+    panels[-1].set_ylabel("energy [mJ]")
+    panels[-1].set_xlabel("time [s]")
+    panels[-1].legend(ncols=4, fontsize=6.5, **ABOVE)
+    for axis in panels:
+        axis.spines[["top", "right"]].set_visible(False)
+        axis.axhline(0.0, color=DARK, lw=0.3)
+        axis.margins(x=0)
+    if look.titled:
+        figure.suptitle(plain(found.scene.title or found.scene.name, width=95), fontsize=8)
+    return figure

@@ -1,0 +1,160 @@
+"""What `sheetbench compare --duration` shows: measures of each motion, what differs, what it cost."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.motion import frames
+from comparisons.motion.frames import Frame
+from comparisons.motion.history import COMPONENTS, series
+from comparisons.motion.measures import leading, measured_alike
+from comparisons.motion.tables import balance
+from comparisons.report.files import write_text
+from comparisons.report.look import Look
+from comparisons.report.report import Picture, Report
+from comparisons.report.table import Column, Table, number
+from sheetbench.scenes import FieldMesh, Status
+
+if TYPE_CHECKING:
+    from comparisons.motion.comparison import MotionComparison
+
+
+def report(found: MotionComparison) -> Report:
+    """The answer, ready to be shown."""
+    histories, reference = found.histories, found.reference
+    attachments = {f"{name}.csv": partial(_write_samples, found=found, name=name) for name in histories}
+    if all(len(history.extra["frames"]) for history in histories.values()):
+        attachments |= {f"{name}.pvd": partial(_write_frames, found=found, name=name) for name in histories}
+        attachments["difference.pvd"] = partial(_write_difference, found=found)
+    return Report(
+        name="motion",
+        title=found.scene.name,
+        subtitle=found.scene.title,
+        lead=f"moving for {histories[reference].time[-1]:g} s; differences from the {reference}",
+        document=found.as_dict(),
+        tables=(_measures(found), _differences(found), _runs(found)),
+        notes=(*_bars(found), *(f"{name}: {balance(history)}" for name, history in histories.items())),
+        complaints=tuple(
+            f"{name}: {history.status}: {history.message}"
+            for name, history in histories.items()
+            if history.status is not Status.CONVERGED
+        ),
+        pictures=(Picture(("motion.png", "motion.pdf"), partial(_plot, found)),),
+        attachments=attachments,
+        scene=found.scene,
+        settings={name: history.settings for name, history in histories.items()},
+        met=found.converged,
+    )
+
+
+def _measures(found: MotionComparison) -> Table:
+    truth = found.histories[found.reference]
+    probe, component = leading(truth)
+    rows = []
+    for name, history in found.histories.items():
+        of = measured_alike(history, truth)[0]
+        damping = None if of.decay is None else of.decay / np.hypot(2.0 * np.pi, of.decay)
+        rows.append((name, of.peak, of.peak_time, of.period, of.decay, damping))
+    columns = (
+        Column("model"),
+        Column("first peak", "m", "mm", 1e3, "z.3f"),
+        Column("at", "s", "ms", 1e3, "z.2f"),
+        Column("period", "s", "ms", 1e3, "z.2f"),
+        Column("decay a period", form="z.4f"),
+        Column("as a damping ratio", "", form="z.4f"),
+    )
+    caption = f"{COMPONENTS[component]} of {probe}, which moves farthest: first peak, period, log decrement"
+    return Table(caption, columns, tuple(rows), "measures")
+
+
+def _differences(found: MotionComparison) -> Table:
+    """A row a probe, then all together with what the measures differ by."""
+    truth, rows = found.histories[found.reference], []
+    scale = max(float(np.abs(u).max()) for u in truth.probes.values()) or np.nan
+    for d in found.differences:
+        history = found.histories[d["of"]]
+        count = min(len(history.time), len(truth.time))
+        for probe, u in history.probes.items():
+            apart = u[:count] - truth.probes[probe][:count]
+            rms = float(np.sqrt(np.mean(np.sum(apart**2, axis=1)))) / scale
+            rows.append((d["of"], probe, float(np.abs(apart).max()) / scale, rms, *[None] * 4))
+        rows.append(
+            (d["of"], "all", *(d[key] for key in ("largest", "rms", "peak", "period", "phase", "decay")))
+        )
+    columns = (
+        Column("of"),
+        Column("probe"),
+        *(Column(name, "", "%", 100.0, "z.2f") for name in ("largest", "rms", "peak", "period", "phase")),
+        Column("decay", form="z.4f"),
+    )
+    caption = (
+        f"Off the {found.reference}: largest and rms of its largest displacement, phase of a period; decay: "
+        "difference of the decrements"
+    )
+    return Table(caption, columns, tuple(rows), "differences")
+
+
+def _runs(found: MotionComparison) -> Table:
+    columns = (
+        Column("model"),
+        Column("label"),
+        Column("integrator"),
+        Column("status"),
+        Column("steps", form="d"),
+        Column("set-up", "s", form=".2f"),
+        Column("time", "s", form=".2f"),
+    )
+    rows = [
+        (name, h.label, h.integrator, str(h.status), h.steps, h.setup_seconds, h.solve_seconds)
+        for name, h in found.histories.items()
+    ]
+    return Table("What it took", columns, tuple(rows), "runs")
+
+
+def _bars(found: MotionComparison) -> list[str]:
+    """What the reference's mesh and steps leave uncertain, in a sentence."""
+    known = {name: bar for name, bar in found.uncertainty.items() if bar is not None}
+    if not known:
+        return []
+    how = {"mesh": "on elements twice as large", "step": "in steps twice as long"}
+    said = " and ".join(f"{number(100 * bar, '.2g')} % {how[name]}" for name, bar in known.items())
+    return [f"the {found.reference} itself differs by at most {said}"]
+
+
+def _write_samples(path: Path, found: MotionComparison, name: str) -> None:
+    write_text(path, series(found.histories[name]).to_csv())
+
+
+def _write_frames(path: Path, found: MotionComparison, name: str) -> None:
+    history = found.histories[name]
+    frames.write_series(path, frames.frames(history) if "lattice" in history.extra else _meshes(found))
+
+
+def _meshes(found: MotionComparison) -> list[tuple[float, FieldMesh]]:
+    """Time [s] and mesh of every displacement that the reference kept."""
+    extra = found.histories[found.reference].extra
+    mesh: FieldMesh = extra["mesh"]
+    kept = zip(extra["frame_times"].tolist(), extra["frames"], strict=True)
+    return [(time, FieldMesh(mesh.points, mesh.cells, {"displacement": u})) for time, u in kept]
+
+
+def _write_difference(path: Path, found: MotionComparison) -> None:
+    """On the reference's mesh its displacement, and the lattice's less it."""
+    lattice: list[tuple[float, Frame]] = frames.frames(found.histories["lumped"])
+    shown = []
+    for (time, mesh), (_, frame) in zip(_meshes(found), lattice, strict=False):
+        u = mesh.point_data["displacement"]
+        fields = {"displacement": u, "difference": frame.displacement(mesh.points[:, :2]) - u}
+        shown.append((time, FieldMesh(mesh.points, mesh.cells, fields)))
+    frames.write_series(path, shown)
+
+
+def _plot(found: MotionComparison, paths: Sequence[Path], look: Look) -> None:
+    from comparisons.motion.comparison_figure import plot
+
+    plot(paths, found, look)

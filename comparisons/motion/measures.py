@@ -1,0 +1,109 @@
+"""What a motion is measured by: peaks, period, decay, and how far one is from another.
+
+Of the probe and component that move farthest in the reference the extrema are those that stand out by a
+twentieth of its range, placed between samples by a parabola:
+
+    peak     the first extremum [m], and when
+    period   twice the mean time between extrema that follow one another
+    decay    the logarithmic decrement a period, 2 ln(D_first/D_last)/(n − 1), of the n distances D between
+             extrema that follow one another, so that where the sheet comes to rest need not be known
+
+Of two motions as many extrema are used as both have. Distances are over the reference's largest component.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from sheetbench.scenes import History
+
+STANDS_OUT = 0.05  # of the range of a component
+
+
+@dataclass(frozen=True)
+class Measures:
+    """peak [m] at peak_time [s]; period [s]; decay: logarithmic decrement a period; last: when the last
+    extremum was that both motions have [s]. None where there are too few extrema."""
+
+    peak: float | None
+    peak_time: float | None
+    period: float | None
+    decay: float | None
+    last: float | None
+
+    def as_dict(self) -> dict[str, float | None]:
+        """For JSON."""
+        return {key: value for key, value in vars(self).items() if key != "last"}
+
+
+def leading(history: History) -> tuple[str, int]:
+    """The probe and the component that move farthest."""
+    probe = max(history.probes, key=lambda name: float(np.abs(history.probes[name]).max()))
+    return probe, int(np.abs(history.probes[probe]).max(axis=0).argmax())
+
+
+def extrema(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Times [s] and values (n, 2) of the extrema that stand out."""
+    from scipy.signal import find_peaks
+
+    least = STANDS_OUT * float(np.ptp(values))
+    if least == 0.0:
+        return np.zeros((0, 2))
+    at = np.sort(np.concatenate([find_peaks(sign * values, prominence=least)[0] for sign in (1.0, -1.0)]))
+    before, here, after = values[at - 1], values[at], values[at + 1]
+    bend, slope = before - 2.0 * here + after, 0.5 * (after - before)
+    aside = np.divide(-slope, bend, out=np.zeros(len(at)), where=bend != 0.0)
+    step = float(time[1] - time[0])
+    return np.column_stack([time[at] + aside * step, here + 0.5 * slope * aside])
+
+
+def measures(found: np.ndarray, count: int) -> Measures:
+    """Of the first `count` extrema (n, 2)."""
+    kept = found[:count]
+    if count == 0:
+        return Measures(None, None, None, None, None)
+    period = 2.0 * float(np.diff(kept[:, 0]).mean()) if count > 1 else None
+    apart = np.abs(np.diff(kept[:, 1]))
+    decay = 2.0 * float(np.log(apart[0] / apart[-1])) / (len(apart) - 1) if count > 2 else None
+    return Measures(float(kept[0, 1]), float(kept[0, 0]), period, decay, float(kept[-1, 0]))
+
+
+def measured_alike(one: History, other: History) -> tuple[Measures, Measures]:
+    """The measures of a motion and of its reference, of as many extrema as both have."""
+    probe, component = leading(other)
+    both = [extrema(h.time, h.probes[probe][:, component]) for h in (one, other)]
+    count = min(map(len, both))
+    first, second = (measures(found, count) for found in both)
+    return first, second
+
+
+def difference(one: History, other: History) -> dict[str, Any]:
+    """How far a motion is from its reference: `largest` and `rms` of all probes over the reference's largest
+    component; `peak` and `period` relative to its own; `phase`, how much later the last extremum is, in
+    periods; `decay`, by how much the decrements differ; `energies`, over its largest energy."""
+    count = min(len(one.time), len(other.time))
+    ours, theirs = (np.array([u[:count] for u in h.probes.values()]) for h in (one, other))
+    scale = float(np.abs(theirs).max()) or np.nan
+    apart = ours - theirs
+    mine, truth = measured_alike(one, other)
+    energy = max(float(np.abs(e[:count]).max()) for e in other.energies.values()) or np.nan
+
+    def relative(a: float | None, b: float | None) -> float | None:
+        return None if a is None or not b else (a - b) / abs(b)
+
+    late = None if mine.last is None or truth.last is None or not truth.period else mine.last - truth.last
+    return {
+        "largest": float(np.abs(apart).max() / scale),
+        "rms": float(np.sqrt(np.mean(np.sum(apart**2, axis=-1))) / scale),
+        "peak": relative(mine.peak, truth.peak),
+        "period": relative(mine.period, truth.period),
+        "phase": None if late is None or not truth.period else late / truth.period,
+        "decay": None if mine.decay is None or truth.decay is None else mine.decay - truth.decay,
+        "energies": {
+            name: float(np.abs(e[:count] - other.energies[name][:count]).max() / energy)
+            for name, e in one.energies.items()
+        },
+    }

@@ -1,0 +1,116 @@
+"""A scene's motion by the lattice and by a reference, side by side: what is measured, shown and written."""
+
+import json
+
+import meshio
+import numpy as np
+import pytest
+
+import sheetbench as sb
+from comparisons.cli import main
+from comparisons.motion.measures import difference, extrema, measured_alike
+from sheetbench.scenes import History, Status
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.history import ENERGIES
+
+SMALL = {"grid": 5, "elements": 2}
+
+
+def swing(frequency: float, damping: float, size: float = 1.0) -> History:
+    """A history whose only probe goes like 1 − e^(−ζωt) cos ω_d t."""
+    time = np.linspace(0.0, 1.0, 1001)
+    turn = 2.0 * np.pi * frequency
+    own = turn / np.sqrt(1.0 - damping**2)
+    height = -size * (1.0 - np.exp(-damping * own * time) * np.cos(turn * time))
+    probes = {"P": np.column_stack([0.0 * time, 0.0 * time, height])}
+    energies = {name: np.ones(1001) for name in ENERGIES}
+    return History("", "", {}, Status.CONVERGED, "", time, probes, energies, {}, {}, 1, 0.0, 0.0)
+
+
+def test_period_and_decay_of_a_damped_swing_are_its_own():
+    """Extrema of 1 − e^(−at) cos ωt lie half a period apart, wherever they are; parabolas place them to 1e-4
+    of the samples' 1/200 of a period."""
+    measured, _ = measured_alike(swing(5.0, 0.05), swing(5.0, 0.05))
+    assert measured.period == pytest.approx(0.2, rel=1e-4)
+    assert measured.decay == pytest.approx(2.0 * np.pi * 0.05 / np.sqrt(1.0 - 0.05**2), rel=1e-3)
+    first = -(1.0 + np.exp(-np.pi * 0.05))
+    assert measured.peak == pytest.approx(first, rel=2e-3)
+
+
+def test_what_two_motions_differ_by_is_what_was_changed():
+    slower = difference(swing(4.95, 0.05, 1.02), swing(5.0, 0.05))
+    assert slower["period"] == pytest.approx(0.01 / 0.99, rel=2e-2)
+    assert slower["peak"] == pytest.approx(-0.02, rel=2e-2)
+    assert slower["phase"] == pytest.approx(4.5 * 0.01 / 0.99, rel=0.1)
+    assert slower["rms"] < slower["largest"] < 0.4
+    alike = difference(swing(5.0, 0.05), swing(5.0, 0.05))
+    assert (alike["largest"], alike["rms"], alike["period"], alike["decay"]) == (0.0, 0.0, 0.0, 0.0)
+
+
+def test_what_does_not_swing_has_no_period():
+    still = swing(5.0, 0.05, 0.0)
+    assert len(extrema(still.time, still.probes["P"][:, 2])) == 0
+    measured, _ = measured_alike(still, still)
+    assert (measured.peak, measured.period, measured.decay) == (None, None, None)
+
+
+def test_lattice_and_shell_move_alike():
+    both = sb.compare("two-edges-settling", duration=0.1, grid=9, elements=4, uncertainty=False)
+    assert both.converged and both.reference == "shell"
+    assert list(both.histories) == ["lumped", "shell"]
+    (off,) = both.differences
+    assert 0.0 < off["rms"] < off["largest"] < 0.03
+    assert abs(off["peak"]) < 0.02
+    assert np.array_equal(*(history.time for history in both.histories.values()))
+
+
+def test_the_reference_has_a_bar_by_mesh_and_by_step():
+    both = sb.compare("two-edges-settling", duration=0.05, **SMALL)
+    assert 0.0 < both.uncertainty["step"] < both.uncertainty["mesh"] < 0.2
+
+
+def test_the_command_prints_and_writes_a_motion(tmp_path, capsys):
+    command = ["compare", "two-edges-settling", "--duration", "0.02", "--elements", "2", "--lumped", "3"]
+    with pytest.raises(SystemExit) as end:
+        main([*command, "--no-uncertainty", "--out", str(tmp_path), "--no-pictures"])
+    assert not end.value.code
+    printed = capsys.readouterr().out
+    assert all(word in printed for word in ("first peak", "rms", "generalised-alpha"))
+    document = json.loads((tmp_path / "motion.json").read_text())
+    motion = document["motion"]
+    assert set(motion["probes"]) == {"lumped", "shell"}
+    assert len(motion["probes"]["shell"]["P4"]) == len(motion["time"])
+    assert {"of", "against", "largest", "rms", "peak", "period", "decay"} <= set(motion["differences"][0])
+    last = sorted((tmp_path / "difference").glob("*.vtu"))[-1]
+    fields = meshio.read(last).point_data
+    corner = np.argmax(np.sum(meshio.read(last).points[:, :2], axis=1))
+    expected = np.subtract(motion["probes"]["lumped"]["P4"][-1], motion["probes"]["shell"]["P4"][-1])
+    assert fields["difference"][corner] == pytest.approx(expected, abs=1e-12)
+    assert (tmp_path / "shell.pvd").exists() and (tmp_path / "lumped.pvd").exists()
+
+
+def test_its_picture_has_a_panel_a_probe():
+    from comparisons.motion.comparison_figure import compose
+
+    both = sb.compare("two-edges-settling", duration=0.01, uncertainty=False, grid=3, elements=1)
+    assert len(compose(both).axes) == 5
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"reference": "beam"}, "beam"),
+        ({"elements": 0}, "elements"),
+        ({"elements": 2000}, "large"),
+    ],
+)
+def test_what_cannot_be_compared_is_refused(options, said):
+    with pytest.raises(BadInput, match=said):
+        sb.compare("two-edges-settling", duration=0.1, **options)
+
+
+def test_options_of_statics_are_refused_with_a_duration(capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["compare", "two-edges-settling", "--duration", "0.1", "--symmetry"])
+    assert end.value.code == 2
+    assert "--symmetry" in capsys.readouterr().err

@@ -227,22 +227,24 @@ def main() -> None:
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended; to be gone on with"))
     session = Session(options.folder, options.commit)
     tried, reasons = trials(), tomllib.loads(EQUIVALENT.read_text())["equivalent"]
-    for name, draw in DRAWS.items():
-        for number, fault in enumerate(drawn(session.tree, draw), 1):
-            known = fault.name in tried
-            survived = known and tried[fault.name][-1]["failed"] is None and fault.name not in reasons
-            again = survived and options.survivors and options.survivors in fault.name
-            if again or not (known or options.survivors):
-                row = session.try_fault(fault, name, options.tests)
-                print(
-                    name,
-                    number,
-                    row["failed"] or "SURVIVED",
-                    row["seconds"],
-                    fault.name,
-                    sep="  ",
-                    flush=True,
-                )
+    chosen = [(name, fault) for name, draw in DRAWS.items() for fault in drawn(session.tree, draw)]
+    asked_for = [(name, fault) for name, fault in chosen if fault.name not in tried]
+    if options.survivors:
+        survived = {name: rows[-1]["draw"] for name, rows in tried.items() if rows[-1]["failed"] is None}
+        wanted = {name for name in survived.keys() - reasons.keys() if options.survivors in name}
+        modules = sorted({name.partition(" ")[0] for name in wanted})
+        there = [fault for name in modules for fault in faults(name, (session.tree / name).read_bytes())]
+        asked_for = [(survived[fault.name], fault) for fault in there if fault.name in wanted]
+    for number, (name, fault) in enumerate(asked_for, 1):
+        row = session.try_fault(fault, name, options.tests)
+        print(
+            f"{number} of {len(asked_for)}",
+            row["failed"] or "SURVIVED",
+            row["seconds"],
+            fault.name,
+            sep="  ",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

@@ -2,8 +2,8 @@
 
 Usage, in the tree to be judged: python judge.py ASKED VERDICT
 ASKED, JSON: files of tests, the nearest first; tests to be skipped; words that promising tests use; seconds
-that may be spent, and what single tests are known to take. VERDICT, JSON: the test that failed or null, the
-seconds of processor time spent, and what each test took; the test that runs until there is a verdict.
+that may be spent, and more by a test that was begun; what single tests are known to take. VERDICT, JSON: the
+test that failed or null, the seconds of processor time spent, and what each test took; or the test that runs.
 """
 
 from __future__ import annotations
@@ -20,7 +20,6 @@ from typing import Any
 import pytest
 from nearest import SPOKEN_OF, has
 
-HUNG = 60.0  # seconds beyond those that may be spent: no test that is begun takes as long
 NEW = 100.0  # in favour of a test that was not run yet: such are written for what has survived
 
 
@@ -84,7 +83,7 @@ class Watch:
 def main() -> None:
     asked, verdict = (Path(name) for name in sys.argv[1:])
     watch = Watch(json.loads(asked.read_text()), verdict)
-    limit = math.ceil(HUNG + watch.asked["seconds"])
+    limit = math.ceil(watch.asked["longest"] + watch.asked["seconds"])
     resource.setrlimit(resource.RLIMIT_CPU, (limit, limit))
     options = ["-q", "-x", "-p", "no:cacheprovider", "--no-header", "--tb=line"]
     pytest.main([*options, *watch.asked["files"]], plugins=[watch])

@@ -17,7 +17,7 @@ from math import sqrt
 from pathlib import Path
 from typing import Any
 
-from session import AS_PYTHON, COMPILING, DRAWS, ENOUGH, EQUIVALENT, NEAREST, trials
+from session import COMPILING, DRAWS, ENOUGH, EQUIVALENT, NEAREST, trials
 
 from comparisons.runs.manifest import processor
 
@@ -25,7 +25,8 @@ TITLE = "### Figures\n"
 HEAD = """
 {size} faults, {kernels} of them in files with compiled kernels, seed {seed}; {day}, Python {python},
 {processor}; commits {commits}. A fault was tried for up to {enough:.0f} seconds of processor time on the
-{files} nearest files of tests; one in kernels {python_way:.0f} seconds as Python and {compiled:.0f} compiled.
+{files} nearest files of tests; one in kernels that only
+the compiler knows for {compiled:.0f}.
 
 | files | package | tried | noticed | mended | equivalent | not caught | noticed of those that can be told \
 (95 % interval) | with the new tests |
@@ -44,7 +45,6 @@ def page(tried: dict[str, Trials], reasons: dict[str, str]) -> str:
         kernels=sum(trials[0]["draw"] == "kernels" for trials in tried.values()),
         enough=ENOUGH,
         files=NEAREST[-1],
-        python_way=AS_PYTHON,
         compiled=ENOUGH + COMPILING,
         day=datetime.date.today().isoformat(),
         python=platform.python_version(),

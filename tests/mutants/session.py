@@ -8,8 +8,8 @@ What stands there is not tried again but for survivors, with ``--survivors TEXT`
 ``--tests``, where equivalent.toml does not say why no test can tell. A test that notices a fault is itself
 run once on the code as it is: what fails there too proves nothing, and is left out.
 
-Faults of files with compiled kernels are tried as Python first (NUMBA_DISABLE_JIT), and what survives that
-compiled, in a copy of the clone's cache of kernels.
+Faults of files with compiled kernels are tried as Python (NUMBA_DISABLE_JIT), but for files with intrinsics:
+those are compiled, in a copy of the clone's cache of kernels.
 
 Usage: python tests/mutants/session.py FOLDER   (the clone, its kernels, the tests' times)
 """
@@ -37,11 +37,10 @@ from sheetbench.kernels import COMPILED
 HERE = Path(__file__).resolve().parent
 TRIED, EQUIVALENT, JUDGE = HERE / "tried.jsonl", HERE / "equivalent.toml", HERE / "judge.py"
 KERNELS = "tests/kernels.py"
-AS_PYTHON = (
-    20.0  # seconds of processor time that faults of kernels are tried for as Python: some take minutes
-)
-ENOUGH = 25.0  # seconds after which a fault has survived
-COMPILING = 30.0  # seconds more where kernels are compiled anew
+NOT_PYTHON = "lumped.springs.memory"  # whose intrinsics only the compiler knows
+ENOUGH = 25.0  # seconds of processor time after which a fault has survived
+COMPILING = 50.0  # seconds more where kernels are compiled anew
+LONGEST = {True: 60.0, False: 15.0}  # seconds more for a test that is begun: compiled or as Python
 HUNG = 1800  # seconds on the clock
 NO_END = "no end, or a crash: "
 NEAREST = (4, 9, 20)  # files of tests: the nearest, more, and the last that are tried
@@ -95,15 +94,13 @@ class Session:
         nearest = self._nearest.tests(fault.module, words_of(fault.module, fault.function))
         files = chosen or nearest[: NEAREST[-1]]
         groups = [files[start:end] for start, end in zip((0, *NEAREST), NEAREST, strict=False)]
-        ways = [(False, AS_PYTHON), (True, ENOUGH + COMPILING)] if DRAWS[draw].kernels else [(True, ENOUGH)]
-        seconds, failed, run = 0.0, None, set[str]()
-        for compiled, most in ways:
-            with self.cache_of_the_fault(compiled and DRAWS[draw].kernels) as cache:
-                failed, spent, some = self.first_to_notice(fault, groups, most, cache, compiled)
-            seconds, run = seconds + spent, run | some
-            if failed:
-                break
-        code = (self.tree / fault.module).read_text().splitlines()[fault.line - 1].strip()
+        source = (self.tree / fault.module).read_text()
+        kernels = DRAWS[draw].kernels
+        compiled = not kernels or NOT_PYTHON in source
+        most = ENOUGH + COMPILING * (kernels and compiled)
+        with self.cache_of_the_fault(kernels and compiled) as cache:
+            failed, seconds, run = self.first_to_notice(fault, groups, most, cache, compiled)
+        code = source.splitlines()[fault.line - 1].strip()
         row = {"draw": draw, "fault": fault.name, "code": code, "commit": self.commit, "failed": failed}
         row |= {"seconds": round(seconds, 1), "files": [name for name in files if name in run]}
         with TRIED.open("a") as book:
@@ -168,7 +165,13 @@ class Session:
         """The test that noticed and the seconds spent; one that does not end or crashes has noticed."""
         question, verdict, book = (self.folder / name for name in ("asked.json", "verdict.json", "took.json"))
         took = json.loads(book.read_text()) if book.exists() else {}
-        about = {"files": files, "words": words, "skipped": skipped, "seconds": most}
+        about = {
+            "files": files,
+            "words": words,
+            "skipped": skipped,
+            "seconds": most,
+            "longest": LONGEST[compiled],
+        }
         question.write_text(json.dumps({**about, "took": took if compiled else {}}))
         verdict.write_text(json.dumps({"running": files[0]}))  # of what ends before a test is begun
         run = subprocess.Popen(

@@ -8,7 +8,10 @@ from time import perf_counter, sleep
 import numba
 import pytest
 
+import fem_reference
+import lumped
 from sheetbench import clock, kernels
+from sheetbench.scenes import load
 
 
 def test_compiling_counts_as_no_time() -> None:
@@ -47,3 +50,14 @@ def test_another_thread_s_clock_goes_on() -> None:
         thread.join()
         assert clock.now() == moment
     assert elapsed[0] >= 0.01 > clock.now() - began
+
+
+@pytest.mark.parametrize("model", ["lumped", *fem_reference.MODELS])
+def test_setting_up_and_solving_take_no_longer_than_the_call(model: str) -> None:
+    scene, began = load("one-edge-clamped"), clock.now()
+    if model == "lumped":
+        answer = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, (3, 3)))
+    else:
+        answer = fem_reference.solve(scene, model, elements=2)
+    assert answer.setup_seconds > 0.0 and answer.solve_seconds > 0.0
+    assert answer.setup_seconds + answer.solve_seconds <= clock.now() - began

@@ -50,7 +50,7 @@ if _TYPE_CHECKING:
         catalogue,
         load,
     )
-    from sheetbench.studies import crosscheck, export, report, schema, score, stability, transfer, verify
+    from sheetbench.studies import crosscheck, export, report, schema, score, stability, verify
 
 _ELSEWHERE = {  # name: module and what it is called there; all else is of sheetbench.scenes
     "Displacements": ("comparisons.identification.measurements", "Displacements"),
@@ -73,7 +73,6 @@ _ELSEWHERE = {  # name: module and what it is called there; all else is of sheet
     "stability": ("sheetbench.studies", "stability"),
     "suite": ("comparisons.suite.tables", "report"),
     "tradeoff": ("sheetbench.face", "tradeoff"),
-    "transfer": ("sheetbench.studies", "transfer"),
     "verify": ("sheetbench.studies", "verify"),
 }
 
@@ -121,7 +120,6 @@ __all__ = [
     "stability",
     "suite",
     "tradeoff",
-    "transfer",
     "verify",
 ]
 

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from comparisons.runs.store import Store
     from comparisons.scoring.score import Score
     from comparisons.stability.extremes import Stability
-    from comparisons.transfer.study import Transfer
     from lumped import Calibration
 
 
@@ -132,36 +131,6 @@ def stability(
             workers=workers,
             large=large,
         )
-
-
-def transfer(
-    methods: Sequence[str] | None = None,
-    grids: Sequence[int] = (9, 17, 33),
-    *,
-    scenes: Sequence[str] | None = None,
-    parts: Sequence[str] | None = None,
-    grading: Grading = None,
-    elements: int = 24,
-    workers: int = 1,
-    out: str | Path | None = None,
-    large: bool = False,
-) -> Transfer:
-    """Measure calibrations on scenes that they were not made on, as the grid is refined.
-
-    grids: masses along the shorter side, 4 n + 1 and rising. methods, scenes, parts: all of the study's
-    unless named. out: a folder that keeps the rows of an interrupted call.
-    """
-    from comparisons.transfer import asked
-    from comparisons.transfer.study import transfer as measure
-
-    settings: dict[str, Any] = {
-        "methods": asked.methods(None if methods is None else ",".join(methods)),
-        "grids": asked.grids(",".join(map(str, grids))),
-        "scenes": asked.scenes(None if scenes is None else ",".join(scenes)),
-        "parts": asked.parts(parts),
-    }
-    with _store(out) as store:
-        return measure(store, **settings, grading=grading, elements=elements, workers=workers, large=large)
 
 
 def verify(cases: Sequence[str] | None = None) -> Report:

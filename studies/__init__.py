@@ -15,4 +15,5 @@ STUDIES = {
     "reproduction": "the study of Habibi et al. in depth: its contradictions, the nearest sheets",
     "simulators": "other simulators with what is exported for them",
     "stability": "where each solver holds, degrades, refuses or breaks: eight published maps",
+    "transfer": "every calibration on scenes that it was not made on, as the grid is refined",
 }

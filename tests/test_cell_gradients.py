@@ -8,12 +8,12 @@ from cases import relative
 
 import fem_reference
 import lumped
-from comparisons.transfer.scenes import transfer_scenes
 from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration.closed_form import closed_form
 from lumped.calibration.report import report
 from sheetbench.scenes import Material, Sheet
+from studies.transfer.scenes import transfer_scenes
 
 
 def cost_of_bending_in_plane(gradients: bool, poisson: float, axis: int, sides: tuple[float, float]) -> float:

@@ -15,8 +15,8 @@ import fem_reference
 import lumped
 from comparisons.cli.app import app
 from comparisons.models.registry import REFERENCES
-from comparisons.transfer.study import FITTED, METHODS
 from sheetbench import choices
+from studies.transfer.study import FITTED, METHODS
 
 
 def test_every_name_is_there_and_described() -> None:

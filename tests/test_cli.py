@@ -64,10 +64,10 @@ def test_a_shell_can_complete_the_verbs(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("_SHEETBENCH_COMPLETE", "complete_bash")
-    monkeypatch.setenv("COMP_WORDS", "sheetbench tr")
+    monkeypatch.setenv("COMP_WORDS", "sheetbench s")
     monkeypatch.setenv("COMP_CWORD", "1")
     run()
-    assert {"tradeoff", "transfer"} <= set(capsys.readouterr().out.split())
+    assert {"simulate", "stability", "study"} <= set(capsys.readouterr().out.split())
 
 
 @pytest.mark.parametrize(

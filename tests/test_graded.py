@@ -14,12 +14,12 @@ from scipy.spatial.transform import Rotation
 import fem_reference
 import lumped
 from comparisons.models.registry import solve
-from comparisons.transfer.scenes import transfer_scenes
 from lumped.assembly import Assembly
 from lumped.calibration import edge_twist
 from lumped.grid_lines import grid_lines
 from lumped.masses import masses
 from sheetbench.scenes import BadInput, Clamped, PointLoad, Scene, Sheet, SpringTable, Status, load
+from studies.transfer.scenes import transfer_scenes
 
 GRADINGS = (0.5, 0.8)
 CENTRE, CORNER = -3.7224e-3, -19.835e-3  # of the seed's linear sheet: `test_edge_twist`

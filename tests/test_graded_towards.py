@@ -14,12 +14,12 @@ import lumped
 from comparisons.comparison.comparison import error
 from comparisons.models.grading import ONE_SIDED, grading_of, read
 from comparisons.models.registry import solve
-from comparisons.transfer.scenes import transfer_scenes
-from comparisons.transfer.tasks import points
 from lumped.grid_lines import grid_lines
 from lumped.springs.constants import of_edge_cells
 from sheetbench.scenes import BadInput, load
 from sheetbench.scenes.grading import Grading, as_settings, of_settings, towards
+from studies.transfer.scenes import transfer_scenes
+from studies.transfer.tasks import points
 
 LEFT = Grading(0.6, ("x0",))
 TURNED = {"x0": "x1", "x1": "x0"}

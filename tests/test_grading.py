@@ -14,10 +14,9 @@ import sheetbench as sb
 from comparisons.models.grading import GRADED, grading_of, read
 from comparisons.models.registry import solve
 from comparisons.models.springs import resolve_each
-from comparisons.transfer.scenes import transfer_scenes
-from comparisons.transfer.study import _Study
 from sheetbench.scenes import BadInput, load
 from sheetbench.scenes.grading import amount
+from studies.transfer.scenes import transfer_scenes
 
 VERBS = {
     "compare": (("--elements", "2", "--no-uncertainty"), lambda d: d["solutions"][0]["settings"]),
@@ -42,13 +41,12 @@ def test_every_verb_takes_a_number(verb, tmp_path, monkeypatch, capsys) -> None:
         assert settings(json.loads(capsys.readouterr().out))["grading"] == used
 
 
-@pytest.mark.parametrize("verb", [*VERBS, "tradeoff", "transfer"])
+@pytest.mark.parametrize("verb", [*VERBS, "tradeoff"])
 def test_what_is_no_grading_leaves_with_2(verb, tmp_path, monkeypatch, capsys) -> None:
     monkeypatch.chdir(tmp_path)
     measured(tmp_path)
-    scene = () if verb == "transfer" else ("one-edge-clamped",)
     for wrong in ("2", "-0.1", "fine", "nan"):
-        assert run(verb, *scene, f"--grading={wrong}", *VERBS.get(verb, ((),))[0]) == 2
+        assert run(verb, "one-edge-clamped", f"--grading={wrong}", *VERBS.get(verb, ((),))[0]) == 2
         assert f"grading = {wrong}" in one_line(capsys)
 
 
@@ -129,7 +127,7 @@ def test_a_scene_file_brings_its_grading(tmp_path, capsys) -> None:
 
 
 def test_of_many_lattices_those_are_graded_whose_calibration_takes_it(monkeypatch, capsys) -> None:
-    """The others keep cells of one size: in trade-offs, and in the transfer study's static part."""
+    """The others keep cells of one size: in trade-offs."""
     seen = []
 
     def recorded(*asked, **settings):
@@ -146,10 +144,6 @@ def test_of_many_lattices_those_are_graded_whose_calibration_takes_it(monkeypatc
     assert seen[1][1]["lattice"].grading == "0.3" and "bent by 4 1/m" in seen[0][1]["reasons"][0]
     shown, reasons = resolve_each(load("curved-edge"), lattices[1:], "auto")
     assert shown == lattices[1:] and reasons == ()
-    study = _Study(transfer_scenes(), ("consistent", "uniform"), (9, 513), 8, "auto")
-    chosen, reasons = study.gradings("tenth-of-young")
-    assert chosen == {"consistent": [0.3, 0.0], "uniform": [0.0, 0.0]}
-    assert len(reasons) == 2 and "bends the sheet within 68.6 mm" in reasons[0]
     with pytest.raises(BadInput, match="none of these calibrations"):
         resolve_each(load("curved-edge"), lattices[1:], 0.5)
 

@@ -150,15 +150,14 @@ def test_what_is_no_number_of_elements_leaves_with_2(
     assert "--elements = '8y'" in one_line(capsys)
 
 
-@pytest.mark.parametrize("verb", [*VERBS, "tradeoff", "transfer"])
+@pytest.mark.parametrize("verb", [*VERBS, "tradeoff"])
 def test_what_is_not_a_grid_leaves_with_2(
     verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("long.toml").write_text(TEXT)
     Path("measured.csv").write_text("x,y,ux,uy,uz\n0.2,0.05,,,-0.02\n0.1,0.05,,,-0.01\n")
-    asked = () if verb == "transfer" else ("long.toml",)
-    assert run(verb, *asked, "--grid", "9y", *VERBS.get(verb, [()])[0]) == 2
+    assert run(verb, "long.toml", "--grid", "9y", *VERBS.get(verb, [()])[0]) == 2
     said = one_line(capsys)
     assert "9y" in said and "--grid" in said
 

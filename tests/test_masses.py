@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import lumped
-from comparisons.transfer.scenes import transfer_scenes
 from lumped.lattice import build
 from lumped.masses import mass_matrix, masses
 from sheetbench.scenes import Material, Scene, Sheet
+from studies.transfer.scenes import transfer_scenes
 
 SHEET = Sheet(length_x=0.2, length_y=0.3, thickness=0.002)
 SCENE = Scene(name="free", sheet=SHEET, material=Material(young=1e6, poisson=0.3, density=1000.0))

@@ -14,10 +14,9 @@ from comparisons.models.method import FAR, MEMBRANE, chosen, method_for
 from comparisons.models.registry import solve
 from comparisons.models.scales import scales
 from comparisons.tradeoff.asked import of_statics
-from comparisons.transfer.scenes import transfer_scenes
-from comparisons.transfer.study import _Study
-from comparisons.transfer.tasks import points
 from sheetbench.scenes import Clamped, Scene, load
+from studies.transfer.scenes import transfer_scenes
+from studies.transfer.tasks import points
 
 SCENES = transfer_scenes()
 RUBBER = SCENES["two-edges-clamped"]
@@ -91,13 +90,6 @@ def test_commands_say_it(capsys) -> None:
         == 2
     )
     assert "method = auto" in one_line(capsys)
-
-
-def test_the_transfer_study_takes_it_as_a_method() -> None:
-    study = _Study({"a": held("x0", "x1"), "b": held("x0")}, ("auto", "consistent"), (9,), 8, "auto")
-    rows = {(row["scene"], row["method"]): row for row in study.static()}
-    assert rows["a", "auto"]["calibration"] == "consistent" and rows["b", "auto"]["calibration"] == MEMBRANE
-    assert "calibration" not in rows["b", "consistent"]
 
 
 @pytest.mark.slow

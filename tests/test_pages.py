@@ -159,18 +159,6 @@ FOUND = {
         },
         ["A score of 2 %; the worst case is soft, 4 % off.", "Of 2 models on these cases it is number 2."],
     ),
-    "transfer": (
-        {
-            "methods": ["consistent", "uniform"],
-            "grids": [5, 9],
-            "static": [
-                {"scene": "flat", "method": "consistent", "errors": [0.02, 0.01]},
-                {"scene": "bent", "method": "consistent", "errors": [0.06, 0.03]},
-                {"scene": "bent", "method": "uniform", "errors": [0.06, None]},
-            ],
-        },
-        ["consistent, 9 masses a side: 2 % off in the median of 2 scenes, 3 % in the worst, bent."],
-    ),
     "crosscheck": (
         {
             "pairs": [
@@ -197,7 +185,7 @@ def test_a_study_begins_with_what_it_found(tmp_path: Path, verb: str) -> None:
 
 def test_several_grids_are_not_the_sides_of_one(tmp_path: Path) -> None:
     settings = {"grids": [5, 9], "grid": [5, 9]}
-    study = Study(tmp_path, "", "transfer", (), {"settings": settings})
+    study = Study(tmp_path, "", "crosscheck", (), {"settings": settings})
     assert asked(study) == [("settings", "grids 5, 9, grid 5 × 9")]
 
 

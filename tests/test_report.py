@@ -247,9 +247,8 @@ def test_commands_refuse_a_folder_of_another_scene(
         ("modes", "one-edge-clamped"),
         ("simulate", "one-edge-clamped"),
         ("tradeoff", "one-edge-clamped"),
-        ("transfer",),
         ("advise", "one-edge-clamped"),
-        ("stability",),
+        ("stability", "one-edge-clamped"),
         ("verify",),
     ],
 )

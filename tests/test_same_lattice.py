@@ -19,7 +19,6 @@ from comparisons.models import registry
 from comparisons.models.springs import LatticeSpec, resolve
 from comparisons.runs.tasks import function
 from comparisons.tradeoff import motion, statics
-from comparisons.transfer import study as transfer
 from sheetbench.scenes import Scene, SpringTable
 
 CONSUMERS = ("solve", "simulate", "modes", "linearise", "sensitivity", "describe", "pose")
@@ -61,7 +60,7 @@ def carried_out(runs: list[Any], *_: Any, **__: Any) -> None:
 def caught(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in CONSUMERS:
         monkeypatch.setattr(lumped, name, used)
-    for module in (crosscheck, motion, statics, transfer):
+    for module in (crosscheck, motion, statics):
         monkeypatch.setattr(module, "carry_out", carried_out)
     monkeypatch.setattr(motion, "shortest_period", lambda *_: 1.0)
     monkeypatch.setattr(motion, "explicit_limit", lambda *_: 1.0)
@@ -124,10 +123,6 @@ VERBS: dict[str, tuple[Callable[..., None], frozenset[str]]] = {
     "tradeoff of a motion": (verb("tradeoff", "{scene}", "--duration", "0.01"), WORDS),
     "tradeoff": (verb("tradeoff", "{scene}", "--shell", "", "--solid", "", "--plate", ""), GRIDS),
     "crosscheck": (verb("crosscheck", "{scene}", "--grid", "9,13", "--shell", ""), GRIDS - {"grid"}),
-    "transfer": (
-        verb("transfer", "--scenes", SCENE, "--part", "static", renamed={"calibration": "methods"}),
-        GRIDS - {"grid"},
-    ),
     "advise": (python(of_advice), GRIDS - {"grid"}),
     "live": (verb("live", "{scene}", "--no-browser"), GRIDS),
     "sb.solve": (python(lambda scene, _, **own: sb.solve(scene, **own)), WORDS),
@@ -147,7 +142,7 @@ VERBS: dict[str, tuple[Callable[..., None], frozenset[str]]] = {
     "sb.tradeoff": (python(listed), GRIDS),
 }
 ANEW = {"calibrate", "sb.calibrate", "identify", "sb.identify"}  # make the springs, whatever the scene has
-NAMED = {"tradeoff", "sb.tradeoff", "transfer"}  # list their calibrations, where the others leave them open
+NAMED = {"tradeoff", "sb.tradeoff"}  # list their calibrations, where the others leave them open
 CHOSEN = {*NAMED, "crosscheck", "advise"}
 UNABLE = {"live": ("5x7", "0.4:x0")}  # one number for the grid, one grading for all edges
 

@@ -149,9 +149,8 @@ VERBS = {
     "modes": (SCENE, "--lumped", "3", "--elements", "2", "--count", "2"),
     "simulate": (SCENE, "--lumped", "3", "--duration", "0.02"),
     "tradeoff": (SCENE, "--lumped", "3", "--plate", "", "--shell", "", "--solid", "", "--elements", "4"),
-    "transfer": ("--grids", "5", "--scenes", SCENE, "--methods", "uniform", "--part", "static"),
     "advise": (SCENE,),
-    "stability": ("--study", "grid"),
+    "stability": (SCENE, "--lumped", "3", "--elements", "2", "--vary", "grid"),
 }
 
 

@@ -65,10 +65,6 @@ SMALL = {
         *("tradeoff", SEED, "--lumped", "3", "--plate", "", "--shell", "2", "--solid", ""),
         *("--elements", "4", "--repeats", "1", "--workers", "1", "--out", "tradeoff"),
     ],
-    "transfer": [
-        *("transfer", "--methods", "consistent,uniform", "--grids", "5,9", "--scenes", "one-edge-clamped"),
-        *("--part", "static", "--elements", "4", "--workers", "1", "--out", "transfer"),
-    ],
     "crosscheck": [
         *("crosscheck", SEED, "--lumped", "3,5", "--plate", "", "--shell", "2,3", "--solid", ""),
         *("--judges", "", "--workers", "1", "--out", "crosscheck"),

@@ -37,7 +37,6 @@ VERBS = (
     "identify",
     "simulate",
     "tradeoff",
-    "transfer",
     "advise",
     "stability",
     "verify",

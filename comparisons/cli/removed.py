@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-VERBS: dict[str, str] = {}
+VERBS = {"transfer": "run 'sheetbench study transfer' in a checkout"}
 OPTIONS = {
     ("stability", "--study"): "'sheetbench study stability' has the published maps, in a checkout; "
     "'sheetbench stability SCENE --vary NAME' those of your sheet",

@@ -18,7 +18,6 @@ QUESTIONS = {
     "tradeoff": "What does speed cost in accuracy, over models and grids?",
     "advise": "Which is the cheapest model within a tolerance?",
     "identify": "Which material brings the model nearest to measured displacements?",
-    "transfer": "How well do calibrations carry over to other scenes?",
     "stability": "Where does each solver hold, degrade, refuse or break?",
     "verify": "Do the references meet published values?",
     "crosscheck": "Do independent programs agree on this sheet?",

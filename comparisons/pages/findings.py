@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from math import pi
-from statistics import median
 from typing import Any
 
 from comparisons.pages.asked import short
@@ -211,20 +210,6 @@ def _score(document: Document) -> list[str]:
     return said
 
 
-def _transfer(document: Document) -> list[str]:
-    said = []
-    for method in document["methods"]:
-        rows = [row for row in document["static"] if row["method"] == method]
-        errors = [(row["errors"][-1], row["scene"]) for row in rows if row["errors"][-1] is not None]
-        if errors:
-            (worst, scene), middle = max(errors), median(error for error, _ in errors)
-            said.append(
-                f"{method}, {document['grids'][-1]} masses a side: {_percent(middle)} off "
-                f"in the median of {len(errors)} scenes, {_percent(worst)} in the worst, {scene}."
-            )
-    return said
-
-
 def _crosscheck(document: Document) -> list[str]:
     pairs = document["pairs"]
     apart = [pair for pair in pairs if pair["apart"]]
@@ -251,6 +236,5 @@ SAID: dict[str, Callable[[Document], list[str]]] = {
     "verify": _verify,
     "reproduce": _reproduce,
     "score": _score,
-    "transfer": _transfer,
     "crosscheck": _crosscheck,
 }

@@ -15,11 +15,6 @@ TASKS = {
     "motion": "comparisons.tradeoff.motion:measure",
     "stability.run": "comparisons.stability.tasks:run",
     "crosscheck": "comparisons.crosscheck.task:answer",
-    "transfer.lattice": "comparisons.transfer.tasks:lattice",
-    "transfer.reference": "comparisons.transfer.tasks:reference",
-    "transfer.homogenised": "comparisons.transfer.tasks:homogenised",
-    "transfer.lattice_frequencies": "comparisons.transfer.tasks:lattice_frequencies",
-    "transfer.reference_frequencies": "comparisons.transfer.tasks:reference_frequencies",
 }
 
 

@@ -19,10 +19,10 @@ import fem_reference
 import lumped
 from comparisons.comparison.comparison import error
 from comparisons.models.expected_error import estimate, finer_grid, largest_stretch, resolves
-from comparisons.transfer.scenes import transfer_scenes
 from sheetbench.scenes import Scene, catalogue, load
 from sheetbench.scenes.grid import grid_of
 from studies.advisor.study import scenes_at_random
+from studies.transfer.scenes import transfer_scenes
 
 STORED = Path(__file__).with_name("answers.json")
 GRIDS = (5, 9, 17)

@@ -23,9 +23,9 @@ from comparisons.models.mujoco import MODEL
 from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
 from comparisons.report.work import Progress, Work
-from comparisons.transfer.scenes import transfer_scenes
 from sheetbench.scenes import Scene
 from studies.simulators.mujoco import at_rest, displacement, loaded, put
+from studies.transfer.scenes import transfer_scenes
 
 SCENES = ("one-edge-clamped", "two-edges-clamped", "opposite-edges-clamped", "curved-edge")
 GRID = 9

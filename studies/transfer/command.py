@@ -1,12 +1,16 @@
-"""`sheetbench transfer`: calibrations judged on scenes that they were not made on."""
+"""`sheetbench study transfer`: calibrations judged on scenes that they were not made on."""
 
 from __future__ import annotations
 
+import os
 from typing import Annotated
 
 import typer
 
+from comparisons.cli.finish import finish
 from comparisons.cli.options import Grading, Json, Large, Out, Overwrite, Retry, Workers
+from studies.transfer import asked
+from studies.transfer.study import transfer
 
 
 def command(
@@ -53,12 +57,6 @@ def command(
 
     With --out an interrupted study is resumed.
     """
-    import os
-
-    from comparisons.cli.finish import finish
-    from comparisons.transfer import asked
-    from comparisons.transfer.study import transfer
-
     calibrations, named = asked.methods(methods), asked.scenes(scenes)
     parts, sizes = asked.parts(part), asked.grids(grids)
     with finish("transfer", json, out, overwrite) as end:

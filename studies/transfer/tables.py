@@ -10,13 +10,13 @@ from comparisons.report.report import Report
 from comparisons.report.table import Column, Table
 
 if TYPE_CHECKING:
-    from comparisons.transfer.study import Transfer
+    from studies.transfer.study import Transfer
 
 _PER_CENT = ("", "%", 100.0, "z.2f")
 
 
 def report(found: Transfer) -> Report:
-    """What `sheetbench transfer` shows."""
+    """What `sheetbench study transfer` shows."""
     return Report(
         name="transfer",
         title="transfer",

@@ -9,10 +9,11 @@ from commands import one_line, run
 
 import lumped  # noqa: F401  (rslab is to be imported by the thread that lives longest)
 from comparisons.runs.campaign import campaign
-from comparisons.transfer import study as studies
-from comparisons.transfer.scenes import TRAINING, transfer_scenes
-from comparisons.transfer.study import FITTED, transfer
-from comparisons.transfer.tables import tables
+from sheetbench.scenes import Clamped
+from studies.transfer import study as studies
+from studies.transfer.scenes import TRAINING, transfer_scenes
+from studies.transfer.study import FITTED, _Study, transfer
+from studies.transfer.tables import tables
 
 SCENES = transfer_scenes()
 SEED = list(TRAINING)
@@ -114,7 +115,7 @@ def test_tables_have_a_column_per_method_and_a_row_per_scene(study):
 def test_command(tmp_path, in_process, capsys):
     arguments = ["--methods", "uniform", "--scenes", "two-edges-clamped", "--grids", "5,9", "--elements", "4"]
     arguments += ["--part", "static", "--workers", "1", "--json", "--out", str(tmp_path)]
-    assert run("transfer", *arguments) == 0
+    assert run("study", "transfer", *arguments) == 0
     document = json.loads(capsys.readouterr().out)
     assert document["static"][0]["method"] == "uniform" and len(document["static"][0]["errors"]) == 2
     assert "two-edges-clamped" in (tmp_path / "transfer.md").read_text(encoding="utf-8")
@@ -131,7 +132,7 @@ def test_command(tmp_path, in_process, capsys):
     ],
 )
 def test_bad_option_leaves_with_2_and_one_line(option, named, capsys):
-    assert run("transfer", *option) == 2
+    assert run("study", "transfer", *option) == 2
     said = one_line(capsys)
     assert all(part in said for part in named)
 
@@ -145,3 +146,22 @@ def test_the_whole_study(study):
     assert max(row["error"] for row in found.aspect) < 0.02
     modal = by_scene([row for row in found.modal if row["masses"] == "gregory"], "misses")
     assert all(np.abs(modal[name, "fit-modal"][0]).max() < 0.01 for name in SEED)
+
+
+def test_springs_and_grading_are_those_of_auto_where_that_is_a_method() -> None:
+    """Only the methods that take a grading have one."""
+    soft = transfer_scenes()["tenth-of-young"]
+    one = soft.replace(supports=(Clamped("x0"),))
+    study = _Study({"b": one}, ("auto", "consistent"), (9,), 8, "auto")
+    rows = {(row["scene"], row["method"]): row for row in study.static()}
+    assert rows["b", "auto"]["calibration"] == "consistent-membrane"
+    assert "calibration" not in rows["b", "consistent"]
+    chosen, reasons = _Study({"soft": soft}, ("consistent", "uniform"), (9, 513), 8, "auto").gradings("soft")
+    assert chosen == {"consistent": [0.3, 0.0], "uniform": [0.0, 0.0]}
+    assert len(reasons) == 2 and "bends the sheet within 68.6 mm" in reasons[0]
+
+
+@pytest.mark.parametrize("wrong", [("--grading=2",), ("--grids", "9y"), ("--out", "")])
+def test_options_that_make_no_sense_leave_with_2(wrong, capsys):
+    assert run("study", "transfer", *wrong) == 2
+    assert wrong[-1].partition("=")[2] in one_line(capsys)

@@ -30,11 +30,11 @@ from comparisons.report.report import Report
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
-from comparisons.transfer import tables
-from comparisons.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_scenes
-from comparisons.transfer.tasks import FINE
 from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.scenes import Scene, comparable
+from studies.transfer import tables
+from studies.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_scenes
+from studies.transfer.tasks import FINE
 
 OTHERS = ("consistent-interior", "consistent-membrane", "consistent-oblique")  # `consistent` has their moduli
 METHODS = tuple(name for name in CALIBRATIONS if name not in OTHERS)
@@ -62,7 +62,7 @@ class Transfer:
     failed: list[str] = field(default_factory=list)
 
     def as_dict(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench transfer`: errors and misses are fractions."""
+        """The JSON document of `sheetbench study transfer`: errors and misses are fractions."""
         return dict(vars(self))
 
     def report(self) -> Report:
@@ -306,7 +306,7 @@ class _Study:
 
     def _ask(self, task: str, arguments: dict[str, Any], label: str, key: str) -> np.ndarray | None:
         """What a run found, or None where it has no answer to the whole load; planned if not yet done."""
-        run = Run(f"transfer.{task}", arguments, label)
+        run = Run(f"studies.transfer.tasks:{task}", arguments, label)
         self.planned.setdefault(run.key, run)
         if self.outcomes is None:
             return None

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from comparisons.models.candidate import items
-from comparisons.transfer.scenes import transfer_scenes
-from comparisons.transfer.study import METHODS, PARTS
 from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.scenes.errors import BadInput, require_choice
+from studies.transfer.scenes import transfer_scenes
+from studies.transfer.study import METHODS, PARTS
 
 
 def methods(text: str | None) -> list[str]:

@@ -15,9 +15,10 @@ import lumped
 from fem_reference.solving import equilibrium
 from fem_reference.solving.careful import BRANCHING, DEARER
 from fem_reference.solving.structure import Structure
+from lumped.statics import solver
 from lumped.statics.continuation import trace
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, Status
+from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, Solution, Status
 
 STRIP = Sheet(length_x=0.2, length_y=0.05, thickness=0.001)
 SOFT = Material(young=5e6, poisson=0.0, density=1100.0)
@@ -118,30 +119,47 @@ def test_what_is_unstable_at_rest_is_followed_in_long_steps() -> None:
     assert path.factorisations < 50
 
 
-@pytest.mark.parametrize("force", [300.0, 3000.0])
-def test_a_look_for_folds_costs_a_few_times_the_path(monkeypatch, force) -> None:
-    """A sheet pulled straight up: nothing is found."""
-    scene = Scene(
-        name="up", sheet=Sheet(length_x=0.15, length_y=0.15, thickness=0.002),
+def pulled(force: float, along: int = 2) -> Scene:
+    """A sheet pulled by its far edge [N/m]; straight up it bends by a quarter turn, and nothing folds."""
+    pull = tuple(force * np.eye(3)[along])
+    return Scene(
+        name="pulled", sheet=Sheet(length_x=0.15, length_y=0.15, thickness=0.002),
         material=Material(young=1e7, poisson=0.45, density=1200.0), supports=(Clamped(edge="x0"),),
-        loads=(EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, force)),), probes={"P": (0.15, 0.075)},
+        loads=(EdgeLoad(edge="x1", force_per_length=pull),), probes={"P": (0.15, 0.075)},
     )  # fmt: skip
-    looked = fem_reference.solve(scene, model="shell", elements=4)
-    monkeypatch.setattr(equilibrium, "worth", lambda *_: 0)
-    plain = fem_reference.solve(scene, model="shell", elements=4)
+
+
+def solve(scene: Scene, model: str) -> Solution:
+    if model == "shell":
+        return fem_reference.solve(scene, model="shell", elements=4)
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(9, 9), method="consistent")
+    return lumped.solve(scene, springs)
+
+
+@pytest.mark.parametrize("model", ["lumped", "shell"])
+@pytest.mark.parametrize("force", [300.0, 3000.0])
+def test_a_look_for_folds_costs_a_few_times_the_path(monkeypatch, force, model) -> None:
+    """And tells of none where there is none, however small the share of the load that a step is."""
+    scene = pulled(force)
+    looked = solve(scene, model)
+    monkeypatch.setattr(equilibrium if model == "shell" else solver, "worth", lambda *_: 0)
+    plain = solve(scene, model)
     assert plain.iterations < looked.iterations <= (1 + DEARER) * plain.iterations
     assert looked.message == plain.message and looked.snaps == plain.snaps == ()
     at = scene.probe_points()
     np.testing.assert_allclose(looked.displacement(at), plain.displacement(at), atol=1e-8)
 
 
-def test_a_look_that_finds_no_end_leaves_the_answer_and_says_so(monkeypatch) -> None:
-    monkeypatch.setattr(equilibrium, "worth", lambda *_: 20)
-    scene = Scene(
-        name="up", sheet=Sheet(length_x=0.15, length_y=0.15, thickness=0.002),
-        material=Material(young=1e7, poisson=0.45, density=1200.0), supports=(Clamped(edge="x0"),),
-        loads=(EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, 300.0)),), probes={"P": (0.15, 0.075)},
-    )  # fmt: skip
-    found = fem_reference.solve(scene, model="shell", elements=4)
+def test_strains_that_the_springs_have_no_meaning_at_are_not_followed_for_long() -> None:
+    """Before, 522 factorisations where the path had taken 25."""
+    found = solve(pulled(5e4, along=0), "lumped")
+    assert found.status is Status.STRAIN_OUTSIDE_MODEL
+    assert found.iterations < 200
+
+
+@pytest.mark.parametrize("model", ["lumped", "shell"])
+def test_a_look_that_finds_no_end_leaves_the_answer_and_says_so(monkeypatch, model) -> None:
+    monkeypatch.setattr(equilibrium if model == "shell" else solver, "worth", lambda *_: 20)
+    found = solve(pulled(300.0), model)
     assert found.status is Status.CONVERGED and found.load_factor == 1.0
     assert "after 20 factorisations" in found.message and "another branch" in found.message

@@ -36,10 +36,14 @@ from lumped.statics.limits import (
     FARTHEST,
     FINE,
     FIRST_REACH,
+    GROWTH,
+    MISS,
     POLISHED,
     POLISHINGS,
     QUICK,
+    SAFE,
     SETTLED,
+    SHORTEST_REACH,
     SHORTEST_STEP,
 )
 from lumped.statics.problem import Problem, Residual, Tangent
@@ -82,12 +86,14 @@ def follow(
     reach: float | None = None,
     step: float | None = None,
     careful: bool = False,
+    limit: int = FACTORISATIONS,
 ) -> tuple[State, str]:
     """The equilibrium at load factor `target` along the path from `start`, or the last one before it, with
     the reason why the path ended ("" when it did not). reach: how far [m] the first load step may go, and by
-    what load, unless it starts anew. careful: no load step may leave the branch that it begins on."""
-    farthest_reach = CAREFUL_REACH * problem.size if careful else np.inf
-    state, reach = start, min(reach or FIRST_REACH * problem.size, farthest_reach)
+    what load, unless it starts anew. careful: no load step may leave the branch that it begins on. limit: of
+    factorisations in all."""
+    state = start
+    reach = reach or (CAREFUL_REACH if careful else FIRST_REACH) * problem.size
     step = step or target - start.load_factor
     shortest = abs(step) * SHORTEST_STEP
     while abs(target - state.load_factor) > 1e-12:
@@ -102,34 +108,42 @@ def follow(
             before = problem.factorisations
             last = abs(target - state.load_factor - step) < 1e-12
             found = _correct(problem, state, state.load_factor + step, predicted, FINE if last else COARSE)
-            if careful:
-                _require_continuous(problem, state, found, predicted)
+            longest = _require_continuous(problem, state, found, predicted) if careful else np.inf
             state = found
         except (StepFailed, SingularMatrixError) as failure:
             step /= 2.0
             reach = min(reach, farthest) / 2.0
-            if abs(step) < shortest or problem.factorisations > FACTORISATIONS:
+            ends = abs(step) < shortest and reach < SHORTEST_REACH * problem.size
+            if ends or problem.factorisations > limit:
                 return state, str(failure)
             continue
         problem.fault = broken(problem.assembly, state.u)
         if problem.fault is not None:
             return state, problem.fault.message
-        if problem.factorisations > FACTORISATIONS:
-            return state, f"{FACTORISATIONS} factorisations were not enough"
-        if problem.factorisations - before <= EASY:
-            reach = min(1.5 * reach, farthest_reach)
+        if problem.factorisations > limit:
+            return state, f"{limit} factorisations were not enough"
+        if careful:
+            reach = longest
+        elif problem.factorisations - before <= EASY:
+            reach *= 1.5
         step *= 4.0
     return state, ""
 
 
-def _require_continuous(problem: Problem, start: State, end: State, predicted: np.ndarray) -> None:
-    """Raise StepFailed where an equilibrium is on another branch than the one that a step (n, 3) [m] set out
-    from: far from where the step led, or past a change of stability by more than a short step."""
-    length = float(np.abs(predicted).max())
-    if float(np.abs(end.u - start.u - predicted).max()) > max(CONTINUOUS * length, SETTLED * problem.size):
+def _require_continuous(problem: Problem, start: State, end: State, predicted: np.ndarray) -> float:
+    """How far [m] the next careful step may go. Raise StepFailed where an equilibrium is on another branch
+    than the one that a step (n, 3) [m] set out from: far from where the step led, or past a change of
+    stability by more than a short step."""
+    length, side = float(np.abs(predicted).max()), problem.size
+    miss = float(np.abs(end.u - start.u - predicted).max())
+    if miss > max(min(CONTINUOUS * length, MISS * side), SETTLED * side):
         raise StepFailed("the path folds")
-    if (end.negative or 0) > (start.negative or 0) and length > BRANCHING * problem.size:
+    if (end.negative or 0) > (start.negative or 0) and length > BRANCHING * side:
         raise StepFailed("the path loses stability")
+    if miss == 0.0:
+        return GROWTH * length
+    square = length**2 / miss  # a miss grows with the square of the step
+    return float(min(GROWTH * length, SAFE * CONTINUOUS * square, (SAFE * MISS * side * square) ** 0.5))
 
 
 def predictor(problem: Problem, state: State, step: float) -> np.ndarray:

@@ -26,10 +26,11 @@ from lumped.statics.equilibrium import (
     at_rest,
     corrected,
     follow,
+    polish,
     predictor,
 )
 from lumped.statics.faults import broken
-from lumped.statics.limits import DOUBTFUL, FACTORISATIONS
+from lumped.statics.limits import DEARER, DOUBTFUL, FACTORISATIONS
 from lumped.statics.polygon import polygons
 from lumped.statics.problem import Problem
 from lumped.supports import constrain
@@ -177,11 +178,19 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
         state, why = follow(problem, at_rest(problem))
     except SingularMatrixError as error:
         return _singular(problem, error)
-    careful = problem.fault is None and doubtful(problem, state)
-    if careful:
-        state, why = follow(problem, at_rest(problem), careful=True)
     snaps: list[float] = []
     notes: list[str] = []
+    more = worth(scene, problem, state) if problem.fault is None else 0
+    careful = more > 0
+    if careful:
+        reached, limit = None if why else state.u, problem.factorisations + more
+        state, why = follow(problem, at_rest(problem), careful=True, limit=limit)
+        if why and problem.factorisations > limit and reached is not None and problem.fault is None:
+            notes.append(
+                f"small load steps end at load factor {state.load_factor:.4g}, after {more} factorisations: "
+                "this equilibrium, which large ones led to, may be on another branch"
+            )
+            state, why = polish(problem, reached, 1.0), ""
     while why and problem.fault is None and problem.descends and len(snaps) < SNAPS:
         if problem.factorisations > FACTORISATIONS:
             break
@@ -208,10 +217,15 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
     return judged(scene, problem, state, snaps, notes)
 
 
-def doubtful(problem: Problem, state: State) -> bool:
-    """Whether large load steps may have led to another branch: where the equilibrium is unstable, or took
-    long to find."""
-    return problem.conservative and (bool(state.negative) or problem.factorisations > DOUBTFUL)
+def worth(scene: Scene, problem: Problem, state: State) -> int:
+    """Factorisations that it is worth to look for another branch, which large load steps may have left: where
+    the equilibrium is unstable or took long to find. Up to DEARER times those before, or all that there are
+    for an unstable one that the springs mean something at."""
+    taken, links = problem.factorisations, problem.assembly.links
+    if not problem.conservative or not (state.negative or taken > DOUBTFUL):
+        return 0
+    outside = outside_model(scene, link_stretch(links, links.elongations(state.u)), STRETCH)
+    return FACTORISATIONS if state.negative and not outside else DEARER * taken
 
 
 def equilibrium(

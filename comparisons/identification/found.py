@@ -23,7 +23,7 @@ class Found:
     """An unknown's value, its 95 % interval, the value the search started from and the unit.
 
     refined: about where a lattice with cells half as large would put it, None where that is not known;
-    noise_interval: that of the measurements' noise alone, without the grid's error that `refined` foretells;
+    noise_interval: that of the measurements' noise alone, without the error of the grid or mesh;
     determined: whether the data see it by itself.
     """
 
@@ -63,9 +63,11 @@ class Identification(summary.Summarised):
     without: dict[str, Found]
 
     @property
-    def noise_only(self) -> bool:
-        """Whether the intervals know of the measurements' noise alone, and not of the grid."""
-        return all(u.refined is None for u in self.unknowns.values())
+    def contains(self) -> str:
+        """What the intervals know of: the measurements' noise, and the error of the grid or mesh."""
+        if all(u.interval == u.noise_interval for u in self.unknowns.values()):
+            return "noise only"
+        return "noise and grid" if self.model == "lumped" else "noise and mesh"
 
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench identify`: SI units, null where nothing was measured."""
@@ -90,12 +92,11 @@ class Identification(summary.Summarised):
         }
 
     def _summary(self) -> tuple[str, summary.Facts]:
-        contains = "noise only" if self.noise_only else "noise and grid"
         found = [
             (
                 name,
                 f"{quantity(u.value, u.unit, '.6g')}, 95 % within {quantity(u.interval[0], u.unit)} and "
-                f"{quantity(u.interval[1], u.unit)} ({contains})"
+                f"{quantity(u.interval[1], u.unit)} ({self.contains})"
                 if u.determined
                 else "not determined by these data",
             )

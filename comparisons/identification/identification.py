@@ -8,7 +8,7 @@ Least squares in the unknowns' x (`comparisons.identification.unknowns`),
 by a trust region (SciPy's `least_squares`), from the values that the scene gives. Every measured component
 weighs the same: the noise is taken to be independent and equally large in all of them. Then x ± t s √C_ii,
 with s² = r·r/(m − n), C = (Jᵀ J)⁻¹ and Student's t, is a 95 % interval. It does not know of the model's own
-errors, but for that of a lattice's grid, which `comparisons.identification.refinement` adds to it.
+errors, but for those of its grid or mesh, which `comparisons.identification.refinement` adds to it.
 
 The search is made from several starts, and over growing parts of a motion (`starts`); what is left is tested
 for being noise (`residual_test`) and for rows that do not fit (`outliers`).
@@ -22,6 +22,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +36,7 @@ from comparisons.identification.misfit import require_same_way
 from comparisons.identification.model import Model, lattice_model, reference_model
 from comparisons.identification.outliers import Outlier, outliers
 from comparisons.identification.prediction import NotReached, Prediction, set_in
-from comparisons.identification.refinement import GRID_ERROR, refined
+from comparisons.identification.refinement import GRID_ERROR, mesh_error, refined
 from comparisons.identification.residual_test import explained, runs
 from comparisons.identification.search import Nearest
 from comparisons.identification.starts import Fit, nearest
@@ -111,7 +112,7 @@ def identify(
     unknowns less than the noise does), calibration, grading (a number, or "auto" by the scene's own values,
     see `comparisons.models.grading`): of the lattice; elements: of a reference; law: its law of strain
     (`sheetbench.choices.STRAIN_LAWS`); offset [m]: where a cloud was taken along the surface's normal, 0 on
-    the mid-surface. refine: whether to look at finer lattices too (not for motions).
+    the mid-surface. refine: whether to look at other cells or elements too (not for motions).
     large: even where a model takes more memory than there is.
     progress: told of every evaluation, and of a reference's solves.
 
@@ -145,14 +146,18 @@ def _answer(asked: _Question, measured: Measured, look: bool = True) -> Identifi
         return bool(odd) or explained(one.noise, runs(measured, fit.misfit().per_point(one.residuals)))
 
     best, starts = nearest(fit, require_sense, enough)
-    step, grids = np.full(len(unknowns), np.nan), [model.settings.get("grid")]
+    step = bound = np.full(len(unknowns), np.nan)
+    grids = [model.settings.get("grid")]
     if asked.refine and asked.model == "lumped" and not _moving(measured):
         end = refined(asked.scene, asked.lattice, model, fit, best, asked.free_grid, asked.large)
         model, fit, best, step, grids = end.model, end.fit, end.best, end.step, [*end.grids]
+        bound = GRID_ERROR * np.abs(step)
+    elif asked.refine and asked.model != "lumped":
+        bound = _of_mesh(asked, fit, best, model.settings["elements"])
     known = identifiability([u.name for u in unknowns], best.slopes, best.residuals)
     found = {
-        u.name: _found(u, x, known.half_widths[u.name], one)
-        for u, x, one in zip(unknowns, best.x, step.tolist(), strict=True)
+        u.name: _found(u, x, known.half_widths[u.name], *steps)
+        for u, x, *steps in zip(unknowns, best.x, bound.tolist(), step.tolist(), strict=True)
     }
     residuals = fit.misfit().per_point(best.residuals)
     left = runs(measured, residuals)
@@ -165,7 +170,7 @@ def _answer(asked: _Question, measured: Measured, look: bool = True) -> Identifi
         *known.warnings,
         *([] if odd else remarks.on_residuals(fit, best, left, starts)),
         *remarks.on_bounds(fit, best),
-        *remarks.on_grid(found, asked.refine and asked.model == "lumped", _moving(measured)),
+        *remarks.on_grid(found, asked.model, asked.refine and not _moving(measured)),
     ]
     if asked.model != "lumped":
         last = set_in(asked.scene, unknowns, best.x)
@@ -192,16 +197,26 @@ def _answer(asked: _Question, measured: Measured, look: bool = True) -> Identifi
     )
 
 
-def _found(u: Unknown, x: float, noise: float, step: float) -> Found:
-    """An unknown's value at x; noise: half-width of its interval; step: of x on cells half as large, nan
-    where it is not known."""
-    known = bool(np.isfinite(step))
+def _of_mesh(asked: _Question, fit: Fit, best: Nearest, elements: Sequence[int]) -> np.ndarray:
+    """What the mesh does to x at most, by a look at elements twice as large; nan where that is not known."""
+    coarse = (elements[0] + 1) // 2, (elements[1] + 1) // 2
+    longer = (prod(elements) / prod(coarse)) ** 0.5
+    if longer == 1.0:
+        return np.full(len(best.x), np.nan)
+    asked.progress(f"looking at larger elements, {coarse[0]} × {coarse[1]}")
+    other = reference_model(asked.scene, asked.model, coarse, asked.progress, **asked.of_law)
+    return mesh_error(fit, best, other.predictor, longer)
+
+
+def _found(u: Unknown, x: float, noise: float, bound: float, step: float) -> Found:
+    """An unknown's value at x; noise: half-width of its interval; bound: what the grid or mesh does to x at
+    most, step: of x on cells half as large; nan where they are not known."""
     return Found(
         value=u.value(x),
-        interval=u.interval(x, noise + (GRID_ERROR * abs(step) if known else 0.0)),
+        interval=u.interval(x, noise + float(np.nan_to_num(bound))),
         start=u.start,
         unit=u.unit,
-        refined=u.value(float(np.clip(x + step, *u.bounds()))) if known else None,
+        refined=u.value(float(np.clip(x + step, *u.bounds()))) if np.isfinite(step) else None,
         noise_interval=u.interval(x, noise),
         determined=bool(np.isfinite(noise)),
     )

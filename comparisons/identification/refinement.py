@@ -11,12 +11,14 @@ take a second or two a solve. Where it ends the search, the next step is taken t
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from comparisons.identification.measurements import Measured
 from comparisons.identification.model import Model, lattice_model
-from comparisons.identification.prediction import NotReached
+from comparisons.identification.prediction import NotReached, Predictor
 from comparisons.identification.search import Nearest
 from comparisons.identification.starts import Fit
 from comparisons.models.candidate import Candidate
@@ -81,6 +83,15 @@ def refined(
         model = replace(halved, settings={**settings, "grid": list(finer)})
         fit = on_halved
         grids.append(finer)
+
+
+def mesh_error(
+    fit: Fit, best: Nearest, predictor: Callable[[Measured], Predictor], longer: float
+) -> np.ndarray:
+    """What a reference's elements do to x at most, by a step on elements `longer` times as long: the error is
+    taken to fall in first order, the least that it does; nan where these have no answer."""
+    step: np.ndarray = _step(replace(fit, predictor=predictor), best.x)
+    return np.abs(step) / (longer - 1.0)
 
 
 def _step(fit: Fit, x: np.ndarray) -> np.ndarray:

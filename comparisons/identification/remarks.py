@@ -57,16 +57,26 @@ def on_bounds(fit: Fit, best: Nearest) -> list[str]:
     ]
 
 
-def on_grid(found: Mapping[str, Found], looked: bool, moving: bool) -> list[str]:
-    """What the lattice's cells do to the values."""
-    if looked and not moving and all(u.refined is None for u in found.values()):
-        return ["cells half as large could not be solved: the grid's error is not known, nor in the interval"]
+def on_grid(found: Mapping[str, Found], model: str, looked: bool) -> list[str]:
+    """What the lattice's cells, or the elements of another model, do to the values."""
+    lattice = model == "lumped"
+    other, error = ("cells half as large", "grid's") if lattice else ("elements twice as large", "mesh's")
+    seen = [u for u in found.values() if u.determined]
+    if looked and seen and all(u.interval == u.noise_interval for u in seen):
+        return [f"{other} could not be solved: the {error} error is not known, nor in the interval"]
+    more = "masses (--lumped), or leave the grid to the fit" if lattice else "--elements"
     return [
-        f"{name} would be {quantity(u.refined, u.unit)} on cells half as large: most of its interval is the "
-        "grid's error; take more masses (--lumped), or leave the grid to the fit"
+        f"{name}{_finer(u)}: most of its interval is the {error} error; take more {more}"
         for name, u in found.items()
-        if u.determined and u.refined is not None and _wide(u)
+        if u.determined and _wide(u)
     ]
+
+
+def _finer(found: Found) -> str:
+    """Where finer cells would put a value, as far as that is known."""
+    if found.refined is None:
+        return ""
+    return f" would be {quantity(found.refined, found.unit)} on cells half as large"
 
 
 def _wide(found: Found) -> bool:

@@ -58,8 +58,7 @@ def unknowns(found: Identification) -> Table:
     names = ("value", "from", "to", "on finer cells", "started at")
     shown = tuple(Column(name, form=".6g") for name in names)
     columns = (Column("unknown"), Column("unit"), *shown)
-    contains = "of the noise only" if found.noise_only else "of noise and grid"
-    return Table(f"Values and their 95 % intervals, {contains}", columns, rows, "unknowns")
+    return Table(f"Values and their 95 % intervals, of {found.contains}", columns, rows, "unknowns")
 
 
 def residuals(found: Identification) -> Table:
@@ -102,14 +101,14 @@ def explanation(found: Identification) -> str:
     size = "×".join(map(str, found.settings.get("grid") or found.settings["elements"]))
     tried = " → ".join("×".join(map(str, grid)) for grid in found.grids)
     cells = f" (cells chosen by the fit: {tried})" if len(found.grids) > 1 else ""
-    leaves_out = (
-        "leaves out model error"
-        if found.noise_only
-        else "contains the grid's error, twice the step to finer cells; it leaves out other model error"
-    )
+    contained = {
+        "noise only": "",
+        "noise and grid": "contains the grid's error, twice the step to finer cells, and ",
+        "noise and mesh": "contains the mesh's error, by a look at elements twice as large, and ",
+    }[found.contains]
     return (
         f"{found.model} {size}{cells}: residuals have a standard deviation of {1e3 * found.noise:.3g} mm, "
         f"{100 * found.noise / found.measured.scale:.3g} % of the largest measurement, and reach "
         f"{100 * found.relative:.3g} %. The interval assumes independent noise of equal variance and "
-        f"{leaves_out}."
+        f"{contained}leaves out other model error."
     )

@@ -245,6 +245,20 @@ def test_scenes_lists_the_catalogue_whole(tmp_path: Path, capsys: pytest.Capture
     assert listed["finished"] and "one-edge-clamped.toml" in listed["files"]
 
 
+def test_a_long_version_says_what_is_installed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("--version", "--verbose") == 0
+    said = dict(line.split(":", 1) for line in capsys.readouterr().out.splitlines())
+    assert said["sheetbench"].split(",")[0].strip() == version("sheetbench")
+    assert "multifrontal" in said["solvers"] and "CalculiX" in said["other codes"]
+    assert f"numpy {version('numpy')}" in said["packages"] and Path(said["kernels"].strip()).is_absolute()
+
+
+def test_an_animation_is_a_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    asked = ("--duration", "0.01", "--animate", "--no-pictures", "--out", str(tmp_path / "run"))
+    assert run("simulate", "one-edge-clamped", *asked) == 2
+    assert "--animate: draws, and --no-pictures" in one_line(capsys) and not (tmp_path / "run").exists()
+
+
 def test_calibrate_from_options_and_from_a_scene_agree(capsys: pytest.CaptureFixture[str]) -> None:
     options = ("--young", "54.5e6", "--poisson", "0.48", "--thickness", "0.003", "--side", "0.188")
     assert run("calibrate", *options, "--grid", "9", "--json") == 0

@@ -155,6 +155,16 @@ def test_k_means_uniform(scene: Scene) -> None:
     assert lattice.settings["calibration"] == "uniform"
 
 
+@pytest.mark.parametrize(
+    ("load", "said"), [(64.0, "these times were taken under a load of up to 64"), (0.1, "")]
+)
+def test_times_of_a_busy_machine_are_said_to_be_so(quick, scene, monkeypatch, load: float, said: str) -> None:
+    monkeypatch.setattr("os.getloadavg", lambda: (load, load, load))
+    monkeypatch.setattr("os.cpu_count", lambda: 8)
+    text = compare(scene, grid=3, elements=2, uncertainty=False, companion=False).report().tables[1].text
+    assert text.startswith(said) and bool(text) == bool(said)
+
+
 def test_a_scene_with_its_own_springs_uses_them(scene: Scene) -> None:
     springs = scenes.SpringSet(
         axial=2e4, diagonal=1e4, vertical=2e4, cross=1e4, cross_diagonal=5e3, layer_distance=0.003

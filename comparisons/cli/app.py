@@ -76,21 +76,21 @@ for _verb in VERBS:
     app.command(_verb, context_settings=getattr(_module, "CONTEXT", None))(_command)
 
 
-def _print_version(asked: bool) -> None:
-    if asked:
-        from importlib.metadata import version
-
-        print(f"sheetbench {version('sheetbench')}")
-        raise typer.Exit
-
-
 @app.callback()
 def _help_where_nothing_is_asked(
     context: typer.Context,
-    _version: bool = typer.Option(
-        False, "-V", "--version", help="Print the version and stop.", is_eager=True, callback=_print_version
+    version: bool = typer.Option(False, "-V", "--version", help="Print the version and stop."),
+    verbose: bool = typer.Option(
+        False, "--verbose", help="With --version: what is installed: codes, solvers, processor, folders."
     ),
 ) -> None:
+    if version or verbose:
+        from importlib.metadata import version as version_of
+
+        from comparisons.cli import installed
+
+        print(installed.said() if verbose else f"sheetbench {version_of('sheetbench')}")
+        raise typer.Exit
     if context.invoked_subcommand is None:
         print(context.get_help(), end="")
 

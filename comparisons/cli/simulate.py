@@ -84,6 +84,8 @@ def command(
     asked = scenes.load(scene)
     if animate and out is None:
         raise BadInput("--animate: needs --out, a folder to draw into")
+    if animate and no_pictures:
+        raise BadInput("--animate: draws, and --no-pictures says to draw nothing; leave one of them out")
     truth = {}
     if measured is not None:
         truth = read_measured(measured, list(asked.probes))

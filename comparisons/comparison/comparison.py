@@ -32,6 +32,8 @@ from comparisons.models.sizes import has_room
 from comparisons.models.springs import LatticeSpec, resolve
 from comparisons.report.report import Report
 from comparisons.report.work import Progress, silent
+from comparisons.runs.load import average
+from comparisons.runs.load import warnings as doubts
 from sheetbench.choices import ELEMENTS, REFERENCE
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static, summary
 from sheetbench.scenes.summary import few
@@ -65,7 +67,8 @@ class Comparison(summary.Summarised):
     reference's mesh leaves uncertain, where that was asked for; laws: a sentence where lattice and reference
     have laws of strain that differ by more. apart: a sentence where both are at rest and far apart.
     expected: the error to expect of the chosen lattice's grid, where an estimate holds. several: whether more
-    than one equilibrium is known; other_branch: whether the first two are known to be different ones.
+    than one equilibrium is known; other_branch: whether the first two are known to be different ones. busy:
+    sentences on times taken on a busy machine.
     """
 
     scene: Scene
@@ -76,6 +79,7 @@ class Comparison(summary.Summarised):
     expected: ExpectedError | None = None
     several: bool = False
     other_branch: bool = False
+    busy: tuple[str, ...] = ()
 
     @property
     def reference(self) -> Solution:
@@ -331,7 +335,8 @@ def compare(
         if not apart:
             apart, other_branch = far_apart.said(scene, first, tuple(solutions), error, within, also)
     known = several or other_branch
-    return Comparison(scene, tuple(solutions), bar, laws, apart, expected, known, other_branch)
+    busy = tuple(doubts([average()]))
+    return Comparison(scene, tuple(solutions), bar, laws, apart, expected, known, other_branch, busy)
 
 
 def _unlike(name: str, taken: Collection[str]) -> str:

@@ -147,7 +147,8 @@ def costs(comparison: Comparison) -> Table:
         Column("error", "", "%", 100.0, "z.2f"),
         Column("status", prose=True),
     )
-    return Table("Cost and error of each model", columns, tuple(rows), "models")
+    doubts = "; ".join(comparison.busy)
+    return Table("Cost and error of each model", columns, tuple(rows), "models", text=doubts)
 
 
 def reactions(comparison: Comparison) -> Table:

@@ -24,8 +24,9 @@ def warnings(loads: Iterable[float | None], samples: Iterable[Sequence[float]] =
     busy = [load for load in known if load > cores]
     found = []
     if busy:
+        times = "these times" if len(known) == 1 else f"{len(busy)} of {len(known)} times"
         found.append(
-            f"{len(busy)} of {len(known)} times were taken under a load of up to {max(busy):.3g} on {cores} "
+            f"{times} were taken under a load of up to {max(busy):.3g} on {cores} "
             "processors: they are longer than on an idle machine; measure again there"
         )
     ratios = [max(times) / min(times) for times in samples if len(times) > 1 and min(times) > 0.0]

@@ -1,0 +1,39 @@
+"""What is installed here, as `sheetbench --version --verbose` prints it for a report of a fault."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+
+def said() -> str:
+    """Return a line each: versions, processor, memory, solvers, other codes, pictures, folders."""
+    import numpy  # noqa: F401  # brings the BLAS that is told of
+    from llvmlite import binding
+    from threadpoolctl import threadpool_info
+
+    from comparisons.judges.found import look
+    from comparisons.models import memory, plugins
+    from comparisons.report import amounts, offscreen
+    from comparisons.runs import load, manifest
+    from sheetbench.numerics import pardiso
+
+    machine, busy, free = manifest.machine(), load.average(), memory.available()
+    blas = {f"{one['internal_api']} for {one.get('architecture', '?')}" for one in threadpool_info()}
+    judges = [f"{one.judge.called} {one.version or 'not here'}" for one in look()]
+    mkl = "MKL PARDISO" if pardiso.library() else "no MKL PARDISO"
+    lines = {
+        "sheetbench": f"{manifest.version()}, source {manifest.source()}, in {Path(__file__).parents[2]}",
+        "Python": f"{machine['python']} on {machine['system']}, {machine['architecture']}",
+        "processor": f"{machine['processor']} ({binding.get_host_cpu_name()}), {machine['cpu_count']} cores, "
+        f"load {'unknown' if busy is None else f'{busy:.3g}'}",
+        "memory": "unknown" if free is None else f"{amounts.memory(free)} free",
+        "BLAS": ", ".join(sorted(blas)) or "none found",
+        "solvers": f"own multifrontal, SciPy's SuperLU, {mkl}",
+        "other codes": ", ".join(judges),
+        "plug-ins": ", ".join(plugins.names()) or "none",
+        "pictures": offscreen.why_not() or "can be drawn",
+        "kernels": os.environ["NUMBA_CACHE_DIR"],
+        "packages": ", ".join(f"{name} {version}" for name, version in manifest.versions().items()),
+    }
+    return "\n".join(f"{name + ':':12} {value}" for name, value in lines.items())

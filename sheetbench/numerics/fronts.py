@@ -53,58 +53,37 @@ def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: Cells) -> Fronts:
     """The fronts of a symmetric matrix by compressed rows, both triangles and the whole diagonal. Raises
     ValueError where an entry of the diagonal is missing."""
     leaf = max(2, LEAF // cells.unknowns.shape[1])
-    return _fronts(columns, starts, cells.unknowns, *_dissected(np.ascontiguousarray(cells.places), leaf))
+    found = _fronts(columns, starts, cells.unknowns, *_dissected(cells.places, leaf))
+    if np.any(found.diagonal < 0):
+        raise ValueError("the pattern lacks a part of its diagonal")
+    return found
 
 
-@njit(cache=True)
 def _dissected(places: np.ndarray, leaf: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Cells in line (m,), parts (F, 2) as ranges of the line, and every part's halves (F, 2), −1 for none;
-    halves before what they are halves of. leaf: cells in a part that is not halved."""
-    line = np.arange(len(places))
-    parts = np.empty((2 * len(places) + 1, 2), np.int64)
-    halves = np.full((2 * len(places) + 1, 2), -1)
-    parts[0, 0], parts[0, 1] = 0, len(places)
-    count, at = 1, 0
-    while at < count:  # breadth first, to be turned over
-        start, end = parts[at]
-        if end - start > leaf:
-            here = places[line[start:end]]
-            spread_x = here[:, 0].max() - here[:, 0].min()
-            spread_y = here[:, 1].max() - here[:, 1].min()
-            axis = 0 if spread_x >= spread_y else 1
-            line[start:end] = line[start:end][np.argsort(here[:, axis], kind="mergesort")]
-            middle = (start + end) // 2
-            halves[at, 0], halves[at, 1] = count, count + 1
-            parts[count, 0], parts[count, 1] = start, middle
-            parts[count + 1, 0], parts[count + 1, 1] = middle, end
-            count += 2
-        at += 1
-    return _after_halves(line, parts[:count], halves[:count])
-
-
-@njit(cache=True, inline="always")
-def _after_halves(
-    line: np.ndarray, parts: np.ndarray, halves: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Parts in the order of a walk that ends at each part after its halves."""
-    count = len(parts)
-    walk, stack, number = np.empty(count, np.int64), np.empty(count + 1, np.int64), np.empty(count, np.int64)
-    stack[0], top, filled = 0, 1, count
-    while top > 0:  # a part, its second half, its first, and that turned over
-        top -= 1
-        part = stack[top]
-        filled -= 1
-        walk[filled], number[part] = part, filled
-        for h in range(2):
-            if halves[part, h] >= 0:
-                stack[top] = halves[part, h]
-                top += 1
-    out = np.full((count, 2), -1)
-    for i in range(count):
-        for h in range(2):
-            if halves[walk[i], h] >= 0:
-                out[i, h] = number[halves[walk[i], h]]
-    return line, parts[walk], out
+    parts in the order of a walk that ends at each part after its halves. leaf: cells in a part that is not
+    halved."""
+    line, count = np.arange(len(places)), 1
+    parts, halves = [np.array([[0, len(places)]])], [np.full((1, 2), -1)]
+    while (split := np.flatnonzero(np.diff(parts[-1])[:, 0] > leaf)).size:  # a generation at once
+        start, end = parts[-1][split].T
+        size = end - start
+        first = np.cumsum(size) - size
+        at = np.arange(size.sum()) + np.repeat(start - first, size)
+        here = places[line[at]]
+        extent = np.maximum.reduceat(here, first) - np.minimum.reduceat(here, first)
+        along = np.repeat(extent[:, 0] < extent[:, 1], size)
+        of_part = np.repeat(np.arange(len(split)), size)
+        line[at] = line[at[np.lexsort((np.where(along, here[:, 1], here[:, 0]), of_part))]]
+        middle = (start + end) // 2
+        halves[-1][split] = count + np.arange(2 * len(split)).reshape(-1, 2)
+        parts.append(np.column_stack([start, middle, middle, end]).reshape(-1, 2))
+        halves.append(np.full(parts[-1].shape, -1))
+        count += len(parts[-1])
+    every, below = np.concatenate(parts), np.concatenate(halves)
+    walk = np.lexsort((-every[:, 0], every[:, 1]))
+    number = np.append(np.argsort(walk), -1)
+    return line, every[walk], number[below[walk]]
 
 
 @njit(cache=True)
@@ -136,9 +115,10 @@ def _fronts(
             f = above[f]
         owner[u] = f
         own[f] += 1
-    first = np.zeros(count, np.int64)
-    first[1:] = np.cumsum(own)[:-1]
-    order, place, next_one = np.empty(size, np.int64), np.empty(size, np.int64), first.copy()
+    first, next_one = np.zeros(count, np.int64), np.zeros(count, np.int64)
+    for f in range(1, count):
+        first[f] = next_one[f] = first[f - 1] + own[f - 1]
+    order, place = np.empty(size, np.int64), np.empty(size, np.int64)
     for u in range(size):
         place[u] = next_one[owner[u]]
         order[place[u]] = u
@@ -162,22 +142,28 @@ def _fronts(
         for i in range(own[f]):
             rows[end] = first[f] + i
             end += 1
-        last = first[f] + own[f]
+        last, border = first[f] + own[f], end
         if halves[f, 0] < 0:
             for at in range(parts[f, 0], parts[f, 1]):
                 for u in cells[line[at]]:
                     if u >= 0 and place[u] >= last and seen[place[u]] != f:
                         seen[place[u]] = f
-                        rows[end] = place[u]
+                        k = end
+                        while k > border and rows[k - 1] > place[u]:
+                            rows[k] = rows[k - 1]
+                            k -= 1
+                        rows[k] = place[u]
                         end += 1
-        for h in range(2):
-            if halves[f, h] >= 0:
-                for i in range(begin[halves[f, h]], begin[halves[f, h] + 1]):
-                    if rows[i] >= last and seen[rows[i]] != f:
-                        seen[rows[i]] = f
-                        rows[end] = rows[i]
-                        end += 1
-        rows[begin[f] + own[f] : end].sort()
+        else:  # both halves' borders are in order
+            i, j = begin[halves[f, 0]] + own[halves[f, 0]], begin[halves[f, 1]] + own[halves[f, 1]]
+            end_i, end_j = begin[halves[f, 0] + 1], begin[halves[f, 1] + 1]
+            while i < end_i or j < end_j:
+                row = rows[i] if j == end_j or (i < end_i and rows[i] <= rows[j]) else rows[j]
+                i += i < end_i and rows[i] == row
+                j += j < end_j and rows[j] == row
+                if row >= last:
+                    rows[end] = row
+                    end += 1
         begin[f + 1] = end
 
     widest, waiting, most = 0, 0, 0
@@ -210,8 +196,6 @@ def _fronts(
                     source[filled] = at
                     filled += 1
         entries[f + 1] = filled
-    if np.any(diagonal < 0):
-        raise ValueError("the pattern lacks a part of its diagonal")
     rows = rows[: begin[count]].copy()
     return Fronts(
         order, own, first, rows, begin, halves, target, source, entries, diagonal, kept, widest, most

@@ -50,8 +50,10 @@ def factor(data: np.ndarray, fronts: Fronts, factors: np.ndarray, signs: np.ndar
     """The factors of the matrix with this data into `factors` and `signs` (n,); False if there are none."""
     front, panel = np.empty((fronts.widest + 1) * fronts.widest), np.empty(PANEL * fronts.widest)
     waiting, top = np.empty(fronts.waiting), 0
-    where, diagonal = np.empty(len(fronts.order), np.int64), np.abs(data[fronts.diagonal])
-    local, indefinite = np.empty(fronts.widest, np.int64), False
+    where, local = np.empty(len(fronts.order), np.int64), np.empty(fronts.widest, np.int64)
+    diagonal, indefinite = np.empty(len(fronts.order)), False
+    for i in range(len(diagonal)):
+        diagonal[i] = abs(data[fronts.diagonal[i]])
     for f in range(len(fronts.own)):
         own, start, end = fronts.own[f], fronts.starts[f], fronts.starts[f + 1]
         width = end - start
@@ -85,11 +87,15 @@ def factor(data: np.ndarray, fronts: Fronts, factors: np.ndarray, signs: np.ndar
             for i in range(k, width):
                 if not dense[k, i] ** 2 <= GROWTH * diagonal[fronts.rows[start + i]]:
                     return False
-        factors[fronts.kept[f] : fronts.kept[f + 1]] = flat
+        kept = fronts.kept[f]
+        for i in range(len(flat)):
+            factors[kept + i] = flat[i]
         rest = width - own
         update = waiting[top : top + rest * rest].reshape(rest, rest)
         for j in range(rest):
-            update[j, j:] = dense[own + j, own + j :]
+            column = dense[own + j]
+            for i in range(j, rest):
+                update[j, i] = column[own + i]
         top += rest * rest
     return True
 
@@ -124,17 +130,25 @@ def _eliminate(dense: np.ndarray, diagonal: np.ndarray, signs: np.ndarray, panel
                     shares[p, j - k0] = sign[p] * column[j]
                     for i in range(k + 1, j + 1):
                         dense[i, j] -= shares[p, i - k0] * column[j]
-                panel[p, start:] = column[start:]
+                for i in range(start, width):
+                    panel[p, i] = column[i]
             _below(panel[:, start:], shares, inverse)
             for p in range(start - k0):
-                dense[k0 + p, start:] = panel[p, start:]
+                column = dense[k0 + p]
+                for i in range(start, width):
+                    column[i] = panel[p, i]
             _update(panel, sign, dense, start, limit)
         if limit < width:
-            left = dense[b0:b1, limit:].T.copy()
-            signed = left * signs[b0:b1]
+            left, signed = np.empty((width - limit, b1 - b0)), np.empty((width - limit, b1 - b0))
+            for k in range(b0, b1):
+                for i in range(limit, width):
+                    left[i - limit, k - b0], signed[i - limit, k - b0] = dense[k, i], signs[k] * dense[k, i]
             for j0 in range(0, width - limit, BLOCK):
-                j1 = min(width - limit, j0 + BLOCK)
-                dense[limit + j0 : limit + j1, limit + j0 :] -= np.dot(signed[j0:j1], left[j0:].T)
+                products = np.dot(signed[j0 : j0 + BLOCK], left[j0:].T)
+                for j in range(len(products)):
+                    column = dense[limit + j0 + j, limit + j0 :]
+                    for i in range(j, len(column)):
+                        column[i] -= products[j, i]
     return True
 
 

@@ -13,7 +13,7 @@ import sheetbench as sb
 from comparisons.cli.app import VERBS
 
 ROOT = Path(__file__).parent.parent
-ONLY_IN_THE_TERMINAL = {"live", "view", "new", "scenes", "study"}
+ONLY_IN_THE_TERMINAL = {"live", "new", "scenes", "study"}
 
 
 def test_every_verb_is_a_function_or_is_said_not_to_be_one() -> None:

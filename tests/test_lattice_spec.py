@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 from commands import run
@@ -73,20 +70,3 @@ def test_a_scene_s_own_springs_are_meant_where_nothing_else_is_asked(springy: Sc
     assert resolve(springy, LatticeSpec(k=3.0)).calibration == "uniform"
     assert resolve(springy, LatticeSpec(calibration="auto")).calibration.startswith("consistent")
     assert resolve(springy, LatticeSpec(), own=False).calibration == "consistent"
-
-
-def test_view_shows_the_lattice_that_compare_shows(
-    springy: Scene, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from comparisons.view import staged
-
-    file, seen = tmp_path / "springy.toml", []
-    monkeypatch.setattr(staged, "of_comparison", lambda both: seen.append(both) or 1 / 0)
-    from sheetbench.scenes.toml import to_toml
-
-    file.write_text(to_toml(springy), encoding="utf-8")
-    assert run("compare", str(file), "--elements", "2", "--no-uncertainty", "--json") == 0
-    compared = json.loads(capsys.readouterr().out)["solutions"][0]["probes"]["P4"]
-    assert run("view", str(file), "--elements", "2", "--out", str(tmp_path / "view.html")) == 1
-    shown = seen[0].probes(seen[0].solutions[0])["P4"]
-    assert np.allclose(shown, compared, rtol=1e-9) and len(seen[0].solutions) == 2

@@ -55,12 +55,6 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         ((), ("--k", "550"), ("--layer-distance", "0.002"), ("--grading", "0.4"), ("--grading", "auto")),
         (*OUTPUTS[1:3], ("--toml",), ("--export", "{export}", "--for", "mujoco")),
     ],
-    "view": [
-        EVERY_SCENE,
-        CLOSED[::3],
-        (("--reference", "plate"), ("--reference", "shell"), ("--reference", "solid")),
-        (("--out", "{folder}.html"), ("--out", "{folder}.html", "--json")),
-    ],
     "advise": [
         (("one-edge-clamped",), ("{weightless}",)),
         (("--tolerance", "0.9"), ("--budget", "0.5"), ("--budget", "5ms")),
@@ -71,7 +65,6 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
 MORE = {
     "simulate": ("--duration", "0.002"),
     "calibrate": ("--young", "1e6", "--poisson", "0.4", "--thickness", "0.003"),
-    "view": ("--grid", "3", "--elements", "2"),
 }
 ROWS = [(verb, row) for verb, dimensions in VERBS.items() for row in pairwise(dimensions)]
 

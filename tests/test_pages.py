@@ -183,6 +183,19 @@ def test_a_study_begins_with_what_it_found(tmp_path: Path, verb: str) -> None:
     assert findings(study) == said and notes(study) == ["what columns mean"] and not study.troubles
 
 
+@pytest.mark.parametrize("there", [True, False])
+def test_the_page_is_opened_where_that_is_asked(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, there: bool
+) -> None:
+    opened_pages: list[str] = []
+    monkeypatch.setattr("webbrowser.open", lambda address: opened_pages.append(address) or there)
+    Folder(tmp_path, "modes", ["sheetbench", "modes"]).report(Report("modes", "t", {}))
+    assert run("report", str(tmp_path)) == 0 and opened_pages == []
+    assert run("report", str(tmp_path), "--open") == 0
+    assert opened_pages == [(tmp_path / "report.html").as_uri()]
+    assert ("There is no browser here" in capsys.readouterr().err) is not there
+
+
 def test_several_grids_are_not_the_sides_of_one(tmp_path: Path) -> None:
     settings = {"grids": [5, 9], "grid": [5, 9]}
     study = Study(tmp_path, "", "crosscheck", (), {"settings": settings})

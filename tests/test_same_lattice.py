@@ -111,7 +111,6 @@ FILE = "x,y,uz\n0.094,0.094,-0.002\n0.188,0.188,-0.013\n"
 GRIDS = WORDS - {"k", "layer_distance"}
 VERBS: dict[str, tuple[Callable[..., None], frozenset[str]]] = {
     "compare": (verb("compare", "{scene}"), WORDS),
-    "view": (verb("view", "{scene}", "--out", "{folder}/v.html"), WORDS),
     "simulate": (verb("simulate", "{scene}", "--duration", "0.01"), WORDS),
     "modes": (verb("modes", "{scene}"), WORDS),
     "linearise": (verb("linearise", "{scene}"), WORDS),

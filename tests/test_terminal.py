@@ -83,7 +83,6 @@ SMALL = {
     "linearise": ["linearise", "one-edge-clamped", "--lumped", "3", "--modes", "3"],
     "report": ["report", "stability"],
     "study": ["study"],
-    "view": ["view", SEED, "--lumped", "3", "--elements", "2", "--out", "sheets.html"],
 }
 WIDE = 400  # columns, where nothing has to give way
 WAYS: dict[str, tuple[int, dict[str, str], str]] = {

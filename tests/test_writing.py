@@ -69,7 +69,6 @@ def test_a_link_planted_where_a_file_is_prepared_is_not_followed(tmp_path: Path)
     "asked",
     [
         ("report", "{folder}", "--out", "{file}"),
-        ("view", "one-edge-clamped", "--out", "{file}"),
         ("new", "{file}", "--overwrite"),
     ],
     ids=lambda asked: asked[0],

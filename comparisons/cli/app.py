@@ -47,7 +47,6 @@ VERBS = (
     "suite",
     "score",
     "linearise",
-    "view",
     "live",
     "report",
     "study",

@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-VERBS = {"transfer": "run 'sheetbench study transfer' in a checkout"}
+VERBS = {
+    "transfer": "run 'sheetbench study transfer' in a checkout",
+    "view": "write a folder with --out and run 'sheetbench report DIR --open': its page turns the sheets; in "
+    "Python, solution.to_pyvista().warp_by_vector().plot() opens a window",
+}
 OPTIONS = {
     ("stability", "--study"): "'sheetbench study stability' has the published maps, in a checkout; "
     "'sheetbench stability SCENE --vary NAME' those of your sheet",

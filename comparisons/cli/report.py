@@ -21,6 +21,9 @@ def command(
             show_default=False,
         ),
     ] = None,
+    show: Annotated[
+        bool, typer.Option("--open", help="Open the page in the browser.", show_default=False)
+    ] = False,
     json: Json = False,
 ) -> None:
     """Write one HTML file of the studies in a folder and those below it, to read in any browser.
@@ -29,6 +32,8 @@ def command(
 
     Sheets to turn, tables to sort, plots, findings and manifests; it needs no network.
     """
+    from webbrowser import open as browse
+
     from comparisons.cli import console
     from comparisons.pages.page import memory_of, page
     from comparisons.pages.studies import read
@@ -53,6 +58,8 @@ def command(
     else:
         many = len(found.studies)
         console.note(f"{many} {'study' if many == 1 else 'studies'} in {target}, {memory_of(size)}")
+    if show and not browse(target.resolve().as_uri()):
+        console.warn("There is no browser here: open the page where there is one.")
     for said in troubles:
         console.warn(said)
     for fault in (fault for study in found.studies for fault in study.faults):

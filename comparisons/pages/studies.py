@@ -20,7 +20,6 @@ from comparisons.runs.folder import MANIFEST
 from sheetbench.scenes import Scene
 from sheetbench.scenes.errors import BadInput
 
-SHEETS = (".vtu", ".pvd")
 OURS = ("report.html", MANIFEST)
 Say = Callable[[str], None]
 
@@ -160,9 +159,8 @@ class Found:
     troubles: list[str]
 
 
-def read(root: Path, loose: bool = False) -> Found:
-    """Every study in a folder and those below it; loose: sheets in folders without a manifest, too. Raises
-    BadInput where there is no such folder."""
+def read(root: Path) -> Found:
+    """Every study in a folder and those below it. Raises BadInput where there is no such folder."""
     if not root.is_dir():
         raise BadInput(f"'{root}': there is no such folder")
     studies: list[Study] = []
@@ -176,9 +174,6 @@ def read(root: Path, loose: bool = False) -> Found:
             names = tuple(run.get("files", ()))
             claimed.update(names)
             studies.append(Study(folder, place, verb, names, run, record))
-        sheets = tuple(path.name for path in sorted(folder.iterdir()) if path.suffix in SHEETS)
-        if loose and sheets and not record:
-            studies.append(Study(folder, place, "", sheets))
         if record:
             beside = [path for path in sorted(folder.iterdir()) if _counts(path) and path.name not in claimed]
             others += [(f"{place}/{path.name}".lstrip("/"), path.stat().st_size) for path in beside]

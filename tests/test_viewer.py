@@ -11,7 +11,7 @@ from browser import browser, colours, opened, pixels  # noqa: F401
 
 from comparisons.browser import sheets, viewer
 from comparisons.report.vtk import plan_mesh
-from sheetbench.scenes import FieldMesh, PointLoad, load
+from sheetbench.scenes import EdgeLoad, FieldMesh, PointLoad, Pressure, load
 
 SOURCE = Path(viewer.__file__).parent / "source"
 
@@ -133,13 +133,33 @@ def test_arrows_of_point_loads():
         PointLoad(at=at, force=(0, 0, f)) for at, f in (((0.1, 0.1), 1e-4), ((0.188, 0.09), -2.0))
     )
     mesh = plan_mesh(scene.sheet, 4)
-    weak, strong = sheets.forces(mesh.points, scene.replace(loads=(small, large)))
+    still = np.zeros_like(mesh.points)
+    weak, strong = sheets.forces(mesh.points, still, scene.replace(loads=(small, large)))
     assert strong["at"] == [0.188, 0.09, 0.0] and strong["along"] == pytest.approx([0, 0, -0.16 * 0.188])
     assert weak["along"] == pytest.approx([0, 0, 0.4 * 0.16 * 0.188])
     assert mesh.points[strong["point"]][:2] == pytest.approx([0.188, 0.094])
-    assert sheets.forces(mesh.points, scene) == []
+    assert sheets.forces(mesh.points, still, scene) == []
     nothing = scene.replace(loads=(PointLoad(at=(0.1, 0.1), force=(0, 0, 0)),))
-    assert sheets.forces(mesh.points, nothing) == []
+    assert sheets.forces(mesh.points, still, nothing) == []
+
+
+def test_arrows_of_edge_loads_and_pressures():
+    """Along the edge; all over the sheet, along the normal that it has where it is turned about y."""
+    scene = load("two-edges-clamped")
+    mesh, turn = plan_mesh(scene.sheet, 4), 0.7
+    x, size = mesh.points[:, 0], 0.188
+    turned = np.column_stack([x * (np.cos(turn) - 1.0), np.zeros_like(x), x * np.sin(turn)])
+    pulled = EdgeLoad("x1", force_per_length=(3.0, 0.0, 0.0))
+    found = sheets.forces(mesh.points, turned, scene.replace(loads=(pulled, Pressure(-5.0))))
+    along_edge, pressed = found[:5], found[5:]
+    assert [one["at"][:2] for one in along_edge] == [
+        [size, share * size] for share in (0, 0.25, 0.5, 0.75, 1)
+    ]
+    assert all(one["along"] == pytest.approx([0.1 * size, 0.0, 0.0]) for one in along_edge)
+    expected = 0.08 * size * np.array([np.sin(turn), 0.0, -np.cos(turn)])
+    assert len(pressed) == 16 and all(one["along"] == pytest.approx(expected, abs=1e-9) for one in pressed)
+    moment = scene.replace(loads=(EdgeLoad("x1", moment_per_length=1.0),))
+    assert sheets.forces(mesh.points, turned, moment) == []
 
 
 def test_views_fields_and_what_is_under_the_pointer(page):

@@ -8,17 +8,19 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from comparisons.report.arrows import point_arrows
+from comparisons.report.arrows import load_arrows
 from comparisons.report.vtk import PLAN_CELLS
-from sheetbench.scenes import EDGES, FieldMesh, PointLoad, Scene, Sheet, holds_director
+from sheetbench.scenes import EDGES, FieldMesh, Scene, Sheet, holds_director
 
 # corners of a brick's faces, outwards, as VTK numbers its nodes; those of quadratic ones come after them
 FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
 QUADS, TRIANGLES = ("quad", "quad8", "quad9"), ("triangle", "triangle6")
+NEAR = 18  # points through which a plane is laid: 3 × 3 masses of two layers
 LINES = 8  # cells a side that lines on a finer surface mark
 
 
@@ -75,20 +77,33 @@ def drawn(
         found |= {"quads": packed(_quads(mesh)), "triangles": packed(_cells(mesh, TRIANGLES, 3))}
     if scene is not None:
         found["held"] = _held(mesh.points, scene)
-        found["forces"] = forces(mesh.points, scene)
+        found["forces"] = forces(mesh.points, u, scene)
     if frames:
         found["frames"] = [{"time": time, "displacement": packed(np.nan_to_num(u))} for time, u in frames]
     return found
 
 
-def forces(points: np.ndarray, scene: Scene) -> list[dict[str, Any]]:
-    """Arrows of the scene's point loads, as in the pictures; points (n, 3) [m]: of the mesh at rest."""
-    loads = [(load.at, load.force) for load in scene.loads if isinstance(load, PointLoad) and any(load.force)]
-    shares = point_arrows(np.array([force for _, force in loads]).reshape(-1, 3))
+def forces(points: np.ndarray, displacement: np.ndarray, scene: Scene) -> list[dict[str, Any]]:
+    """Arrows of the scene's loads, as in the pictures; points (n, 3) [m]: of the mesh at rest, displacement
+    (n, 3) [m]: theirs."""
+    plan, arrows = load_arrows(scene, partial(_normals, points, np.nan_to_num(displacement)))
     found = []
-    for (at, _), share in zip(loads, max(scene.sheet.lengths) * shares, strict=True):
-        nearest = int(np.argmin(np.linalg.norm(points[:, :2] - at, axis=1)))
-        found.append({"point": nearest, "at": [*at, 0.0], "along": share.tolist()})
+    for at, along in zip(plan, max(scene.sheet.lengths) * arrows, strict=True):
+        if along.any():
+            nearest = int(np.argmin(np.linalg.norm(points[:, :2] - at, axis=1)))
+            found.append({"point": nearest, "at": [*at.tolist(), 0.0], "along": along.tolist()})
+    return found
+
+
+def _normals(points: np.ndarray, displacement: np.ndarray, plan: np.ndarray) -> np.ndarray:
+    """Unit normals (n, 3) of the deformed mesh at plan points (n, 2): of planes through what lies near."""
+    found = np.zeros((len(plan), 3))
+    for i, at in enumerate(plan):
+        near = np.argsort(np.linalg.norm(points[:, :2] - at, axis=1))[:NEAR]
+        flat = np.column_stack([points[near, :2] - at, np.ones(len(near))])
+        tangents = np.linalg.lstsq(flat, (points + displacement)[near], rcond=None)[0]
+        normal = np.cross(tangents[0], tangents[1])
+        found[i] = normal / (np.linalg.norm(normal) or 1.0)
     return found
 
 

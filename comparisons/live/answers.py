@@ -62,7 +62,7 @@ class Answered:
         found = _document("lattice", self.question, self.scene, self.solution)
         mesh = self.solution.mesh
         found["displacement"] = packed(np.nan_to_num(self.displacement))
-        found["forces"] = forces(mesh.points, self.scene)
+        found["forces"] = forces(mesh.points, self.displacement, self.scene)
         if known is None or not np.array_equal(known, mesh.points):
             flat = {**DIFFERENCE, "kind": "difference", "values": packed(np.zeros(len(mesh.points)))}
             found["sheet"] = drawn("lattice", mesh, "Lattice", [flat], self.scene)

@@ -1,21 +1,22 @@
 """What acts on a sheet, on the stage of its picture: chains and moved edges in red, loads as blue arrows.
 
-An arrow starts where its force acts and points along it; of all forces and pressures of a scene the largest
-has the longest arrow. A turned arrow is an edge's moment.
+An arrow starts where its force acts and points along it (`comparisons.report.arrows`). A turned arrow is an
+edge's moment.
 """
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pyvista
 
-from comparisons.report.arrows import point_arrows
+from comparisons.report.arrows import ALONG, edge_plan, load_arrows
 from comparisons.report.stage import Stage
-from sheetbench.scenes import EDGES, Chain, EdgeLoad, PointLoad, Pressure, Sheet, Solution
+from sheetbench.scenes import EDGES, Chain, EdgeLoad, Solution
 
 LOAD = "#1b6ca8"
-EDGE, PRESSURE, MOMENT = 0.1, 0.08, 0.035  # lengths and radius, of the longer side
-ALONG = 5  # arrows along an edge
+MOMENT = 0.035  # radius of a turned arrow, of the longer side
 ASIDE = 0.012  # of the longer side: how far a chain on a face is drawn from the mid-surface
 
 
@@ -25,31 +26,20 @@ def draw(stage: Stage, solution: Solution) -> np.ndarray:
     scene = stage.scene
     for actuator in scene.actuators:
         if isinstance(actuator, Chain):
-            plan = _edge_plan(scene.sheet, actuator.edge, np.linspace(0.0, 1.0, actuator.segments + 1))
+            plan = edge_plan(scene.sheet, actuator.edge, np.linspace(0.0, 1.0, actuator.segments + 1))
             side = np.sign(actuator.axis_height(scene.sheet.thickness))
             aside = side * ASIDE * stage.size * _normals(stage, solution, plan)
             stage.chain(stage.deformed(solution, plan) + aside)
         else:
-            plan = _edge_plan(scene.sheet, actuator.edge, np.array([0.0, 1.0]))
+            plan = edge_plan(scene.sheet, actuator.edge, np.array([0.0, 1.0]))
             stage.chain(stage.deformed(solution, plan))
-    points = [load for load in scene.loads if isinstance(load, PointLoad)]
-    if points:
-        at = stage.deformed(solution, np.array([load.at for load in points]))
-        seen += _arrows(stage, at, point_arrows(np.array([load.force for load in points])))
+    plan, arrows = load_arrows(scene, partial(_normals, stage, solution))
+    if len(plan):
+        seen += _arrows(stage, stage.deformed(solution, plan), arrows)
     for load in scene.loads:
-        if isinstance(load, EdgeLoad):
-            plan = _edge_plan(scene.sheet, load.edge, np.linspace(0.0, 1.0, ALONG))
-            at = stage.deformed(solution, plan)
-            if any(load.force_per_length):
-                force = np.array(load.force_per_length) / np.linalg.norm(load.force_per_length)
-                seen += _arrows(stage, at, np.tile(EDGE * force, (ALONG, 1)))
-            if load.moment_per_length:
-                _turns(stage, at[1::2], load.edge, load.moment_per_length)
-        elif isinstance(load, Pressure) and load.value:
-            shares = np.linspace(0.2, 0.8, 4)
-            plan = np.array([(x, y) for x in shares for y in shares]) * scene.sheet.lengths
-            normals = np.sign(load.value) * _normals(stage, solution, plan)
-            seen += _arrows(stage, stage.deformed(solution, plan), PRESSURE * normals)
+        if isinstance(load, EdgeLoad) and load.moment_per_length:
+            plan = edge_plan(scene.sheet, load.edge, np.linspace(0.0, 1.0, ALONG))[1::2]
+            _turns(stage, stage.deformed(solution, plan), load.edge, load.moment_per_length)
     return np.vstack(seen)
 
 
@@ -81,13 +71,6 @@ def _turns(stage: Stage, places: np.ndarray, edge: str, moment: float) -> None:
         )
         for part in (tube, tip):
             stage.plotter.add_mesh(part, color=LOAD, smooth_shading=True)
-
-
-def _edge_plan(sheet: Sheet, edge: str, shares: np.ndarray) -> np.ndarray:
-    """Plan points (n, 2) [m] at shares of an edge."""
-    start, end = (np.array(corner) for corner in sheet.edge_ends(edge))
-    points: np.ndarray = start + shares[:, None] * (end - start)
-    return points
 
 
 def _normals(stage: Stage, solution: Solution, plan: np.ndarray) -> np.ndarray:

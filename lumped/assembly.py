@@ -17,7 +17,7 @@ from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.pattern import Pattern, neighbours, of_grid
 from lumped.springs.all_families import Stresses, all_families
-from lumped.springs.families import Links, families
+from lumped.springs.families import Links, NeoHookeanCells, families
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
 
@@ -88,6 +88,11 @@ class Assembly:
     def conservative(self) -> bool:
         """Whether the springs have an energy (and so a symmetric tangent)."""
         return all(family.conservative for family in self.springs)
+
+    @property
+    def any_strain(self) -> bool:
+        """Whether the law of the layers is one of large strains."""
+        return any(isinstance(family, NeoHookeanCells) for family in self.springs)
 
     def require_energy(self) -> None:
         """Raise BadInput when the springs have no energy."""

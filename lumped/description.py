@@ -115,6 +115,8 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     assembly, lattice = problem.assembly, problem.assembly.lattice
     if not assembly.conservative:
         raise BadInput("export: per-direction springs have no energy, and no stiffness along their links")
+    if assembly.any_strain:
+        raise BadInput("export: neo-hookean cells have no columns in cells.csv; export another calibration")
     nx, ny, layers = lattice.grid
     j, i, k = (at.ravel() for at in np.meshgrid(*map(np.arange, (ny, nx, layers)), indexing="ij"))
     moments, pressure = problem.loads.at_time(None)

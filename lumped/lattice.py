@@ -123,12 +123,7 @@ class Lattice:
     @cached_property
     def sides(self) -> dict[str, np.ndarray]:
         """Mean sides at rest (c, 2, 3) [m], along x and along y, of the cells of each family."""
-        found = {}
-        for family in self.cells:
-            corners = self.positions[family.nodes].mean(axis=2)
-            across, along = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
-            found[family.name] = 0.5 * np.stack([across - along, across + along], axis=1)
-        return found
+        return {family.name: mean_sides(self.positions, family.nodes) for family in self.cells}
 
     def number(self, i: np.ndarray, j: np.ndarray, k: np.ndarray) -> np.ndarray:
         """Mass numbers of grid indices (broadcast)."""
@@ -144,6 +139,13 @@ class Lattice:
         """Mass numbers along an edge in the direction of its axis, (m, layers)."""
         columns = self.columns()
         return {"x0": columns[:, 0], "x1": columns[:, -1], "y0": columns[0], "y1": columns[-1]}[edge]
+
+
+def mean_sides(positions: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+    """Mean sides (c, 2, 3) of cells whose corners are the means of p masses each, (c, 4, p)."""
+    corners = positions[nodes].mean(axis=2)
+    across, along = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    return 0.5 * np.stack([across - along, across + along], axis=1)
 
 
 # family, direction, step in the grid; of each pair of opposite steps one is listed.

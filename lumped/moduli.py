@@ -97,6 +97,11 @@ def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: 
     dilation[:2, :2] = 1.0
     in_layer = layer[:3, :3] + springs.area * dilation
     in_layer += np.diag(constants.of_strains(springs, "area")[1][0])
+    if springs.neo_hookean_shear:
+        area = spacing[0] * spacing[1]
+        sides = np.array([[[spacing[0], 0.0, 0.0], [0.0, spacing[1], 0.0]]])
+        ((volume, *strains),), _ = constants.of_neo_hookean(springs, sides, np.array([area]), np.zeros(1))
+        in_layer += volume * dilation + np.diag(strains)
     mid_surface = springs.mid_area * dilation + np.diag(constants.of_strains(springs, "mid_area")[1][0])
     in_gap = gap[:3, :3].copy()
     if gap[3, 3] > 0.0:
@@ -107,7 +112,7 @@ def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: 
     return Moduli(
         membrane=layers * in_layer + (layers - 1) * in_gap + mid_surface,
         bending=(heights**2).sum() * in_layer + (gap_heights**2).sum() * in_gap,
-        shear=shear_gaps(layers) * np.array([gap[4, 4], gap[5, 5]]),
+        shear=shear_gaps(layers) * (np.diag(gap)[4:] + constants.along_each(springs.face_shear, 1)[:, 0]),
     )
 
 

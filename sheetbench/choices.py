@@ -34,6 +34,7 @@ CALIBRATIONS: dict[str, Method] = {
     "consistent-interior": Method("the moduli alone, edges like the interior", GRADED),
     "consistent-membrane": Method("consistent, and cells bend in their plane as the sheet", GRADED),
     "consistent-oblique": Method("consistent, and waves oblique to the grid right in second order", GRADED),
+    "neo-hookean": Method("layers as neo-Hookean membranes, for rubbers at any strain", ("grading",)),
     "moduli": Method("bounded least squares on the moduli"),
     "fit-static": Method("fitted to displacements", (*GRADED, "targets")),
     "fit-modal": Method("fitted to natural frequencies", ("layer_distance", "targets")),
@@ -45,7 +46,13 @@ CALIBRATIONS: dict[str, Method] = {
     "lloyd": Method("off-diagonal stiffness of the bilinear element at ν = 1/3, in each layer"),
 }
 # Those that meet the sheet's moduli on every grid: as cells shrink answers tend to the sheet's.
-EXTRAPOLATED = ("consistent", "consistent-interior", "consistent-membrane", "consistent-oblique")
+EXTRAPOLATED = (
+    "consistent",
+    "consistent-interior",
+    "consistent-membrane",
+    "consistent-oblique",
+    "neo-hookean",
+)
 
 MASSES = {
     "higher-order": "the inertia of edges corrected, shared by neighbours",

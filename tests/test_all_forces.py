@@ -36,6 +36,11 @@ CASES = {
     "oblong": (SHEET, {"grid": (4, 7)}),
     "long lines": (SHEET, {"grid": (140, 3)}),
     "graded, with strain springs": (SHEET, {"grid": (6, 5), "method": "consistent", "grading": 0.5}),
+    "neo-hookean": (SHEET, {"grid": (5, 6), "method": "neo-hookean"}),
+    "neo-hookean, graded, three layers": (
+        SHEET,
+        {"grid": (4, 5, 3), "method": "neo-hookean", "grading": 0.5},
+    ),
     "three layers": (SHEET, {"grid": (5, 5, 3), "method": "moduli"}),
     "dampers of a table": (scene().replace(dampers=TABLE), {"grid": (5, 6)}),
     "with rows of a chain": (

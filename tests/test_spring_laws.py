@@ -6,12 +6,13 @@ import pytest
 from lumped.springs import cells
 from lumped.springs.cells import CellArrays
 from lumped.springs.laws import (
+    LAWS,
     area_and_strains,
     elongation,
     mean_area_and_strains,
     mean_elongation,
     of_stiffness,
-    stiffness,
+    stiffness_of_area_and_strains,
 )
 
 SIDES = {
@@ -47,7 +48,7 @@ def test_stress_and_stiffness_of_cells_are_derivatives_of_the_energy(name):
     def at(change):
         return area_and_strains(0.5, tuple(g + change - rest), tuple(rest), area, q)
 
-    k = stiffness(tuple(g - rest), tuple(rest), t, square, 1.0, q)
+    k = stiffness_of_area_and_strains(tuple(g - rest), tuple(rest), t, square, 1.0, q)
     full = np.array([[k[0], k[3], k[4]], [k[3], k[1], k[5]], [k[4], k[5], k[2]]])
     for i, unit in enumerate(np.eye(3)):
         up, down = at(h * unit), at(-h * unit)
@@ -84,6 +85,42 @@ def test_a_turned_cell_stores_nothing_and_its_mean_stress_does_the_work(name):
     mean = mean_area_and_strains(tuple(d0), tuple(d1), tuple(rest), area, q)
     stored = law(sides, sides @ F)[0][0] - law(sides, sides @ F.T)[0][0]
     assert np.array(mean) @ (d1 - d0) == pytest.approx(stored, rel=1e-12)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: law.respond.__name__)
+def test_every_law_of_cells_is_the_derivative_of_its_energy_and_does_its_work(law):
+    """At a large strain; and M at rest is what dampers in proportion take."""
+    rest, h, k, n = (1.0, 1.0, 0.0), 1e-5, tuple(map(float, law.example)), law.measures
+    start, end = np.array([-0.1, 0.4, 0.2, 0.1])[:n], np.array([0.7, -0.2, 0.3, 0.4])[:n]
+
+    def at(change):
+        found = law.respond(0.5, tuple(change), rest, 1.0, k)
+        return found[0], np.array(found[-1])
+
+    def full(change, share):
+        _, t, square, *_ = law.respond(0.5, tuple(change), rest, 1.0, k)
+        d = law.stiffness(tuple(change), rest, t, square, share, k)
+        six, more = d if n == 4 else (d, None)
+        square = np.array([[six[0], six[3], six[4]], [six[3], six[1], six[5]], [six[4], six[5], six[2]]])
+        if more is None:
+            return square
+        return np.block([[square, np.array(more[:3])[:, None]], [np.array(more)[None]]])
+
+    stress, scale = at(end)[1], np.abs(full(end, 1.0)).max()
+    for i, unit in enumerate(np.eye(n)):
+        up, down = at(end + h * unit), at(end - h * unit)
+        # a central difference: h² of derivatives of order one
+        assert (up[0] - down[0]) / (2 * h) == pytest.approx(stress[i], rel=1e-7, abs=1e-7 * scale)
+        assert np.allclose((up[1] - down[1]) / (2 * h), full(end, 1.0)[i], atol=1e-7 * scale)
+    mean = np.array(law.mean_stress(tuple(start), tuple(end), rest, 1.0, k))
+    assert mean @ (end - start) == pytest.approx(at(end)[0] - at(start)[0], rel=1e-12)
+    assert at(np.zeros(n))[0] == 0.0 and not np.any(at(np.zeros(n))[1])
+    springs = np.zeros((n, n))
+    springs[:3, :3] = np.diag([k[1], k[2], k[3]])
+    springs[:2, :2] += 0.25 * k[0]
+    assert np.allclose(full(np.zeros(n), 0.0), springs, rtol=1e-14)
+    tiny = 1e-9 * end  # no digits are lost where strains are small
+    assert np.allclose(at(tiny)[1], full(np.zeros(n), 1.0) @ tiny, rtol=1e-8)
 
 
 def test_stress_and_stiffness_of_links_are_derivatives_of_the_energy():

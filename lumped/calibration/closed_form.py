@@ -112,7 +112,7 @@ def closed_form(
     return SpringSet(
         axial=by_direction(axial[0] * ly / lx / lz2, axial[1] * lx / ly / lz2),
         diagonal=by_diagonals * layer[2, 2] * (lx**2 + ly**2) / (2.0 * lx * ly * lz2),
-        vertical=_vertical(asked, spacing, lz2),
+        vertical=vertical(asked, spacing, lz2),
         cross=by_direction(
             (gap[0] - p * ratios[0]) * l1x * ly / (2.0 * lx**3 * lz2),
             (gap[1] - p * ratios[1]) * l1y * lx / (2.0 * ly**3 * lz2),
@@ -142,7 +142,7 @@ def _on_sides(form: np.ndarray) -> np.ndarray:
     return sides
 
 
-def _vertical(asked: Moduli, spacing: tuple[float, float], lz2: float) -> float:
+def vertical(asked: Moduli, spacing: tuple[float, float], lz2: float) -> float:
     """kz [N/m]: 8 D/lz² per square of the shorter spacing, over the cell."""
     lx, ly = spacing
     return 8.0 * float(asked.bending[0, 0]) / lz2 * lx * ly / min(lx, ly) ** 2
@@ -155,6 +155,6 @@ def _relaxation(
     lx, ly = spacing
     coupling = np.array([gap[0] / lx**2, gap[1] / ly**2, 0.0])  # the gap's S along x, y [N/m]
     cross = (gap - p * np.array([lx**2 / ly**2, ly**2 / lx**2])) / np.array([lx**4, ly**4]) * lz2
-    thickness = _vertical(asked, spacing, lz2) * lz2 / (lx * ly) + cross.sum() + p * lz2 / (lx * ly) ** 2
+    thickness = vertical(asked, spacing, lz2) * lz2 / (lx * ly) + cross.sum() + p * lz2 / (lx * ly) ** 2
     relaxation: np.ndarray = np.outer(coupling, coupling) / thickness * lz2
     return relaxation

@@ -14,6 +14,7 @@ from lumped.calibration.consistent import (
     consistent_oblique,
 )
 from lumped.calibration.least_squares import fit_moduli
+from lumped.calibration.neo_hookean import neo_hookean
 from lumped.calibration.report import report
 from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
 from lumped.calibration.uniform import uniform
@@ -47,6 +48,7 @@ MAKERS: dict[str, Callable[..., Calibration]] = {
     "consistent-interior": consistent_interior,
     "consistent-membrane": consistent_membrane,
     "consistent-oblique": consistent_oblique,
+    "neo-hookean": neo_hookean,
     "moduli": fit_moduli,
     "uniform": uniform,
     "cauchy": cauchy,

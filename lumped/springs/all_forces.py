@@ -13,6 +13,7 @@ from numba import njit
 from lumped.springs import packing as kinds
 from lumped.springs.cell_tiles import HALF, gather_sides, push_corner, resist_cells, stretch_cells
 from lumped.springs.link_tiles import pull_ends, resist_links, stretch_directional, stretch_links
+from lumped.springs.membrane_tiles import stretch_others
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import LANES, NO, OPTIONS, ROWS, YES
 
@@ -97,7 +98,7 @@ def _pass(
     for r in range(len(packing.runs)):
         run = packing.runs[r]
         kind, blocks, t, a, b, at = run[0], run[1], run[2], run[3], run[4], run[7]
-        if kind != CELLS:
+        if kind < CELLS:
             if kind == DIRECTIONAL:
                 if not elastic:
                     continue
@@ -114,7 +115,12 @@ def _pass(
         c, d = run[5], run[6]
         if fresh:
             gather_sides(u, a, b, c, d, size, blocks, tile)
-            energy += stretch_cells(share, rest, t, blocks, tile, at)
+            if kind == CELLS:
+                energy += stretch_cells(share, rest, t, blocks, tile, at)
+            else:
+                energy += stretch_others(
+                    packing.law, u, (a, b, c, d), size, share, rest, t, blocks, tile, at, force
+                )
         else:
             tile[R6 : R11 + blocks * LANES] = 0.0
         if damped:

@@ -18,7 +18,7 @@ from lumped.springs.memory import FORCE_X, FORCE_Y, FORCE_Z, GIVEN, KEPT, ROW, l
 from lumped.springs.tiles import LANES, OPTIONS, ROWS
 
 (R0, R1, R2, R3, R4, R5, R6, R7, R8, R9, R10, R11, R12, R13, R14, R15, R16, R17) = ROWS[:18]
-DATA, USED, SHAPE = 18, 12, 9  # rows of rest data, of a tile, and of what is kept
+DATA, USED, SHAPE = 18, 18, 9  # rows of rest data, of a tile with those of `membrane_tiles`, of what is kept
 HALF = 0.5
 
 
@@ -84,14 +84,14 @@ def stretch_cells(share: float, rest: np.ndarray, t: int, blocks: int, tile: np.
         ax, ay, az = ax + ux, ay + uy, az + uz
         d3 += ax * wx + ay * wy + az * wz
         bx, by, bz = bx + wx, by + wy, bz + wz
-        q = (
+        k = (
             part * load(GIVEN, rest, t + R10 + i),
             part * load(GIVEN, rest, t + R11 + i),
             part * load(GIVEN, rest, t + R12 + i),
             part * load(GIVEN, rest, t + R13 + i),
         )
         stored, _, square, (s1, s2, s3) = area_and_strains(
-            half, (d1, d2, d3), (g1, g2, g3), load(GIVEN, rest, t + R9 + i), q
+            half, (d1, d2, d3), (g1, g2, g3), load(GIVEN, rest, t + R9 + i), k
         )
         energy += stored
         turn = rest.dtype.type(1.0) / math.sqrt(square)

@@ -17,13 +17,20 @@ Arrays: stress (c, 3) [N/m]; blocks (b, 3, 3) [N/m], added to; u, v, force (n, 3
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from lumped.springs.cell_blocks import add_blocks, both, by_sides, to_diagonals
-from lumped.springs.laws import Four, Six, Three, mean_stress, respond, stiffness
+from lumped.springs.laws import (
+    Four,
+    Six,
+    Three,
+    area_and_strains,
+    mean_area_and_strains,
+    stiffness_of_area_and_strains,
+)
 from lumped.springs.vectors import Vector, dot, less, plus, times
 
 HALF = 0.5
@@ -37,7 +44,7 @@ class CellArrays(NamedTuple):
     nodes: np.ndarray
     sides: np.ndarray
     area: np.ndarray
-    constants: Any
+    constants: np.ndarray
     slots: np.ndarray
 
 
@@ -134,7 +141,7 @@ def add_forces(u: np.ndarray, cells: CellArrays, force: np.ndarray) -> float:
     energy = 0.0
     for c in range(len(cells.nodes)):
         d, g, a, b = measure(u, cells.nodes, cells.sides, c)
-        stored, _, _, stress = respond(HALF, d, g, cells.area[c], of_cell(cells.constants, c))
+        stored, _, _, stress = area_and_strains(HALF, d, g, cells.area[c], of_cell(cells.constants, c))
         energy += stored
         pull(cells.nodes, c, stress, a, b, force)
     return energy
@@ -146,7 +153,7 @@ def energies(u: np.ndarray, cells: CellArrays) -> np.ndarray:
     out = np.empty(len(cells.nodes))
     for c in range(len(cells.nodes)):
         d, g, _, _ = measure(u, cells.nodes, cells.sides, c)
-        out[c] = respond(HALF, d, g, cells.area[c], of_cell(cells.constants, c))[0]
+        out[c] = area_and_strains(HALF, d, g, cells.area[c], of_cell(cells.constants, c))[0]
     return out
 
 
@@ -157,9 +164,11 @@ def extrapolated(u: np.ndarray, step: np.ndarray, cells: CellArrays) -> np.ndarr
     for c in range(len(cells.nodes)):
         d, g, a, b = measure(u, cells.nodes, cells.sides, c)
         q = of_cell(cells.constants, c)
-        _, t, square, stress = respond(HALF, d, g, cells.area[c], q)
+        _, t, square, stress = area_and_strains(HALF, d, g, cells.area[c], q)
         moved = rate(a, b, *side_changes(step, cells.nodes, c))
-        out[c, 0], out[c, 1], out[c, 2] = plus(stress, times_six(stiffness(d, g, t, square, 1.0, q), moved))
+        out[c, 0], out[c, 1], out[c, 2] = plus(
+            stress, times_six(stiffness_of_area_and_strains(d, g, t, square, 1.0, q), moved)
+        )
     return out
 
 
@@ -170,7 +179,7 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, cells: CellArrays, fo
     for c in range(len(cells.nodes)):
         d0, g, a0, b0 = measure(start, cells.nodes, cells.sides, c)
         d1, _, a1, b1 = measure(end, cells.nodes, cells.sides, c)
-        stress = mean_stress(d0, d1, g, cells.area[c], of_cell(cells.constants, c))
+        stress = mean_area_and_strains(d0, d1, g, cells.area[c], of_cell(cells.constants, c))
         pull(cells.nodes, c, stress, times(0.5, plus(a0, a1)), times(0.5, plus(b0, b1)), force)
 
 
@@ -183,7 +192,9 @@ def add_damping_forces(u: np.ndarray, v: np.ndarray, cells: CellArrays, force: n
         _, _, a, b = measure(u, cells.nodes, cells.sides, c)
         q, now = of_cell(cells.constants, c), products(a, b)
         moving = rate(a, b, *side_changes(v, cells.nodes, c))
-        stress = times_six(stiffness(NONE, now, 0.0, now[0] * now[1] - now[2] * now[2], 0.0, q), moving)
+        stress = times_six(
+            stiffness_of_area_and_strains(NONE, now, 0.0, now[0] * now[1] - now[2] * now[2], 0.0, q), moving
+        )
         power += dot(stress, moving)
         pull(cells.nodes, c, stress, a, b, force)
     return power
@@ -200,9 +211,9 @@ def add_tangent(
     for c in range(len(cells.nodes)):
         d, g, a, b = measure(u, cells.nodes, cells.sides, c)
         q = of_cell(cells.constants, c)
-        _, t, square, s = respond(HALF, d, g, cells.area[c], q)
+        _, t, square, s = area_and_strains(HALF, d, g, cells.area[c], q)
         s = times(share, s) if own else (stress[c, 0], stress[c, 1], stress[c, 2])
-        k = stiffness(d, g, t, square, share, q)
+        k = stiffness_of_area_and_strains(d, g, t, square, share, q)
         rows = (
             by_sides((k[0], k[3], k[4]), a, b),
             by_sides((k[3], k[1], k[5]), a, b),
@@ -227,7 +238,7 @@ def add_damping_tangent(u: np.ndarray, v: np.ndarray, cells: CellArrays, blocks:
         va, vb = side_changes(v, cells.nodes, c)
         moving = rate(a, b, va, vb)
         square = now[0] * now[1] - now[2] * now[2]
-        k = stiffness(NONE, now, 0.0, square, 0.0, q)
+        k = stiffness_of_area_and_strains(NONE, now, 0.0, square, 0.0, q)
         n, turned = (now[1], now[0], -2.0 * now[2]), (moving[1], moving[0], -2.0 * moving[2])
         along = dot(n, moving) / square
         scale = 0.25 * q[0] / square

@@ -58,6 +58,27 @@ def of_strains(springs: SpringSet, cells: str, count: int = 1) -> tuple[str, np.
     return name, np.stack([of_cells(value, count) for value in (x, y, shear)], axis=1)
 
 
+def along_each(value: Any, count: int) -> np.ndarray:
+    """Values along x and along y of a constant of `count` cells, (2, count)."""
+    pair = (value.x, value.y) if isinstance(value, PerDirection) else (value, value)
+    return np.stack([of_cells(each, count) for each in pair])
+
+
+def of_neo_hookean(
+    springs: SpringSet, sides: np.ndarray, area: np.ndarray, twist: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Stiffness (c, 4) [N/m] of the small strains of a layer's plan cells that are neo-Hookean membranes,
+    less that of their axial links, and the last six constants (c, 6) of `lumped.springs.laws.neo_hookean`.
+    sides (c, 2, 3) [m], area (c,) [m²]; twist: (c,) [N/m] that edges add to the shear."""
+    count = len(area)
+    shear = of_cells(springs.neo_hookean_shear, count)
+    ratio = of_cells(springs.neo_hookean_volume, count) / shear
+    axial, lengths = along_each(springs.axial, count), (sides**2).sum(axis=2).T
+    stretch = 2.0 * shear - axial * lengths / area
+    stiffness = np.column_stack([2.0 * shear * ratio / (2.0 + ratio), *stretch, shear + twist])
+    return stiffness, np.column_stack([shear * area, ratio, *axial, twist / area, np.zeros(count)])
+
+
 def of_edge_cells(springs: SpringSet, grid: tuple[int, int, int], twisting: frozenset[str]) -> np.ndarray:
     """Stiffness [N/m] against shear that the edges along which nothing holds the director (`twisting`) add to
     every cell of a layer, (cells,); to a cell at two of them the sum."""

@@ -7,7 +7,7 @@ arrays are, and a row of the table.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -15,7 +15,7 @@ import numpy as np
 
 from lumped.lattice import Lattice
 from lumped.pattern import Pattern
-from lumped.springs import by_cell, cells, constants, directional, laws, links
+from lumped.springs import by_cell, cells, constants, directional, laws, links, membranes
 from lumped.springs.cells import CellArrays
 from lumped.springs.family import Dampers, Family
 from lumped.springs.links import LinkArrays
@@ -117,6 +117,7 @@ class Cells(Family):
     sides: np.ndarray
     area: np.ndarray
     names: tuple[str, str]
+    upright: bool = False  # faces between the layers
 
     loops: ClassVar[Any] = cells
     no_stress: ClassVar[np.ndarray] = np.empty((0, 3))
@@ -140,7 +141,7 @@ class Cells(Family):
         with np.errstate(invalid="ignore", divide="ignore"):
             share = np.where(low < 0.0, high / (2.0 * radius), 1.0)[:, None]
         parts = np.stack([s[:, 0] - low, s[:, 1] - low, s[:, 2]], axis=1) * share
-        return np.where((low < 0.0)[:, None], parts, s)
+        return np.where((low < 0.0)[:, None], parts, s[:, :3])
 
     def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
         """Return the energy of the area spring and of the springs against strain of every cell."""
@@ -164,6 +165,44 @@ class Cells(Family):
         there = self.stiffness[:, 0].any(), self.stiffness[:, 1:].any()
         sums = zip(self.names, energies.sum(axis=0).tolist(), there, strict=True)
         return {name: energy for name, energy, has in sums if has}
+
+
+@dataclass(frozen=True, eq=False)
+class NeoHookeanCells(Cells):
+    """A layer's cells as a neo-Hookean membrane, or upright faces between the layers: stiffness (c, 4) of
+    their small strains, which dampers in proportion resist; law (c, 6), the rest of their constants
+    (`laws.neo_hookean`)."""
+
+    law: np.ndarray = field(kw_only=True)
+
+    loops: ClassVar[Any] = membranes
+    no_stress: ClassVar[np.ndarray] = np.empty((0, 4))
+
+    @cached_property
+    def arrays(self) -> CellArrays:
+        """Return what the loops take."""
+        constants = np.column_stack([self.constants, self.law])
+        return CellArrays(self.nodes, self.sides, self.area, constants, self.slots)
+
+    def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
+        """Return the positive semidefinite part of the stresses as matrices, and where it is positive S₄."""
+        return np.column_stack([super().nonnegative_part(u), np.maximum(self.stresses(u)[:, 3], 0.0)])
+
+    def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
+        """Return the energy of the membrane, less that of the links along its sides."""
+        if linear:
+            return super().energies(u, True)
+        energies: np.ndarray = membranes.energies(u, self.arrays)
+        return energies[:, None]
+
+    def by_name(self, energies: np.ndarray) -> dict[str, float]:
+        """Return the sum."""
+        return {self.names[0]: float(energies.sum())}
+
+    def damped(self, time: float) -> Dampers:
+        """Return dampers of the springs of its small strains."""
+        arrays = self.slots, self.sides, self.area, self.names
+        return Dampers(Cells(self.nodes, time * self.stiffness, *arrays))
 
 
 def link_springs(lattice: Lattice, pattern: Pattern, table: SpringSet | DamperSet) -> Iterator[Links]:
@@ -197,19 +236,44 @@ def _links(kind: type[Links], rest: Rest, which: np.ndarray, k: np.ndarray, name
 def cell_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[Cells]:
     """On the cells of the layers and of the mid-surface, with what the edges take off the twist."""
     twist = constants.of_edge_cells(springs, lattice.grid, lattice.twisting)
-    layers = lattice.grid[2]
+    layers, rest = lattice.grid[2], rest_of(lattice, pattern)
     for family in lattice.cells:
+        nodes, slots, sides, area = rest.cells(family.name)
+        every = len(family.nodes) // len(twist)
+        if family.name == "area" and np.any(springs.neo_hookean_shear):
+            stiffness, law = constants.of_neo_hookean(springs, sides[: len(twist)], area[: len(twist)], twist)
+            stiffness, law = np.concatenate([stiffness] * every), np.concatenate([law] * every)
+            yield NeoHookeanCells(nodes, stiffness, slots, sides, area, ("neo_hookean", ""), law=law)
+            continue
         name, strains = constants.of_strains(springs, family.name, len(twist))
-        area = by_cell.of_cells(getattr(springs, family.name), len(twist))
+        of_area = by_cell.of_cells(getattr(springs, family.name), len(twist))
         strains[:, 2] += twist if family.name == "area" else -layers * twist
-        stiffness = np.column_stack([area, strains])
+        stiffness = np.column_stack([of_area, strains])
         if stiffness.any():
-            stiffness = np.concatenate([stiffness] * (len(family.nodes) // len(twist)))
-            nodes, slots, sides, rest_area = rest_of(lattice, pattern).cells(family.name)
-            yield Cells(nodes, stiffness, slots, sides, rest_area, (family.name, name))
+            stiffness = np.concatenate([stiffness] * every)
+            yield Cells(nodes, stiffness, slots, sides, area, (family.name, name))
 
 
-FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] = (link_springs, cell_springs)
+def face_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[Cells]:
+    """On the upright faces between the layers, against their shear."""
+    if springs.face_shear:
+        rest = rest_of(lattice, pattern)
+        faces, (nodes, slots, sides, area) = rest.faces, rest.cells("faces")
+        per_area = constants.along_each(springs.face_shear, lattice.cell_areas.size)[
+            faces.axis[:, None], faces.cells
+        ]
+        stored = per_area * lattice.cell_areas.ravel()[faces.cells]
+        stiffness, law = np.zeros((len(nodes), 4)), np.zeros((len(nodes), 6))
+        stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area
+        law[:, 5] = stiffness[:, 3] / area
+        yield NeoHookeanCells(nodes, stiffness, slots, sides, area, ("face_shear", ""), True, law=law)
+
+
+FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] = (
+    link_springs,
+    cell_springs,
+    face_springs,
+)
 
 
 def families(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> tuple[Family, ...]:

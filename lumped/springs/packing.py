@@ -16,21 +16,23 @@ import numpy as np
 
 from lumped.lattice import Lattice
 from lumped.pattern import ASKED, KEPT
-from lumped.springs import cell_tiles, link_tiles
-from lumped.springs.families import Cells, DirectionalLinks, Links
+from lumped.springs import cell_tiles, link_tiles, membrane_tiles
+from lumped.springs.families import Cells, DirectionalLinks, Links, NeoHookeanCells
 from lumped.springs.family import Dampers, Family
 from lumped.springs.tiles import LANES, STRIDE, WIDTH
 from sheetbench.scenes.grid import Grid
 
-LINKS, DIRECTIONAL, CELLS = range(3)
+LINKS, DIRECTIONAL, CELLS, NEO_HOOKEAN = range(4)
 BLOCK = int(LANES)
 CACHE_LIMIT = 2**18  # numbers of all shapes at most: from beyond the caches they come slower than anew
 BRIDGED = 4  # places at most from one spring of a run to the next
-ROWS = {LINKS: link_tiles.DATA, DIRECTIONAL: link_tiles.DATA, CELLS: cell_tiles.DATA}
+ROWS = {LINKS: link_tiles.DATA, DIRECTIONAL: link_tiles.DATA}
+ROWS |= {CELLS: cell_tiles.DATA, NEO_HOOKEAN: membrane_tiles.DATA}
 NOTHING = {  # rest data where there is no spring: a link or a cell of side 1 [m]
     LINKS: (1.0, 0.0, 0.0, 1.0),
     DIRECTIONAL: (1.0, 0.0, 0.0, 1.0),
     CELLS: (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0),
+    NEO_HOOKEAN: (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0),
 }
 ODD = 2 * np.random.default_rng(0).integers(2**63, size=STRIDE, dtype=np.uint64) + np.uint64(1)  # of a hash
 
@@ -41,7 +43,8 @@ class Packing(NamedTuple):
     there are cells on the mid-surface; damped: whether there are dampers; runs: (r, 8), of each what it is,
     its blocks of springs, where its rest data begin, its first four (or two) masses, and where in a tile its
     shapes are kept; rest: rest data, flat; keeping: whether shapes are kept for dampers, those of each run in
-    a place of its own; length: of a tile with what is kept."""
+    a place of its own; length: of a tile with what is kept; law: NEO_HOOKEAN where there are such
+    cells, else None."""
 
     order: np.ndarray
     layers: np.uint64
@@ -53,6 +56,7 @@ class Packing(NamedTuple):
     rest: np.ndarray
     keeping: bool
     length: int
+    law: int | None
 
 
 class Scratch(NamedTuple):
@@ -90,8 +94,9 @@ def pack(
     plane = nx * ny
     families = [*((family, False) for family in springs), *((each.family, True) for each in dampers)]
     runs, rest, used, mid = [], [np.empty(0)], 0, False
+    kinds = {id(family.nodes): _kind(family) for family in springs}  # dampers are where their springs are
     for kind in ROWS:
-        parts = [part for part in families if len(part[0]) and _kind(part[0]) == kind]
+        parts = [p for p in families if len(p[0]) and kinds.get(id(p[0].nodes), _kind(p[0])) == kind]
         if not parts:
             continue
         nodes = {id(family.nodes): family.nodes for family, _ in parts}
@@ -121,6 +126,7 @@ def pack(
         np.concatenate(rest).astype(np.float32 if single else float),
         keeping,
         length,
+        NEO_HOOKEAN if NEO_HOOKEAN in table[:, 0] else None,
     )
 
 
@@ -136,7 +142,7 @@ def _in_blocks(count: int) -> int:
 def _place_shapes(runs: np.ndarray, damped: bool) -> tuple[bool, int]:
     """Set where the shapes of each run (r, 8) are kept, all in one place where none are asked for again, or
     there are too many; whether each has its own, and a tile's length."""
-    rows = np.where(runs[:, 0] == CELLS, cell_tiles.SHAPE, link_tiles.SHAPE)
+    rows = np.where(runs[:, 0] >= CELLS, cell_tiles.SHAPE, link_tiles.SHAPE)
     before = np.append(0, np.cumsum(rows)).astype(int)
     keeping = damped and STRIDE * int(before[-1]) <= CACHE_LIMIT
     runs[:, 7] = STRIDE * (cell_tiles.USED + before[:-1] * keeping)
@@ -146,7 +152,7 @@ def _place_shapes(runs: np.ndarray, damped: bool) -> tuple[bool, int]:
 def _kind(family: Family) -> int:
     """What the springs of a family are."""
     if isinstance(family, Cells):
-        return CELLS
+        return NEO_HOOKEAN if isinstance(family, NeoHookeanCells) else CELLS
     return DIRECTIONAL if isinstance(family, DirectionalLinks) else LINKS
 
 
@@ -163,6 +169,8 @@ def _add_data(family: Family, damped: bool, at: np.ndarray, data: np.ndarray) ->
         rest = (*a.T, *b.T, *((x * y).sum(axis=1) for x, y in ((a, a), (b, b), (a, b))), family.area)
         constants = family.constants.T
         first = 14 if damped else 10
+        if isinstance(family, NeoHookeanCells):
+            constants, data[18:20, at] = family.law[:, [0, 2, 3, 4]].T, family.law[:, [1, 5]].T
     data[: len(rest), at] = rest
     data[first : first + len(constants), at] += constants
 

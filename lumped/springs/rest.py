@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.lattice import Lattice
+from lumped.lattice import Lattice, mean_sides
 from lumped.pattern import ASKED, KEPT, Pattern
 
 
@@ -33,6 +33,16 @@ class CellRest(NamedTuple):
     slots: np.ndarray
     sides: np.ndarray
     area: np.ndarray
+
+
+class Faces(NamedTuple):
+    """nodes (m, 4, 1) masses; cells, shares (m, q): the plan cells beside each and their shares; axis: (m,) 0
+    along x, 1 along y."""
+
+    nodes: np.ndarray
+    cells: np.ndarray
+    shares: np.ndarray
+    axis: np.ndarray
 
 
 class Rest:
@@ -67,14 +77,27 @@ class Rest:
         return found
 
     def cells(self, name: str) -> CellRest:
-        """Return the lattice's cells of this name."""
+        """Return the lattice's cells of this name, or its upright "faces"."""
         if name not in self._cells:
-            (cells,) = (family for family in self._lattice.cells if family.name == name)
-            slots = self._pattern.among(cells.nodes.reshape(len(cells.nodes), -1))
-            sides = self._lattice.sides[name]
+            nodes = self.faces.nodes if name == "faces" else None
+            if nodes is None:
+                (nodes,) = (family.nodes for family in self._lattice.cells if family.name == name)
+            slots = self._pattern.among(nodes.reshape(len(nodes), -1))
+            sides = mean_sides(self._lattice.positions, nodes)
             area = np.sqrt((np.cross(sides[:, 0], sides[:, 1]) ** 2).sum(axis=1))
-            self._cells[name] = CellRest(cells.nodes, slots, sides, area)
+            self._cells[name] = CellRest(nodes, slots, sides, area)
         return self._cells[name]
+
+    @cached_property
+    def faces(self) -> Faces:
+        """The faces between layers above links along x, then along y."""
+        layers, parts = self._lattice.grid[2], []
+        for axis, family in enumerate(f for f in self._lattice.links if f.name == "axial"):
+            low = family.nodes[:, 0] % layers < layers - 1
+            a, b = family.nodes[low].T
+            nodes = np.stack([a, b, b + 1, a + 1], axis=1)[:, :, None]
+            parts.append((nodes, family.cells[low], family.shares[low], np.full(len(a), axis)))
+        return Faces(*(np.concatenate(part) for part in zip(*parts, strict=True)))
 
 
 class Itself:

@@ -45,6 +45,8 @@ def field_mesh(assembly: Assembly, u: np.ndarray, reactions: np.ndarray, linear:
     for family in assembly.springs:
         if isinstance(family, Cells):
             energy = family.energies(u, linear).sum(axis=1)
+            if family.upright:
+                energy = _links_by_cell(lattice, family.nodes[:, ::2, 0], energy)  # from corner to corner
             layers = quads // len(energy)
             cell_energy += np.tile(energy / layers, layers)
     elongation = links.elongations(u, linear)

@@ -107,6 +107,14 @@ class SpringSet(Frozen):
     """Strain springs against the in-plane shear of the mid-surface's cells."""
     mid_stretch: Stiffness = 0.0
     """Strain springs against the stretching of the mid-surface along x and y."""
+    neo_hookean_shear: Annotated[Links, Unit("N/m")] = 0.0
+    """Cells of a layer as a neo-Hookean membrane instead of area and stretch: its shear modulus μ times its
+    thickness. Axial links then resist only the bending of cells in their plane."""
+    neo_hookean_volume: Annotated[Links, Unit("N/m")] = 0.0
+    """Lamé's λ of that membrane times its thickness."""
+    face_shear: Stiffness = 0.0
+    """Strain springs against the shear of the cells' upright faces, energy ½ k γ² a0, a0 the cell's area and
+    γ the angle between mean chord and mean director."""
     edge_shear: EdgeStiffness = 0.0
     """Strain springs against the twist of cells along a free, hinged or held edge, its opposite not so."""
     strip_shear: EdgeStiffness = 0.0
@@ -117,6 +125,12 @@ class SpringSet(Frozen):
     """strip_shear of the edges x1 and y1, where it is not that of x0 and y0."""
     layer_distance: Annotated[Positive, Unit("m")] = Field(kw_only=True)
     """Distance of neighbouring layers; of two layers, about the sheet's thickness."""
+
+    @model_validator(mode="after")
+    def _one_law_a_cell(self) -> SpringSet:
+        if self.neo_hookean_shear and (self.area or self.stretch or self.shear):
+            raise ValueError("neo_hookean_shear: the same cells cannot have area, stretch and shear springs")
+        return self
 
 
 class SpringTable(SpringSet):

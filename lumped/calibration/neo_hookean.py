@@ -1,0 +1,62 @@
+"""A neo-Hookean sheet as a lattice, in closed form, for any strain and any ν below ½ (docs/theory.md).
+
+Each of L layers is a membrane of thickness h/L with the energy per volume
+
+    W = ½ μ (tr C − 2) + min over t of [½ μ (t² − 1) − μ ln(a t) + ½ λ ln²(a t)],
+
+μ = E/2(1 + ν), λ = 2 μ ν/(1 − 2ν), of its cells' mean sides (`lumped.springs.laws.neo_hookean`). Layers are
+h/√(L² − 1) apart, so that Σ z_k² h/L = h³/12 and bending is D exactly. Transverse shear is the upright
+faces', with S* of the grid, MacNeal's. A cell bent in its own plane, which mean sides do not see, is the
+axial links': E h/3L along each side, which the cells' law takes off again where strain is uniform. Vertical
+links keep their length, kz = 8 D/lz². Edges are as in `lumped.calibration.edge_twist`. Cells may differ.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from lumped import moduli
+from lumped.calibration.calibration import Calibration, by_direction, plan_spacing
+from lumped.calibration.cell_by_cell import cell_by_cell
+from lumped.calibration.closed_form import vertical
+from lumped.calibration.edge_twist import with_edges
+from lumped.calibration.report import report
+from lumped.lattice import Grid
+from sheetbench.scenes import Material, Sheet, SpringSet
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.grading import Graded
+
+
+def neo_hookean(sheet: Sheet, material: Material, grid: Grid, grading: Graded = 0.0) -> Calibration:
+    """Neo-Hookean layers with the moduli of the sheet at small strains. Raises BadInput for ν = ½."""
+    if material.poisson >= 0.5:
+        raise BadInput("calibration 'neo-hookean' wants material.poisson below 0.5, such as 0.4999")
+    layers = grid[2]
+
+    def of_cell(cell: Sheet, _: float | None = None) -> SpringSet:
+        lx, ly = cell.lengths
+        asked = moduli.of_sheet(cell, material, cell.lengths)
+        side = material.young * sheet.thickness / (3.0 * layers)
+        square = sheet.thickness**2 / (layers**2 - 1)
+        shear = material.young * sheet.thickness / (2.0 * (1.0 + material.poisson) * layers)
+        return SpringSet(
+            axial=by_direction(side * ly / lx, side * lx / ly),
+            diagonal=0.0,
+            vertical=vertical(asked, cell.lengths, square),
+            cross=0.0,
+            cross_diagonal=0.0,
+            neo_hookean_shear=shear,
+            neo_hookean_volume=2.0 * material.poisson / (1.0 - 2.0 * material.poisson) * shear,
+            face_shear=by_direction(*(asked.shear / moduli.shear_gaps(layers))),
+            layer_distance=math.sqrt(square),
+        )
+
+    if grading:
+        springs = cell_by_cell(of_cell, sheet, grid, grading)
+    else:
+        lx, ly = plan_spacing(sheet, grid)
+        springs = of_cell(sheet.model_copy(update={"length_x": lx, "length_y": ly}))
+    springs, notes = with_edges(sheet, grid, springs, grading)
+    found = report("neo-hookean", sheet, material, grid, springs, grading)
+    return replace(found, notes=(*found.notes, *notes))

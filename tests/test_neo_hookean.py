@@ -1,0 +1,138 @@
+"""The neo-Hookean lattice: closed forms at large strain, moduli at small ones, energy in motion."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import lumped
+from lumped import System, pose, step_limit
+from sheetbench import scenes
+from sheetbench.scenes import Scene, Status
+from sheetbench.scenes.errors import BadInput
+
+YOUNG, THICKNESS = 5e6, 2e-3
+SOFT = {"young": YOUNG, "poisson": 0.45, "density": 1000.0}
+
+
+def strip(supports, loads=(), **others):
+    """200 × 100 × 2 mm of silicone."""
+    sheet = {"length_x": 0.2, "length_y": 0.1, "thickness": THICKNESS}
+    material = {**SOFT, **others.pop("material", {})}
+    tables = {"name": "strip", "sheet": sheet, "material": material, "supports": supports, "loads": loads}
+    return Scene.model_validate({**tables, **others})
+
+
+def pulled(x, y, poisson):
+    """Half-held so that strain is uniform, pulled by x and y [N/m]."""
+    held = [
+        {"edge": edge, "kind": "held", "components": [axis, "z"]} for edge, axis in (("x0", "x"), ("y0", "y"))
+    ]
+    loads = [
+        {"kind": "edge", "edge": edge, "force_per_length": force}
+        for edge, force in (("x1", [x, 0.0, 0.0]), ("y1", [0.0, y, 0.0]))
+        if any(force)
+    ]
+    return strip(held, loads, material={"poisson": poisson})
+
+
+def thickness(area, poisson):
+    """Thickness stretch of a neo-Hookean membrane whose area has grown by the factor."""
+    mu, lame = 0.5 / (1.0 + poisson), poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson))
+    return brentq(lambda t: mu * (t * t - 1.0) + lame * math.log(area * t), 0.01, 9.0, xtol=1e-15)
+
+
+def nominal(one, other, poisson):
+    """Force per length [N/m] that holds the stretch `one` beside `other`: μ h (λ₁ − t²/λ₁)."""
+    t = thickness(one * other, poisson)
+    return 0.5 * YOUNG / (1.0 + poisson) * THICKNESS * (one - t * t / one)
+
+
+def stretches(solution):
+    corner = solution.mesh.points[:, :2] - [0.2, 0.1]
+    at = np.argmin((corner**2).sum(axis=1))
+    moved = solution.mesh.point_data["displacement"][at]
+    return 1.0 + moved[0] / 0.2, 1.0 + moved[1] / 0.1
+
+
+def lattice(scene, grid=(4, 3), **options):
+    return lumped.calibrate(scene.sheet, scene.material, grid=grid, method="neo-hookean", **options)
+
+
+@pytest.mark.parametrize("poisson", [0.0, 0.3, 0.49, 0.4999])
+@pytest.mark.parametrize("stretch", [1.1, 2.0])
+def test_a_strip_pulled_one_way_and_both_ways_is_the_closed_form(stretch, poisson):
+    across = brentq(lambda w: nominal(w, stretch, poisson), 0.3, 1.0 + 1e-12, xtol=1e-15)
+    one_way = pulled(nominal(stretch, across, poisson), 0.0, poisson)
+    solution = lumped.solve(one_way, lattice(one_way))
+    assert solution.status is Status.CONVERGED  # whatever the strain: the law covers it
+    assert np.allclose(stretches(solution), (stretch, across), rtol=1e-9)
+    both = nominal(stretch, stretch, poisson)
+    both_ways = pulled(both, both, poisson)
+    assert np.allclose(stretches(lumped.solve(both_ways, lattice(both_ways))), stretch, rtol=1e-9)
+    pure = pulled(nominal(stretch, 1.0 / stretch, poisson), nominal(1.0 / stretch, stretch, poisson), poisson)
+    assert np.allclose(stretches(lumped.solve(pure, lattice(pure))), (stretch, 1.0 / stretch), rtol=1e-9)
+
+
+@pytest.mark.parametrize("options", [{}, {"grid": (4, 6, 3)}, {"grading": 0.5}])
+def test_every_modulus_is_met_at_small_strains(options):
+    scene = strip([])
+    for row in lattice(scene, **options).moduli:
+        assert abs(row["miss"]) < 1e-11
+
+
+def test_a_clamped_strip_at_57_per_cent_is_the_neo_hookean_shells():
+    """114.099 and −9.428 mm: shell, neo-Hooke, 8 elements a side; linear springs find 73.5."""
+    load = {"kind": "edge", "edge": "x1", "force_per_length": [4000.0, 0.0, 0.0]}
+    scene = strip([{"edge": "x0", "kind": "clamped"}], [load])
+    errors = []
+    for grid in ((9, 5), (17, 9)):
+        solution = lumped.solve(scene, lattice(scene, grid))
+        assert solution.status is Status.CONVERGED
+        points, moved = solution.mesh.points, solution.mesh.point_data["displacement"]
+        middle = np.isclose(points[:, 0], 0.2) & np.isclose(points[:, 1], 0.05)
+        errors.append(abs(1e3 * moved[middle, 0].mean() - 114.099))
+    assert errors[1] < 0.1 and errors[1] < 0.4 * errors[0]  # second order, but for the clamp's corners
+
+
+def test_the_largest_frequency_does_not_grow_under_stretch():
+    """Upright faces resist their director's turning alone; by the chord's length too it would double."""
+    scene = strip([{"edge": "x0", "kind": "clamped"}])
+    system = System(scene, pose(scene, lattice(scene, (5, 4))))
+    x = system.assembly.lattice.positions
+    at_rest = step_limit(system, np.zeros_like(x)).frequency
+    for across in (2.0**-0.45, 1.0, 2.0):
+        u = x * [1.0, across - 1.0, 0.0]
+        assert step_limit(system, u).frequency == pytest.approx(at_rest, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("integrator", "step", "tolerance"),
+    [("verlet", 2e-5, 2e-3), ("esdirk", None, 2e-3), ("midpoint", 5e-5, 1e-9)],
+)
+@pytest.mark.parametrize("damping_time", [0.0, 1e-4])
+def test_energy_is_in_balance_at_half_as_long_again(integrator, step, tolerance, damping_time):
+    """A strip suddenly pulled, beyond 50 % of strain. Verlet's error is of the order of (ω h)²/12 of the
+    pulled motion's energy, esdirk's that which it is allowed; midpoint's is that of its equations."""
+    load = {"kind": "edge", "edge": "x1", "force_per_length": [2400.0, 0.0, 50.0]}
+    material = {"damping_time": damping_time}
+    scene = strip([{"edge": "x0", "kind": "clamped"}], [load], material=material, probes={"P3": [0.2, 0.05]})
+    calibration = lattice(scene, (5, 3))
+    history = lumped.simulate(
+        scene, calibration, duration=0.012, every=1e-3, integrator=integrator, step=step
+    )
+    assert history.status is Status.CONVERGED
+    assert history.probes["P3"][:, 0].max() > 0.5 * 0.2
+    energies = {name: values[-1] for name, values in history.energies.items()}
+    total = energies["kinetic"] + energies["elastic"] + energies["potential"] + energies["dissipated"]
+    assert abs(total) < tolerance * energies["elastic"]
+    assert energies["dissipated"] > 0.0 if damping_time else energies["dissipated"] == 0.0
+
+
+def test_what_the_law_cannot_do_is_refused_by_name():
+    scene = strip([{"edge": "x0", "kind": "clamped"}])
+    with pytest.raises(BadInput, match="neo-hookean cells have no columns"):
+        lumped.describe(scene, lattice(scene))
+    with pytest.raises(ValueError, match="cannot have area, stretch and shear"):
+        scenes.SpringSet.model_validate({**lattice(scene).springs.model_dump(), "area": 1.0})

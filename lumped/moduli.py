@@ -112,7 +112,7 @@ def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: 
     return Moduli(
         membrane=layers * in_layer + (layers - 1) * in_gap + mid_surface,
         bending=(heights**2).sum() * in_layer + (gap_heights**2).sum() * in_gap,
-        shear=shear_gaps(layers) * (np.diag(gap)[4:] + constants.along_each(springs.face_shear, 1)[:, 0]),
+        shear=shear_gaps(layers) * (np.diag(gap)[4:] + sum(constants.of_faces(springs, spacing[:2]))),
     )
 
 

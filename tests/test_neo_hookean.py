@@ -96,6 +96,17 @@ def test_a_clamped_strip_at_57_per_cent_is_the_neo_hookean_shells():
     assert errors[1] < 0.1 and errors[1] < 0.4 * errors[0]  # second order, but for the clamp's corners
 
 
+def test_bending_on_habibis_sheet_is_of_second_order_at_least():
+    """uz of the corner P4 with two edges clamped: −13.518 mm by neo-Hookean shells of 8 and 16 elements a
+    side. With all shear in the faces on the cells' sides 9 masses are 1.3 % off, and 17 masses 0.3 %."""
+    scene = scenes.load("two-edges-clamped")
+    errors = []
+    for masses in (9, 17):
+        found = lumped.solve(scene, lattice(scene, masses)).displacement(np.array([scene.probes["P4"]]))
+        errors.append(abs(1e3 * found[0, 2] / -13.518 - 1.0))
+    assert errors[0] < 5e-3 and errors[1] < 1e-3
+
+
 def test_the_largest_frequency_does_not_grow_under_stretch():
     """Upright faces resist their director's turning alone; by the chord's length too it would double."""
     scene = strip([{"edge": "x0", "kind": "clamped"}])
@@ -104,7 +115,7 @@ def test_the_largest_frequency_does_not_grow_under_stretch():
     at_rest = step_limit(system, np.zeros_like(x)).frequency
     for across in (2.0**-0.45, 1.0, 2.0):
         u = x * [1.0, across - 1.0, 0.0]
-        assert step_limit(system, u).frequency == pytest.approx(at_rest, rel=0.01)
+        assert 0.9 * at_rest < step_limit(system, u).frequency < 1.01 * at_rest
 
 
 @pytest.mark.parametrize(

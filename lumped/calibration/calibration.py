@@ -67,7 +67,8 @@ class Calibration(summary.Summarised):
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench calibrate`; strain springs only where there are any."""
         springs = self.springs.model_dump(exclude_none=True)
-        for name in ("shear", "stretch", "mid_shear", "mid_stretch", "edge_shear", "strip_shear"):
+        always = ("axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area")
+        for name in set(springs) - {*always, "layer_distance"}:
             if not springs[name]:
                 del springs[name]
         springs = {name: _listed(value) for name, value in springs.items()}

@@ -70,7 +70,8 @@ def closed_form(
     sigma_gap = float((((heights[1:] + heights[:-1]) / 2) ** 2).sum())
     gap = asked.shear * np.array([lx**2, ly**2]) / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
     ratios = np.array([lx**2 / ly**2, ly**2 / lx**2])
-    share = _for_waves(asked, lx * ly) if waves else 1.0 / 3.0
+    bracket = 5.0 + 3.0 * asked.bending[0, 1] / asked.bending[0, 0]
+    share = diagonals_for_waves(asked, lx * ly, bracket) if waves else 1.0 / 3.0
     p = share * float(min(gap.max(), *(1.5 * gap / ratios)))
     by_diagonals = 1.0 if ratios.max() <= 2.0 else 1.0 / (ratios.max() - 1.0)  # the share of a layer's C66
     gap_form = np.array([[gap[0], p, 0.0], [p, gap[1], 0.0], [0.0, 0.0, p]])
@@ -127,12 +128,13 @@ def closed_form(
     )
 
 
-def _for_waves(asked: Moduli, area: float) -> float:
-    """d for waves, of cells of that area [m²]."""
-    rigidity, contraction = asked.bending[0, :2]
+def diagonals_for_waves(asked: Moduli, area: float, bracket: float) -> float:
+    """The diagonals' share d of the shear for waves, of cells of that area [m²]: the bracket, 5 + 3 ν here,
+    is what is too small without diagonals."""
+    rigidity = asked.bending[0, 0]
     stiffening = 12.0 * rigidity / (float(np.sqrt(asked.shear.prod())) * area)  # 1 + t
     linear = 12.0 * stiffening + 9.0
-    product = 36.0 * (5.0 + 3.0 * contraction / rigidity) * stiffening
+    product = 36.0 * bracket * stiffening
     return float(linear - math.sqrt(linear**2 - product)) / 18.0
 
 

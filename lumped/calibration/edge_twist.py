@@ -140,7 +140,9 @@ def _shares(springs: SpringSet, spacing: tuple[float, float, float]) -> list[flo
     by_x, by_y, by_diagonals = moduli.gap_shear_per_stiffness(spacing)
     diagonals = by_diagonals * constants.along(springs, "cross_diagonal", "")[0]
     cross = [by * constants.along(springs, "cross", name)[0] for by, name in ((by_x, "x"), (by_y, "y"))]
-    return [float(d / (d + c)) if d + c else 0.0 for d, c in zip(diagonals, cross, strict=True)]
+    beside, over = constants.of_faces(springs, spacing[:2])
+    pairs = zip(diagonals + over, cross + beside, strict=True)
+    return [float(d / (d + c)) if d + c else 0.0 for d, c in pairs]
 
 
 def edge_factor(

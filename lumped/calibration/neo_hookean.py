@@ -6,9 +6,16 @@ Each of L layers is a membrane of thickness h/L with the energy per volume
 
 μ = E/2(1 + ν), λ = 2 μ ν/(1 − 2ν), of its cells' mean sides (`lumped.springs.laws.neo_hookean`). Layers are
 h/√(L² − 1) apart, so that Σ z_k² h/L = h³/12 and bending is D exactly. Transverse shear is the upright
-faces', with S* of the grid, MacNeal's. A cell bent in its own plane, which mean sides do not see, is the
-axial links': E h/3L along each side, which the cells' law takes off again where strain is uniform. Vertical
-links keep their length, kz = 8 D/lz². Edges are as in `lumped.calibration.edge_twist`. Cells may differ.
+faces', with S* of the grid, MacNeal's; a share d of it has the faces over the cells' diagonals. Against a
+bending wave of wave number q at the angle θ to the grid the stiffness of square cells is too small by (q l)²
+sin² 2θ/48 times
+
+    7 + ν² − (21 d − 9 d²)/(1 + t) − 12 d t/(1 + t),    1 + t = 12 D/(S* l²),
+
+and d is such that it vanishes (derived here; `lumped.calibration.closed_form` has the links' like). A cell
+bent in its own plane, which mean sides do not see, is the axial links': E h/3L along each side, which the
+cells' law takes off again where opposite sides are as long. Vertical links keep their length, kz = 8 D/lz².
+Edges are as in `lumped.calibration.edge_twist`. Cells may differ.
 """
 
 from __future__ import annotations
@@ -16,10 +23,12 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+import numpy as np
+
 from lumped import moduli
 from lumped.calibration.calibration import Calibration, by_direction, plan_spacing
 from lumped.calibration.cell_by_cell import cell_by_cell
-from lumped.calibration.closed_form import vertical
+from lumped.calibration.closed_form import diagonals_for_waves, vertical
 from lumped.calibration.edge_twist import with_edges
 from lumped.calibration.report import report
 from lumped.lattice import Grid
@@ -40,6 +49,9 @@ def neo_hookean(sheet: Sheet, material: Material, grid: Grid, grading: Graded = 
         side = material.young * sheet.thickness / (3.0 * layers)
         square = sheet.thickness**2 / (layers**2 - 1)
         shear = material.young * sheet.thickness / (2.0 * (1.0 + material.poisson) * layers)
+        gap, squares = asked.shear / moduli.shear_gaps(layers), np.array([lx * lx, ly * ly])
+        share = diagonals_for_waves(asked, lx * ly, 7.0 + material.poisson**2)
+        diagonal = share * float((gap / squares).min() * squares.sum() / 2.0)
         return SpringSet(
             axial=by_direction(side * ly / lx, side * lx / ly),
             diagonal=0.0,
@@ -48,7 +60,8 @@ def neo_hookean(sheet: Sheet, material: Material, grid: Grid, grading: Graded = 
             cross_diagonal=0.0,
             neo_hookean_shear=shear,
             neo_hookean_volume=2.0 * material.poisson / (1.0 - 2.0 * material.poisson) * shear,
-            face_shear=by_direction(*(asked.shear / moduli.shear_gaps(layers))),
+            face_shear=by_direction(*(gap - 2.0 * diagonal * squares / squares.sum())),
+            face_diagonal_shear=diagonal,
             layer_distance=math.sqrt(square),
         )
 

@@ -6,6 +6,7 @@ scale; those that may have either sign shift.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -62,6 +63,14 @@ def along_each(value: Any, count: int) -> np.ndarray:
     """Values along x and along y of a constant of `count` cells, (2, count)."""
     pair = (value.x, value.y) if isinstance(value, PerDirection) else (value, value)
     return np.stack([of_cells(each, count) for each in pair])
+
+
+def of_faces(springs: SpringSet, spacing: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
+    """What the upright faces of a cell of sides (lx, ly) [m] add to the shear stiffness of a gap along x and
+    y [N/m]: those on its sides, those over its diagonals, (2,) each."""
+    square = np.array([spacing[0] ** 2, spacing[1] ** 2])
+    diagonal = 2.0 * of_cells(springs.face_diagonal_shear, 1)[0] * square / square.sum()
+    return along_each(springs.face_shear, 1)[:, 0], diagonal
 
 
 def of_neo_hookean(

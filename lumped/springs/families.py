@@ -256,12 +256,13 @@ def cell_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iter
 
 def face_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iterator[Cells]:
     """On the upright faces between the layers, against their shear."""
-    if springs.face_shear:
+    if springs.face_shear or springs.face_diagonal_shear:
         rest = rest_of(lattice, pattern)
         faces, (nodes, slots, sides, area) = rest.faces, rest.cells("faces")
-        per_area = constants.along_each(springs.face_shear, lattice.cell_areas.size)[
-            faces.axis[:, None], faces.cells
-        ]
+        count = lattice.cell_areas.size
+        diagonal = by_cell.of_cells(springs.face_diagonal_shear, count)
+        per_area = np.vstack([constants.along_each(springs.face_shear, count), diagonal])
+        per_area = per_area[faces.axis[:, None], faces.cells]
         stored = per_area * lattice.cell_areas.ravel()[faces.cells]
         stiffness, law = np.zeros((len(nodes), 4)), np.zeros((len(nodes), 6))
         stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area

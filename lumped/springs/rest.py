@@ -37,7 +37,7 @@ class CellRest(NamedTuple):
 
 class Faces(NamedTuple):
     """nodes (m, 4, 1) masses; cells, shares (m, q): the plan cells beside each and their shares; axis: (m,) 0
-    along x, 1 along y."""
+    along x, 1 along y, 2 over diagonals."""
 
     nodes: np.ndarray
     cells: np.ndarray
@@ -90,13 +90,16 @@ class Rest:
 
     @cached_property
     def faces(self) -> Faces:
-        """The faces between layers above links along x, then along y."""
+        """The faces between layers above links along x, along y, and over the cells' diagonals."""
         layers, parts = self._lattice.grid[2], []
-        for axis, family in enumerate(f for f in self._lattice.links if f.name == "axial"):
+        for axis, family in enumerate(f for f in self._lattice.links if f.name in ("axial", "diagonal")):
             low = family.nodes[:, 0] % layers < layers - 1
             a, b = family.nodes[low].T
             nodes = np.stack([a, b, b + 1, a + 1], axis=1)[:, :, None]
-            parts.append((nodes, family.cells[low], family.shares[low], np.full(len(a), axis)))
+            cells, shares = family.cells[low], family.shares[low]
+            if axis > 1:  # of one cell each
+                cells, shares = np.repeat(cells, 2, axis=1), 0.5 * np.repeat(shares, 2, axis=1)
+            parts.append((nodes, cells, shares, np.full(len(a), min(axis, 2))))
         return Faces(*(np.concatenate(part) for part in zip(*parts, strict=True)))
 
 

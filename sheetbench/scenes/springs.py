@@ -115,6 +115,8 @@ class SpringSet(Frozen):
     face_shear: Stiffness = 0.0
     """Strain springs against the shear of the cells' upright faces, energy ½ k γ² a0, a0 the cell's area and
     γ the angle between mean chord and mean director."""
+    face_diagonal_shear: Annotated[Links, Unit("N/m")] = 0.0
+    """The same of the upright faces over a cell's two diagonals."""
     edge_shear: EdgeStiffness = 0.0
     """Strain springs against the twist of cells along a free, hinged or held edge, its opposite not so."""
     strip_shear: EdgeStiffness = 0.0

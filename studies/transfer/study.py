@@ -36,7 +36,8 @@ from studies.transfer import tables
 from studies.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_scenes
 from studies.transfer.tasks import FINE
 
-OTHERS = ("consistent-interior", "consistent-membrane", "consistent-oblique")  # `consistent` has their moduli
+# `consistent` has their moduli
+OTHERS = ("consistent-interior", "consistent-membrane", "consistent-oblique", "neo-hookean")
 METHODS = tuple(name for name in CALIBRATIONS if name not in OTHERS)
 FITTED = tuple(name for name in METHODS if CALIBRATIONS[name].fitted)
 PARTS = ("static", "limits", "modal", "aspect", "left-out")

@@ -1,9 +1,4 @@
-"""The shell in motion: positions and directors, kinetic energy ½ ρh |u̇|² + ½ ρh³/12 |ḋ|² per area.
-
-Viscous stresses are those of the rate of strain under the elastic moduli, s = D (e + τ ė) with ė = B u̇ and
-τ the material's `damping_time`. Their tangent leaves out how B changes with the shape, which is of the order
-of the turn in a step. `damping_rate` α adds α M u̇. See `moving` for the coordinates.
-"""
+"""The shell in motion: positions and directors, kinetic energy ½ ρh |u̇|² + ½ ρh³/12 |ḋ|² per area."""
 
 from __future__ import annotations
 
@@ -12,8 +7,8 @@ from typing import Any
 import numpy as np
 from scipy.sparse import block_diag, csc_matrix, csr_matrix, kron
 
-from fem_reference.motion.loads import Factor, factor_at, single_loads
-from fem_reference.motion.moving import Energies, Motion
+from fem_reference.motion.loads import factor_at
+from fem_reference.motion.sheet import Sheet
 from fem_reference.shell.directors import multiplier
 from fem_reference.shell.element import add_tangents, forces_of, strain_of, weighed
 from fem_reference.shell.reduction import projected
@@ -30,43 +25,28 @@ from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import add_blocks
 from sheetbench.scenes import FieldMesh, Scene
 from sheetbench.scenes.kinematics import MovedEdge, bent_or_tilted
-from sheetbench.scenes.tables import PiecewiseLinear
-
-_FLAT = np.array([np.zeros(3), UP])[:, None]  # what directors change from
 
 
-class MovingShell:
+class MovingShell(Sheet):
     """The shell of a scene in motion; q: displacements and changes of directors, (2, n, 3)."""
 
     model = "shell"
 
     def __init__(self, scene: Scene, elements: Elements = 16, graded: bool = True, law: str = STRAIN_LAW):
+        super().__init__(scene)
         counts = divisions(scene.sheet, elements)
         self.label = f"shell {counts[0]} × {counts[1]}"
         self.settings: dict[str, Any] = {"elements": list(counts), "graded": graded, "law": law}
-        supports = tuple(support.replace(motion=None) for support in scene.supports)
-        self._still = scene.replace(loads=(), gravity=None, supports=supports)
         self._plan = mesh_of(scene, counts, graded)
-        self._structure, self._nodes = discretise(self._plan, self._still, law=law)
+        self._structure, self._nodes = discretise(self._plan, self.still, law=law)
         structure, thickness = self._structure, scene.sheet.thickness
         self._element, self._on, self._n = structure.element, structure.element_nodes, structure.count
         self._held = np.array([structure.supports.position, np.zeros((self._n, 3), bool)])
         self._held[1] = structure.supports.director[:, None]
-        self._tau, self._alpha = scene.material.damping_time, scene.material.damping_rate
         self._set_mass(scene.material.density * thickness, thickness**2 / 12.0)
         self.unknowns = structure.unknowns
         self._set_basis()
-        self._dead: list[tuple[np.ndarray, Factor]] = []
-        self._followers: list[tuple[Follower, Factor]] = []
-        for alone, factor in single_loads(scene):
-            dead, followers = loads.of_scene(alone, self._plan, self._on, self._nodes)
-            self._dead += [(dead, factor)] if dead.any() else []
-            self._followers += [(follower, factor) for follower in followers]
-        self._shifts = [
-            (*structure.supports.edges[s.edge], PiecewiseLinear(s.motion.time, s.motion.displacement))
-            for s in scene.supports
-            if s.motion is not None
-        ]
+        self.load(scene, lambda alone: loads.of_scene(alone, self._plan, self._on, self._nodes))
         moved = structure.supports.moved.values()
         self._edges = [(d.edge, d.nodes, d.points) for d in moved if isinstance(d.edge, MovedEdge)]
 
@@ -94,16 +74,15 @@ class MovingShell:
     def start(self) -> np.ndarray:
         """As `Moving` has it."""
         state = self._structure.rest()
-        if bent_or_tilted(self._still.supports, self._still.sheet):
-            state, _, _ = trace_on(self._still, self._structure)
+        if bent_or_tilted(self.still.supports, self.still.sheet):
+            state, _, _ = trace_on(self.still, self._structure)
         return self.placed(state.change.ravel(), 0.0)
 
     def placed(self, q: np.ndarray, time: float) -> np.ndarray:
         """As `Moving` has it."""
         supports = self._structure.supports
         target = supports.change(1.0)
-        for nodes, axes, over_time in self._shifts:
-            target[0][np.ix_(nodes, axes)] += over_time.at(time)[axes]
+        target[0] += self.shift(supports.edges, time, rate=False)
         for edge, nodes, points in self._edges:
             placed = edge.placed(points, 1.0, time)
             target[0, nodes], target[1, nodes] = placed.displacement, placed.director
@@ -116,8 +95,7 @@ class MovingShell:
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         """As `Moving` has it."""
         rate = np.where(self._held, 0.0, v.reshape(self._held.shape))
-        for nodes, axes, over_time in self._shifts:
-            rate[0][np.ix_(nodes, axes)] = over_time.slope(time)[axes]
+        rate[0] += self.shift(self._structure.supports.edges, time, rate=True)
         for edge, nodes, points in self._edges:
             low, high = (edge.velocity(points, np.full(len(points), at), time) for at in (0.0, 1.0))
             rate[0, nodes], rate[1, nodes] = low, high - low
@@ -138,25 +116,43 @@ class MovingShell:
         data[self._turning] = self._frames(q)[node, :, tangent].ravel()
         return csc_matrix((data, self._rows, self._starts), (6 * self._n, self.unknowns))
 
-    def forces(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
-        """As `Moving` has it."""
+    @property
+    def nodes(self) -> int:
+        """As `Sheet` has it."""
+        return self._n
+
+    def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
+        """As `Sheet` has it: dead forces turn no director."""
+        return np.array([dead, np.zeros_like(dead)]).ravel()
+
+    def internal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """As `Sheet` has it."""
         vectors, strain, rate = self._strained(q, v)
-        on_elements = forces_of(vectors, self._stress(strain, rate))
-        for follower, factor in self._followers:
-            on_elements[follower.elements] -= factor_at(factor, time) * follower.force(
-                vectors[follower.elements]
-            )
-        out = self._scattered(on_elements)
-        for dead, factor in self._dead:
-            out[: dead.size] -= factor_at(factor, time) * dead.ravel()
-        return out + self._alpha * (self.mass @ v) if self._alpha else out
+        return self._scattered(forces_of(vectors, self._stress(strain, rate)))
+
+    def following(self, q: np.ndarray, load: Follower) -> np.ndarray:
+        """As `Sheet` has it."""
+        vectors = self._element.reference + self._structure.gather(q.reshape(2, -1, 3))
+        on_elements = np.zeros_like(vectors)
+        on_elements[load.elements] = load.force(vectors[load.elements])
+        return self._scattered(on_elements)
+
+    def elastic(self, q: np.ndarray) -> float:
+        """As `Sheet` has it."""
+        strain = self._element.strain(self._structure.gather(q.reshape(2, -1, 3)))
+        return sum(self._element.energies(strain).values())
+
+    def stiffness_of(self, q: np.ndarray, step: np.ndarray) -> float:
+        """As `Sheet` has it."""
+        _, strain, change = self._strained(q, step)
+        return float(np.sum(change * weighed(self._element.moduli(strain), change)))
 
     def tangent(
         self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
     ) -> csr_matrix:
         """As `Moving` has it."""
         vectors, strain, rate = self._strained(q, v)
-        moduli, frames = (1.0 + by_v * self._tau) * self._element.moduli(strain), self._frames(q)
+        moduli, frames = (1.0 + by_v * self.tau) * self._element.moduli(strain), self._frames(q)
         along = multiplier(self._directors(q), residual.reshape(2, -1, 3)[1])
         number, pattern = self._structure.number, self._structure.pattern
         on_turns = np.zeros(number.shape)
@@ -164,13 +160,13 @@ class MovingShell:
         data, slots = pattern.zeros(on_turns[number >= 0]), pattern.slots[0]
         stress = self._stress(strain, rate)
         add_tangents(data, slots, self._element, vectors, moduli, stress, self._on, frames)
-        of_elements, inertia = frames[self._on], by_a + self._alpha * by_v
+        of_elements, inertia = frames[self._on], by_a + self.alpha * by_v
         blocks = np.zeros(slots.shape)
         blocks[:, :27, :27] = inertia * self._on_places
         turned = np.einsum("eica,ejcb->eiajb", of_elements, of_elements)
         turned *= inertia * self._on_turns[:, :, None, :, None]
         blocks[:, 27:, 27:] = turned.reshape(-1, 18, 18)
-        for follower, factor in self._followers:
+        for follower, factor in self.followers:
             on = follower.elements
             by_shape = projected(follower.tangent(vectors[on]), of_elements[on])
             blocks[on] -= factor_at(factor, time) * by_shape
@@ -187,7 +183,7 @@ class MovingShell:
 
     def solver(self) -> DirectSolver:
         """As `Moving` has it."""
-        return DirectSolver(all(f.conservative for f, _ in self._followers), self._structure.fronts)
+        return DirectSolver(all(f.conservative for f, _ in self.followers), self._structure.fronts)
 
     def displacement(self, q: np.ndarray) -> np.ndarray:
         """As `Moving` has it."""
@@ -196,32 +192,6 @@ class MovingShell:
     def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
         """As `Moving` has it."""
         return interpolate(self._plan, self._on, displacement, points)
-
-    def energies(self, q: np.ndarray, v: np.ndarray) -> Energies:
-        """As `Moving` has it."""
-        change = q.reshape(2, -1, 3)
-        strain = self._element.strain(self._structure.gather(change))
-        constant = (float(np.sum(dead * change[0])) for dead, factor in self._dead if factor is None)
-        elastic = sum(self._element.energies(strain).values())
-        return Energies(0.5 * float(v @ (self.mass @ v)), elastic, -sum(constant))
-
-    def spent(self, start: Motion, end: Motion) -> np.ndarray:
-        """As `Moving` has it."""
-        h, step, held = end.time - start.time, end.q - start.q, self._held.ravel()
-        middle, moved = 0.5 * (start.q + end.q), self._structure.gather(step.reshape(2, -1, 3))
-        vectors, strain, change = self._strained(middle, step)
-        viscous = float(np.sum(change * weighed(self._element.moduli(strain), change)))
-        damped = (self._tau * viscous + self._alpha * float(step @ (self.mass @ step))) / h
-        work = 0.5 * float((start.exerted + end.exerted)[held] @ step[held])
-        half_way = 0.5 * (start.time + end.time)
-        for dead, factor in self._dead:
-            if factor is not None:
-                work += factor_at(factor, half_way) * float(dead.ravel() @ step[: dead.size])
-        for follower, factor in self._followers:
-            on = follower.elements
-            force = factor_at(factor, half_way) * follower.force(vectors[on])
-            work += float(np.sum(force * moved[on]))
-        return np.array([damped, work])
 
     def reactions(self, exerted: np.ndarray) -> dict[str, np.ndarray]:
         """As `Moving` has it."""
@@ -241,7 +211,7 @@ class MovingShell:
 
     def _stress(self, strain: np.ndarray, rate: np.ndarray) -> np.ndarray:
         elastic = self._element.stress(strain)
-        return elastic + self._tau * weighed(self._element.moduli(strain), rate) if self._tau else elastic
+        return elastic + self.tau * weighed(self._element.moduli(strain), rate) if self.tau else elastic
 
     def _scattered(self, on_elements: np.ndarray) -> np.ndarray:
         both = np.concatenate([self._on, self._n + self._on], axis=1)

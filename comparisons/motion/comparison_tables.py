@@ -144,12 +144,14 @@ def _meshes(found: MotionComparison) -> list[tuple[float, FieldMesh]]:
 
 
 def _write_difference(path: Path, found: MotionComparison) -> None:
-    """On the reference's mesh its displacement, and the lattice's less it."""
+    """On the reference's mesh its mid-surface's displacement, and the lattice's less it."""
     lattice: list[tuple[float, Frame]] = frames.frames(found.histories["lumped"])
-    shown = []
-    for (time, mesh), (_, frame) in zip(_meshes(found), lattice, strict=False):
-        u = mesh.point_data["displacement"]
-        fields = {"displacement": u, "difference": frame.displacement(mesh.points[:, :2]) - u}
+    extra, shown = found.histories[found.reference].extra, []
+    mesh: FieldMesh = extra["mesh"]
+    plan = mesh.points[:, :2]
+    for kept, (time, frame) in zip(extra["frames"], lattice, strict=False):
+        u = extra["sample"](kept, plan)
+        fields = {"displacement": u, "difference": frame.displacement(plan) - u}
         shown.append((time, FieldMesh(mesh.points, mesh.cells, fields)))
     frames.write_series(path, shown)
 

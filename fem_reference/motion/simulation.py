@@ -15,7 +15,9 @@ import numpy as np
 from fem_reference.motion.generalised_alpha import ERROR, GeneralisedAlpha, StepFailed
 from fem_reference.motion.loads import kinks
 from fem_reference.motion.moving import Motion, Moving
+from fem_reference.motion.plate import MovingPlate
 from fem_reference.motion.shell import MovingShell
+from fem_reference.motion.solid import MovingSolid
 from fem_reference.vibration import modes
 from sheetbench.choices import REFERENCE, listed
 from sheetbench.clock import now
@@ -25,7 +27,11 @@ from sheetbench.scenes import AnyScene, Chain, History, Scene, Status, scene_of
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.quantities import require_positive
 
-MODELS: dict[str, Callable[..., Moving]] = {"shell": MovingShell}
+MODELS: dict[str, Callable[..., Moving]] = {
+    "plate": MovingPlate,
+    "shell": MovingShell,
+    "solid": MovingSolid,
+}
 SAMPLES_PER_PERIOD = 100
 MOST_SAMPLES = 10**7
 MOST_STEPS = 10**6

@@ -253,8 +253,13 @@ def nodal_forces(scene: Scene, plate: Plate) -> np.ndarray:
     """Work-equivalent nodal forces [N] and couples [N·m], (n, 5), with the last factor of every history."""
     nodes, element_nodes = plate.nodes, plate.elements.nodes
     dead, followers = loads.of_scene(scene, plate.basis.mesh, element_nodes, nodes)
-    force = np.column_stack([dead, np.zeros((len(nodes), 2))])
-    flat = np.zeros((len(element_nodes), 18, 3))
+    return np.column_stack([dead, np.zeros((len(nodes), 2))]) + on_flat_sheet(plate, followers)
+
+
+def on_flat_sheet(plate: Plate, followers: Sequence[loads.Follower]) -> np.ndarray:
+    """Nodal forces and couples (n, 5) of follower loads on the flat sheet."""
+    nodes, element_nodes = plate.nodes, plate.elements.nodes
+    force, flat = np.zeros((len(nodes), 5)), np.zeros((len(element_nodes), 18, 3))
     flat[:, :9, :2], flat[:, 9:, 2] = nodes[element_nodes], 1.0
     for load in followers:
         on, pull = element_nodes[load.elements], load.force(flat[load.elements])

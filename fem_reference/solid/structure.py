@@ -100,7 +100,7 @@ class SolidStructure:
 
     def energies(self, state: State) -> dict[str, float]:
         """Strain energy [J] of the sheet by part of the law."""
-        distortion, volumetric = self.bricks.energies(self.bricks.strain(self._of_bricks(state.displacement)))
+        distortion, volumetric = self.bricks.energies(self.bricks.strain(self.of_bricks(state.displacement)))
         return {"distortion": distortion, "volumetric": volumetric}
 
     def rod_energy(self, state: State) -> float:
@@ -109,10 +109,10 @@ class SolidStructure:
 
     def forces(self, state: State, load_factor: float) -> Forces:
         """Internal less external forces, and what they are measured against."""
-        change = self._of_bricks(state.displacement)
+        change = self.of_bricks(state.displacement)
         gradient, strain = self.bricks.gradient(change), self.bricks.strain(change)
         stress = self.bricks.stress(strain)
-        internal = self._scatter(_forces_of(gradient, stress))
+        internal = self.scatter(_forces_of(gradient, stress))
         external = load_factor * self._external(state.displacement)
         bases = self.supports.bases(load_factor)
         size = np.linalg.norm(external) + np.linalg.norm(internal[self.supports.held])
@@ -142,19 +142,17 @@ class SolidStructure:
     ) -> tuple[csr_matrix, np.ndarray]:
         """Tangent (unknowns, unknowns) and right-hand side of the step to equilibrium and supports."""
         last = state if mixed else State(state.displacement)
-        stiffness = self._stack(self._brick_stiffness(forces, last))
+        stiffness = self.stack(self._brick_stiffness(forces, last))
         if self.followers:
-            vectors = self._surface(self.columns.positions + state.displacement)
+            vectors = self.surface(self.columns.positions + state.displacement)
             for load in self.followers:
-                stiffness[load.elements] -= load_factor * self._of_surface(
+                stiffness[load.elements] -= load_factor * self.of_surface(
                     load.tangent(vectors[load.elements])
                 )
         step = self._to_supports(state.displacement, load_factor, forces.bases)
         of_step = step.reshape(-1, 3)[self.columns.stacks].reshape(len(stiffness), -1, 1)
         pull = forces.residual + self._scatter_stacks(stiffness @ of_step)
-        turned = self._turned
-        if np.any(turned):
-            stiffness[turned] = self._turn(stiffness[turned], forces.bases)
+        stiffness = self.turn(stiffness, forces.bases)
 
         rod_stress = forces.rods.stress if last.rod_stress is None else last.rod_stress
         full = self.rods.elements.tangent(forces.rods.gradient, rod_stress)
@@ -171,7 +169,7 @@ class SolidStructure:
         free, aside = self._split(np.where(self.number >= 0, step[self.number], 0.0))
         change = self._to_supports(state.displacement, load_factor, forces.bases)
         change = change + vectors(forces.bases, free)
-        strain = np.einsum("ekic,eic->ek", forces.gradient, self._of_bricks(change))
+        strain = np.einsum("ekic,eic->ek", forces.gradient, self.of_bricks(change))
         of_step = np.einsum("ekl,el->ek", self.bricks.stiffness(forces.strain, state.pressure), strain)
         pressure = self.bricks.pressure(forces.strain, strain)
         on_rods = self.rods.gather(np.concatenate([change.reshape(-1, 3), aside]))
@@ -183,7 +181,7 @@ class SolidStructure:
     def mass(self, density: float) -> csr_matrix:
         """Consistent mass ∫ ρ N N dV of the free unknowns [kg]; density [kg/m³]."""
         products = density * self.bricks.products()
-        blocks = self._stack(np.einsum("eij,cd->eicjd", products, np.eye(3)))
+        blocks = self.stack(np.einsum("eij,cd->eicjd", products, np.eye(3)))
         return self.pattern.matrix(blocks)
 
     def length(self, start: State, end: State) -> float:
@@ -192,7 +190,7 @@ class SolidStructure:
 
     def inside_out(self, state: State) -> bool:
         """Whether a brick has turned inside out at a Gauss point."""
-        return bool(np.any(self.bricks.volume_ratio(self._of_bricks(state.displacement)) <= 0.0))
+        return bool(np.any(self.bricks.volume_ratio(self.of_bricks(state.displacement)) <= 0.0))
 
     def _split(self, all_vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """All vectors (N, 3) as those of the columns (n, levels, 3) and the rods' own (q, 3)."""
@@ -220,7 +218,7 @@ class SolidStructure:
             stiffness[:, :, axis, :, axis] += form
         return stiffness
 
-    def _stack(self, of_bricks: np.ndarray) -> np.ndarray:
+    def stack(self, of_bricks: np.ndarray) -> np.ndarray:
         """Matrices (layers · m, 27, 3, 27, 3) of bricks summed over their stacks, (m, 3 s, 3 s)."""
         m, s = self.columns.stacks.shape
         out = np.zeros((m, s, 3, s, 3))
@@ -228,13 +226,18 @@ class SolidStructure:
             out[:, place[:, None], :, place[None, :], :] += bricks.transpose(1, 3, 0, 2, 4)
         return out.reshape(m, 3 * s, 3 * s)
 
-    def _turn(self, stacks: np.ndarray, bases: np.ndarray) -> np.ndarray:
-        """Zᵀ K Z of the turned stacks, (k, 3 s, 3 s)."""
-        k, size = stacks.shape[:2]
-        z = bases[self.columns.plan_elements[self._turned]]  # (k, 9, 3 levels, 3 levels)
+    def turn(self, stacks: np.ndarray, bases: np.ndarray) -> np.ndarray:
+        """Zᵀ K Z of the stacks (m, 3 s, 3 s), in their place."""
+        turned = self._turned
+        if not np.any(turned):
+            return stacks
+        k, size = stacks[turned].shape[:2]
+        z = bases[self.columns.plan_elements[turned]]  # (k, 9, 3 levels, 3 levels)
+        half = stacks[turned]
         for _ in range(2):
-            rows = stacks.reshape(*z.shape[:3], size)
-            stacks = (z.swapaxes(2, 3) @ rows).reshape(k, size, size).swapaxes(1, 2)
+            rows = half.reshape(*z.shape[:3], size)
+            half = (z.swapaxes(2, 3) @ rows).reshape(k, size, size).swapaxes(1, 2)
+        stacks[turned] = half
         return stacks
 
     def _to_supports(self, displacement: np.ndarray, load_factor: float, bases: np.ndarray) -> np.ndarray:
@@ -244,25 +247,28 @@ class SolidStructure:
 
     def _external(self, displacement: np.ndarray) -> np.ndarray:
         external = self.dead.copy()
-        if self.followers:
-            vectors = self._surface(self.columns.positions + displacement)
-            for load in self.followers:
-                on = self.columns.plan_elements[load.elements]
-                force = load.force(vectors[load.elements]).reshape(len(on), 2, 9, 3)
-                spread = np.einsum("epic,pl->eilc", force, self.columns.averages)
-                np.add.at(external, on, spread)
+        for load in self.followers:
+            external += self.of_follower(displacement, load)
         return external
+
+    def of_follower(self, displacement: np.ndarray, load: Follower) -> np.ndarray:
+        """Nodal forces (n, levels, 3) of a follower load on the displaced columns."""
+        out, on = np.zeros_like(self.dead), self.columns.plan_elements[load.elements]
+        places = self.surface(self.columns.positions + displacement)
+        force = load.force(places[load.elements]).reshape(len(on), 2, 9, 3)
+        np.add.at(out, on, np.einsum("epic,pl->eilc", force, self.columns.averages))
+        return out
 
     def mid_surface(self, displacement: np.ndarray | float) -> np.ndarray:
         """Mean places (m, 9, 3) [m] of the columns at the nodes of the plan's elements."""
-        return self._surface(self.columns.positions + displacement)[:, :9]
+        return self.surface(self.columns.positions + displacement)[:, :9]
 
-    def _surface(self, positions: np.ndarray) -> np.ndarray:
+    def surface(self, positions: np.ndarray) -> np.ndarray:
         """Mean and director at the nodes of the plan's elements, (m, 18, 3)."""
         averages = np.einsum("pl,nlc->pnc", self.columns.averages, positions)[:, self.columns.plan_elements]
         return np.concatenate([averages[0], averages[1]], axis=1)
 
-    def _of_surface(self, tangent: np.ndarray) -> np.ndarray:
+    def of_surface(self, tangent: np.ndarray) -> np.ndarray:
         """Derivatives of surface forces (k, 18, 3, 18, 3) as matrices of stacks (k, 3 s, 3 s)."""
         k, size = len(tangent), 3 * self.columns.stacks.shape[1]
         parts = tangent.reshape(k, 2, 9, 3, 2, 9, 3)
@@ -271,12 +277,12 @@ class SolidStructure:
             k, size, size
         )
 
-    def _of_bricks(self, nodal: np.ndarray) -> np.ndarray:
+    def of_bricks(self, nodal: np.ndarray) -> np.ndarray:
         """Nodal vectors (n, levels, 3) at the nodes of the bricks, (layers · m, 27, 3)."""
         stacks = nodal.reshape(-1, 3)[self.columns.stacks]
         return np.concatenate([stacks[:, place] for place in self.columns.places])
 
-    def _scatter(self, of_bricks: np.ndarray) -> np.ndarray:
+    def scatter(self, of_bricks: np.ndarray) -> np.ndarray:
         """Vectors (layers · m, 27, 3) of bricks summed over the nodes, (n, levels, 3)."""
         m, s = self.columns.stacks.shape
         stacks = np.zeros((m, s, 3))

@@ -1,0 +1,78 @@
+"""Plate and solid in motion: what holds of the shell (test_moving_shell) holds of them too."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+import fem_reference
+from fem_reference.verification import settling_strip
+from sheetbench.scenes import EdgeMotion, Gravity, Pressure, Scene
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.supports import Clamped, Curved, Motion
+from sheetbench.scenes.tables import FactorTable
+
+MODELS = ("plate", "solid")
+
+
+@pytest.fixture(scope="module")
+def strip() -> Scene:
+    """A hundredth of its weight, which leaves it nearly linear."""
+    return settling_strip.scene().replace(gravity=Gravity(acceleration=(0.0, 0.0, -0.1)))
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_slight_motion_is_that_of_the_shell(strip, model):
+    """Rotations of some hundredths: their squares apart, and the solid's thickness, the motion is one."""
+    ours, shell = (
+        fem_reference.simulate(strip, m, 0.15, elements=(3, 1), every=0.01) for m in (model, "shell")
+    )
+    height = shell.probes["tip"][:, 2]
+    assert np.abs(ours.probes["tip"][:, 2] - height).max() < 5e-3 * np.abs(height).max()
+    assert np.ptp(ours.balance) < 1e-3 * max(float(np.abs(e).max()) for e in ours.energies.values())
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_steps_of_a_half_have_a_quarter_of_the_error(strip, model):
+    ends = [
+        fem_reference.simulate(strip, model, 0.05, elements=(2, 1), step=step, every=0.05, error=1e-8)
+        for step in (4e-3, 2e-3, 1e-3)
+    ]
+    coarse, fine = (np.abs(a.probes["tip"][-1] - b.probes["tip"][-1]).max() for a, b in pairwise(ends))
+    assert np.log2(coarse / fine) == pytest.approx(2.0, abs=0.15)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_damped_sheet_comes_to_rest_where_statics_have_it(strip, model):
+    """Under a pressure that comes on over time, from the shape of a bent clamp."""
+    ramp = FactorTable(time=(0.0, 0.1), factor=(0.0, 1.0))
+    bent = strip.replace(
+        gravity=None,
+        damping_rate=12.0,
+        supports=(Curved(edge="x0", curvature=2.0),),
+        loads=(Pressure(value=0.3, history=ramp),),
+    )
+    motion = fem_reference.simulate(bent, model, 3.0, elements=(2, 1), every=0.1)
+    still = fem_reference.solve(
+        bent, model, elements=(2, 1), **({"graded": True} if model == "plate" else {})
+    )
+    truth = still.displacement(strip.probe_points())
+    assert motion.probes["tip"][-1] == pytest.approx(truth[0], abs=2e-3 * np.abs(truth).max())
+    assert motion.reactions["x0"][-1] == pytest.approx(still.reactions["x0"], abs=1e-3 * 0.3 * 0.18 * 0.09)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_clamp_that_rises_carries_its_edge_along(strip, model):
+    raised = Motion(time=(0.0, 0.1), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.02)))
+    scene = strip.replace(
+        gravity=None, supports=(Clamped(edge="x0", motion=raised),), probes={"E": (0.0, 0.045)}
+    )
+    motion = fem_reference.simulate(scene, model, 0.15, elements=(1, 1), every=0.05)
+    assert motion.probes["E"][:, 2] == pytest.approx([0.0, 0.01, 0.02, 0.02], abs=1e-9)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_edges_that_actuators_move_are_left_to_the_shell(strip, model):
+    moved = EdgeMotion(kind="motion", edge="x1", time=(0.0, 1.0), displacement=((0, 0, 0), (0, 0, 0.01)))
+    with pytest.raises(BadInput, match="x1"):
+        fem_reference.simulate(strip.replace(actuators=(moved,)), model, 0.1, elements=2)

@@ -7,7 +7,7 @@ import pytest
 from scipy.sparse import csr_matrix
 
 from sheetbench.numerics import multifrontal
-from sheetbench.numerics.direct import DirectSolver
+from sheetbench.numerics.direct import CHOLESKY, DirectSolver
 from sheetbench.numerics.fronts import Cells, fronts_of
 from sheetbench.numerics.sparsity import Pattern
 
@@ -112,3 +112,17 @@ def test_a_pattern_without_its_whole_diagonal_is_refused() -> None:
     matrix = csr_matrix(np.array([[0.0, 1.0], [1.0, 2.0]]))
     with pytest.raises(ValueError, match="diagonal"):
         fronts_of(matrix.indices, matrix.indptr, Cells(np.array([[0, 1]]), np.zeros((1, 2))))
+
+
+def test_factors_of_a_definite_matrix_need_no_refinement() -> None:
+    """As Cholesky's: the residual of an unrefined solution is rounding, though the condition is 1e9."""
+    matrix, cells = system(12, 12, 5)
+    scale = np.logspace(0.0, 4.0, matrix.shape[0])
+    data = matrix.data * scale[matrix.indices] * np.repeat(scale, np.diff(matrix.indptr))
+    matrix = csr_matrix((data, matrix.indices, matrix.indptr))
+    factor = DirectSolver(fronts=partial(fronts_of, matrix.indices, matrix.indptr, cells)).factor(matrix)
+    b = np.random.default_rng(1).normal(size=matrix.shape[0])
+    x = factor.solve(b, CHOLESKY)
+    np.testing.assert_array_equal(x, factor.once(b))
+    assert np.abs(b - matrix @ x).max() < CHOLESKY * (matrix.data.max() * np.abs(x).max() + np.abs(b).max())
+    assert np.linalg.norm(b - matrix @ factor.solve(b)) <= np.linalg.norm(b - matrix @ x)

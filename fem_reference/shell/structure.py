@@ -159,7 +159,7 @@ class ShellStructure:
         stress = self.element.stress(strain)
         residuals = self._scatter(forces_of(vectors, stress))
         external = load_factor * self._external(vectors)
-        size = np.abs(external[:n]).sum() + np.abs(residuals[:n][self.supports.position]).sum()
+        size = np.abs(external[:n]).sum() + np.abs(residuals.ravel()[self._held_components]).sum()
         size += np.abs(external[n:]).sum() / self.lever
         residuals -= external
         if not self.rods.rods:
@@ -303,11 +303,21 @@ class ShellStructure:
     def _dead(self) -> np.ndarray:
         return np.concatenate([self.dead, np.zeros((self._vectors - self.count, 3))])
 
+    @cached_property
+    def _held_components(self) -> np.ndarray:
+        """Where held components of positions are among those of all vectors."""
+        return np.flatnonzero(self.supports.position)
+
+    @cached_property
+    def _held_directors(self) -> np.ndarray:
+        return np.flatnonzero(self.supports.director)
+
     def _to_constraints(self, state: State, directors: np.ndarray, load_factor: float) -> np.ndarray:
         """The step (2n + q, 3) to the prescribed values and, along free directors, to |d| = 1."""
         n, change = self.count, self.supports.change(load_factor) - state.change
         step = np.concatenate([np.where(self.supports.position, change[0], 0.0), to_unit(directors)])
-        step[n : 2 * n][self.supports.director] = change[1][self.supports.director]
+        held = self._held_directors
+        step[n + held] = change[1][held]
         if self.rods.rods:
             step[2 * n :][self.rods.held] = -state.aside[self.rods.held]
         return step

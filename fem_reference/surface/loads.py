@@ -47,15 +47,12 @@ class Follower(Protocol):
 
     def force(self, vectors: np.ndarray) -> np.ndarray:
         """Nodal force (k, 18, 3) at nodal vectors Q (k, 18, 3)."""
-        ...
 
     def tangent(self, vectors: np.ndarray) -> np.ndarray:
         """Derivative of the force (k, 18, 3, 18, 3)."""
-        ...
 
     def work(self, vectors: np.ndarray) -> float:
         """Of a conservative load, from the flat sheet to nodal vectors Q (k, 18, 3) [J]."""
-        ...
 
 
 def _cross_matrix(a: np.ndarray) -> np.ndarray:

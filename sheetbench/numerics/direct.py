@@ -11,6 +11,7 @@ Solutions are refined, their residuals checked.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -33,6 +34,9 @@ except ImportError:  # SciPy always works
 Matrix = Any  # by rows or, where it is symmetric or so by pattern, by columns
 Solve = Callable[[np.ndarray], np.ndarray]
 
+CHOLESKY = (
+    1e-14  # backward error of a positive definite matrix's factors, which need no pivots (Higham 2002, 10.1)
+)
 LARGE = 20_000  # unknowns from which PARDISO is quicker than the fronts
 
 
@@ -51,10 +55,16 @@ class Inertia(NamedTuple):
 class Factor:
     """One factorisation. inertia: None where it is not known, and of unsymmetric matrices."""
 
-    def __init__(self, matrix: Matrix, solve: Solve, inertia: Inertia | None = None):
-        """solve: x with A x = b, as the factors have it."""
+    def __init__(
+        self, matrix: Matrix, solve: Solve, inertia: Inertia | None = None, backward_error: float = np.inf
+    ):
+        """solve: x with A x = b, as the factors have it; backward_error: what that is known to be below."""
         self.matrix, self.inertia = matrix, inertia
-        self._solve, self._largest = solve, _largest(matrix)
+        self._solve, self._backward_error = solve, backward_error
+
+    @cached_property
+    def _largest(self) -> float:
+        return _largest(self.matrix)
 
     @property
     def negative(self) -> int | None:
@@ -70,6 +80,8 @@ class Factor:
         """x (n,) with A x = b, refined once where its backward error exceeds `enough`. Raises
         SingularMatrixError if the residual stays large."""
         x = self._solve(b)
+        if self._backward_error <= enough and np.isfinite(x).all():
+            return x
         left, error = self._backward(x, b)
         if not error <= enough:  # also catches nan
             x = x + self._solve(left)
@@ -159,7 +171,8 @@ class DirectSolver:
                 data = matrix.data if self.symmetric else self._symmetric_part(matrix)
                 factors = SignedFactors(data, self._fronts())
                 if self.symmetric:
-                    return Factor(matrix, factors.solve, Inertia(n - factors.negative, factors.negative, 0))
+                    inertia = Inertia(n - factors.negative, factors.negative, 0)
+                    return Factor(matrix, factors.solve, inertia, np.inf if factors.negative else CHOLESKY)
                 if factors.negative == 0:
                     return SymmetricPartFactor(matrix, factors.solve, lambda: self._by_library(matrix))
             except NoFactorsError:

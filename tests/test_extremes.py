@@ -28,7 +28,6 @@ OPTIONS = [
     *((SIMULATE, option) for option in ("--step", "--duration", "--every")),
     (("tradeoff", SEED), "--duration"),
     (("advise", SEED), "--tolerance"),
-    (("compare", SEED, "--auto"), "--tolerance"),
 ]
 HUGE = "9" * 22
 

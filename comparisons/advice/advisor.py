@@ -185,17 +185,6 @@ def advise(
     return _advice(probing, sizes, tolerance, budget, chosen, resolution, message)
 
 
-def check_auto(auto: bool, tolerance: float | None, given: dict[str, Any]) -> None:
-    """Raise BadInput for options of `compare` that leave the advisor no choice to make."""
-    if tolerance is not None:
-        if not auto:
-            raise BadInput(f"--tolerance = {tolerance:g}: goes with --auto")
-        checked_tolerance(tolerance)
-    for option, value in given.items():
-        if auto and value is not None:
-            raise BadInput(f"--auto and {option}: choose one")
-
-
 def checked_tolerance(tolerance: float) -> float:
     """The tolerance. Raises BadInput unless it is a fraction above 0 and below 1."""
     if not 0.0 < tolerance < 1.0:

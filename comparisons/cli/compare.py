@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.lattice_options import Lattice, given, with_lattice
+from comparisons.cli.lattice_options import Lattice, with_lattice
 from comparisons.cli.options import (
     Export,
     Figure,
@@ -55,14 +55,6 @@ def command(
         str,
         typer.Option(metavar="NAME", help=f"{listed(BRANCHES)}: leave unstable equilibria or not."),
     ] = "path",
-    auto: Annotated[
-        bool,
-        typer.Option("--auto", help="Let the advisor choose the model shown first.", show_default=False),
-    ] = False,
-    tolerance: Annotated[
-        float | None,
-        typer.Option(metavar="FRACTION", help="Error that --auto may make; 0.01 unless given."),
-    ] = None,
     duration: Annotated[
         float | None,
         typer.Option(
@@ -83,7 +75,6 @@ def command(
 
     Where no calibration is named, uniform springs are shown alongside.
     """
-    from comparisons.advice.advisor import advise, check_auto
     from comparisons.cli.finish import finish
     from comparisons.comparison.comparison import compare, load_static
     from comparisons.models.candidate import parse_model
@@ -96,7 +87,7 @@ def command(
 
     if duration is not None:
         statics: dict[str, object] = {"--symmetry": symmetry, "--model": model, "--branch": branch != "path"}
-        statics |= {"--auto": auto, "--tolerance": tolerance, "--export": export}
+        statics |= {"--export": export}
         for option, value in statics.items():
             if value:
                 raise BadInput(f"{option}: is for statics; leave it out with --duration")
@@ -124,21 +115,12 @@ def command(
         return
     asked = load_static(scene)
     size, others = parse_elements(elements or str(ELEMENTS)), [parse_model(text) for text in model or ()]
-    check_auto(auto, tolerance, given(lattice))
-    if auto and export is not None:
-        raise BadInput("--export: the advisor may choose a model without springs; leave --auto out")
     named = lattice["calibration"] is not None or lattice["k"] is not None
-    models = {"--reference": reference, "--calibration": "named" if named else "open", "--auto": auto}
+    models = {"--reference": reference, "--calibration": "named" if named else "open"}
     models |= {"--model": " ".join(model)} if model else {}
     with finish(
         "compare", json, out, overwrite, scene=asked, apart=models, figure=figure, pictures=not no_pictures
     ) as end:
-        advice = None
-        if auto:
-            allowed = 0.01 if tolerance is None else tolerance
-            advice = advise(asked, allowed, large=large, progress=end.progress)
-            if advice.choice is None:
-                end.stop(f"--auto: {advice.message}")
         found = compare(
             asked,
             **lattice,
@@ -148,13 +130,12 @@ def command(
             uncertainty=uncertainty,
             symmetry=symmetry,
             branch=branch,
-            choice=advice.choice if advice is not None else None,
             others=others,
             large=large,
             progress=end.progress,
             finished=lambda s: end.keep(f"{s.model}.vtu", lambda path: write_solution(path, s)),
         )
-        report = found.report(advice)
+        report = found.report()
         if export is not None:
             springs, _ = LatticeSpec(**lattice).springs(asked)
             report = end.export(export, asked, springs, report, overwrite)

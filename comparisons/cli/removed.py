@@ -10,6 +10,8 @@ VERBS = {
     "Python, solution.to_pyvista().warp_by_vector().plot() opens a window",
 }
 OPTIONS = {
+    ("compare", "--auto"): "'sheetbench advise SCENE' chooses a model and prints the command that solves it",
+    ("compare", "--tolerance"): "give it to 'sheetbench advise SCENE', which prints the command to run",
     ("stability", "--study"): "'sheetbench study stability' has the published maps, in a checkout; "
     "'sheetbench stability SCENE --vary NAME' those of your sheet",
     ("stability", "--full"): "'sheetbench study stability --full' has the published maps, in a checkout",

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -37,9 +37,6 @@ from comparisons.runs.load import warnings as doubts
 from sheetbench.choices import ELEMENTS, REFERENCE
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static, summary
 from sheetbench.scenes.summary import few
-
-if TYPE_CHECKING:
-    from comparisons.advice.advisor import Advice
 
 COMPANION = "lumped-uniform"
 ROUND_OFF = 1e-9  # of the largest displacement at a probe
@@ -187,9 +184,9 @@ class Comparison(summary.Summarised):
             ],
         }
 
-    def report(self, advice: Advice | None = None) -> Report:
-        """What is shown of it; advice: by which the first model was chosen."""
-        return tables.report(self, advice)
+    def report(self) -> Report:
+        """What is shown of it."""
+        return tables.report(self)
 
     def _summary(self) -> tuple[str, summary.Facts]:
         facts = []
@@ -251,7 +248,6 @@ def compare(
     symmetry: bool = False,
     branch: str = "path",
     companion: bool = True,
-    choice: Candidate | None = None,
     others: Sequence[Candidate] = (),
     large: bool = False,
     progress: Progress = silent,
@@ -271,11 +267,10 @@ def compare(
     plate and shell it is unless False, for others if True. symmetry: solve a half or a quarter where scene
     and grid mirror themselves; solids are solved whole. branch: "path", or "buckled", which leaves unstable
     equilibria along their buckling mode; of lattice and shell.
-    choice: a model that takes the lattice's place (`comparisons.advice.advisor`); others: models that stand
-    in the table too, plug-ins or our own. A name that is taken is changed. large: even where a model takes
-    more memory than there is. progress: told what is being done, and of every iteration
-    (`comparisons.report.work`). `starting` and `finished` are called before and after each model, so that a
-    caller can keep what is done.
+    others: models that stand in the table too, plug-ins or our own. A name that is taken is changed. large:
+    even where a model takes more memory than there is. progress: told what is being done, and of every
+    iteration (`comparisons.report.work`). `starting` and `finished` are called before and after each model,
+    so that a caller can keep what is done.
 
     Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
     solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.
@@ -293,12 +288,12 @@ def compare(
         mirrored["branch"] = branch
         check_reference(reference, elements, {**own_law, "branch": branch})
         judge = judge.but(branch=branch)
-    first = lattice.candidate.but(**mirrored) if choice is None else choice
+    first = lattice.candidate.but(**mirrored)
     for candidate in (first, judge, *others):
         check(scene, candidate, large)
-    named = {first.model if first.model != reference else f"{first.model}-advised": first, reference: judge}
+    named = {first.model: first, reference: judge}
     left_open = calibration is None and k is None and resolve(scene, lattice).calibration is not None
-    if choice is None and companion and left_open:
+    if companion and left_open:
         named[COMPANION] = first.but(calibration="uniform", grading=None)
     for other in others:
         named[_unlike(shown_name(other.model), named)] = other

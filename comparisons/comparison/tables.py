@@ -18,7 +18,6 @@ from sheetbench.scenes import Material, Sheet, Solution, Status
 from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:
-    from comparisons.advice.advisor import Advice
     from comparisons.comparison.comparison import Comparison
 
 _MODEL = Column("model")
@@ -30,14 +29,9 @@ BUCKLED = (
 FIGURES, PROBES = ("comparison.png", "comparison.pdf"), ("probes.png", "probes.pdf")
 
 
-def report(comparison: Comparison, advice: Advice | None = None) -> Report:
-    """What `sheetbench compare` shows; advice: by which the first model was chosen."""
-    scene, document = comparison.scene, comparison.as_dict()
-    chosen = []
-    if advice is not None:
-        document["advice"] = advice.as_dict()
-        percent = 100 * (advice.tolerance or 0.0)
-        chosen = [f"The first model was chosen for {percent:g} %: {advice.reason}"]
+def report(comparison: Comparison) -> Report:
+    """What `sheetbench compare` shows."""
+    scene = comparison.scene
     moved, cost = displacements(comparison), costs(comparison)
     return Report(
         name="comparison",
@@ -45,7 +39,7 @@ def report(comparison: Comparison, advice: Advice | None = None) -> Report:
         title=scene.name,
         subtitle=scene.title,
         lead=sheet(scene.sheet, scene.material),
-        document=document,
+        document=comparison.as_dict(),
         tables=(moved, cost, reactions(comparison)),
         printed=(moved, cost),
         notes=(
@@ -55,7 +49,6 @@ def report(comparison: Comparison, advice: Advice | None = None) -> Report:
             *uncertainty(comparison),
             explanation(comparison),
             *([BUCKLED] if comparison.reference.settings.get("branch") == "buckled" else []),
-            *chosen,
         ),
         complaints=tuple(complaints(comparison)),
         pictures=(

@@ -25,6 +25,12 @@ def test_every_verb_is_a_function_or_is_said_not_to_be_one() -> None:
             assert inspect.isfunction(getattr(sb, verb)) and f"`{verb}`" in page
 
 
+def test_the_reference_has_every_function_by_the_name_that_is_called() -> None:
+    page = (ROOT / "docs" / "api" / "verbs.md").read_text(encoding="utf-8")
+    functions = {name for name in sb.__all__ if inspect.isfunction(getattr(sb, name))}
+    assert set(re.findall(r"autofunction:: (\w+)$", page, re.M)) == functions
+
+
 def test_the_package_shows_its_names_and_nothing_else() -> None:
     shown = [name for name in dir(sb) if not name.startswith("__")]
     assert shown == sorted(sb.__all__)

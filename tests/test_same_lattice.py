@@ -126,6 +126,10 @@ VERBS: dict[str, tuple[Callable[..., None], frozenset[str]]] = {
     "live": (verb("live", "{scene}", "--no-browser"), GRIDS),
     "sb.solve": (python(lambda scene, _, **own: sb.solve(scene, **own)), WORDS),
     "sb.compare": (python(lambda scene, _, **own: sb.compare(scene, **own)), WORDS),
+    "sb.compare of a motion": (
+        python(lambda scene, _, **own: sb.compare(scene, duration=0.01, **own)),
+        WORDS,
+    ),
     "sb.simulate": (python(lambda scene, _, **own: sb.simulate(scene, 0.01, **own)), WORDS),
     "sb.modes": (python(lambda scene, _, **own: sb.modes(scene, **own)), WORDS),
     "sb.linearise": (python(lambda scene, _, **own: sb.linearise(scene, **own)), WORDS),

@@ -32,6 +32,18 @@ def test_the_model_that_has_both_equilibria_is_shown_on_the_others_branch() -> N
     assert np.abs(found.probes(shell)["P3"][2]) < 0.015  # not hanging down
 
 
+def test_models_that_stay_on_different_branches_get_no_error() -> None:
+    """A halved sheet is not begun in the other's shape: the lattice is 70 % off, on any grid."""
+    found = compare(BENT, grid=9, elements=8, companion=False, symmetry=True)
+    lattice, shell = found.solutions
+    assert lattice.status is shell.status is Status.CONVERGED
+    assert "they lie on different branches of equilibria" in found.apart
+    assert found.error(lattice) is None
+    document = found.as_dict()
+    assert [one["branch"] for one in document["solutions"]] == ["own", "own"]
+    assert [one["error"] for one in document["errors"]] == [None]
+
+
 @pytest.mark.parametrize("branch", ["path", "buckled"])
 def test_a_perfect_column_has_no_error_until_it_is_let_buckle(branch) -> None:
     found = compare(COLUMN, grid=3, elements=2, branch=branch, companion=False)

@@ -46,7 +46,7 @@ def fine(size: float, **changes: Any) -> Solution:
 
 
 def test_what_is_near_or_no_equilibrium_says_nothing() -> None:
-    assert said(-0.019, fine(-0.01)) == ""
+    assert said(-0.0119, fine(-0.01)) == ""
     assert said(0.01, fine(0.01), shell={"status": Status.UNSTABLE}) == ""
 
 
@@ -69,6 +69,32 @@ def test_another_branch_stays_where_it_is() -> None:
     assert "if the shell's mesh is fine enough" in said(0.01, fine(0.0101))
     snapped = said(0.01, fine(0.0101), bar=0.01, shell={"snaps": (0.4,)})
     assert "shell snapped on the way" in snapped
+
+
+@pytest.mark.parametrize(
+    ("finer", "stretch", "calibration", "known"),
+    [
+        (-0.0049, 0.001, "consistent", True),
+        (-0.0055, 0.001, "consistent", True),  # first order ahead it would be 40 % off still
+        (-0.006, 0.001, "consistent", False),  # and here 30 %
+        (-0.008, 0.001, "consistent", False),
+        (-0.0049, 0.2, "consistent", False),  # laws of strain
+        (-0.0049, 0.001, "uniform", False),
+    ],
+)
+def test_up_to_100_percent_only_what_would_tend_to_the_reference_is_on_another_branch(
+    finer: float, stretch: float, calibration: str, known: bool
+) -> None:
+    """A lattice that is 50 % off, and what a finer grid says."""
+    settings = {"grid": [5, 3, 2], "calibration": calibration}
+    both = (
+        solution(SCENE, size=-0.005, settings=settings),
+        solution(SCENE, "shell", stretch=stretch),
+    )
+    lattice = LATTICE.but(calibration=calibration)
+    apart, other_branch = far_apart.said(SCENE, lattice, both, error, 0.01, lambda other: fine(finer))
+    assert "50 % apart" in apart
+    assert other_branch is known
 
 
 @pytest.mark.parametrize(

@@ -157,10 +157,12 @@ class Comparison(summary.Summarised):
         return None if self.bar is None or off is None else off > self.bar.error
 
     def branch(self, solution: Solution) -> str:
-        """Which equilibrium it is, where several are known: "path", "buckled", or the model in whose shape it
-        was begun."""
+        """Which equilibrium, where several are known: "path", "buckled", "of" the model in whose shape it was
+        begun, or "own", where lattice and reference are on different branches."""
         if "begun" in solution.settings:
             return f"of {solution.settings['begun']}"
+        if self.other_branch and solution in self.solutions[:2]:
+            return "own"
         several = solution.snaps or solution.status is Status.UNSTABLE or self.several
         return str(solution.settings.get("branch", "path" if several else ""))
 

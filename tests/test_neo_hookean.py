@@ -82,6 +82,20 @@ def test_every_modulus_is_met_at_small_strains(options):
         assert abs(row["miss"]) < 1e-11
 
 
+@pytest.mark.parametrize("grid", [(5, 4), (4, 3, 3)])
+def test_a_small_load_moves_it_as_the_linear_lattice_does(grid):
+    """The stiffness at rest is that of the springs of its small strains, by which it is damped too."""
+    scene = strip([{"edge": "x0", "kind": "clamped"}])
+    assembly = pose(scene, lattice(scene, grid)).assembly
+    u = 1e-9 * np.random.default_rng(0).standard_normal(assembly.lattice.positions.shape)
+    for family in assembly.springs:
+        force = np.zeros_like(u)
+        family.add_force(u, force)
+        assert 0.5 * (force * u).sum() == pytest.approx(family.energies(u, linear=True).sum(), rel=1e-6)
+    stiff = assembly.tangent(0.0 * u)
+    assert np.allclose(assembly.tangent(0.0 * u, share=0.0), stiff, atol=1e-12 * np.abs(stiff).max())
+
+
 def test_a_clamped_strip_at_57_per_cent_is_the_neo_hookean_shells():
     """114.099 and −9.428 mm: shell, neo-Hooke, 8 elements a side; linear springs find 73.5."""
     load = {"kind": "edge", "edge": "x1", "force_per_length": [4000.0, 0.0, 0.0]}

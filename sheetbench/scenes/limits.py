@@ -13,7 +13,8 @@ _UNIFORM = "a sheet has one material and one thickness all over: patches and inc
 _RECTANGLE = "a sheet is a flat rectangle of one thickness: other outlines are not modelled"
 _ISOTROPIC = "a material is isotropic, with one young and one poisson: orthotropy is not modelled"
 _LINEAR = (
-    "a scene's material is linearly elastic; a shell or solid of another law of strain is `compare --law`"
+    "a scene's material is linearly elastic; a shell or solid of another law of strain is `compare --law`, a "
+    "lattice of rubber `--calibration neo-hookean`"
 )
 _VISCOUS = "of viscosity there is linear damping alone, damping_time and damping_rate"
 _CONTACT = "contact is not modelled, neither with other bodies nor of the sheet with itself"

@@ -24,7 +24,7 @@ from typing import Any
 import typer
 from typer.main import get_command
 
-from comparisons.cli import announced, characters, interruption, removed, warned
+from comparisons.cli import announced, characters, defaults, interruption, removed, warned
 from comparisons.cli.everywhere import with_everywhere, with_promise
 from comparisons.runs import interrupts
 
@@ -109,9 +109,17 @@ def main(arguments: list[str] | None = None) -> None:
     for stream in (sys.stdout, sys.stderr):
         characters.adapt(stream)
     _make_sound(os.environ)
-    if (said := removed.refusal(arguments)) is not None:
+    of_process = arguments == sys.argv[1:]
+    try:
+        arguments = defaults.with_defaults(arguments, VERBS)
+        said = removed.refusal(arguments)
+    except defaults.Refused as refused:
+        said = str(refused)
+    if said is not None:
         print(f"sheetbench: {said}", file=sys.stderr)
         raise SystemExit(BAD_INPUT)
+    if of_process:  # which is kept beside the results
+        sys.argv[1:] = arguments
     verbs = _group(get_terminal_size().columns >= BOXES)
     with interruption.heeded(), warned.in_a_line(), announced.in_a_line():
         try:

@@ -1,0 +1,56 @@
+"""A folder's own options, from a file."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from commands import one_line, run
+
+from comparisons.cli.defaults import FILE, with_defaults
+
+VERBS = ("compare", "modes")
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_options_of_the_file_come_before_those_of_the_command(folder: Path, capsys) -> None:
+    text = '[compare]\ngrid = "3"\nlayer_distance = -1\nuncertainty = false\nmodel = ["a", "b"]\n'
+    text += "symmetry = true\n"
+    (folder / FILE).write_text(text + "[modes]\ncount = 2\n", encoding="utf-8")
+    options = ["--grid=3", "--layer-distance=-1", "--no-uncertainty", "--model=a", "--model=b", "--symmetry"]
+    assert with_defaults(["compare", "S", "--grid", "5"], VERBS) == ["compare", *options, "S", "--grid", "5"]
+    assert capsys.readouterr().err == f"{FILE}: compare {' '.join(options)}\n"
+    assert with_defaults(["modes", "S", "--quiet"], VERBS) == ["modes", "--count=2", "S", "--quiet"]
+    assert with_defaults(["check", "S"], VERBS) == ["check", "S"]
+    assert with_defaults(["modes", "--help"], VERBS) == ["modes", "--help"] and with_defaults([], VERBS) == []
+    assert capsys.readouterr().err == ""
+
+
+def test_a_command_takes_them(folder: Path, capsys) -> None:
+    (folder / FILE).write_text("[modes]\ncount = 2\nelements = 2\ngrid = 3\n", encoding="utf-8")
+    assert run("modes", "one-edge-clamped", "--json", "--count", "1") == 0
+    lattice, shell = json.loads(capsys.readouterr().out)["solutions"]
+    assert lattice["settings"]["grid"] == [3, 3, 2] and shell["settings"]["elements"] == [2, 2]
+    assert len(lattice["frequencies_hz"]) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("[modes\n", "cannot be read"),
+        ("[mode]\ncount = 2\n", "mode: a table of a verb is needed"),
+        ("count = 2\n", "count: a table of a verb is needed"),
+        ("[modes]\ncount = {a = 1}\n", "modes.count: a number"),
+        ("[modes]\nmany = 2\n", "--many"),
+    ],
+)
+def test_a_file_that_cannot_be_meant_is_refused_in_a_line(folder: Path, capsys, text: str, said: str) -> None:
+    (folder / FILE).write_text(text, encoding="utf-8")
+    assert run("modes", "one-edge-clamped", "--quiet") == 2
+    assert said in one_line(capsys)

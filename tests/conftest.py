@@ -26,6 +26,13 @@ def pytest_configure() -> None:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Tests of studies, and those that need a browser, are for `make nightly`."""
+    for item in items:
+        if "studies" in item.path.parts[-2:] or "browser" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.nightly)
+
+
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> dict[str, Solution]:
     """Answers without a solver; a test may put its own in."""

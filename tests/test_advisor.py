@@ -198,9 +198,9 @@ def test_the_printed_command_solves_the_choice(
     advice = json.loads(capsys.readouterr().out)
     solved: list[Candidate] = []
 
-    def recorded(scene: Scene, candidate: Candidate, *rest: str, **_: object) -> Solution:
+    def recorded(scene: Scene, candidate: Candidate, name: str = "", **_: object) -> Solution:
         solved.append(candidate)
-        return registry.answer(scene, candidate, *rest)
+        return replace(answer(scene, candidate), model=name or candidate.model)
 
     monkeypatch.setattr(comparison, "answer", recorded)
     _, *asked = shlex.split(advice["command"])

@@ -31,6 +31,7 @@ def commands(block: str) -> list[list[str]]:
     ]
 
 
+@pytest.mark.nightly
 @pytest.mark.usefixtures("in_process")
 def test_tutorial_runs_as_written(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

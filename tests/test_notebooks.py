@@ -11,6 +11,8 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parents[1] / "docs"))
 from run_notebooks import NOTEBOOKS, executed
 
+pytestmark = pytest.mark.nightly
+
 
 def printed(notebook: nbformat.NotebookNode) -> list[str]:
     """What every cell with code prints."""

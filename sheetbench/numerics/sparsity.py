@@ -87,7 +87,8 @@ class Pattern:
     @cached_property
     def _empty(self) -> csr_matrix:
         shape = (self.size, self.size)
-        matrix = csr_matrix((np.zeros(len(self._columns)), self._columns, self._starts), shape=shape)
+        data = np.broadcast_to(0.0, len(self._columns))
+        matrix = csr_matrix((data, self._columns, self._starts), shape=shape)
         matrix.has_canonical_format = True
         return matrix
 
@@ -133,8 +134,7 @@ def _slots(
 @njit(cache=True)
 def add_blocks(data: np.ndarray, slots: np.ndarray, blocks: np.ndarray) -> None:
     """Add element matrices (m, k, k) to a matrix's data at their slots, −1 for none."""
-    for e in range(len(slots)):
-        for i in range(slots.shape[1]):
-            for j in range(slots.shape[2]):
-                if slots[e, i, j] >= 0:
-                    data[slots[e, i, j]] += blocks[e, i, j]
+    places, values = slots.ravel(), blocks.ravel()
+    for i in range(len(places)):
+        if places[i] >= 0:
+            data[places[i]] += values[i]

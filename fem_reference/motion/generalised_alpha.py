@@ -131,7 +131,7 @@ class GeneralisedAlpha:
                 matrix = model.tangent(found.q, found.v, time, found.exerted, by_a, by_v)
                 self._factor, self._taken = self._solver.factor(matrix), h
                 self.factorisations += 1
-            step = basis @ self._factor.once(-(basis.T @ found.exerted))
+            step = basis @ self._factor.solve_unrefined(-(basis.T @ found.exerted))
             length = float(np.abs(model.displacement(step)).max())
             if not np.isfinite(length):
                 raise StepFailed("a number overflowed")

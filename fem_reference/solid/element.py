@@ -13,8 +13,8 @@ are exact in any brick with straight edges.
 Those 2 × 2 points do not see the shear of a motion along η that goes like P₂(η) and varies along ξ, but the
 stress along ξ, at 2 × 3, does: in a brick b ≫ l, with l along ξ, only the stretch along η holds it, and a
 compression −ε along ξ outweighs that where ε (b/l)² > 5 or so (measured), though no sheet would buckle. So
-bricks much longer than wide keep a share α of the dropped shear, α² = `KEPT`² − 2.5 (l/b)²: stable while
-ε < α²/2(1 + ν). All of it would lock the thin twisted sheet, and near-square bricks need none.
+bricks much longer than wide keep a share α of the dropped shear, α² = `RETAINED_SHEAR`² − 2.5 (l/b)²: stable
+while ε < α²/2(1 + ν). All of it would lock the thin twisted sheet, and near-square bricks need none.
 
 In terms of the k = 126 samples everything is a quadratic form of the positions, e_k = ½ (x H_k x − X H_k X),
 with H_k the same for all elements, and B_k = H_k x.
@@ -41,7 +41,9 @@ from fem_reference.surface.biquadratic import THREE, TYING, lagrange
 from sheetbench.numerics.kept import frozen
 
 NODES = 27
-KEPT = 0.3  # at most, of the dropped shear: bent strips are stable up to surface strains of 0.045 (ν = 0)
+RETAINED_SHEAR = (
+    0.3  # at most, of the dropped shear: bent strips are stable up to surface strains of 0.045 (ν = 0)
+)
 # Of the covariant components ξξ, ηη, ζζ, ξη, ηζ, ξζ (the order of PAIRS): the points of [−1, 1]² between
 # which the strain is interpolated, and those at which it is sampled.
 _EVERY = (THREE, THREE)
@@ -216,7 +218,7 @@ def geometric(stress: np.ndarray) -> np.ndarray:
 def _kept(jacobian: np.ndarray) -> np.ndarray:
     """α (m,): what bricks with X_c,ξ_b (m, q, c, b) keep of the dropped in-plane shear."""
     sides = np.linalg.norm(jacobian[..., :2], axis=-2).mean(axis=1)
-    return np.sqrt(np.maximum(KEPT**2 - 2.5 * (sides.min(axis=1) / sides.max(axis=1)) ** 2, 0.0))
+    return np.sqrt(np.maximum(RETAINED_SHEAR**2 - 2.5 * (sides.min(axis=1) / sides.max(axis=1)) ** 2, 0.0))
 
 
 def _pull_back(inverse: np.ndarray) -> np.ndarray:

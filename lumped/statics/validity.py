@@ -53,7 +53,7 @@ def digits(problem: Problem, state: State) -> Fault | None:
     carried = carried_by_links(state.u, links.nodes, links.stiffness)[:, None]
     share = 0.0
     for sample in _noise(state.u.shape):
-        moved = problem.expand(state.factor.once(problem.reduce(carried * sample)))
+        moved = problem.expand(state.factor.solve_unrefined(problem.reduce(carried * sample)))
         share = max(share, problem.assembly.rounding * float(np.abs(moved).max()) / largest)
         if share < BEYOND_DOUBT:
             return None

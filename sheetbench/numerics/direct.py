@@ -88,7 +88,7 @@ class Factor:
             left, error = self._backward(x, b)
         return checked(x, error)
 
-    def once(self, b: np.ndarray) -> np.ndarray:
+    def solve_unrefined(self, b: np.ndarray) -> np.ndarray:
         """x with A x = b as the factors have it, neither refined nor checked."""
         return self._solve(b)
 
@@ -209,8 +209,13 @@ class DirectSolver:
 
 
 def solve_free(matrix: sp.csr_matrix, force: np.ndarray, u: np.ndarray, free: np.ndarray) -> np.ndarray:
-    """K u = f solved for the free unknowns (k,) of u (n,), the others as they are. Raises
-    SingularMatrixError."""
+    """Return u (n,) with K u = f for its free unknowns (k,), the others as they are. Raises
+    SingularMatrixError.
+
+    >>> springs = sp.csr_matrix([[1.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]])
+    >>> solve_free(springs, np.array([0.0, 0.0, 3.0]), np.zeros(3), np.array([1, 2]))
+    array([0., 3., 6.])
+    """
     out = u.copy()
     out[free] = 0.0
     out[free] = DirectSolver().factor(matrix[free][:, free]).solve((force - matrix @ out)[free])

@@ -17,6 +17,6 @@ def iterated(matrix: sp.csc_array, near: Factor, b: np.ndarray) -> np.ndarray | 
     if near.negative != 0:
         return None
     n = len(b)
-    preconditioner = LinearOperator((n, n), matvec=near.once, dtype=float)
+    preconditioner = LinearOperator((n, n), matvec=near.solve_unrefined, dtype=float)
     x, failed = cg(matrix, b, rtol=ACCURACY, maxiter=MOST, M=preconditioner)
     return None if failed or not np.isfinite(x).all() else x

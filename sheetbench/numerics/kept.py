@@ -26,7 +26,12 @@ def frozen(shared: Found) -> Found:
 
 def kept(last: int, most: int) -> Callable[[Callable[Given, Found]], Callable[Given, Found]]:
     """For a function of arrays and of what can be hashed: its last results, read-only, are given again where
-    all arguments are the same; of arguments beyond `most` bytes none is kept. `forget` drops them."""
+    all arguments are the same; of arguments beyond `most` bytes none is kept. `forget` drops them.
+
+    >>> square = kept(last=2, most=100)(lambda a: a**2)
+    >>> square(np.arange(3)) is square(np.arange(3))
+    True
+    """
 
     def decorate(function: Callable[Given, Found]) -> Callable[Given, Found]:
         found: OrderedDict[object, Found] = OrderedDict()

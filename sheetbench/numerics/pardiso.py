@@ -67,9 +67,9 @@ class Factors:
     def __init__(self, handle: _Handle, triangle: sp.csr_matrix):
         self._handle, self._triangle = handle, triangle
         handle.call(FACTORISE, triangle)
-        if raised := handle.told(RAISED):
+        if raised := handle.get(RAISED):
             raise RuntimeError(f"{raised} pivots vanish")
-        positive, negative = handle.told(POSITIVE), handle.told(NEGATIVE)
+        positive, negative = handle.get(POSITIVE), handle.get(NEGATIVE)
         self.inertia = (positive, negative, triangle.shape[0] - positive - negative)
 
     def solve(self, b: np.ndarray) -> np.ndarray:
@@ -86,7 +86,7 @@ class _Handle:
             self._solver.set_iparm(i, value)
         weakref.finalize(self, self._solver.free_memory, everything=True)
 
-    def told(self, i: int) -> int:
+    def get(self, i: int) -> int:
         return int(self._solver.get_iparm(i))
 
     def call(self, phase: int, triangle: sp.csr_matrix, b: np.ndarray | None = None) -> np.ndarray:

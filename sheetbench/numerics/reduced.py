@@ -147,7 +147,7 @@ class ReducedSystem:
             raise SingularMatrixError("an entry of the matrix is not finite")
         close_by, augmented = self._saddle.quasi_definite(matrix)
         near = self._solver.factor(close_by)
-        return SaddleFactor(matrix, lambda b: near.once(augmented(b)), near.inertia)
+        return SaddleFactor(matrix, lambda b: near.solve_unrefined(augmented(b)), near.inertia)
 
 
 def reduced(pattern: BlockPattern, transform: sp.csr_array, symmetric: bool) -> ReducedSystem:

@@ -20,7 +20,11 @@ REAL = 1e-3  # imaginary part over the magnitude: rounding makes such a pair of 
 
 
 def negative_real(eigenvalues: np.ndarray) -> int:
-    """How many of these complex eigenvalues are real and below zero."""
+    """Return how many of these complex eigenvalues are real and below zero.
+
+    >>> negative_real(np.array([-1.0, -2.0 + 1.0j, -2.0 - 1.0j, 3.0]))
+    1
+    """
     real = np.abs(eigenvalues.imag) <= REAL * np.abs(eigenvalues)
     return int(np.sum(real & (eigenvalues.real < 0.0)))
 

@@ -45,6 +45,7 @@ class Moving(Protocol):
     label: str
     model: str
     settings: dict[str, Any]
+    conservative: bool  # whether the law of strain is linear in Green's strain
     mass: csr_matrix
     unknowns: int
 
@@ -70,6 +71,10 @@ class Moving(Protocol):
 
     def forces(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         """g (N,): internal and viscous less external forces."""
+        ...
+
+    def mean_forces(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
+        """g (N,) of the means of a step from one q to another: their strains' mean, not that of the mean."""
         ...
 
     def tangent(

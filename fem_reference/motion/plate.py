@@ -20,7 +20,7 @@ from sheetbench.scenes.errors import BadInput
 class MovingPlate(Sheet):
     """The plate of a scene in motion; q: ux, uy, w and the director's tilts, (n, 5)."""
 
-    model = "plate"
+    model, conservative = "plate", True
 
     def __init__(self, scene: Scene, elements: Elements = 16, graded: bool | None = None):
         refuse_edge_motions(scene, self.model)

@@ -81,6 +81,10 @@ class Sheet(ABC):
     def stiffness_of(self, q: np.ndarray, step: np.ndarray) -> float:
         """Δeᵀ D Δe [J] of the strains of a step (N,) from q."""
 
+    def of_supports(self, exerted: np.ndarray) -> np.ndarray:
+        """What supports and motions exert (N,) of M ü + g, which has no part along what is free."""
+        return exerted
+
     def centripetal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
         """As `Moving` has it: coordinates that are held, not constrained, demand none."""
         return np.zeros_like(q)
@@ -89,9 +93,21 @@ class Sheet(ABC):
         """As `Moving` has it."""
         return q + step
 
+    def mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
+        """Elastic and viscous forces (N,) of the mean strains of a step and their mean rate."""
+        return self.internal(0.5 * (start + end), (end - start) / h)
+
     def forces(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         """As `Moving` has it."""
-        out = self.internal(q, v)
+        return self._loaded(self.internal(q, v), q, v, time)
+
+    def mean_forces(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
+        """As `Moving` has it."""
+        q, v = 0.5 * (start + end), (end - start) / h
+        return self._loaded(self.mean_internal(start, end, h), q, v, time)
+
+    def _loaded(self, out: np.ndarray, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
+        """Internal forces (N,) less loads, and the drag."""
         for force, factor in self.dead:
             out = out - factor_at(factor, time) * force
         for follower, factor in self.followers:
@@ -104,11 +120,11 @@ class Sheet(ABC):
         return Energies(0.5 * float(v @ (self.mass @ v)), self.elastic(q), potential)
 
     def spent(self, start: Motion, end: Motion) -> np.ndarray:
-        """As `Moving` has it. M ü + g has no part along what is free: its product with a step is the work of
-        what moves."""
+        """As `Moving` has it."""
         h, step, middle = end.time - start.time, end.q - start.q, 0.5 * (start.q + end.q)
         damped = self.tau * self.stiffness_of(middle, step) + self.alpha * float(step @ (self.mass @ step))
-        work, half_way = 0.5 * float((start.exerted + end.exerted) @ step), 0.5 * (start.time + end.time)
+        exerted, half_way = 0.5 * (start.exerted + end.exerted), 0.5 * (start.time + end.time)
+        work = float(self.of_supports(exerted) @ step)
         for force, factor in self.dead:
             if factor is not None:
                 work += factor_at(factor, half_way) * float(force @ step)

@@ -37,6 +37,7 @@ class MovingShell(Sheet):
         counts = divisions(scene.sheet, elements)
         self.label = f"shell {counts[0]} × {counts[1]}"
         self.settings: dict[str, Any] = {"elements": list(counts), "graded": graded, "law": law}
+        self.conservative = law == STRAIN_LAW
         self._plan = mesh_of(scene, counts, graded)
         self._structure, self._nodes = discretise(self._plan, self.still, law=law)
         structure, thickness = self._structure, scene.sheet.thickness
@@ -130,12 +131,23 @@ class MovingShell(Sheet):
         vectors, strain, rate = self._strained(q, v)
         return self._scattered(forces_of(vectors, self._stress(strain, rate)))
 
+    def mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
+        """As `Sheet` has it."""
+        before, after = (self._structure.gather(q.reshape(2, -1, 3)) for q in (start, end))
+        strains = [self._element.strain(change) for change in (before, after)]
+        stress = self._stress(0.5 * (strains[0] + strains[1]), (strains[1] - strains[0]) / h)
+        return self._scattered(forces_of(self._element.reference + 0.5 * (before + after), stress))
+
     def following(self, q: np.ndarray, load: Follower) -> np.ndarray:
         """As `Sheet` has it."""
         vectors = self._element.reference + self._structure.gather(q.reshape(2, -1, 3))
         on_elements = np.zeros_like(vectors)
         on_elements[load.elements] = load.force(vectors[load.elements])
         return self._scattered(on_elements)
+
+    def of_supports(self, exerted: np.ndarray) -> np.ndarray:
+        """As `Sheet` has it; along directors that are free M ü + g is what keeps them unit vectors."""
+        return np.where(self._held.ravel(), exerted, 0.0)
 
     def elastic(self, q: np.ndarray) -> float:
         """As `Sheet` has it."""

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from fem_reference.motion.energy_momentum import EnergyMomentum
 from fem_reference.motion.generalised_alpha import ERROR, GeneralisedAlpha, StepFailed
 from fem_reference.motion.loads import kinks
 from fem_reference.motion.moving import Motion, Moving
@@ -19,12 +20,12 @@ from fem_reference.motion.plate import MovingPlate
 from fem_reference.motion.shell import MovingShell
 from fem_reference.motion.solid import MovingSolid
 from fem_reference.vibration import modes
-from sheetbench.choices import REFERENCE, listed
+from sheetbench.choices import REFERENCE, STRAIN_LAW, listed
 from sheetbench.clock import now
 from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import AnyScene, Chain, History, Scene, Status, scene_of
-from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.errors import BadInput, require_choice
 from sheetbench.scenes.quantities import require_positive
 
 MODELS: dict[str, Callable[..., Moving]] = {
@@ -32,7 +33,8 @@ MODELS: dict[str, Callable[..., Moving]] = {
     "shell": MovingShell,
     "solid": MovingSolid,
 }
-SAMPLES_PER_PERIOD = 100
+INTEGRATORS = {"generalised-alpha": GeneralisedAlpha, "energy-momentum": EnergyMomentum}
+SAMPLES_PER_PERIOD, STEPS_PER_PERIOD = 100, 200
 MOST_SAMPLES = 10**7
 MOST_STEPS = 10**6
 
@@ -42,6 +44,7 @@ def simulate(
     model: str = REFERENCE,
     duration: float = 1.0,
     *,
+    integrator: str = "generalised-alpha",
     step: float | None = None,
     error: float = ERROR,
     every: float | None = None,
@@ -51,11 +54,13 @@ def simulate(
 ) -> History:
     """Motion of a scene's sheet over `duration` [s] as a reference has it.
 
-    step [s]: fixed; without it steps keep to an `error` each, of the displacement relative to the largest so
-    far. every [s]: distance of samples, 1/100 of the lowest period unless given. frames: whole displacements
-    to keep, evenly over the run, in `extra`: "frames" (f, n, 3), "frame_times" (f,), the "mesh" they belong
-    to and "sample", which takes one and plan points (p, 2) to displacements (p, 3). progress: called with the
-    time reached. options: the model's own, `elements` among them.
+    integrator: "generalised-alpha", or "energy-momentum", which keeps energy and momenta to rounding in fixed
+    steps, 1/200 of the lowest period unless given. step [s]: fixed; without it steps keep to an `error` each,
+    of the displacement relative to the largest so far. every [s]: distance of samples, 1/100 of the lowest
+    period unless given. frames: whole displacements to keep, evenly over the run, in `extra`: "frames"
+    (f, n, 3), "frame_times" (f,), the "mesh" they belong to and "sample", which takes one and plan points
+    (p, 2) to displacements (p, 3). progress: called with the time reached. options: the model's own,
+    `elements` among them.
 
     Raises BadInput for a model that does not move, or what a model cannot move.
 
@@ -69,16 +74,23 @@ def simulate(
         require_positive(name, value, "s")
     began = now()
     asked = scene_of(scene)
+    require_choice("integrator", integrator, INTEGRATORS)
     moving = MODELS[model](asked, **options)
     times = _sample_times(asked, duration, every)
+    if integrator == "energy-momentum":
+        if not moving.conservative:
+            raise BadInput(f"integrator = '{integrator}': the strain law '{STRAIN_LAW}' alone is conserved")
+        longest = step or _lowest_period(asked) / STEPS_PER_PERIOD
+        step = float(times[1]) / np.ceil(times[1] / longest - 1e-9)  # energies are kept at the steps' ends
     ready = now()
     with one_blas_thread():
-        run = _Run(moving, asked, times, step, error, frames, progress or (lambda time: None))
+        method = INTEGRATORS[integrator](moving, step, error, 0.1 * float(times[1]))
+        run = _Run(moving, asked, times, method, frames, progress or (lambda time: None))
         status, message = run.finish()
     done = now()
     return History(
         label=moving.label,
-        integrator="generalised-alpha",
+        integrator=integrator,
         settings={**moving.settings, "step": step or "adaptive", "error": error, "every": float(times[1])},
         status=status,
         message=message,
@@ -112,12 +124,16 @@ def require_moving(scene: Scene, model: str) -> None:
 
 
 def _sample_times(scene: Scene, duration: float, every: float | None) -> np.ndarray:
-    spacing = every or 1.0 / (SAMPLES_PER_PERIOD * modes(scene, "plate", 4, count=1).frequencies[0])
+    spacing = every or _lowest_period(scene) / SAMPLES_PER_PERIOD
     if duration / spacing > MOST_SAMPLES:
         said = f"would keep {duration / spacing:.1e} samples, {MOST_SAMPLES:.0e} at most"
         raise BadInput(f"duration = {duration:g} s: {said}: ask for a shorter run or a larger --every")
     count = max(1, round(duration / spacing) if every else int(np.ceil(duration / spacing - 1e-9)))
     return np.linspace(0.0, duration, count + 1)
+
+
+def _lowest_period(scene: Scene) -> float:
+    return 1.0 / float(modes(scene, "plate", 4, count=1).frequencies[0])
 
 
 class _Run:
@@ -128,15 +144,14 @@ class _Run:
         model: Moving,
         scene: Scene,
         times: np.ndarray,
-        step: float | None,
-        error: float,
+        method: GeneralisedAlpha,
         frames: int,
         progress: Callable[[float], None],
     ):
         self._model, self._times, self._progress = model, times, progress
         self._points = scene.probe_points()
         self._kinks = [time for time in kinks(scene) if time < times[-1]]
-        self.method = GeneralisedAlpha(model, step, error, first=0.1 * float(times[1]))
+        self.method = method
         self.shown = set(np.linspace(0, len(times) - 1, frames).round().astype(int).tolist())
         self.probes: list[np.ndarray] = []
         self.reactions: list[dict[str, np.ndarray]] = []

@@ -43,6 +43,7 @@ class MovingSolid(Sheet):
         self.label = f"solid {counts[0]} × {counts[1]} × {layers}"
         self.settings: dict[str, Any] = {"elements": list(counts), "grading": grading, "layers": layers}
         self.settings |= {"law": law, "clamp": clamp}
+        self.conservative = law == STRAIN_LAW
         self._structure = structure = discretise(
             plan_mesh(scene, counts, grading), self.still, layers, law, clamp
         )
@@ -129,6 +130,14 @@ class MovingSolid(Sheet):
         """As `Sheet` has it."""
         gradient, strain, rate = self._strained(q, v)
         pull = np.einsum("ekic,ek->eic", gradient, self._stress(strain, rate))
+        return self._structure.scatter(pull).ravel()
+
+    def mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
+        """As `Sheet` has it."""
+        before, after = (self._structure.of_bricks(q.reshape(self._shape)) for q in (start, end))
+        strains = [self._bricks.strain(change) for change in (before, after)]
+        stress = self._stress(0.5 * (strains[0] + strains[1]), (strains[1] - strains[0]) / h)
+        pull = np.einsum("ekic,ek->eic", self._bricks.gradient(0.5 * (before + after)), stress)
         return self._structure.scatter(pull).ravel()
 
     def following(self, q: np.ndarray, load: Follower) -> np.ndarray:

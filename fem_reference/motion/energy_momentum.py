@@ -1,0 +1,69 @@
+"""The energy–momentum rule: order two, and energy and momenta kept to rounding where nothing takes them.
+
+    M (v₁ − v₀)/h + B(q̄)ᵀ D (½ (e₀ + e₁) + τ (e₁ − e₀)/h) = F,     q̄ = ½ (q₀ + q₁),
+    ½ (v₀ + v₁) = (q₁ − q₀)/h
+
+Strains are quadratic in q, so that B(q̄) (q₁ − q₀) = e₁ − e₀: a step's work is the change of the strain energy
+and what the dampers take, to the last digit. |d| = 1 is kept by a force along ½ (d₀ + d₁), which does no
+work since d₁ − d₀ is across it. Laws are those linear in Green's strain. Steps are of one length; one that
+does not converge is halved. Nothing but the sheet's own dampers damps what is fast and not resolved.
+Source: Simo & Tarnow, ZAMP 43 (1992) 757–792, and for shells Int. J. Numer. Meth. Eng. 37 (1994) 2527–2549.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fem_reference.motion.generalised_alpha import GeneralisedAlpha, StepFailed
+from fem_reference.motion.moving import Motion
+
+SOLVED = 1e-13  # last correction, relative to the displacement
+CORRECTIONS = 30
+HALVED = 6  # times
+REUSED = 0.3  # a correction's share of the one before, up to which factors are kept
+
+
+class EnergyMomentum(GeneralisedAlpha):
+    """Steps of a reference, of a fixed length."""
+
+    def _advanced(self, motion: Motion, h: float, halved: int = 0) -> Motion:
+        try:
+            return self._once(motion, h)
+        except StepFailed:
+            self._factor = None
+            if halved == HALVED:
+                raise
+            return self._advanced(self._advanced(motion, 0.5 * h, halved + 1), 0.5 * h, halved + 1)
+
+    def _once(self, motion: Motion, h: float) -> Motion:
+        model, half_way, time = self._model, motion.time + 0.5 * h, motion.time + h
+
+        def at(q: np.ndarray) -> Motion:
+            v = 2.0 * (q - motion.q) / h - motion.v
+            a = (v - motion.v) / h
+            return Motion(time, q, v, a, a, model.mass @ a + model.mean_forces(motion.q, q, h, half_way))
+
+        found = at(model.placed(motion.q + h * motion.v, time))
+        size = max(self._largest, float(np.abs(model.displacement(found.q)).max()))
+        last: float | None = None
+        if self._taken != h:
+            self._factor = None
+        for _ in range(CORRECTIONS):
+            middle, rate = 0.5 * (motion.q + found.q), (found.q - motion.q) / h
+            basis = model.basis(middle)
+            if self._factor is None:
+                stiffness = model.tangent(middle, rate, half_way, found.exerted, 4.0 / h**2, 2.0 / h)
+                self._factor, self._taken = self._solver.factor(stiffness), h
+                self.factorisations += 1
+            step = basis @ self._factor.once(-2.0 * (basis.T @ found.exerted))
+            length = float(np.abs(model.displacement(step)).max())
+            if not np.isfinite(length):
+                raise StepFailed("a number overflowed")
+            found = at(model.moved(found.q, step))
+            share = length / last if last else 1.0
+            if length <= SOLVED * size or (length <= 1e-10 * size and share > REUSED):  # rounding is left
+                return found
+            if last and share > REUSED:
+                self._factor = None
+            last = length
+        raise StepFailed("the corrections do not shrink")

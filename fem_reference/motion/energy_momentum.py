@@ -55,7 +55,7 @@ class EnergyMomentum(GeneralisedAlpha):
                 stiffness = model.tangent(middle, rate, half_way, found.exerted, 4.0 / h**2, 2.0 / h)
                 self._factor, self._taken = self._solver.factor(stiffness), h
                 self.factorisations += 1
-            step = basis @ self._factor.once(-2.0 * (basis.T @ found.exerted))
+            step = basis @ self._factor.solve_unrefined(-2.0 * (basis.T @ found.exerted))
             length = float(np.abs(model.displacement(step)).max())
             if not np.isfinite(length):
                 raise StepFailed("a number overflowed")

@@ -1,4 +1,4 @@
-"""Draw the still pictures of the README and of docs/motion.md anew, into docs/images: `make pictures`.
+"""Draw the still pictures of README, docs/catalogue.md and docs/motion.md, in docs/images: `make pictures`.
 
 A PNG says in its description what its numbers are; tests/test_readme.py holds it against the text and a fresh
 solve.
@@ -18,7 +18,7 @@ from comparisons.report import style
 from comparisons.report.report import Report
 
 IMAGES = Path(__file__).parent / "images"
-COMPARED = ("two-edges-clamped", "one-edge-clamped", "curved-edge")
+COMPARED = ("two-edges-clamped", "one-edge-clamped", "curved-edge", "curved-edge-down", "actuated-edge")
 DPI = 170  # 1224 pixels wide
 
 

@@ -68,7 +68,7 @@ def test_pictures_exist_and_are_small() -> None:
 
 
 def test_numbers_in_the_pictures_are_those_of_the_text_and_of_a_solve() -> None:
-    for name in ("two-edges-clamped", "one-edge-clamped", "curved-edge"):
+    for name in ("two-edges-clamped", "one-edge-clamped", "curved-edge", "curved-edge-down", "actuated-edge"):
         with Image.open(ROOT / "docs/images" / f"{name}.png") as image:
             kept = image.info["Description"]
         assert kept == described(compare(name, uncertainty=False)), f"{name}.png: make pictures"
@@ -78,6 +78,14 @@ def test_numbers_in_the_pictures_are_those_of_the_text_and_of_a_solve() -> None:
     row = re.search(r"^\| lumped \| .*\| ([\d.]+) \| converged", TEXT, re.MULTILINE)
     assert caption and row
     assert float(row[1]) == shown and float(caption[1]) == round(shown, 1)
+
+
+def test_the_page_of_the_catalogue_has_every_scene_with_a_picture() -> None:
+    page = (ROOT / "docs" / "catalogue.md").read_text(encoding="utf-8")
+    sections = {part.partition("\n")[0]: part for part in page.split("\n## ")[1:]}
+    assert sections.keys() == scenes.catalogue().keys()
+    for name, section in sections.items():
+        assert scenes.load(name).title in section and "![" in section and f" {name} " in section
 
 
 def test_every_picture_is_drawn_by_a_make_target_and_shown_somewhere() -> None:

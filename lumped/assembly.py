@@ -16,7 +16,7 @@ from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.pattern import Pattern, neighbours, of_grid
-from lumped.springs.all_families import Stresses, all_families
+from lumped.springs.all_families import Stresses, all_families, copy_above
 from lumped.springs.families import Links, NeoHookeanCells, families
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
@@ -156,5 +156,7 @@ class Assembly:
             return self.all_families.tangent(u, stresses, self.pattern, share)
         blocks = np.zeros((self.pattern.blocks, 3, 3))
         for family, stress in zip(self.springs, stresses, strict=True):
-            family.add_tangent(u, stress, blocks, share)
+            family.add_tangent(u, stress, blocks, share, self.conservative)
+        if self.conservative:
+            copy_above(blocks, self.pattern.mirror)
         return blocks

@@ -139,12 +139,18 @@ def tangent(
     links.add_tangent(u, springs.links, stress[0], share, YES, blocks)
     cells.add_tangent(u, springs.layers, stress[1], share, YES, blocks)
     cells.add_tangent(u, springs.middle, stress[2], share, YES, blocks)
+    copy_above(blocks, mirror)
+    return blocks
+
+
+@njit(cache=True, nogil=True)
+def copy_above(blocks: np.ndarray, mirror: np.ndarray) -> None:
+    """Copy the blocks below the diagonal to those above it, mirror (k, 2) `Pattern.mirror`."""
     for k in range(len(mirror)):
         below, above = blocks[np.uint64(mirror[k, 0])], blocks[np.uint64(mirror[k, 1])]
         for q in range(3):
             for r in range(3):
                 above[q, r] = below[r, q]
-    return blocks
 
 
 @njit(cache=True, nogil=True)

@@ -58,9 +58,12 @@ class Family(ABC):
         """Return stresses with which, and with the material part M, the tangent is a sum of squares; with
         negative area springs (ν < 1/3) only while strains are small."""
 
-    def add_tangent(self, u: np.ndarray, stress: np.ndarray, blocks: np.ndarray, share: float = 1.0) -> None:
-        """Add the tangent with this stress, and with M + share (D − M), to the 3×3 blocks [N/m]."""
-        self.loops.add_tangent(u, self.arrays, stress, share, False, blocks)
+    def add_tangent(
+        self, u: np.ndarray, stress: np.ndarray, blocks: np.ndarray, share: float = 1.0, lower: bool = False
+    ) -> None:
+        """Add the tangent with this stress, and M + share (D − M), to the 3×3 blocks [N/m], or to those on
+        and below the diagonal."""
+        self.loops.add_tangent(u, self.arrays, stress, share, lower, blocks)
 
     @abstractmethod
     def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:

@@ -122,12 +122,17 @@ def less_logarithm(x: float) -> float:
 @njit(cache=True, error_model="numpy")
 def logarithm_of_thickness(growth: float, ratio: float) -> float:
     """ln t² of the thickness stretch t at which nothing pulls there, t² − 1 + ½ β (ln a² + ln t²) = 0, from
-    growth, ln a² of the change of area, and β = λ/μ: Newton's method, from where it descends to the root."""
+    growth, ln a² of the change of area, and β = λ/μ: Halley's method, of third order, from what small strains
+    have."""
     x = -ratio / (ratio + 2.0) * growth
     for _ in range(30):
-        step = (math.expm1(x) + 0.5 * ratio * (growth + x)) / (math.exp(x) + 0.5 * ratio)
+        thinning = math.expm1(x)
+        second = thinning + 1.0
+        slope = second + 0.5 * ratio
+        value = thinning + 0.5 * ratio * (growth + x)
+        step = 2.0 * value * slope / (2.0 * slope * slope - value * second)
         x -= step
-        if abs(step) <= 1e-8 * abs(x):
+        if abs(step) <= 1e-5 * abs(x):
             break
     return x
 

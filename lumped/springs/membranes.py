@@ -23,23 +23,31 @@ HALF = 0.5
 
 
 @njit(cache=True, error_model="numpy")
-def warp(u: np.ndarray, nodes: np.ndarray, c: int) -> Vector:
-    """What u gives the corners of cell c beside the mean sides."""
+def changes(u: np.ndarray, nodes: np.ndarray, c: int) -> tuple[Vector, Vector, Vector]:
+    """What u changes in a, b and q of cell c."""
     k, m = np.uint64(nodes[c, 0, 0]), np.uint64(nodes[c, 1, 0])
     n, o = np.uint64(nodes[c, 2, 0]), np.uint64(nodes[c, 3, 0])
-    return (
-        (u[k, 0] - u[m, 0]) + (u[n, 0] - u[o, 0]),
-        (u[k, 1] - u[m, 1]) + (u[n, 1] - u[o, 1]),
-        (u[k, 2] - u[m, 2]) + (u[n, 2] - u[o, 2]),
+    p0, p1, p2, p3 = (
+        (u[k, 0], u[k, 1], u[k, 2]),
+        (u[m, 0], u[m, 1], u[m, 2]),
+        (u[n, 0], u[n, 1], u[n, 2]),
+        (u[o, 0], u[o, 1], u[o, 2]),
     )
+    d1, d2 = times(0.5, less(p2, p0)), times(0.5, less(p3, p1))
+    return less(d1, d2), plus(d1, d2), plus(less(p0, p1), less(p2, p3))
 
 
 @njit(cache=True, error_model="numpy")
-def measure(u: np.ndarray, cells: CellArrays, c: int) -> tuple[Four, Three, Vector, Vector, Vector]:
+def measure(
+    u: np.ndarray, nodes: np.ndarray, sides: np.ndarray, c: int
+) -> tuple[Four, Three, Vector, Vector, Vector]:
     """δg and s, g at rest, and a, b and q now, of cell c."""
-    d, g, a, b = mean.measure(u, cells.nodes, cells.sides, c)
-    q = warp(u, cells.nodes, c)
-    return (d[0], d[1], d[2], dot(q, q)), g, a, b, q
+    a, b = mean.at_rest(sides, c)
+    da, db, q = changes(u, nodes, c)
+    rest = mean.products(a, b)
+    now_a, now_b = plus(a, da), plus(b, db)
+    d3 = dot(da, b) + dot(now_a, db)
+    return (dot(plus(a, now_a), da), dot(plus(b, now_b), db), d3, dot(q, q)), rest, now_a, now_b, q
 
 
 @njit(cache=True, error_model="numpy")
@@ -51,13 +59,16 @@ def of_cell(k: np.ndarray, c: int) -> Ten:
 @njit(cache=True, error_model="numpy")
 def pull(nodes: np.ndarray, c: int, s: Four, a: Vector, b: Vector, q: Vector, force: np.ndarray) -> None:
     """Add the forces of a stress on a, b and q of cell c to its masses."""
-    mean.pull(nodes, c, (s[0], s[1], s[2]), a, b, force)
-    sign = 2.0 * s[3]
-    for corner in range(4):
-        mass = np.uint64(nodes[c, corner, 0])
-        for e in range(3):
-            force[mass, e] += sign * q[e]
-        sign = -sign
+    on_a, on_b = plus(times(s[0], a), times(0.5 * s[2], b)), plus(times(s[1], b), times(0.5 * s[2], a))
+    along, across = plus(on_a, on_b), less(on_b, on_a)
+    k, m = np.uint64(nodes[c, 0, 0]), np.uint64(nodes[c, 1, 0])
+    n, o = np.uint64(nodes[c, 2, 0]), np.uint64(nodes[c, 3, 0])
+    for e in range(3):
+        warping = 2.0 * s[3] * q[e]
+        force[k, e] += warping - along[e]
+        force[m, e] -= warping + across[e]
+        force[n, e] += warping + along[e]
+        force[o, e] += across[e] - warping
 
 
 @njit(cache=True, error_model="numpy")
@@ -65,7 +76,7 @@ def add_forces(u: np.ndarray, cells: CellArrays, force: np.ndarray) -> float:
     """Add the internal force to `force` (n, 3) [N]; return the energy [J]."""
     energy = 0.0
     for c in range(len(cells.nodes)):
-        d, g, a, b, q = measure(u, cells, c)
+        d, g, a, b, q = measure(u, cells.nodes, cells.sides, c)
         stored, _, _, _, _, s = neo_hookean(HALF, d, g, cells.area[c], of_cell(cells.constants, c))
         energy += stored
         pull(cells.nodes, c, s, a, b, q, force)
@@ -77,7 +88,7 @@ def energies(u: np.ndarray, cells: CellArrays) -> np.ndarray:
     """Energy of every cell, (c,) [J]."""
     out = np.empty(len(cells.nodes))
     for c in range(len(cells.nodes)):
-        d, g, _, _, _ = measure(u, cells, c)
+        d, g, _, _, _ = measure(u, cells.nodes, cells.sides, c)
         out[c] = neo_hookean(HALF, d, g, cells.area[c], of_cell(cells.constants, c))[0]
     return out
 
@@ -87,12 +98,12 @@ def extrapolated(u: np.ndarray, step: np.ndarray, cells: CellArrays) -> np.ndarr
     """Stress S + D ġ that the linearisation at u predicts after a step (n, 3) [m], (c, 4) [N/m]."""
     out = np.empty((len(cells.nodes), 4))
     for c in range(len(cells.nodes)):
-        d, g, a, b, q = measure(u, cells, c)
+        d, g, a, b, q = measure(u, cells.nodes, cells.sides, c)
         k = of_cell(cells.constants, c)
         _, t, square, _, _, s = neo_hookean(HALF, d, g, cells.area[c], k)
         six, more = stiffness_of_neo_hookean(d, g, t, square, 1.0, k)
-        moved = mean.rate(a, b, *mean.side_changes(step, cells.nodes, c))
-        fourth = 2.0 * dot(q, warp(step, cells.nodes, c))
+        va, vb, vq = changes(step, cells.nodes, c)
+        moved, fourth = mean.rate(a, b, va, vb), 2.0 * dot(q, vq)
         by_g = mean.times_six(six, moved)
         for e in range(3):
             out[c, e] = s[e] + by_g[e] + more[e] * fourth
@@ -104,8 +115,8 @@ def extrapolated(u: np.ndarray, step: np.ndarray, cells: CellArrays) -> np.ndarr
 def add_average_forces(start: np.ndarray, end: np.ndarray, cells: CellArrays, force: np.ndarray) -> None:
     """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it."""
     for c in range(len(cells.nodes)):
-        d0, g, a0, b0, q0 = measure(start, cells, c)
-        d1, _, a1, b1, q1 = measure(end, cells, c)
+        d0, g, a0, b0, q0 = measure(start, cells.nodes, cells.sides, c)
+        d1, _, a1, b1, q1 = measure(end, cells.nodes, cells.sides, c)
         s = mean_neo_hookean(d0, d1, g, cells.area[c], of_cell(cells.constants, c))
         a, b, q = times(0.5, plus(a0, a1)), times(0.5, plus(b0, b1)), times(0.5, plus(q0, q1))
         pull(cells.nodes, c, s, a, b, q, force)
@@ -120,7 +131,7 @@ def add_tangent(
     in_diagonals, of_warp = np.empty((4, 9)), np.empty((3, 9))
     own, flat = len(stress) == 0, blocks.reshape(-1, 9)
     for c in range(len(cells.nodes)):
-        d, g, a, b, q = measure(u, cells, c)
+        d, g, a, b, q = measure(u, cells.nodes, cells.sides, c)
         k = of_cell(cells.constants, c)
         _, t, square, _, _, s = neo_hookean(HALF, d, g, cells.area[c], k)
         if own:

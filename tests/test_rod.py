@@ -57,6 +57,13 @@ def test_intrinsic_curvature_bends_a_free_rod_into_an_arc(plane: str, curvature:
     assert solution.energies["rod"] < 1e-3 * curvature**2 / 2.0  # of the straight rod, EI and length being 1
 
 
+@pytest.mark.parametrize("name", ["normal", "spatial", "inplane"])
+def test_a_sheet_with_a_rod_takes_few_more_factorisations_than_without(name: str) -> None:
+    """Stresses of rods are extrapolated with the sheet's; without that a stiff rod takes a hundred."""
+    bare, bent = (shell(driven(*rods), 4) for rods in ((), (chain(**CHAINS[name]),)))
+    assert bent.status is Status.CONVERGED and bent.iterations <= 2 * bare.iterations
+
+
 def test_one_curvature_a_joint_and_a_table() -> None:
     """Straight, then an arc: 16 segments from the start have 16 joints, the first of half a segment."""
     joints = (0.0,) * 8 + (2.0,) * 8

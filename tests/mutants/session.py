@@ -8,8 +8,8 @@ What stands there is not tried again but for survivors, with ``--survivors TEXT`
 ``--tests``, where equivalent.toml does not say why no test can tell. A test that notices a fault is itself
 run once on the code as it is: what fails there too proves nothing, and is left out.
 
-Faults of files with compiled kernels are tried as Python (NUMBA_DISABLE_JIT), but for files with intrinsics:
-those are compiled, in a copy of the clone's cache of kernels.
+Faults of files with compiled kernels are tried as Python (NUMBA_DISABLE_JIT), but for files with intrinsics;
+those, and files whose tuples kernels take, are compiled, in a copy of the clone's cache of kernels.
 
 Usage: python tests/mutants/session.py FOLDER   (the clone, its kernels, the tests' times)
 """
@@ -37,7 +37,7 @@ from sheetbench.kernels import COMPILED
 HERE = Path(__file__).resolve().parent
 TRIED, EQUIVALENT, JUDGE = HERE / "tried.jsonl", HERE / "equivalent.toml", HERE / "judge.py"
 KERNELS = "tests/kernels.py"
-NOT_PYTHON = "lumped.springs.memory"  # whose intrinsics only the compiler knows
+NOT_PYTHON = ("lumped.springs.memory", "link_tiles")  # whose intrinsics only the compiler knows
 ENOUGH = 25.0  # seconds of processor time after which a fault has survived
 COMPILING = 50.0  # seconds more where kernels are compiled anew
 LONGEST = {True: 60.0, False: 15.0}  # seconds more for a test that is begun: compiled or as Python
@@ -93,10 +93,11 @@ class Session:
         """One line of the book; on the files of tests that are chosen, or the nearest."""
         nearest = self._nearest.tests(fault.module, words_of(fault.module, fault.function))
         files = chosen or nearest[: NEAREST[-1]]
-        groups = [files[start:end] for start, end in zip((0, *NEAREST), NEAREST, strict=False)]
+        parts = [files[start:end] for start, end in zip((0, *NEAREST), NEAREST, strict=False)]
+        groups = [part for part in parts if part]
         source = (self.tree / fault.module).read_text()
         kernels = DRAWS[draw].kernels
-        compiled = not kernels or NOT_PYTHON in source
+        compiled = "njit" not in source or any(name in source for name in NOT_PYTHON)
         most = ENOUGH + COMPILING * (kernels and compiled)
         with self.cache_of_the_fault(kernels and compiled) as cache:
             failed, seconds, run = self.first_to_notice(fault, groups, most, cache, compiled)

@@ -228,9 +228,7 @@ class ShellStructure:
         vectors[: self.count] += every[: 3 * self.count].reshape(-1, 3)
         vectors[self.count :] += np.einsum("nck,nk->nc", forces.frames, turn)
         of_step = weighed(forces.moduli, strain_of(forces.vectors, self.gather(vectors)))
-        rod_stress = forces.rods.stress
-        if self.rods.rods:
-            rod_stress = self.rods.elements.extrapolated(forces.rods, self.rods.gather(vectors))
+        rod_stress = self.rods.elements.extrapolated(forces.rods, self.rods.gather(vectors))
         sheet = 2 * self.count
         change, aside = state.change + vectors[:sheet].reshape(2, -1, 3), state.aside + vectors[sheet:]
         return State(change, aside, forces.stress + of_step, rod_stress)

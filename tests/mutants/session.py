@@ -230,6 +230,8 @@ def main() -> None:
     options = asked.parse_args()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended; to be gone on with"))
     session = Session(options.folder, options.commit)
+    if missing := [name for name in options.tests if not (session.tree / name.partition("::")[0]).exists()]:
+        raise SystemExit(f"no such tests: {', '.join(missing)}")
     tried, reasons = trials(), tomllib.loads(EQUIVALENT.read_text())["equivalent"]
     chosen = [(name, fault) for name, draw in DRAWS.items() for fault in drawn(session.tree, draw)]
     asked_for = [(name, fault) for name, fault in chosen if fault.name not in tried]

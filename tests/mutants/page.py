@@ -24,9 +24,9 @@ from comparisons.runs.manifest import processor
 TITLE = "### Figures\n"
 HEAD = """
 {size} faults, {kernels} of them in files with compiled kernels, seed {seed}; {day}, Python {python},
-{processor}; commits {commits}. A fault was tried for up to {enough:.0f} seconds of processor time on the
-{files} nearest files of tests; one in kernels that only
-the compiler knows for {compiled:.0f}.
+{processor}; commits {commits}.
+A fault was tried for up to {enough:.0f} seconds of processor time on the {files} nearest files of tests,
+for up to {compiled:.0f} where kernels were compiled for it.
 
 | files | package | tried | noticed | mended | equivalent | not caught | noticed of those that can be told \
 (95 % interval) | with the new tests |

@@ -50,14 +50,8 @@ def add_tangents(
                 gradient[k, turned + 1] = x * frame[0, 1] + y * frame[1, 1] + z * frame[2, 1]
         weighed[:] = 0.0
         lower[:] = 0.0
-        _add_weighed(moduli[e], gradient, 0, plane, 0, plane, FEW, weighed)
-        _add_weighed(moduli[e], gradient, plane, 2 * plane, plane, 2 * plane, ALL, weighed)
-        _add_weighed(moduli[e], gradient, 2 * plane, strains, 2 * plane, strains, ALL, weighed)
-        if coupled:
-            _add_weighed(moduli[e], gradient, 0, plane, plane, 2 * plane, FEW, weighed)
-            _add_weighed(moduli[e], gradient, plane, 2 * plane, 0, plane, FEW, weighed)
-        _add_product(gradient, weighed, 0, 0, MOVES, lower)
-        _add_product(gradient, weighed, plane, MOVES, UNKNOWNS, lower)
+        _add_weighed(moduli[e], coupled, gradient, weighed)
+        _add_product(gradient, weighed, lower)
         for i in range(9):
             for j in range(9):
                 for c in range(3):
@@ -73,20 +67,15 @@ def add_tangents(
 
 
 @njit(cache=True, inline="always")
-def _add_weighed(
-    moduli: np.ndarray,
-    gradient: np.ndarray,
-    first: int,
-    last: int,
-    start: int,
-    end: int,
-    columns: int,
-    out: np.ndarray,
-) -> None:
-    """Adds D B of strains first … last from those of strains start … end, in so many columns; blocks of D
-    that are zero, as many are where sides lie along the axes, are left out."""
-    for k in range(first, last, AT_ONCE):
+def _add_weighed(moduli: np.ndarray, coupled: bool, gradient: np.ndarray, out: np.ndarray) -> None:
+    """Adds D B; blocks of D that are zero, as many are where sides lie along the axes, are left out, and so
+    are rotations in the rows of membrane strains."""
+    for k in range(0, len(out), AT_ONCE):
         row0, row1, row2 = out[k], out[k + 1], out[k + 2]
+        columns = FEW if k < PLANE else ALL
+        start, end = k // PLANE * PLANE, min((k // PLANE + 1) * PLANE, len(out))
+        if coupled and k < 2 * PLANE:
+            start, end = 0, 2 * PLANE
         for by in range(start, end, AT_ONCE):
             d00, d01, d02 = moduli[k, by], moduli[k, by + 1], moduli[k, by + 2]
             d10, d11, d12 = moduli[k + 1, by], moduli[k + 1, by + 1], moduli[k + 1, by + 2]
@@ -103,14 +92,12 @@ def _add_weighed(
 
 
 @njit(cache=True, inline="always")
-def _add_product(
-    gradient: np.ndarray, weighed: np.ndarray, start: int, first: int, last: int, lower: np.ndarray
-) -> None:
-    """Adds Bᵀ (D B) of strains from `start` on to the rows first … last of the lower triangle."""
-    for i in range(first, last, AT_ONCE):
+def _add_product(gradient: np.ndarray, weighed: np.ndarray, lower: np.ndarray) -> None:
+    """Adds Bᵀ (D B) to the lower triangle; membrane strains have no rotations."""
+    for i in range(0, UNKNOWNS, AT_ONCE):
         row0, row1, row2 = lower[i], lower[i + 1], lower[i + 2]
         columns = -(-(i + AT_ONCE) // LANES) * LANES
-        for k in range(start, len(gradient), AT_ONCE):
+        for k in range(0 if i < MOVES else PLANE, len(gradient), AT_ONCE):
             b00, b01, b02 = gradient[k, i], gradient[k, i + 1], gradient[k, i + 2]
             b10, b11, b12 = gradient[k + 1, i], gradient[k + 1, i + 1], gradient[k + 1, i + 2]
             b20, b21, b22 = gradient[k + 2, i], gradient[k + 2, i + 1], gradient[k + 2, i + 2]

@@ -47,6 +47,12 @@ def test_what_two_motions_differ_by_is_what_was_changed():
     assert (alike["largest"], alike["rms"], alike["period"], alike["decay"]) == (0.0, 0.0, 0.0, 0.0)
 
 
+def test_extrema_that_do_not_go_in_pairs_measure_nothing():
+    """A swing three times as fast has its first peak where the other has none."""
+    fast, slow = measured_alike(swing(15.0, 0.05), swing(5.0, 0.05))
+    assert (fast.peak, slow.peak, slow.period) == (None, None, None)
+
+
 def test_what_does_not_swing_has_no_period():
     still = swing(5.0, 0.05, 0.0)
     assert len(extrema(still.time, still.probes["P"][:, 2])) == 0

@@ -8,7 +8,9 @@ twentieth of its range, placed between samples by a parabola:
     decay    the logarithmic decrement a period, 2 ln(D_first/D_last)/(n − 1), of the n distances D between
              extrema that follow one another, so that where the sheet comes to rest need not be known
 
-Of two motions as many extrema are used as both have. Distances are over the reference's largest component.
+Of two motions those extrema are used that go in pairs from the first on: both highest or both lowest, and
+closer in time than half the reference's way from the one before. Distances are over the reference's largest
+component.
 """
 
 from __future__ import annotations
@@ -46,22 +48,22 @@ def leading(history: History) -> tuple[str, int]:
 
 
 def extrema(time: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Times [s] and values (n, 2) of the extrema that stand out."""
+    """Times [s], values and bends (n, 3) of the extrema that stand out; a bend is < 0 at the highest."""
     from scipy.signal import find_peaks
 
     least = STANDS_OUT * float(np.ptp(values))
     if least == 0.0:
-        return np.zeros((0, 2))
+        return np.zeros((0, 3))
     at = np.sort(np.concatenate([find_peaks(sign * values, prominence=least)[0] for sign in (1.0, -1.0)]))
     before, here, after = values[at - 1], values[at], values[at + 1]
     bend, slope = before - 2.0 * here + after, 0.5 * (after - before)
     aside = np.divide(-slope, bend, out=np.zeros(len(at)), where=bend != 0.0)
     step = float(time[1] - time[0])
-    return np.column_stack([time[at] + aside * step, here + 0.5 * slope * aside])
+    return np.column_stack([time[at] + aside * step, here + 0.5 * slope * aside, bend])
 
 
 def measures(found: np.ndarray, count: int) -> Measures:
-    """Of the first `count` extrema (n, 2)."""
+    """Of the first `count` extrema (n, 3)."""
     kept = found[:count]
     if count == 0:
         return Measures(None, None, None, None, None)
@@ -72,10 +74,13 @@ def measures(found: np.ndarray, count: int) -> Measures:
 
 
 def measured_alike(one: History, other: History) -> tuple[Measures, Measures]:
-    """The measures of a motion and of its reference, of as many extrema as both have."""
+    """The measures of a motion and of its reference, of the extrema that go in pairs."""
     probe, component = leading(other)
     both = [extrema(h.time, h.probes[probe][:, component]) for h in (one, other)]
-    count = min(map(len, both))
+    ours, theirs = (found[: min(map(len, both))] for found in both)
+    way = np.diff(theirs[:, 0], prepend=other.time[0])
+    pairs = (np.abs(ours[:, 0] - theirs[:, 0]) < 0.5 * way) & (ours[:, 2] * theirs[:, 2] > 0.0)
+    count = len(pairs) if pairs.all() else int(np.argmin(pairs))
     first, second = (measures(found, count) for found in both)
     return first, second
 

@@ -155,6 +155,14 @@ def test_energy_is_in_balance_at_half_as_long_again(integrator, step, tolerance,
     assert energies["dissipated"] > 0.0 if damping_time else energies["dissipated"] == 0.0
 
 
+def test_midpoint_steps_far_too_long_are_a_status_not_a_traceback():
+    """200 % of strain in three steps: numbers overflow, and with dampers in the tangent too."""
+    load = {"kind": "edge", "edge": "x1", "force_per_length": [4000.0, 0.0, 0.0]}
+    scene = strip([{"edge": "x0", "kind": "clamped"}], [load], material={"damping_time": 2e-4})
+    history = lumped.simulate(scene, lattice(scene, (9, 5)), duration=0.02, integrator="midpoint")
+    assert history.status is Status.DIVERGED and "at 0 s" in history.message
+
+
 def test_what_the_law_cannot_do_is_refused_by_name():
     scene = strip([{"edge": "x0", "kind": "clamped"}])
     with pytest.raises(BadInput, match="neo-hookean cells have no columns"):

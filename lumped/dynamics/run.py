@@ -19,6 +19,7 @@ from lumped.dynamics.sampling import Sampling
 from lumped.dynamics.store import FolderStore, MemoryStore
 from lumped.dynamics.system import State, System
 from lumped.statics.faults import Fault
+from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.scenes import Status
 
 SAMPLES_PER_CHECKPOINT = 50
@@ -94,7 +95,7 @@ class Run:
                 else:
                     step, left = plan.every / plan.steps, plan.steps - taken
                     advance, steps = self._method.march(reached.state, step, left)
-            except StepFailed as failure:
+            except (StepFailed, SingularMatrixError) as failure:
                 return Fault(Status.DIVERGED, f"at {reached.state.time:.6g} s: {failure}")
             reached.state, taken = advance.state, taken + steps
             reached.steps += steps

@@ -80,7 +80,7 @@ def test_a_base_holds_the_solid(base: str) -> None:
 def test_the_tangent_of_the_rodded_solid_is_the_derivative_of_the_force(layers: int) -> None:
     """Rods on two edges that share a corner, beside a hinged and a curved edge."""
     supports = (Curved(edge="x0", kind="curved", curvature=0.8), Hinged(edge="y1"))
-    scene = driven(chain(face="top", curvature=3.0, plane="spatial"), chain(edge="y0", base="end"))
+    scene = driven(chain(face="top", curvature=3.0, plane="spatial"), chain(edge="y0", base="start"))
     scene = scene.model_copy(update={"supports": supports})
     structure = discretise(rectangle(SHEET, 2), scene, layers)
     rng = np.random.default_rng(1)

@@ -147,6 +147,19 @@ def test_the_command_writes_maps_and_resumes(
     assert (tmp_path / "campaign.sqlite").stat().st_mtime_ns == before
 
 
+def test_grids_are_held_against_the_finest_mesh(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also where fewer elements are asked for with what else is varied: then a finer one erred."""
+    monkeypatch.setattr(extremes, "CELLS", {"lumped": (2, 8), "references": (2, 6)})
+    rows = {(row["cell"]["model"], row["cell"]["cells"]): row for row in varied(store, "grid").rows}
+    assert set(rows) == {
+        ("lumped", 2),
+        ("lumped", 8),
+        *((m, n) for m in ("plate", "shell") for n in (2, 4, 6)),
+    }
+    assert rows["shell", 6]["error"] is None and rows["shell", 4]["error"] < rows["shell", 2]["error"]
+    assert rows["lumped", 8]["error"] < rows["lumped", 2]["error"]
+
+
 def test_what_cannot_be_varied_is_refused(store: Store, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("stability", "one-edge-clamped", "--vary", "weather") == 2
     assert "vary = 'weather': unknown, choose one of load" in one_line(capsys)

@@ -171,15 +171,14 @@ class _Maker:
                 yield _Cell(name, cell, self._static(scene, model, settings, label), truth)
 
     def _grids(self) -> Iterator[_Cell]:
-        settings = self._models()[self.reference]
-        truth = self._static(self.scene, self.reference, settings, f"{self.elements} cells")
+        meshes = sorted({*CELLS["references"], self.elements})
+        finest = {**self._models()[self.reference], "elements": meshes[-1]}
+        truth = self._static(self.scene, self.reference, finest, f"{meshes[-1]} cells")
         for model, settings in self._models().items():
             size = "grid" if model == "lumped" else "elements"
-            counts = CELLS.get(model) or sorted({*CELLS["references"], self.elements})
-            for count in counts:
-                run = self._static(
-                    self.scene, model, {**settings, size: count + (model == "lumped")}, f"{count} cells"
-                )
+            for count in CELLS.get(model) or meshes:
+                sized = {**settings, size: count + 1 if model == "lumped" else count}
+                run = self._static(self.scene, model, sized, f"{count} cells")
                 yield _Cell("grid", {"cells": count, "model": model}, run, truth)
 
     def _damped(self, period: float) -> Iterator[_Cell]:

@@ -11,7 +11,7 @@ from sheetbench.scenes import Clamped, Pressure, load
 
 def arrays(problem):
     """All that a lattice is solved with."""
-    families = [part for family in problem.assembly.together.springs for part in family]
+    families = [part for family in problem.assembly.all_families.springs for part in family]
     constraints = problem.constraints
     return [*families, *constraints.rows, constraints.held, constraints.prescribed(0.5), problem.loads.dead]
 

@@ -181,10 +181,12 @@ def compare_motion(
     truth = moved(along, reference, spacing, frames=frames)
     bars: dict[str, float | None] = {}
     if uncertainty and truth.status is Status.CONVERGED:
-        half = (max(1, along[0] // 2), max(1, along[1] // 2))
-        coarse = moved(half, f"{reference} on larger elements", spacing)
         longer = moved(along, f"{reference} in longer steps", spacing, error=LONGER * truth.settings["error"])
-        bars = {"mesh": _largest(coarse, truth), "step": _largest(longer, truth)}
+        bars = {"mesh": None, "step": _largest(longer, truth)}
+        if min(along) > 1:
+            half = (along[0] // 2, along[1] // 2)
+            coarse = moved(half, f"{reference} on larger elements", spacing)
+            bars["mesh"] = _largest(coarse, truth)
     return MotionComparison(asked, {"lumped": lattice, reference: truth}, bars)
 
 

@@ -6,9 +6,8 @@ Garcea (2017, "mixed integration point") take for the geometric stiffness the st
 linear step extrapolated, σ* = C (ε + B δu), and leave the residual alone: the answer is the
 same, the path from the flat sheet is a few iterations long. Supports move in the first linear step.
 
-Load steps adapt. The first linear step towards a load, which the mixed iterations then halve again and again,
-may go no farther than a reach of a few sizes of the structure: a longer one is cut to it, load and all, with
-the factors at hand. A load step whose corrections stop shrinking is given up at once and halves the reach; an
+Load steps adapt. The first linear step towards a load may go no farther than a reach of a few sizes of the
+structure: a longer one is cut to it, load and all, with the factors at hand. A load step whose corrections stop shrinking is given up at once and halves the reach; an
 easy one raises it. Three watchdogs end a load step: a number that is not finite, a step that leaves the
 structure far behind, corrections that stagnate; `inspect` may end the whole path at an equilibrium that the
 structure itself does not vouch for. Where the path ends before the full load, the inertia of the last
@@ -44,8 +43,7 @@ ALIKE = 1e-2  # of (thickness/size)², strains that buckle a sheet: what changes
 VANISHING = 1e-13  # work of a step, relative to the load step's first: beyond it only rounding is left
 ITERATIONS = 24  # in one load step
 BACK = 4  # corrections that are no shorter than so many before are given up
-EASY = 6  # a load step that took no more is followed by one GROWTH times as long
-GROWTH = 4.0
+EASY, GROWTH = 6, 4.0  # a load step that took no more is followed by one so many times as long
 FIRST_REACH = 8.0  # sizes of the structure that the first linear step may move it
 SMALLEST_STEP = 2.0**-10
 FARTHEST = 1e3  # a step beyond so many sizes of the structure has diverged
@@ -177,7 +175,7 @@ def _follow(
             shortest = size < SMALLEST_STEP and (not careful or reach < SHORTEST)
             if shortest or path.factorisations >= path.limit:
                 if careful and path.load_factor > 0.0:
-                    path.state = _refined(structure, solver, path)
+                    _refine(structure, solver, path)
                 return failure
             continue
         grown = first.target - path.load_factor
@@ -194,17 +192,20 @@ def _follow(
     return None
 
 
-def _refined(structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> State:
-    """The state that a careful path ends at, to the tolerance, where Newton's method gets there."""
-    try:
-        return newton(structure, solver, path, Start(path.state, path.load_factor, 1.0, 0.0))[0]
-    except StepFailed:
-        return path.state
+def _refine(structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> None:
+    """Bring the end of a careful path to the tolerance, at a load factor that is lower by what its last step left."""
+    for lower in (0.0, CLOSE, 2.0 * CLOSE, 4.0 * CLOSE):
+        target = (1.0 - lower) * path.load_factor
+        try:
+            path.state = newton(structure, solver, path, Start(path.state, target, 1.0, 0.0))[0]
+        except StepFailed:
+            continue
+        path.load_factor = target
+        return
 
 
 def _at_limit_point(path: Path[State], failure: StepFailed) -> bool:
-    """Whether a path that has ended may snap; one that has not left rest, or has used its factorisations up,
-    has come to no limit point."""
+    """Whether a path that has ended may snap: it has left rest and has factorisations left."""
     stuck = failure.status is Status.STEP_LIMIT and path.load_factor > 0.0
     return stuck and path.factorisations < path.limit and len(path.snaps) < SNAPS
 
@@ -293,8 +294,7 @@ def newton(
     close: float = 0.0,
 ) -> tuple[State, Factor | None]:
     """The equilibrium at the load factor of a start, and the factors of its tangent where those of the last
-    correction are, which was next to nothing. close: a residual that is good enough, but
-    not the factors. Raises StepFailed."""
+    correction are, which was next to nothing. close: a residual that is good enough. Raises StepFailed."""
     state, target, before = first.state, first.target, np.inf
     factor: Factor | None = None
     works, lengths = [first.work], [first.length]

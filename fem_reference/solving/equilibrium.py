@@ -7,11 +7,12 @@ linear step extrapolated, σ* = C (ε + B δu), and leave the residual alone: th
 same, the path from the flat sheet is a few iterations long. Supports move in the first linear step.
 
 Load steps adapt. The first linear step towards a load may go no farther than a reach of a few sizes of the
-structure: a longer one is cut to it, load and all, with the factors at hand. A load step whose corrections stop shrinking is given up at once and halves the reach; an
-easy one raises it. Three watchdogs end a load step: a number that is not finite, a step that leaves the
-structure far behind, corrections that stagnate; `inspect` may end the whole path at an equilibrium that the
-structure itself does not vouch for. Where the path ends before the full load, the inertia of the last
-equilibrium's tangent says whether it has lost its uniqueness.
+structure: a longer one is cut to it, load and all, with the factors at hand. A load step whose corrections
+stop shrinking is given up at once and halves the reach; an easy one raises it. Three watchdogs end a load
+step: a number that is not finite, a step that leaves the structure far behind, corrections that stagnate;
+`inspect` may end the whole path at an equilibrium that the structure itself does not vouch for. Where the
+path ends before the full load, the inertia of the last equilibrium's tangent says whether it has lost its
+uniqueness.
 
 A path whose corrections stop shrinking however short the step has come to a limit point. Given a `settle`, it
 goes on from the stable equilibrium that this finds a little beyond (see `pseudo_transient`): the structure
@@ -193,7 +194,7 @@ def _follow(
 
 
 def _refine(structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> None:
-    """Bring the end of a careful path to the tolerance, at a load factor that is lower by what its last step left."""
+    """Bring the end of a careful path to the tolerance, at a load lower by what its last step left open."""
     for lower in (0.0, CLOSE, 2.0 * CLOSE, 4.0 * CLOSE):
         target = (1.0 - lower) * path.load_factor
         try:

@@ -34,10 +34,10 @@ from lumped.vibration import Modes, modes, usual_masses
 
 if TYPE_CHECKING:
     from lumped.dynamics import watchdog
+    from lumped.dynamics.explicit.step_limit import StepLimit, step_limit, turn_limit
     from lumped.dynamics.integrator import Integrator, StepFailed
     from lumped.dynamics.integrators import INTEGRATORS, require_integrator
-    from lumped.dynamics.simulation import simulate
-    from lumped.dynamics.step_limit import StepLimit, step_limit, turn_limit
+    from lumped.dynamics.runs.simulation import simulate
     from lumped.dynamics.system import State, System
     from lumped.linearised import Linear, linearise
     from lumped.state_space import Balanced, StateSpace

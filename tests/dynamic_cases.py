@@ -6,7 +6,7 @@ import numpy as np
 
 import lumped
 from lumped import System, pose
-from lumped.dynamics.initial import initial_state
+from lumped.dynamics.runs.initial import initial_state
 from sheetbench import scenes
 
 ROD = {"edge": "x1", "segments": 8, "bending_stiffness": 0.05, "line_density": 0.05, "radius": 1.5e-3}

@@ -5,8 +5,8 @@ import pytest
 from dynamic_cases import ROD, run, scene, system
 
 from lumped.dynamics import INTEGRATORS, State
-from lumped.dynamics.compiled_newton import CONVERGED, STALE, CompiledNewton
-from lumped.dynamics.sampling import Sampling
+from lumped.dynamics.implicit.compiled_newton import CONVERGED, STALE, CompiledNewton
+from lumped.dynamics.runs.sampling import Sampling
 from sheetbench import scenes
 from sheetbench.numerics import banded
 

@@ -8,7 +8,7 @@ import pytest
 MODULES = [
     "fem_reference",
     "fem_reference.vibration",
-    "lumped.dynamics.simulation",
+    "lumped.dynamics.runs.simulation",
     "lumped.fitting.methods",
     "lumped.statics.buckling",
     "lumped.statics.solver",

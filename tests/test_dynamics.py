@@ -9,9 +9,9 @@ from scipy.integrate import solve_ivp
 
 import lumped
 from lumped.dynamics import INTEGRATORS
-from lumped.dynamics.esdirk import ERROR
+from lumped.dynamics.explicit.step_limit import step_limit, turn_limit
+from lumped.dynamics.implicit.esdirk import ERROR
 from lumped.dynamics.integrator import StepFailed
-from lumped.dynamics.step_limit import step_limit, turn_limit
 from sheetbench.scenes import DamperSet, Status
 
 

@@ -7,8 +7,8 @@ import pytest
 from dynamic_cases import ROD, run, scene, springs, system
 
 import lumped
-from lumped.dynamics.esdirk import Esdirk
-from lumped.dynamics.tableau import ABSCISSAE, CUMULATIVE, ERRORS, STAGES, WEIGHTS
+from lumped.dynamics.implicit.esdirk import Esdirk
+from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, STAGES, WEIGHTS
 from sheetbench.scenes import Status
 from sheetbench.scenes.errors import BadInput
 

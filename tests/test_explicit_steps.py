@@ -5,8 +5,8 @@ import pytest
 import scipy.sparse as sp
 
 from lumped import INTEGRATORS, StepFailed, System, pose, simulate, step_limit
-from lumped.dynamics import flat_system
-from lumped.dynamics.initial import initial_state
+from lumped.dynamics.explicit import flat_system
+from lumped.dynamics.runs.initial import initial_state
 from lumped.springs import packing
 from tests.dynamic_cases import scene, springs
 

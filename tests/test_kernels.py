@@ -18,7 +18,7 @@ from numba import njit
 from numba.core import event
 
 import lumped
-from lumped.dynamics.explicit_steps import march
+from lumped.dynamics.explicit.steps import march
 from sheetbench.kernels import MONTH, ROOT, SAID, X86_64_V3, Locator, _remove_old, made_of
 from sheetbench.numerics import maps
 from sheetbench.numerics.maps import rows
@@ -34,12 +34,16 @@ product(Rows(np.array([0, 1]), np.array([0]), np.array([2.0])), np.array([3.0]))
 
 
 def test_a_kernel_is_made_of_the_files_whose_kernels_it_calls():
-    found = {str(path.relative_to(ROOT)) for path in made_of(ROOT / "lumped/dynamics/compiled_tangent.py")}
+    found = {
+        str(path.relative_to(ROOT)) for path in made_of(ROOT / "lumped/dynamics/implicit/compiled_tangent.py")
+    }
     springs = {"lumped/springs/all_families.py", "lumped/springs/cells.py", "lumped/springs/laws.py"}
     assert springs | {"sheetbench/numerics/banded.py"} <= found
     tuples = {path.name for path in made_of(ROOT / "lumped/springs/all_forces.py")}
     assert {"packing.py", "tiles.py", "cell_tiles.py"} <= tuples  # a tuple's fields count too
-    assert "assembly.py" not in {path.name for path in made_of(ROOT / "lumped/dynamics/compiled_newton.py")}
+    assert "assembly.py" not in {
+        path.name for path in made_of(ROOT / "lumped/dynamics/implicit/compiled_newton.py")
+    }
 
 
 def test_matrices_are_alike_to_kernels_whatever_integers_scipy_takes():

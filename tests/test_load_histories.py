@@ -13,7 +13,7 @@ import lumped
 from comparisons.models.scales import scales
 from comparisons.models.symmetry import half, planes
 from lumped.dynamics import INTEGRATORS
-from lumped.dynamics.run import SAMPLES_PER_CHECKPOINT
+from lumped.dynamics.runs.run import SAMPLES_PER_CHECKPOINT
 from lumped.loads import Loads
 from sheetbench import scenes
 from sheetbench.scenes import Clamped, EdgeLoad, FactorTable, Pressure, Scene, Status

@@ -64,7 +64,7 @@ def test_the_nearest_tests_speak_of_the_module():
     nearest = Nearest(TREE)
     for module, function, test in (
         ("lumped/statics/polygon.py", "", "tests/test_polygon.py"),
-        ("lumped/dynamics/verlet.py", "Verlet.advance", "tests/test_dynamics.py"),
+        ("lumped/dynamics/explicit/verlet.py", "Verlet.advance", "tests/test_dynamics.py"),
         ("fem_reference/solid/element.py", "Bricks.build", "tests/test_solid_element.py"),
     ):
         assert test in nearest.tests(module, words_of(module, function))[:2]

@@ -6,7 +6,7 @@ import pytest
 from dynamic_cases import scene, springs, system
 
 import lumped
-from lumped.dynamics.plan import Plan, plan_run
+from lumped.dynamics.runs.plan import Plan, plan_run
 
 
 @pytest.mark.parametrize("periods", [0.1, 3.0])

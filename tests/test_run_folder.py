@@ -12,7 +12,7 @@ from dynamic_cases import scene, springs
 from limits import at_most
 
 import lumped
-from lumped.dynamics.store import FolderStore
+from lumped.dynamics.runs.store import FolderStore
 from sheetbench.files import only_writer
 from sheetbench.scenes import BadInput
 

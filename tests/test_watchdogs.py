@@ -12,7 +12,7 @@ from fem_reference.shell import validity
 from fem_reference.shell.state import State as ShellState
 from fem_reference.shell.statics import discretise
 from fem_reference.surface.mesh import rectangle
-from lumped.dynamics import watchdog
+from lumped.dynamics.runs import watchdog
 from lumped.dynamics.system import State
 from lumped.statics import faults
 from lumped.statics.solver import pose

@@ -1,10 +1,10 @@
 """Dynamics of the lattice: integrators by name, streaming runs, histories."""
 
-from lumped.dynamics import watchdog
+from lumped.dynamics.explicit.step_limit import StepLimit, step_limit, turn_limit
 from lumped.dynamics.integrator import Integrator, StepFailed
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator
-from lumped.dynamics.simulation import simulate
-from lumped.dynamics.step_limit import StepLimit, step_limit, turn_limit
+from lumped.dynamics.runs import watchdog
+from lumped.dynamics.runs.simulation import simulate
 from lumped.dynamics.system import State, System
 
 __all__ = [

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from lumped.dynamics.step_limit import StepLimit
+from lumped.dynamics.explicit.step_limit import StepLimit
 from lumped.dynamics.system import State, System
 
 STEPS_PER_PERIOD = 200  # by default

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from lumped.dynamics.esdirk import Esdirk
-from lumped.dynamics.generalised_alpha import GeneralisedAlpha
+from lumped.dynamics.explicit.verlet import Verlet
+from lumped.dynamics.explicit.verlet_implicit_damping import VerletImplicitDamping
+from lumped.dynamics.implicit.esdirk import Esdirk
+from lumped.dynamics.implicit.generalised_alpha import GeneralisedAlpha
+from lumped.dynamics.implicit.midpoint import Midpoint
 from lumped.dynamics.integrator import Integrator
-from lumped.dynamics.midpoint import Midpoint
 from lumped.dynamics.system import System
-from lumped.dynamics.verlet import Verlet
-from lumped.dynamics.verlet_implicit_damping import VerletImplicitDamping
 from sheetbench.choices import AUTO, REMOVED_INTEGRATORS
 from sheetbench.scenes.errors import BadInput
 

@@ -19,11 +19,11 @@ from typing import Any
 
 import numpy as np
 
-from lumped.dynamics.explicit_steps import Motion
-from lumped.dynamics.flat_system import FlatSystem, Steps
-from lumped.dynamics.implicit_damping_steps import Factors, march
+from lumped.dynamics.explicit.flat_system import FlatSystem, Steps
+from lumped.dynamics.explicit.implicit_damping_steps import Factors, march
+from lumped.dynamics.explicit.step_limit import StepLimit, step_limit
+from lumped.dynamics.explicit.steps import Motion
 from lumped.dynamics.integrator import Advance, Integrator, StepFailed
-from lumped.dynamics.step_limit import StepLimit, step_limit
 from lumped.dynamics.system import State, System
 from sheetbench.numerics import banded
 from sheetbench.scenes.errors import BadInput

@@ -25,7 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse.linalg import LinearOperator, eigsh
 
-from lumped.dynamics.constraints import Projection
+from lumped.dynamics.explicit.projection import Projection
 from lumped.dynamics.system import System
 
 SAFETY = 0.9  # share of the limit

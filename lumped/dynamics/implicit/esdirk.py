@@ -3,7 +3,7 @@
     uᵢ = u₀ + h Σⱼ aᵢⱼ vⱼ,   vᵢ = v₀ + h Σⱼ aᵢⱼ v̇ⱼ,   M v̇ᵢ + f(uᵢ, vᵢ, tᵢ) = 0,   i = 2 … 7
     at the end of the step u₇, v₇
 
-with the coefficients of `lumped.dynamics.tableau`. Every stage is one equation for uᵢ with the same factors,
+with the coefficients of `tableau` beside this file. Every stage is one equation for uᵢ with the same factors,
 as aᵢᵢ = γ; the first is the last one's of the step before. The error of a step, h Σ (bᵢ − b̂ᵢ) vᵢ, is held
 relative to the largest displacement so far, or to a tenth of where the forces at the start lead. Energies
 taken by dampers and put in by loads and supports are h Σ bᵢ Pᵢ. Between the ends of a step the motion is the
@@ -20,11 +20,11 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from lumped.dynamics.compiled_stages import Stages, Step
+from lumped.dynamics.implicit.compiled_stages import Stages, Step
+from lumped.dynamics.implicit.newton import Motion, Newton
+from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSES, STAGES
 from lumped.dynamics.integrator import Advance, DenseIntegrator, Passed, StepFailed
-from lumped.dynamics.newton import Motion, Newton
 from lumped.dynamics.system import State, System
-from lumped.dynamics.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSES, STAGES
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.scenes.errors import BadInput
 

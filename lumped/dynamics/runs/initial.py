@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.calibration import Calibration
-from lumped.dynamics.constraints import Projection
+from lumped.dynamics.explicit.projection import Projection
 from lumped.dynamics.system import State, System
 from lumped.lattice import Weights
 from lumped.statics.solver import pose, settle

@@ -13,8 +13,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from lumped.dynamics.implicit.newton import Newton
 from lumped.dynamics.integrator import Advance, Integrator
-from lumped.dynamics.newton import Newton
 from lumped.dynamics.system import State, System
 
 CLOSE = 1e-13  # last correction relative to the sheet's side

@@ -8,8 +8,8 @@ from functools import cache
 import numpy as np
 
 from lumped.calibration import Calibration
+from lumped.dynamics.explicit.step_limit import StepLimit
 from lumped.dynamics.integrators import INTEGRATORS
-from lumped.dynamics.step_limit import StepLimit
 from lumped.dynamics.system import System
 from lumped.vibration import modes
 from sheetbench.scenes.errors import BadInput

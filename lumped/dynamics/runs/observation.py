@@ -1,6 +1,6 @@
 """What a sample of a motion holds, in one compiled call: energies, probes and reactions of a state.
 
-For systems without chains in double precision; `lumped.dynamics.sampling` does the others call by call.
+For systems without chains in double precision; `lumped.dynamics.runs.sampling` does the others call by call.
 """
 
 from __future__ import annotations

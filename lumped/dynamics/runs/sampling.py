@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lumped.dynamics.observation import Observed, observe
+from lumped.dynamics.runs.observation import Observed, observe
 from lumped.dynamics.system import State, System
 from lumped.mid_surface import MidSurface
 from sheetbench.numerics.maps import rows

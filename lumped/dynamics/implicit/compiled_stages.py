@@ -1,4 +1,4 @@
-"""The stages of a Runge–Kutta step in one compiled call, on what `lumped.dynamics.compiled_newton` serves.
+"""The stages of a Runge–Kutta step in one compiled call, where `compiled_newton` beside this file serves.
 
 Every stage begins from the ones before it, is corrected with the factors kept, and leaves its velocity,
 acceleration and the power that its dampers take, in tables whose first row is the step's start. The power is
@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.dynamics.compiled_newton import CONVERGED, Arrays, Room, iterate
+from lumped.dynamics.implicit.compiled_newton import CONVERGED, Arrays, Room, iterate
 
 
 class Stages(NamedTuple):

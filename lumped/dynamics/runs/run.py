@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from lumped.dynamics import watchdog
 from lumped.dynamics.integrator import DenseIntegrator, Integrator, StepFailed
-from lumped.dynamics.plan import Plan
-from lumped.dynamics.sampling import Sampling
-from lumped.dynamics.store import FolderStore, MemoryStore
+from lumped.dynamics.runs import watchdog
+from lumped.dynamics.runs.plan import Plan
+from lumped.dynamics.runs.sampling import Sampling
+from lumped.dynamics.runs.store import FolderStore, MemoryStore
 from lumped.dynamics.system import State, System
 from lumped.statics.faults import Fault
 from sheetbench.numerics.reduced import SingularMatrixError

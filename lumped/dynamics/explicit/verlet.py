@@ -4,18 +4,18 @@
 
 The elastic forces are computed once a step; the damping forces twice, with the predicted and with the final
 velocity, since they at hand from half a step before would leave the scheme of first order. Undamped it is
-stable for ω h ≤ 2, damped as `lumped.dynamics.step_limit` has it. Constraints as in RATTLE.
+stable for ω h ≤ 2, damped as `lumped.dynamics.explicit.step_limit` has it. Constraints as in RATTLE.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from lumped.dynamics.constraints import Projection
-from lumped.dynamics.explicit_steps import march
-from lumped.dynamics.flat_system import FlatSystem
+from lumped.dynamics.explicit.flat_system import FlatSystem
+from lumped.dynamics.explicit.projection import Projection
+from lumped.dynamics.explicit.step_limit import StepLimit, step_limit
+from lumped.dynamics.explicit.steps import march
 from lumped.dynamics.integrator import Advance, Integrator, StepFailed
-from lumped.dynamics.step_limit import StepLimit, step_limit
 from lumped.dynamics.system import State, System
 
 

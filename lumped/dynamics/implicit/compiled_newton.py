@@ -2,7 +2,7 @@
 
 The force of all springs and dampers, the residual, the substitution with kept factors and the norm of the
 correction are one call that allocates nothing; Python makes the factors, where the tangent is put together.
-What it solves, and when it gives up, is as in `lumped.dynamics.newton`.
+What it solves, and when it gives up, is as in `lumped.dynamics.implicit.newton`.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.dynamics.compiled_tangent import factorised, tangent_of
+from lumped.dynamics.implicit.compiled_tangent import factorised, tangent_of
 from lumped.dynamics.system import System
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import Packing, Scratch

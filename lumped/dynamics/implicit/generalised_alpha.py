@@ -17,8 +17,8 @@ from typing import Any
 
 import numpy as np
 
+from lumped.dynamics.implicit.newton import Motion, Newton
 from lumped.dynamics.integrator import Advance, Integrator, StepFailed
-from lumped.dynamics.newton import Motion, Newton
 from lumped.dynamics.system import State, System
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.scenes.errors import BadInput

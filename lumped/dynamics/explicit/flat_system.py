@@ -10,13 +10,13 @@ from collections.abc import Callable
 
 import numpy as np
 
-from lumped.dynamics.explicit_steps import Motion, Room
-from lumped.dynamics.follower_loads import Followers
+from lumped.dynamics.explicit.follower_loads import Followers
+from lumped.dynamics.explicit.steps import Motion, Room
 from lumped.dynamics.integrator import Advance, StepFailed
 from lumped.dynamics.system import State, System
 from lumped.springs.packing import pack, scratch
 
-Steps = Callable[..., tuple[bool, int, float, float]]  # as `lumped.dynamics.explicit_steps.march`
+Steps = Callable[..., tuple[bool, int, float, float]]  # as `lumped.dynamics.explicit.steps.march`
 CALL, PER_SPRING = 0.03, 1e-8  # s that a call takes, about, and a step of a spring
 LEAST = 8  # steps of a call: to lay a large lattice out for it and back takes as long as two of them
 

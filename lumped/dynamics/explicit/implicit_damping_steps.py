@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.dynamics.explicit_steps import (
+from lumped.dynamics.explicit.steps import (
     Motion,
     Room,
     exerted_on,
@@ -61,7 +61,7 @@ def march(
     last: np.ndarray,
     solved: np.ndarray,
 ) -> tuple[bool, int, float, float]:
-    """As `lumped.dynamics.explicit_steps.march`, but for steps that it ends early, whole, once corrections
+    """As `lumped.dynamics.explicit.steps.march`, but for steps that it ends early, whole, once corrections
     shrink slowly, and that it cannot take without new factors. guess, last: (3 s,); solved: as long as the
     band, and its width."""
     packing, driven, rate = motion.packing, motion.driven, motion.rate

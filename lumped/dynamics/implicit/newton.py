@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from lumped.dynamics import compiled_newton
-from lumped.dynamics.compiled_newton import CONVERGED, CompiledNewton
-from lumped.dynamics.compiled_stages import Stages, Step, solve_stages
+from lumped.dynamics.implicit import compiled_newton
+from lumped.dynamics.implicit.compiled_newton import CONVERGED, CompiledNewton
+from lumped.dynamics.implicit.compiled_stages import Stages, Step, solve_stages
 from lumped.dynamics.integrator import StepFailed
 from lumped.dynamics.system import System
 from sheetbench.numerics.reduced import Factor

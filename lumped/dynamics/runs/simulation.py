@@ -17,13 +17,13 @@ import numpy as np
 
 from lumped.assembly import Precision
 from lumped.calibration import Calibration, default
-from lumped.dynamics.initial import initial_state
 from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator, resolve_integrator
-from lumped.dynamics.plan import Plan, plan_run
-from lumped.dynamics.run import Run
-from lumped.dynamics.sampling import Sampling
-from lumped.dynamics.store import FolderStore, MemoryStore
+from lumped.dynamics.runs.initial import initial_state
+from lumped.dynamics.runs.plan import Plan, plan_run
+from lumped.dynamics.runs.run import Run
+from lumped.dynamics.runs.sampling import Sampling
+from lumped.dynamics.runs.store import FolderStore, MemoryStore
 from lumped.dynamics.system import System
 from lumped.lattice import Weights
 from lumped.statics.fields import field_mesh

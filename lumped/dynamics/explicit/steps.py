@@ -1,4 +1,4 @@
-"""Steps of velocity Verlet in one compiled call, as `lumped.dynamics.verlet` has them, nothing allocated.
+"""Steps of velocity Verlet in one compiled call, as `verlet` beside this file has them, nothing allocated.
 
 Vectors are flat, at the places of a `lumped.springs.packing.Packing`. With the predicted velocity
 w = v₀ + h a₀ and the damping matrix D at u₁, which is symmetric, what D v₁ is beyond D w comes from one more
@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.dynamics.follower_loads import Followers, add_followers
+from lumped.dynamics.explicit.follower_loads import Followers, add_followers
 from lumped.springs.all_forces import add_at_places, add_damping_again
 from lumped.springs.packing import Packing
 from lumped.springs.tiles import OPTIONS, YES

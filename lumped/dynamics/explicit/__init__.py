@@ -1,0 +1,1 @@
+"""Explicit integrators: compiled Verlet steps at a packing's places, their limits, projected constraints."""

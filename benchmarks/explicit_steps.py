@@ -18,7 +18,7 @@ import numpy as np
 from keeping import keep
 
 import lumped
-from lumped import INTEGRATORS, State, System, pose
+from lumped import INTEGRATORS, State, System, build_problem
 from lumped.assembly import Precision
 from sheetbench import scenes
 
@@ -37,7 +37,7 @@ def measure(masses: int, damping_time: float, precision: Precision) -> tuple[flo
     scene = scenes.load("two-edges-clamped")
     scene = scene.replace(material=scene.material.replace(damping_time=damping_time))
     springs = lumped.calibrate(scene.sheet, scene.material, grid=masses)
-    system = System(scene, pose(scene, springs, precision=precision))
+    system = System(scene, build_problem(scene, springs, precision=precision))
     size = 1e-3 * springs.layer_distance
     u = system.expand(size * np.random.default_rng(0).standard_normal(system.reduced_mass.shape[0]))
     state = State(0.0, u, u, np.zeros_like(u))

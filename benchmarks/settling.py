@@ -40,7 +40,7 @@ def bdf(rtol: float) -> Callable[[], Answer]:
     """SciPy's BDF on the lattice's equations as a system of first order."""
     asked = scenes.load(SCENE)
     springs = lumped.calibrate(asked.sheet, asked.material, grid=GRID)
-    system = lumped.System(asked, lumped.pose(asked, springs))
+    system = lumped.System(asked, lumped.build_problem(asked, springs))
     n = system.reduced_mass.shape[0]
     weight = sp.diags_array(1.0 / system.reduced_mass.diagonal())
     corner = system.assembly.lattice.columns()[-1, -1]

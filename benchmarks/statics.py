@@ -101,8 +101,8 @@ def lattice(masses: int) -> dict[str, Any]:
     repeats = 30 if masses < 20 else 3 if masses < 100 else 1
     with one_blas_thread():
         call = min(timed(lambda: lumped.solve(SCENE, springs)) for _ in range(repeats + 1))
-        setup = min(timed(lambda: lumped.pose(SCENE, springs)) for _ in range(repeats))
-        problems = [lumped.pose(SCENE, springs) for _ in range(repeats)]
+        setup = min(timed(lambda: lumped.build_problem(SCENE, springs)) for _ in range(repeats))
+        problems = [lumped.build_problem(SCENE, springs) for _ in range(repeats)]
         solve = min(timed(lambda p=problem: equilibrium(SCENE, p, springs, None)) for problem in problems)
         problem = problems[-1]
         factor, flops = factorisation(problem, problem.tangent(np.zeros_like(problem.loads.dead), 0.0))

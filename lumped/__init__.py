@@ -29,7 +29,7 @@ from lumped.statics.continuation import Path, trace
 from lumped.statics.equilibrium import at_rest, follow
 from lumped.statics.many import solve_many
 from lumped.statics.polygon import polygons
-from lumped.statics.solver import pose, solve
+from lumped.statics.solver import build_problem, solve
 from lumped.vibration import Modes, modes, usual_masses
 
 if TYPE_CHECKING:
@@ -68,6 +68,7 @@ __all__ = [
     "System",
     "at_rest",
     "buckling_loads",
+    "build_problem",
     "calibrate",
     "describe",
     "follow",
@@ -80,7 +81,6 @@ __all__ = [
     "modes",
     "moduli",
     "polygons",
-    "pose",
     "require_integrator",
     "sensitivity",
     "simulate",

@@ -18,7 +18,7 @@ from lumped.loads import Loads
 from lumped.masses import masses
 from lumped.springs.families import Cells, Links, table_dampers
 from lumped.statics.problem import Problem
-from lumped.statics.solver import pose, solve
+from lumped.statics.solver import build_problem, solve
 from sheetbench.scenes import Scene, Status, free_rigid_motions
 from sheetbench.scenes.errors import BadInput
 
@@ -111,7 +111,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     """
     if scene.actuators:
         raise BadInput("export: actuators are not springs between masses; export a scene without them")
-    problem = pose(scene, calibration)
+    problem = build_problem(scene, calibration)
     assembly, lattice = problem.assembly, problem.assembly.lattice
     if not assembly.conservative:
         raise BadInput("export: per-direction springs have no energy, and no stiffness along their links")

@@ -37,7 +37,7 @@ from lumped.mid_surface import MidSurface
 from lumped.sensitivity import rates
 from lumped.state_space import StateSpace
 from lumped.statics.problem import Problem
-from lumped.statics.solver import pose, settle
+from lumped.statics.solver import build_problem, solve_path
 from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
@@ -120,7 +120,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
     scene = _at_last(scene_of(scene))
     require_static(scene)
     calibration = calibration or default(scene)
-    problem = pose(scene, calibration)
+    problem = build_problem(scene, calibration)
     if problem.loads.follow or not problem.conservative:
         raise BadInput(
             "linearise: pressure, edge moments and per-direction springs have unsymmetric tangents"
@@ -131,7 +131,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
         u = np.zeros_like(problem.loads.dead)
     else:
         with one_blas_thread():
-            outcome = settle(scene, problem, "path")
+            outcome = solve_path(scene, problem, "path")
         if outcome.status is not Status.CONVERGED:
             raise NoEquilibrium(f"lumped: {outcome.status}: {'; '.join(outcome.notes)}")
         u = outcome.state.u

@@ -27,7 +27,7 @@ from lumped.mid_surface import MidSurface
 from lumped.springs import constants
 from lumped.statics.equilibrium import State
 from lumped.statics.problem import Problem
-from lumped.statics.solver import pose, settle
+from lumped.statics.solver import build_problem, solve_path
 from sheetbench.numerics.reduced import Factor
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene, Status, require_static
@@ -99,8 +99,8 @@ def gradient(
 def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, State, Factor]:
     """The problem, its state, and the tangent factored there: what the last step was taken with is older."""
     require_static(scene)
-    problem = pose(scene, calibration)
-    outcome = settle(scene, problem, "path")
+    problem = build_problem(scene, calibration)
+    outcome = solve_path(scene, problem, "path")
     if outcome.status is not Status.CONVERGED:
         raise BadInput(f"scene '{scene.name}': no sensitivity of an answer that is {outcome.status}")
     state = outcome.state
@@ -125,7 +125,7 @@ def rates(
     placed, ends = problem.prescribed(1.0), np.clip([value + step, value - step], low, high)
     for end in ends:
         changed_scene, recalibrated = _changed(scene, calibration, name, float(end), calibrate)
-        changed = pose(changed_scene, recalibrated, same=problem if changed_scene is scene else None)
+        changed = build_problem(changed_scene, recalibrated, same=problem if changed_scene is scene else None)
         moved = changed.prescribed(1.0) - placed
         sides.append((changed.residual(u + moved, 1.0).force, moved))
     apart = float(ends[0] - ends[1])

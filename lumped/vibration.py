@@ -18,7 +18,7 @@ from lumped.masses import Inertia, mass_matrix, masses
 from lumped.mid_surface import MidSurface
 from lumped.springs import constants
 from lumped.statics.problem import Problem
-from lumped.statics.solver import pose, settle
+from lumped.statics.solver import build_problem, solve_path
 from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
@@ -89,7 +89,7 @@ def modes(
         problem, at = _equilibrium(scene, calibration)
     else:
         scene = scene.replace(actuators=())
-        problem = pose(scene, calibration)
+        problem = build_problem(scene, calibration)
         at = np.zeros_like(problem.loads.dead)
     transform = problem.constraints.transform
     rigid = len(free_rigid_motions(scene))
@@ -124,14 +124,14 @@ def usual_masses(calibration: Calibration) -> Inertia:
 def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, np.ndarray]:
     """The problem of a scene, and its displacement (n, 3) [m] under the full load."""
     require_static(scene)
-    problem = pose(scene, calibration)
+    problem = build_problem(scene, calibration)
     if scene.actuators or problem.loads.follow or not problem.conservative:
         raise BadInput(
             "--about = deformed: actuators are no part of modes, and pressure, edge moments and springs of a "
             "per-direction law have none"
         )
     with one_blas_thread():
-        outcome = settle(scene, problem, "path")
+        outcome = solve_path(scene, problem, "path")
     if outcome.status is not Status.CONVERGED:
         raise NoEquilibrium(f"lumped: {outcome.status}: {'; '.join([*outcome.notes, outcome.status.advice])}")
     return problem, outcome.state.u
@@ -146,7 +146,7 @@ def frequency_slopes(
     frequencies that stand alone (of equal ones it gives the slope of a mean).
     """
     found = modes(scene, calibration, count, calibration.masses)
-    problem = pose(scene, calibration)
+    problem = build_problem(scene, calibration)
     rest = np.zeros_like(problem.loads.dead)
     weight = masses(scene, problem.assembly.lattice, calibration.masses)
     modal = np.einsum("n,knq,knq->k", weight, found.shapes, found.shapes)
@@ -156,7 +156,7 @@ def frequency_slopes(
         sides = []
         for sign in (1.0, -1.0):
             value = constants.value_of(calibration.springs, name) + sign * step
-            changed = pose(scene, calibration.with_constant(name, value))
+            changed = build_problem(scene, calibration.with_constant(name, value))
             stiffness = [float(np.sum(shape * _product(changed, rest, shape))) for shape in found.shapes]
             sides.append(np.array(stiffness))
         squares = (sides[0] - sides[1]) / (2.0 * step) / modal

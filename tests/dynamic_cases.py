@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import lumped
-from lumped import System, pose
+from lumped import System, build_problem
 from lumped.dynamics.runs.initial import initial_state
 from sheetbench import scenes
 
@@ -34,7 +34,7 @@ def springs(asked, n=5):
 def system(asked, n=5):
     """The equations of motion and the state at rest."""
     calibration = springs(asked, n)
-    equations = System(asked, pose(asked, calibration))
+    equations = System(asked, build_problem(asked, calibration))
     return equations, initial_state(equations, calibration, "tributary")
 
 

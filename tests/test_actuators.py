@@ -12,7 +12,7 @@ import lumped
 from lumped.actuators import Drive
 from lumped.actuators.chain import Chain
 from lumped.lattice import build
-from lumped.statics.solver import pose, settle
+from lumped.statics.solver import build_problem, solve_path
 from sheetbench import scenes
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Chain as ChainData
@@ -195,8 +195,8 @@ CASES = {
 def test_interaction_forces_are_equal_and_opposite(case):
     actuators, material = CASES[case]
     asked = scene("one-edge-clamped", actuators, **material)
-    problem = pose(asked, springs(asked, 7))
-    outcome = settle(asked, problem, "path")
+    problem = build_problem(asked, springs(asked, 7))
+    outcome = solve_path(asked, problem, "path")
     assert outcome.status is scenes.Status.CONVERGED, outcome.message
     u, coupling = outcome.state.u, problem.assembly.coupling
     sheet = (

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import lumped
-from lumped import System, pose
+from lumped import System, build_problem
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import pack, scratch
 from sheetbench import scenes
@@ -52,7 +52,7 @@ CASES = {
 
 @pytest.mark.parametrize(("asked", "options"), CASES.values(), ids=CASES)
 def test_forces_energy_and_power_are_the_families(asked, options):
-    system = System(asked, pose(asked, lumped.calibrate(asked.sheet, asked.material, **options)))
+    system = System(asked, build_problem(asked, lumped.calibrate(asked.sheet, asked.material, **options)))
     u, v = state(system)
     packing = packed(system)
     room = scratch(packing)
@@ -84,7 +84,7 @@ def test_the_seeds_per_direction_law():
 
 def test_small_displacements_lose_no_digits_and_single_precision_is_single():
     asked = scene(damping_time=1e-3)
-    system = System(asked, pose(asked, lumped.calibrate(asked.sheet, asked.material, grid=(9, 9))))
+    system = System(asked, build_problem(asked, lumped.calibrate(asked.sheet, asked.material, grid=(9, 9))))
     u, v = state(system, size=1e-12)
     wanted = system.assembly.force(u)[1]
     for single, rounding in ((False, E), (True, np.finfo(np.float32).eps)):

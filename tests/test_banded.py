@@ -61,10 +61,10 @@ def test_what_is_not_positive_definite_has_no_factors(spoilt):
 def test_families_together_are_the_families():
     scene = load("two-edges-clamped")
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 9))  # long cells: strain springs too
-    assembly = lumped.pose(scene, springs).assembly
+    assembly = lumped.build_problem(scene, springs).assembly
     assert assembly.all_families is not None and len(assembly.springs) == 3
     u = 1e-4 * np.random.default_rng(0).standard_normal((assembly.pattern.size, 3))
-    apart = lumped.pose(scene, springs).assembly
+    apart = lumped.build_problem(scene, springs).assembly
     apart.all_families = None
     energy, force = assembly.force(u)
     assert energy == pytest.approx(apart.force(u)[0], rel=1e-14)
@@ -84,7 +84,7 @@ def test_reduction_is_the_triple_product(name, edge):
     if edge:  # the mean of the layers held: rows of the transform with entries of their own
         supports = tuple(Hinged(edge=e) for e in ("x0", "y1"))
         scene = scene.model_copy(update={"supports": supports})
-    problem = lumped.pose(scene, lumped.calibrate(scene.sheet, scene.material, grid=(4, 5)))
+    problem = lumped.build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(4, 5)))
     pattern, transform = problem.assembly.pattern, problem.constraints.transform
     blocks = np.random.default_rng(0).standard_normal((pattern.blocks, 3, 3))  # not symmetric
     whole = sp.bsr_array((blocks, pattern.indices, pattern.indptr))

@@ -52,7 +52,7 @@ def test_three_factorisations_lead_from_the_coarse_equilibrium_with_its_membrane
     [
         (coarse_start, "plain", lambda path: False),  # it does not go straight
         (coarse_start, "ENOUGH", 2),  # it takes long
-        (equilibrium, "NEAR", 1e-3),  # the fine one's equilibrium is far away
+        (equilibrium, "SAME_BRANCH", 1e-3),  # the fine one's equilibrium is far away
     ],
 )
 def test_where_the_coarse_one_is_no_good_the_path_begins_at_rest(where, name, value, monkeypatch):

@@ -64,7 +64,7 @@ def test_a_lattice_whose_stability_is_not_known_says_so(monkeypatch):
 def test_descent_refuses_a_direction_along_which_the_energy_rises(monkeypatch):
     asked = scene()
     springs = lumped.calibrate(asked.sheet, asked.material, grid=(5, 5))
-    problem = lumped.pose(asked, springs)
+    problem = lumped.build_problem(asked, springs)
     flat = np.zeros_like(problem.loads.dead)
     factor = problem.factor(problem.tangent(flat, 0.0))
     monkeypatch.setattr(factor, "solve", lambda b, of=factor.solve: -of(b))
@@ -77,13 +77,13 @@ def test_descent_refuses_a_direction_along_which_the_energy_rises(monkeypatch):
 def test_an_admissible_displacement_is_its_own_nearest(layers):
     supports = [{"edge": "x0", "kind": "hinged"}, {"edge": "x1", "kind": "clamped", "tilt": 0.2}]
     asked = scene(supports=[*supports, {"edge": "y1", "kind": "held", "components": ["y"]}])
-    problem = lumped.pose(asked, lumped.calibrate(asked.sheet, asked.material, grid=(4, 3, layers)))
+    problem = lumped.build_problem(asked, lumped.calibrate(asked.sheet, asked.material, grid=(4, 3, layers)))
     unknowns = np.random.default_rng(layers).standard_normal(problem.system.unknowns)
     admissible = problem.expand(unknowns) + problem.prescribed(1.0)
-    np.testing.assert_allclose(problem.placed(admissible, 1.0), admissible, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(problem.project_to_supports(admissible, 1.0), admissible, rtol=0, atol=1e-14)
     # of any other the miss is at right angles to all that is admissible
     other = np.random.default_rng(9).standard_normal(admissible.shape)
-    miss = problem.reduce(other - problem.placed(other, 1.0))
+    miss = problem.reduce(other - problem.project_to_supports(other, 1.0))
     np.testing.assert_allclose(miss, 0.0, atol=1e-13)
 
 

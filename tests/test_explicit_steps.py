@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from lumped import INTEGRATORS, StepFailed, System, pose, simulate, step_limit
+from lumped import INTEGRATORS, StepFailed, System, build_problem, simulate, step_limit
 from lumped.dynamics.explicit import flat_system
 from lumped.dynamics.runs.initial import initial_state
 from lumped.springs import packing
@@ -51,7 +51,7 @@ CASES = {
 
 def start_of(asked, precision="double", n=5):
     calibration = springs(asked, n)
-    system = System(asked, pose(asked, calibration, precision=precision))
+    system = System(asked, build_problem(asked, calibration, precision=precision))
     return system, initial_state(system, calibration, "tributary")
 
 

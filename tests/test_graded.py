@@ -108,7 +108,7 @@ def test_rigid_motions_cost_nothing(method: str) -> None:
 
 def test_mass_is_the_sheets_around_each_mass_and_free_fall_is_rigid() -> None:
     scene = Scene(name="free", sheet=OBLONG, material=SILICONE, gravity={"acceleration": (0.0, 0.0, -9.81)})
-    problem = lumped.pose(scene, lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=0.6))
+    problem = lumped.build_problem(scene, lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=0.6))
     share = masses(scene, problem.assembly.lattice)
     assert share.sum() == pytest.approx(1200.0 * 0.005 * 0.02, rel=1e-14)
     assert np.allclose(problem.loads.dead[:, 2] / share, -9.81, rtol=1e-14)
@@ -211,7 +211,7 @@ def test_a_force_between_masses_and_an_edges_load_keep_their_moments() -> None:
             {"kind": "edge", "edge": "x1", "force_per_length": (0.0, 0.0, 2.0)},
         ),
     )
-    problem = lumped.pose(scene, lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=0.5))
+    problem = lumped.build_problem(scene, lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=0.5))
     x, y, _ = problem.assembly.lattice.positions.T
     force = problem.loads.dead[:, 2]
     assert force.sum() == pytest.approx(1.2)
@@ -256,7 +256,7 @@ def test_an_explicit_step_shrinks_nearly_as_the_smallest_cell(grading: float, sh
     steps, widths = [], []
     for graded in (0.0, grading):
         springs = lumped.calibrate(scene.sheet, scene.material, 9, grading=graded)
-        system = lumped.System(scene, lumped.pose(scene, springs))
+        system = lumped.System(scene, lumped.build_problem(scene, springs))
         steps.append(lumped.step_limit(system, np.zeros_like(system.problem.loads.dead)).step)
         widths.append(system.assembly.lattice.lines[0].widths.min())
     assert steps[1] / steps[0] == pytest.approx(share, abs=0.01)

@@ -22,12 +22,12 @@ def test_what_is_kept_is_what_would_be_found(name, monkeypatch):
     scene = load(name)
     full = lumped.calibrate(scene.sheet, scene.material, grid=(3, 4))
     several = [full, full.with_constant("vertical", 0.0), full.with_constant("edge_shear", 0.0), full]
-    kept = [lumped.pose(scene, springs) for springs in several]
+    kept = [lumped.build_problem(scene, springs) for springs in several]
     assert kept[0].constraints is kept[3].constraints and kept[0].system is kept[3].system
     monkeypatch.setattr(rest, "KEPT", 0)
     monkeypatch.setattr(supports, "KEPT", 0)
     for problem, springs in zip(kept, several, strict=True):
-        anew = lumped.pose(scene, springs)
+        anew = lumped.build_problem(scene, springs)
         assert anew.constraints is not problem.constraints
         for found, expected in zip(arrays(problem), arrays(anew), strict=True):
             assert np.array_equal(found, expected)
@@ -37,14 +37,14 @@ def test_supports_alike_but_for_their_tilt_are_kept_apart():
     scene = load("one-edge-clamped")
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(3, 4))
     tilted = scene.replace(supports=(Clamped(edge=scene.supports[0].edge, tilt=0.1),))
-    flat, turned, again = (lumped.pose(s, springs).constraints for s in (scene, tilted, scene))
+    flat, turned, again = (lumped.build_problem(s, springs).constraints for s in (scene, tilted, scene))
     assert flat is again and not flat.prescribed(1.0).any() and turned.prescribed(1.0).any()
 
 
 def test_what_is_shared_between_solves_cannot_be_written_to():
     scene = load("one-edge-clamped")
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(3, 4))
-    problem = lumped.pose(scene, springs)
+    problem = lumped.build_problem(scene, springs)
     lattice = problem.assembly.lattice
     loads = problem.loads
     flat = np.zeros_like(loads.dead)
@@ -53,7 +53,7 @@ def test_what_is_shared_between_solves_cannot_be_written_to():
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0
     pressed = scene.replace(loads=(Pressure(value=5.0),))
-    loads = lumped.pose(pressed, springs).loads
+    loads = lumped.build_problem(pressed, springs).loads
     before = loads.dead.copy()
     loads.force(flat)[:] = 1.0  # with loads that follow the sheet: one's own
     assert np.array_equal(loads.dead, before)

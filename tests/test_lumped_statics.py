@@ -5,9 +5,9 @@ import pytest
 from cases import WEIGHT, with_material
 
 import lumped
-from lumped.statics.equilibrium import StepFailed, corrected
+from lumped.statics.equilibrium import StepFailed, newton_at_load
 from lumped.statics.limits import DOUBTFUL
-from lumped.statics.solver import pose
+from lumped.statics.solver import build_problem
 from sheetbench import scenes
 from sheetbench.scenes import (
     Clamped,
@@ -300,8 +300,8 @@ def test_corrections_that_lead_far_away_end_at_once():
     """From rest to a thousand times the load at which the sheet tears: one correction tells."""
     scene = SEED["two-edges-clamped"]
     heavy = scene.model_copy(update={"gravity": Gravity(acceleration=(0.0, 0.0, -1e7))})
-    problem = pose(heavy, lumped.calibrate(scene.sheet, scene.material, 5))
+    problem = build_problem(heavy, lumped.calibrate(scene.sheet, scene.material, 5))
     rest = np.zeros_like(problem.loads.dead)
     with pytest.raises(StepFailed, match="the corrections grow"):
-        corrected(problem, rest, problem.assembly.extrapolated(rest, rest), 1.0, rest)
+        newton_at_load(problem, rest, problem.assembly.extrapolated(rest, rest), 1.0, rest)
     assert problem.factorisations == 1

@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 import lumped
-from lumped import System, pose, step_limit
+from lumped import System, build_problem, step_limit
 from sheetbench import scenes
 from sheetbench.scenes import Scene, Status
 from sheetbench.scenes.errors import BadInput
@@ -86,7 +86,7 @@ def test_every_modulus_is_met_at_small_strains(options):
 def test_a_small_load_moves_it_as_the_linear_lattice_does(grid):
     """The stiffness at rest is that of the springs of its small strains, by which it is damped too."""
     scene = strip([{"edge": "x0", "kind": "clamped"}])
-    assembly = pose(scene, lattice(scene, grid)).assembly
+    assembly = build_problem(scene, lattice(scene, grid)).assembly
     u = 1e-9 * np.random.default_rng(0).standard_normal(assembly.lattice.positions.shape)
     for family in assembly.springs:
         force = np.zeros_like(u)
@@ -124,7 +124,7 @@ def test_bending_on_habibis_sheet_is_of_second_order_at_least():
 def test_the_largest_frequency_does_not_grow_under_stretch():
     """Upright faces resist their director's turning alone; by the chord's length too it would double."""
     scene = strip([{"edge": "x0", "kind": "clamped"}])
-    system = System(scene, pose(scene, lattice(scene, (5, 4))))
+    system = System(scene, build_problem(scene, lattice(scene, (5, 4))))
     x = system.assembly.lattice.positions
     at_rest = step_limit(system, np.zeros_like(x)).frequency
     for across in (2.0**-0.45, 1.0, 2.0):

@@ -28,7 +28,7 @@ def pressed(supports, value=300.0, **material):
 
 
 def problem_of(asked, grid=(4, 5, 2)):
-    return lumped.pose(asked, lumped.calibrate(asked.sheet, asked.material, grid=grid))
+    return lumped.build_problem(asked, lumped.calibrate(asked.sheet, asked.material, grid=grid))
 
 
 def bent(problem, seed=0):

@@ -21,7 +21,7 @@ from comparisons.runs.tasks import function
 from comparisons.tradeoff import motion, statics
 from sheetbench.scenes import Scene, SpringTable
 
-CONSUMERS = ("solve", "simulate", "modes", "linearise", "sensitivity", "describe", "pose")
+CONSUMERS = ("solve", "simulate", "modes", "linearise", "sensitivity", "describe", "build_problem")
 WORDS = frozenset({"grid", "calibration", "k", "layer_distance", "grading"})
 LISTS = {"grid": "9", "calibration": "consistent"}  # of verbs that take several, unless given
 OPTIONS: tuple[dict[str, Any], ...] = (

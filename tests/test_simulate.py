@@ -157,7 +157,7 @@ def test_an_explicit_run_names_its_largest_stable_step(capsys):
     asked = scene("two-edges-settling")
     history = lumped.simulate(asked, springs(asked, 4), 1e-3, integrator="verlet-implicit-damping")
     limit = lumped.INTEGRATORS["verlet-implicit-damping"].limit(
-        lumped.System(asked, lumped.pose(asked, springs(asked, 4))), np.zeros((32, 3))
+        lumped.System(asked, lumped.build_problem(asked, springs(asked, 4))), np.zeros((32, 3))
     )
     assert history.settings["largest_step"] == pytest.approx(limit.step)
     assert history.settings["step"] <= limit.step

@@ -7,7 +7,7 @@ import pytest
 
 import lumped
 from lumped.statics.energy_descent import disturbed
-from lumped.statics.solver import settle
+from lumped.statics.solver import solve_path
 from sheetbench.numerics import direct, pardiso
 from sheetbench.scenes import load
 
@@ -18,7 +18,7 @@ pytestmark = pytest.mark.skipif(pardiso.library() is not None, reason="PARDISO f
 def problem():
     """A lattice whose tangent has no narrow band and is not kept."""
     scene = load("two-edges-clamped")
-    return lumped.pose(scene, lumped.calibrate(scene.sheet, scene.material, grid=(41, 41)))
+    return lumped.build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(41, 41)))
 
 
 def test_factors_of_a_large_lattice_take_no_library(problem, monkeypatch):
@@ -51,8 +51,8 @@ def test_factors_of_an_unstable_lattice_tell_its_negative_eigenvalues_and_lead_o
     monkeypatch.setattr("sheetbench.numerics.reduced.BANDED_LIMIT", 0.0)
     monkeypatch.setattr(direct, "rslab", None)
     monkeypatch.setattr(direct, "splu", None)
-    problem = lumped.pose(scene, lumped.calibrate(scene.sheet, scene.material, grid=(10, 8)))
-    outcome = settle(scene, problem, "path")
+    problem = lumped.build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(10, 8)))
+    outcome = solve_path(scene, problem, "path")
     assert outcome.status == "unstable" and outcome.state.negative == 1
     beside = disturbed(problem, outcome.state)
     assert problem.potential(beside, 1.0) < problem.potential(outcome.state.u, 1.0)

@@ -15,7 +15,7 @@ from fem_reference.surface.mesh import rectangle
 from lumped.dynamics.runs import watchdog
 from lumped.dynamics.system import State
 from lumped.statics import faults
-from lumped.statics.solver import pose
+from lumped.statics.solver import build_problem
 from sheetbench.scenes import EdgeLoad, Scene, Status
 from studies.stability.equilibria import loaded, sheet
 
@@ -29,7 +29,7 @@ def calibrated(scene: Scene, n: int = 5):
 @pytest.fixture(scope="module")
 def problem():
     scene = sheet(0.016, 1.0)
-    return pose(scene, calibrated(scene))
+    return build_problem(scene, calibrated(scene))
 
 
 def pressed(share: float) -> Scene:

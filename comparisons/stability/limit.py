@@ -26,7 +26,7 @@ def system(
     mass: Callable[[np.ndarray], np.ndarray] | None = None,
 ) -> System:
     """The equations of motion. mass: changes the lumped masses (n,) [kg]."""
-    problem = lumped.pose(scene, springs, precision=precision)
+    problem = lumped.build_problem(scene, springs, precision=precision)
     equations = System(scene, problem)
     return equations if mass is None else System(scene, problem, mass(equations.lattice_mass))
 

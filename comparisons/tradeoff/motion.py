@@ -300,7 +300,7 @@ def explicit_limit(integrator: str, scene: Scene, springs: Calibration) -> float
     """Stability limit [s] of an explicit integrator about the flat sheet."""
     import lumped
 
-    problem = lumped.pose(scene, springs)
+    problem = lumped.build_problem(scene, springs)
     system, flat = lumped.System(scene, problem), np.zeros_like(problem.loads.dead)
     limit = lumped.INTEGRATORS[integrator].limit(system, flat)
     assert limit is not None

@@ -40,18 +40,18 @@ from sheetbench.scenes import Status
 
 TOLERANCE = 5e-9  # residual, relative to the forces that balance
 SOLVED = 1e-14  # backward error of a correction that is not refined: the next one is its refinement
-ALIKE = 1e-2  # of (thickness/size)², strains that buckle a sheet: what changes by less has the same tangent
+SAME_TANGENT = 1e-2  # of (thickness/size)², strains that buckle a sheet: what changes by less has one tangent
 VANISHING = 1e-13  # work of a step, relative to the load step's first: beyond it only rounding is left
 ITERATIONS = 24  # in one load step
 BACK = 4  # corrections that are no shorter than so many before are given up
-EASY, GROWTH = 6, 4.0  # a load step that took no more is followed by one so many times as long
+LENGTHEN_UP_TO, GROWTH = 6, 4.0  # a load step that took no more is followed by one so many times as long
 FIRST_REACH = 8.0  # sizes of the structure that the first linear step may move it
 SMALLEST_STEP = 2.0**-10
 FARTHEST = 1e3  # a step beyond so many sizes of the structure has diverged
 CAREFUL_REACH = 0.1  # sizes of the structure that the first careful linear step may move it
 SHORTEST = 5e-4  # the same, of one that fails and is the last: half of what may cross a bifurcation
-CLOSE = 3e-3  # residual at which a careful load step ends, but for the last
-NEAR = 0.25  # of a start's displacement: an equilibrium farther from it may be on another branch
+CAREFUL_TOLERANCE = 3e-3  # residual at which a careful load step ends, but for the last
+SAME_BRANCH = 0.25  # of a start's displacement: an equilibrium farther from it may be on another branch
 SNAPS = 12  # of one path
 SNAP_STEP = 0.01  # in load factor, past the limit point
 SNAPPING = 4 * FACTORISATIONS  # in all, where the structure snaps
@@ -79,7 +79,7 @@ def trace(
     buckled: leave an unstable equilibrium for the stable one that `settle` leads to.
     """
     with one_blas_thread():
-        path = Path(structure.rest(), limit=limit, progress=progress, alike=ALIKE * slenderness**2)
+        path = Path(structure.rest(), limit=limit, progress=progress, alike=SAME_TANGENT * slenderness**2)
         ended: StepFailed | Fault | None = None
         careful, reached = False, None
         if near is None or not _arrived(structure, solver, path, inspect, near):
@@ -142,7 +142,7 @@ def _arrived(
     except StepFailed:
         return False
     path.state, path.load_factor, path.factor = state, near.target, factor
-    close = structure.length(near.state, state) <= NEAR * near.length
+    close = structure.length(near.state, state) <= SAME_BRANCH * near.length
     if close and inspect(path) is None and stability(structure, solver, path) == (Status.CONVERGED, ""):
         return True
     path.state, path.load_factor, path.factor = before
@@ -166,7 +166,7 @@ def _follow(
         try:
             first = _Predictor(structure, solver, path, min(1.0, path.load_factor + size), reach, factor)
             factor = first.factor if structure.symmetric else None
-            close = CLOSE if careful and first.target < 1.0 else 0.0
+            close = CAREFUL_TOLERANCE if careful and first.target < 1.0 else 0.0
             state, found = newton(structure, solver, path, first, close)
             if careful:
                 negative = negatives(first.factor) if negative is None else negative
@@ -188,14 +188,14 @@ def _follow(
             size, reach = GROWTH * grown, longest
             continue
         factor = None  # those of the last correction are too far off to step with: a thin sheet's path halts
-        easy = path.factorisations - before <= EASY
+        easy = path.factorisations - before <= LENGTHEN_UP_TO
         size, reach = (GROWTH * grown, GROWTH * reach) if easy else (grown, reach)
     return None
 
 
 def _refine(structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> None:
     """Bring the end of a careful path to the tolerance, at a load lower by what its last step left open."""
-    for lower in (0.0, CLOSE, 2.0 * CLOSE, 4.0 * CLOSE):
+    for lower in (0.0, CAREFUL_TOLERANCE, 2.0 * CAREFUL_TOLERANCE, 4.0 * CAREFUL_TOLERANCE):
         target = (1.0 - lower) * path.load_factor
         try:
             path.state = newton(structure, solver, path, Start(path.state, target, 1.0, 0.0))[0]

@@ -32,11 +32,11 @@ from sheetbench.scenes import Status
 
 FACTORISATIONS = 300  # of one relaxation
 CORRECTIONS = 8  # of one step
-SETTLED = 0.1  # residual of a step, relative to the one it begins with, that is small enough
+STEP_TOLERANCE = 0.1  # residual of a step, relative to the one it begins with, that is small enough
 ENOUGH = 1e-6  # the same, relative to the forces that balance
 SHRINKING = 0.7  # corrections that shrink by less, after the second, are given up
 LONGEST = 1.0  # correction, in sizes of the sheet
-EASY = 4  # a step that took no more factorisations is followed by one of less drag
+LESS_DRAG_UP_TO = 4  # a step that took no more factorisations is followed by one of less drag
 FASTER, CAREFUL = 4.0, 1.5  # by which drag falls; within CAUTION steps of a failure
 CAUTION = 3
 FIRST_DRAG = 1.0  # σ
@@ -122,7 +122,7 @@ class _Creep(Generic[State, Forces]):
         self.length = self.structure.length(self.state, state)
         self.state = self.structure.unextrapolated(state)
         self.careful -= 1
-        if self.path.factorisations - before <= EASY:
+        if self.path.factorisations - before <= LESS_DRAG_UP_TO:
             self.drag /= CAREFUL if self.careful > 0 else FASTER
 
     def _accepts(self, state: State) -> bool:
@@ -145,7 +145,7 @@ class _Creep(Generic[State, Forces]):
                 return None
             if k == 0:
                 first = relative
-            settled = relative <= max(SETTLED * first, ENOUGH)
+            settled = relative <= max(STEP_TOLERANCE * first, ENOUGH)
             if k > 0 and settled and structure.gap(state, self.load_factor) <= TOLERANCE:
                 return state
             if k == CORRECTIONS or (len(lengths) > 2 and lengths[-1] > SHRINKING * lengths[-2]):

@@ -82,7 +82,7 @@ def _at(problem: Problem, outcome: Outcome) -> tuple[np.ndarray, dict[str, float
 
 
 def _of_small_displacements(problem: Problem, state: State) -> tuple[np.ndarray, dict[str, float]]:
-    """The same of `flat_step`: K u − f and ½ u·K u."""
+    """Return forces K u − f (size, 3) [N] and energies ½ u·K u [J] of small displacements (`flat_step`)."""
     internal = problem.system.apply(state.blocks, state.u)
     external = state.load_factor * problem.growing(np.zeros_like(state.u))
     return internal - external, {"elastic": 0.5 * float(np.sum(internal * state.u))}

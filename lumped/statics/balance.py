@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.statics.equilibrium import State, rounding
-from lumped.statics.limits import FINE
+from lumped.statics.limits import RESIDUAL_TOLERANCE
 from lumped.statics.problem import Problem
 from sheetbench.scenes import Balance, Scene, dead_force
 
@@ -40,6 +40,6 @@ def balance(
         moment += coupling.moment(at, external)
     size = problem.force_scale(at, share) if linear else problem.scale_of(exerted + external, external)
     # a sum of n numbers is at most √n times their norm, in which residuals are measured
-    allowed = np.sqrt(len(at)) * max(FINE * size, rounding(problem, state.u))
+    allowed = np.sqrt(len(at)) * max(RESIDUAL_TOLERANCE * size, rounding(problem, state.u))
     arm = float(np.sqrt((places**2).sum(axis=1).max()))
     return Balance(force, moment, size, float(allowed), arm, objective=problem.assembly.conservative)

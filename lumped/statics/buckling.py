@@ -11,7 +11,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from lumped.calibration import Calibration
 from lumped.statics.equilibrium import at_rest, follow
-from lumped.statics.solver import pose
+from lumped.statics.solver import build_problem
 from sheetbench.scenes import AnyScene, SceneError, require_static, scene_of
 
 SMALL_LOAD = 1e-4  # share of the full load that the change of the tangent is taken over, first
@@ -31,7 +31,7 @@ def buckling_loads(scene: AnyScene, calibration: Calibration, count: int = 1) ->
     """
     scene = scene_of(scene)
     require_static(scene)
-    problem = pose(scene, calibration)
+    problem = build_problem(scene, calibration)
     rest = at_rest(problem)
     n = problem.system.unknowns
     stiffness = problem.system.matrix(rest.blocks)

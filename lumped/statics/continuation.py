@@ -21,9 +21,9 @@ from lumped.calibration import Calibration
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
 from lumped.statics.equilibrium import State, StepFailed, all_rounding, at_rest, follow
-from lumped.statics.limits import COARSE
+from lumped.statics.limits import REFINE_BELOW
 from lumped.statics.problem import Problem
-from lumped.statics.solver import Branch, pose, settle
+from lumped.statics.solver import Branch, build_problem, solve_path
 from sheetbench.numerics.reduced import Factor, SingularMatrixError
 from sheetbench.scenes import AnyScene, Iteration, Load, Status, require_static, scene_of
 
@@ -79,9 +79,9 @@ def trace(
     """
     scene = scene_of(scene)
     require_static(scene)
-    problem = pose(scene, calibration)
+    problem = build_problem(scene, calibration)
     if vary:
-        outcome = settle(scene, problem, branch)
+        outcome = solve_path(scene, problem, branch)
         start = outcome.state
         added = scene.replace(gravity=None, loads=tuple(vary))
         problem = Problem(
@@ -157,7 +157,7 @@ def _arc_step(
         if not np.isfinite(residual.relative) or np.abs(u - start.u).max() > 3.0 * arc:
             raise StepFailed("the corrections grow")
         rounded = all_rounding(problem, u, residual, float(np.abs(move).max()))
-        close = rounded or residual.relative < COARSE
+        close = rounded or residual.relative < REFINE_BELOW
         blocks = problem.tangent(u, load_factor, None if close else stresses)
         factor = problem.factor(blocks)
         if rounded or residual.relative < TOLERANCE:

@@ -13,8 +13,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
-from lumped.statics.equilibrium import State, StepFailed, polish
-from lumped.statics.limits import COARSE
+from lumped.statics.equilibrium import State, StepFailed, refine
+from lumped.statics.limits import REFINE_BELOW
 from lumped.statics.problem import Problem
 from sheetbench.numerics.reduced import Factor, SingularMatrixError
 
@@ -28,14 +28,14 @@ def descend(problem: Problem, u: np.ndarray, load_factor: float) -> State:
     Raises StepFailed when there is none within the step limit.
     """
     problem.assembly.require_energy()
-    u = problem.placed(u, load_factor)
+    u = problem.project_to_supports(u, load_factor)
     wait = 0
     for _ in range(STEPS):
         residual = problem.residual(u, load_factor)
         factor, wait = _definite_factor(problem, u, load_factor, wait)
-        if residual.relative < COARSE and wait == 0:
+        if residual.relative < REFINE_BELOW and wait == 0:
             try:
-                return polish(problem, u, load_factor, residual=residual)
+                return refine(problem, u, load_factor, residual=residual)
             except (StepFailed, SingularMatrixError):
                 pass
         gradient = -residual.reduced

@@ -3,7 +3,7 @@
 Each correction solves K(u, N*) δ = λ f(u) − f_int(u), where the geometric part of the tangent takes the
 tensions N* that the previous linearisation extrapolated instead of those at u: the mixed-integration-point
 Newton of Magisano, Leonetti and Garcea (2017), whose steps are not held back by the spurious stretching of
-a large rotation. The last corrections use the true tangent: they polish the answer to rounding, and their
+a large rotation. The last corrections use the true tangent: they refine the answer to rounding, and their
 inertia decides stability.
 
 Load steps adapt: a step's predictor, linear in the load, may displace no mass farther than a share of the
@@ -27,24 +27,24 @@ from lumped.statics.faults import broken
 from lumped.statics.limits import (
     BRANCHING,
     CAREFUL_REACH,
-    CLOSE,
-    COARSE,
     CONTINUOUS,
     CORRECTIONS,
-    EASY,
     FACTORISATIONS,
     FARTHEST,
-    FINE,
     FIRST_REACH,
     GROWTH,
+    IDLE_CORRECTION,
+    LENGTHEN_UP_TO,
+    LONGEST_REFINEMENT,
     MISS,
-    POLISHED,
-    POLISHINGS,
-    QUICK,
+    REFINE_BELOW,
+    REFINEMENTS,
+    RESIDUAL_TOLERANCE,
+    REUSE_FACTORS_WITHIN,
     SAFE,
-    SETTLED,
     SHORTEST_REACH,
     SHORTEST_STEP,
+    STALE_FACTORS_ABOVE,
 )
 from lumped.statics.problem import Problem, Residual, Tangent
 from sheetbench.numerics.reduced import Factor, SingularMatrixError
@@ -107,7 +107,8 @@ def follow(
         try:
             before = problem.factorisations
             last = abs(target - state.load_factor - step) < 1e-12
-            found = _correct(problem, state, state.load_factor + step, predicted, FINE if last else COARSE)
+            tolerance = RESIDUAL_TOLERANCE if last else REFINE_BELOW
+            found = _correct(problem, state, state.load_factor + step, predicted, tolerance)
             longest = _require_continuous(problem, state, found, predicted) if careful else np.inf
             state = found
         except (StepFailed, SingularMatrixError) as failure:
@@ -124,7 +125,7 @@ def follow(
             return state, f"{limit} factorisations were not enough"
         if careful:
             reach = longest
-        elif problem.factorisations - before <= EASY:
+        elif problem.factorisations - before <= LENGTHEN_UP_TO:
             reach *= 1.5
         step *= 4.0
     return state, ""
@@ -136,7 +137,7 @@ def _require_continuous(problem: Problem, start: State, end: State, predicted: n
     stability by more than a short step."""
     length, side = float(np.abs(predicted).max()), problem.size
     miss = float(np.abs(end.u - start.u - predicted).max())
-    if miss > max(min(CONTINUOUS * length, MISS * side), SETTLED * side):
+    if miss > max(min(CONTINUOUS * length, MISS * side), IDLE_CORRECTION * side):
         raise StepFailed("the path folds")
     if (end.negative or 0) > (start.negative or 0) and length > BRANCHING * side:
         raise StepFailed("the path loses stability")
@@ -160,16 +161,16 @@ def _correct(
 ) -> State:
     """Equilibrium at a load factor from a predicted step. Raises StepFailed, SingularMatrixError."""
     stresses = problem.assembly.extrapolated(start.u, predicted)
-    return corrected(problem, start.u + predicted, stresses, load_factor, predicted, tolerance)
+    return newton_at_load(problem, start.u + predicted, stresses, load_factor, predicted, tolerance)
 
 
-def corrected(
+def newton_at_load(
     problem: Problem,
     u: np.ndarray,
     expected: Stresses,
     load_factor: float,
     step: np.ndarray,
-    tolerance: float = FINE,
+    tolerance: float = RESIDUAL_TOLERANCE,
 ) -> State:
     """Equilibrium at a load factor from u and the stresses expected there, to which a step (n, 3) [m] has
     led. Raises StepFailed, SingularMatrixError."""
@@ -182,10 +183,10 @@ def corrected(
         problem.note(load_factor, residual.relative, lengths[-1])
         if not np.isfinite(residual.relative):
             raise StepFailed("a number overflowed")
-        if residual.relative < COARSE or all_rounding(problem, u, residual, lengths[-1]):
+        if residual.relative < REFINE_BELOW or all_rounding(problem, u, residual, lengths[-1]):
             near = None  # its memory is needed
-            close = made if lengths[-1] <= CLOSE * problem.size else None
-            return polish(problem, u, load_factor, tolerance, close, residual)
+            close = made if lengths[-1] <= REUSE_FACTORS_WITHIN * problem.size else None
+            return refine(problem, u, load_factor, tolerance, close, residual)
         done = problem.correction(u, load_factor, residual, stresses, near)
         u, residual, stresses = done.u, done.residual, done.stresses
         lengths.append(done.length)
@@ -201,11 +202,11 @@ def corrected(
     raise StepFailed(f"no equilibrium in {CORRECTIONS} corrections")
 
 
-def polish(
+def refine(
     problem: Problem,
     u: np.ndarray,
     load_factor: float,
-    tolerance: float = FINE,
+    tolerance: float = RESIDUAL_TOLERANCE,
     near: Tangent | None = None,
     residual: Residual | None = None,
 ) -> State:
@@ -217,11 +218,11 @@ def polish(
     """
     left = problem.residual(u, load_factor) if residual is None else residual
     aim = max(tolerance, rounding_floor(problem, u, left))
-    for fresh in range(POLISHINGS + 1):
+    for fresh in range(REFINEMENTS + 1):
         if fresh:
             near = None  # its memory is needed
             done = problem.correction(u, load_factor, left)
-            if not np.isfinite(done.residual.relative) or done.length > POLISHED * problem.size:
+            if not np.isfinite(done.residual.relative) or done.length > LONGEST_REFINEMENT * problem.size:
                 raise StepFailed("the polishing step is not small")
             if done.residual.relative < left.relative:
                 u, left = done.u, done.residual
@@ -232,7 +233,7 @@ def polish(
             continue
         while not left.relative < aim:
             step, after = problem.correction_with(near.factor, u, load_factor, left)
-            if not after.relative < QUICK * left.relative:
+            if not after.relative < STALE_FACTORS_ABOVE * left.relative:
                 break
             u, left = u + step, after
             problem.note(load_factor, left.relative, float(np.abs(step).max()))
@@ -247,7 +248,7 @@ def all_rounding(problem: Problem, u: np.ndarray, residual: Residual, correction
     Where nothing strains the sheet, as on a turned clamp alone, the forces are all rounding, and no residual
     is small beside them.
     """
-    if problem.assembly.precision == "double" and correction > SETTLED * problem.size:
+    if problem.assembly.precision == "double" and correction > IDLE_CORRECTION * problem.size:
         return False
     return residual.relative < rounding_floor(problem, u, residual)
 

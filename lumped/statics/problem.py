@@ -161,8 +161,8 @@ class Problem:
             placed = placed + self.assembly.coupling.driven(self.commands(load_factor))
         return placed
 
-    def placed(self, u: np.ndarray, load_factor: float) -> np.ndarray:
-        """The displacement that the supports allow which comes closest to u."""
+    def project_to_supports(self, u: np.ndarray, load_factor: float) -> np.ndarray:
+        """Return the displacement closest to u (n, 3) [m] that the supports allow."""
         prescribed = self.prescribed(load_factor)
         return self.expand(self.constraints.nearest(u - prescribed)) + prescribed
 
@@ -201,7 +201,7 @@ class Problem:
         return self.scale_of(internal, self.external(u, load_factor))
 
     def scale_of(self, internal: np.ndarray, external: np.ndarray) -> float:
-        """Return the same of these internal and external forces (n, 3) [N]."""
+        """Return the norm [N] of external forces plus that of the supports', of forces (n, 3) [N]."""
         size: float = scale(internal, external, self.constraints.held)
         return size
 

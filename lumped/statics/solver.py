@@ -24,10 +24,10 @@ from lumped.statics.equilibrium import (
     State,
     StepFailed,
     at_rest,
-    corrected,
     follow,
-    polish,
+    newton_at_load,
     predictor,
+    refine,
 )
 from lumped.statics.faults import broken
 from lumped.statics.limits import DEARER, DOUBTFUL, FACTORISATIONS
@@ -99,7 +99,7 @@ def solve(
     began = now()
     compile_kernels()
     calibration = calibration or default(scene)
-    problem = pose(scene, calibration, weights, precision)
+    problem = build_problem(scene, calibration, weights, precision)
     problem.progress = progress
     ready = now()
     with one_blas_thread():
@@ -108,7 +108,7 @@ def solve(
         elif weights == "tributary" and branch == "path":
             outcome = equilibrium(scene, problem, calibration, near)
         else:
-            outcome = settle(scene, problem, branch)
+            outcome = solve_path(scene, problem, branch)
     done = now()
     usual = {"branch": "path", "weights": "tributary", "precision": "double", "linear": False}
     options = {"branch": branch, "weights": weights, "precision": precision, "linear": linear}
@@ -126,10 +126,10 @@ def compile_kernels() -> None:
         name="small", sheet=sheet, material=material, gravity=gravity, supports=(Clamped(edge="x0"),)
     )
     with one_blas_thread():
-        settle(scene, pose(scene, consistent(sheet, material, (3, 7, 2))), "path")
+        solve_path(scene, build_problem(scene, consistent(sheet, material, (3, 7, 2))), "path")
 
 
-def pose(
+def build_problem(
     scene: Scene,
     calibration: Calibration,
     weights: Weights = "tributary",
@@ -172,7 +172,7 @@ def _singular(problem: Problem, error: SingularMatrixError) -> Outcome:
     return Outcome(Status.SINGULAR, rest, notes=(f"the flat sheet's tangent is singular: {error}",))
 
 
-def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
+def solve_path(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
     """The equilibrium at full load, or how far the load path went and why."""
     try:
         state, why = follow(problem, at_rest(problem))
@@ -190,7 +190,7 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
                 f"small load steps end at load factor {state.load_factor:.4g}, after {more} factorisations: "
                 "this equilibrium, which large ones led to, may be on another branch"
             )
-            state, why = polish(problem, reached, 1.0), ""
+            state, why = refine(problem, reached, 1.0), ""
     while why and problem.fault is None and problem.descends and len(snaps) < SNAPS:
         if problem.factorisations > FACTORISATIONS:
             break
@@ -214,7 +214,7 @@ def settle(scene: Scene, problem: Problem, branch: Branch) -> Outcome:
             status = problem.fault.status
         notes = [f"load factor {state.load_factor:.4g} of 1 reached: {why}"]
         return Outcome(status, state, tuple(snaps), tuple(notes))
-    return judged(scene, problem, state, snaps, notes)
+    return classify(scene, problem, state, snaps, notes)
 
 
 def worth(scene: Scene, problem: Problem, state: State) -> int:
@@ -233,7 +233,7 @@ def equilibrium(
 ) -> Outcome:
     """The equilibrium on the load path at full load, from one nearby or a smaller lattice's if that does."""
     found = None if near is None else _from_near(scene, problem, near)
-    return found or _from_coarser(scene, problem, springs) or settle(scene, problem, "path")
+    return found or _from_coarser(scene, problem, springs) or solve_path(scene, problem, "path")
 
 
 def _from_coarser(scene: Scene, problem: Problem, calibration: Calibration) -> Outcome | None:
@@ -241,7 +241,7 @@ def _from_coarser(scene: Scene, problem: Problem, calibration: Calibration) -> O
     springs = halved(scene, calibration) if problem.iterates and problem.system.unknowns > FROM else None
     if springs is None:
         return None
-    smaller = pose(scene, springs, precision=problem.assembly.precision)
+    smaller = build_problem(scene, springs, precision=problem.assembly.precision)
     smaller.progress = problem.progress
     outcome = equilibrium(scene, smaller, springs)
     problem.factorisations += smaller.factorisations
@@ -259,17 +259,17 @@ def _from_near(scene: Scene, problem: Problem, u: np.ndarray) -> Outcome | None:
         return None
     if u.shape != problem.loads.dead.shape:
         raise BadInput(f"near: of shape {u.shape}, and the lattice's {problem.loads.dead.shape}")
-    u = problem.placed(u, 1.0)
+    u = problem.project_to_supports(u, 1.0)
     try:
-        state = corrected(problem, u, problem.assembly.stresses(u), 1.0, u)
+        state = newton_at_load(problem, u, problem.assembly.stresses(u), 1.0, u)
     except (StepFailed, SingularMatrixError):
         return None
     if state.negative != 0 or broken(problem.assembly, state.u) is not None:
         return None
-    return judged(scene, problem, state)
+    return classify(scene, problem, state)
 
 
-def judged(
+def classify(
     scene: Scene, problem: Problem, state: State, snaps: Sequence[float] = (), known: Sequence[str] = ()
 ) -> Outcome:
     """The outcome of an equilibrium at full load: whether the springs mean anything at this strain, and

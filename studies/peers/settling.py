@@ -39,7 +39,7 @@ class Equations:
 
     def __init__(self, scene: Scene):
         springs, _ = LatticeSpec(GRID).springs(scene)
-        self.system = lumped.System(scene, lumped.pose(scene, springs))
+        self.system = lumped.System(scene, lumped.build_problem(scene, springs))
         self.free = self.system.moving_part
         self.mass = self.system.reduced_mass.diagonal()
         self.count = len(self.mass)

@@ -68,7 +68,7 @@ def _links() -> list[Check]:
     side, layers = int(given["masses_per_side"]), int(given["layers"])
     grid = (side, side, layers)
     springs = lumped.calibrate(asked.sheet, asked.material, grid=grid, method="uniform")
-    lattice = lumped.pose(asked, springs).assembly.lattice
+    lattice = lumped.build_problem(asked, springs).assembly.lattice
     ends = np.concatenate([family.nodes.ravel() for family in lattice.links])
     counts = np.bincount(ends)
     middle = side // 2

@@ -169,7 +169,7 @@ def _there_and_back(scene: Scene, springs: Any, ours: Solution) -> float | None:
     import lumped
     from lumped import at_rest, follow
 
-    problem = lumped.pose(scene, springs)
+    problem = lumped.build_problem(scene, springs)
     beyond, why = follow(problem, at_rest(problem), BACK_FROM)
     if why:
         return None

@@ -8,7 +8,7 @@ from lumped.calibration import Calibration
 from lumped.dynamics.explicit.projection import Projection
 from lumped.dynamics.system import State, System
 from lumped.lattice import Weights
-from lumped.statics.solver import pose, settle
+from lumped.statics.solver import build_problem, solve_path
 from sheetbench.scenes import Chain
 from sheetbench.scenes.kinematics import bent_or_tilted
 from sheetbench.scenes.supports import AnySupport, Motion
@@ -33,7 +33,7 @@ def initial_state(system: System, calibration: Calibration, weights: Weights) ->
         slack = tuple(a.replace(curvature=0.0) if isinstance(a, Chain) else a for a in scene.actuators)
         held = tuple(_at_the_start(support) for support in scene.supports)
         unloaded = scene.replace(gravity=None, loads=(), actuators=slack, supports=held)
-        u = settle(unloaded, pose(unloaded, calibration, weights), "path").state.u
+        u = solve_path(unloaded, build_problem(unloaded, calibration, weights), "path").state.u
     v = system.place_rate(0.0)
     v = v if system.moving else np.zeros_like(u)
     a = system.accelerate(system.unbalanced(u, v, 0.0))

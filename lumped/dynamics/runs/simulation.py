@@ -27,7 +27,7 @@ from lumped.dynamics.runs.store import FolderStore, MemoryStore
 from lumped.dynamics.system import System
 from lumped.lattice import Weights
 from lumped.statics.fields import field_mesh
-from lumped.statics.solver import pose
+from lumped.statics.solver import build_problem
 from sheetbench.choices import INTEGRATOR
 from sheetbench.clock import now
 from sheetbench.numerics.threads import one_blas_thread
@@ -84,7 +84,7 @@ def simulate(
     began = now()
     scene = scene_of(scene)
     calibration = calibration or default(scene)
-    system = System(scene, pose(scene, calibration, weights, precision))
+    system = System(scene, build_problem(scene, calibration, weights, precision))
     integrator, why = resolve_integrator(integrator, system, options)
     start = initial_state(system, calibration, weights)
     limit = INTEGRATORS[integrator].limit(system, start.u)

@@ -45,7 +45,7 @@ def test_faults_are_single_changes_of_what_runs(source, faulty):
 
 
 def test_every_fault_of_a_file_is_python_and_has_a_name_of_its_own():
-    path = TREE / "lumped" / "dynamics" / "verlet.py"
+    path = TREE / "lumped" / "dynamics" / "explicit" / "verlet.py"
     source = path.read_bytes()
     found = faults("verlet.py", source)
     assert len({fault.name for fault in found}) == len(found) > 50
@@ -55,7 +55,7 @@ def test_every_fault_of_a_file_is_python_and_has_a_name_of_its_own():
 
 
 def test_names_stay_when_lines_come():
-    source = (TREE / "lumped" / "dynamics" / "verlet.py").read_bytes()
+    source = (TREE / "lumped" / "dynamics" / "explicit" / "verlet.py").read_bytes()
     later = faults("verlet.py", b'"""More."""\n\n' + source)
     assert [fault.name for fault in later] == [fault.name for fault in faults("verlet.py", source)]
 

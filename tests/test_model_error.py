@@ -15,6 +15,7 @@ import fem_reference
 from comparisons.advice.advisor import advise
 from comparisons.comparison.comparison import compare
 from comparisons.comparison.model_error import ModelError, model_error
+from fem_reference.pulled_strip import pulled
 from sheetbench.scenes import Clamped, Hinged, Material, Pressure, Scene, Sheet, Status, load
 
 THICK = Scene(
@@ -99,6 +100,26 @@ def test_compare_names_both_parts(capsys: pytest.CaptureFixture[str]) -> None:
     said = [note for note in found.report().notes if note.startswith("shell: ")]
     assert "mesh error ±" in said[0] and "6, 4 and 3 elements" in said[0]
     assert "model error ±" in said[1] and "thickness 0.031 %" in said[1] and "clamp" in said[1]
+
+
+def test_a_law_of_strain_that_the_user_chose_is_no_error_of_the_model() -> None:
+    """Both sheets neo-Hookean, pulled to over 1.5 lengths; with the default law it is part of the bound."""
+    scene = pulled((2400.0, 0.0), Sheet(length_x=0.1, length_y=0.1, thickness=0.005))
+    chosen = compare(scene, grid=3, calibration="neo-hookean", elements=3, law="neo-hookean")
+    assert chosen.reference.stretch is not None and chosen.reference.stretch > 0.5
+    assert chosen.error(chosen.solutions[0]) == pytest.approx(0.0, abs=1e-3)
+    assert chosen.model_error == ModelError(pytest.approx(1.2 * 0.05**2), 0.0, 0.0)  # type: ignore[arg-type]
+    assert not any("law of strain" in note for note in chosen.report().notes)
+    mild = pulled((200.0, 0.0), Sheet(length_x=0.1, length_y=0.1, thickness=0.005))
+    assert "law of strain" in str(compare(mild, grid=3, elements=3).model_error)
+
+
+def test_of_a_solid_whose_law_is_chosen_the_clamp_alone_is_said() -> None:
+    answer = replace(fake_solutions.solution(THICK, "solid", -0.01), stretch=0.5)
+    found = model_error(THICK, answer, law_chosen=True)
+    assert str(found).startswith("a clamp that holds")
+    free = THICK.replace(supports=(Hinged(edge="x0"),))
+    assert str(model_error(free, answer, law_chosen=True)) == ""
 
 
 def test_the_advisor_counts_what_the_shell_leaves_out() -> None:

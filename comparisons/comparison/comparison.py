@@ -65,7 +65,7 @@ class Comparison(summary.Summarised):
     have laws of strain that differ by more. apart: a sentence where both are at rest and far apart.
     expected: the error to expect of the chosen lattice's grid, where an estimate holds. several: whether more
     than one equilibrium is known; other_branch: whether the first two are known to be different ones. busy:
-    sentences on times taken on a busy machine.
+    sentences on times taken on a busy machine. law_chosen: the reference's law of strain, by the user.
     """
 
     scene: Scene
@@ -77,6 +77,7 @@ class Comparison(summary.Summarised):
     several: bool = False
     other_branch: bool = False
     busy: tuple[str, ...] = ()
+    law_chosen: bool = False
 
     @property
     def reference(self) -> Solution:
@@ -118,9 +119,7 @@ class Comparison(summary.Summarised):
         """The relative difference of every other model from the reference at every probe."""
         truth, least = self.probes(self.reference), self.least
         found = []
-        for solution in self.solutions:
-            if solution is self.reference:
-                continue
+        for solution in (one for one in self.solutions if one is not self.reference):
             both = self.measurable(solution)
             for name, value in self.probes(solution).items():
                 off = relative(value, truth[name], least) if both else None
@@ -149,7 +148,7 @@ class Comparison(summary.Summarised):
     @property
     def model_error(self) -> ModelError | None:
         """What the reference leaves out of the sheet on every mesh, where that is known."""
-        return model_error(self.scene, self.reference)
+        return model_error(self.scene, self.reference, self.law_chosen)
 
     def distinguishable(self, solution: Solution) -> bool | None:
         """Whether a solution's error is above the reference's own; None where either is not known."""
@@ -209,7 +208,7 @@ class Comparison(summary.Summarised):
         if solution is self.reference and self.bar is not None:
             bar = self.bar.as_dict() | (self.model_error.as_dict() if self.model_error else {"model": None})
         if (own := self.own_bar(solution)) is not None:
-            bar = {"error": self.bar_of(solution), "mesh": self.bar_of(solution), "probes": own}
+            bar = {"error": (off := self.bar_of(solution)), "mesh": off, "probes": own}
         expected = self.expected if solution is self.solutions[0] else None
         return {
             "model": solution.model,
@@ -326,14 +325,13 @@ def compare(
             return answer(scene, judge.but(elements=n), progress=progress)
 
         bar = error_bar(scene, solutions[1], elements, coarser)
+    answers, within = tuple(solutions), None if bar is None else bar.error
     if first.model == "lumped":
-        laws = strain_law.said(scene, first, tuple(solutions), None if bar is None else bar.error)
-        within = None if bar is None else bar.error
+        laws = strain_law.said(scene, first, answers, within)
         if not apart:
-            apart, other_branch = far_apart.said(scene, first, tuple(solutions), error, within, also)
-    known = several or other_branch
-    busy = tuple(doubts([average()]))
-    return Comparison(scene, tuple(solutions), bar, laws, apart, expected, known, other_branch, busy)
+            apart, other_branch = far_apart.said(scene, first, answers, error, within, also)
+    known, busy = several or other_branch, tuple(doubts([average()]))
+    return Comparison(scene, answers, bar, laws, apart, expected, known, other_branch, busy, law is not None)
 
 
 def _unlike(name: str, taken: Collection[str]) -> str:

@@ -5,7 +5,8 @@ thickness   1.2 (h/a)², a the shorter side, 1.2 = 1/κ: shear-deformable plates
             solid
 strain law  2.3 ε √m, ε the largest stretch, m the share of stretching in the energy: at one force
             St Venant–Kirchhoff's and neo-Hooke's sheets differ by 2.3 ε of a stretch (1.5 and −0.77 of
-            `comparisons.comparison.strain_law`), and where loads bend the sheet by less
+            `comparisons.comparison.strain_law`), and where loads bend the sheet by less; nothing where the
+            user has chosen the law: then it is part of the scene
 clamp       0.75 |ν|/(1 − ν) h/a where an edge is clamped: a clamp holds the mid-surface and its normal, and
             leaves the thickness free to change (docs/theory.md, section 8). One that holds the whole face
             stops the change of thickness that bending brings, within a zone of length h
@@ -45,11 +46,11 @@ class ModelError:
     def __str__(self) -> str:
         parts = {"thickness": self.thickness, "law of strain": self.strain_law}
         named = ", ".join(f"{name} {_percent(part)}" for name, part in parts.items() if part > 0.0)
-        said = f"model error ± {_percent(self.value)}" + (f" ({named})" if named else "")
+        said = [f"model error ± {_percent(self.value)} ({named})"] if named else []
         if self.clamp > 0.0:
             other = "a clamp that holds the sheet's thickness too would change it by up to"
-            said += f"; {other} {_percent(self.clamp)}"
-        return said
+            said.append(f"{other} {_percent(self.clamp)}")
+        return "; ".join(said)
 
     def as_dict(self) -> dict[str, float | dict[str, float]]:
         """For JSON."""
@@ -61,9 +62,9 @@ def _percent(share: float) -> str:
     return f"{few(100.0 * share)} %"
 
 
-def model_error(scene: Scene, answer: Solution) -> ModelError | None:
+def model_error(scene: Scene, answer: Solution, law_chosen: bool = False) -> ModelError | None:
     """The bounds of a shell's or solid's answer; None where it is no stable equilibrium, and of the plate,
-    which leaves out large displacements altogether."""
+    which leaves out large displacements altogether. law_chosen: whether its law of strain is the user's."""
     if answer.status is not Status.CONVERGED or answer.stretch is None or answer.model not in MODELS:
         return None
     slenderness, poisson = scene.sheet.thickness / min(scene.sheet.lengths), scene.material.poisson
@@ -72,6 +73,6 @@ def model_error(scene: Scene, answer: Solution) -> ModelError | None:
     solid = answer.model == "solid"
     return ModelError(
         thickness=0.0 if solid else SHEAR * slenderness**2,
-        strain_law=LAW * answer.stretch * (1.0 if solid else membrane**0.5),
+        strain_law=0.0 if law_chosen else LAW * answer.stretch * (1.0 if solid else membrane**0.5),
         clamp=CLAMP * abs(poisson) / (1.0 - poisson) * slenderness if clamped else 0.0,
     )

@@ -192,7 +192,7 @@ def uncertainty(comparison: Comparison) -> list[str]:
         return said
     model = comparison.reference.model
     said.append(comparison.bar.note(model))
-    said += [f"{model}: {left_out}."] if (left_out := comparison.model_error) else []
+    said += [f"{model}: {left_out}."] if (left_out := str(comparison.model_error or "")) else []
     for solution in comparison.solutions:
         if comparison.distinguishable(solution) is False:
             said.append(f"{solution.model}: not distinguishable from {comparison.reference.model}.")

@@ -25,7 +25,7 @@ from lumped.lattice import Lattice
 from lumped.pattern import KEPT, Pattern
 from lumped.springs.rest import Itself
 from sheetbench.numerics.kept import frozen
-from sheetbench.numerics.maps import Rows, rows
+from sheetbench.numerics.maps import Rows, csr_arrays
 from sheetbench.numerics.reduced import ReducedSystem, reduced
 from sheetbench.scenes import Scene, Sheet, Support, held_axes, holds_tilt
 from sheetbench.scenes.kinematics import bent_or_tilted, shifts
@@ -53,7 +53,7 @@ class Constraints:
     @cached_property
     def rows(self) -> Rows:
         """The transform as compiled loops take it."""
-        return rows(self.transform)
+        return csr_arrays(self.transform)
 
     def nearest(self, u: np.ndarray) -> np.ndarray:
         """The unknowns (m,) whose T q is closest to u (n, 3): (TᵀT)⁻¹ Tᵀ u."""

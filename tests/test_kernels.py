@@ -21,7 +21,7 @@ import lumped
 from lumped.dynamics.explicit.steps import march
 from sheetbench.kernels import MONTH, ROOT, SAID, X86_64_V3, Locator, _remove_old, made_of
 from sheetbench.numerics import maps
-from sheetbench.numerics.maps import rows
+from sheetbench.numerics.maps import csr_arrays
 
 ASK = """
 import logging, sys
@@ -50,7 +50,7 @@ def test_matrices_are_alike_to_kernels_whatever_integers_scipy_takes():
     small = sp.csr_array(np.eye(2))
     large = sp.csr_array((small.data, small.indices.astype(np.int64), small.indptr.astype(np.int64)))
     assert small.indices.dtype != large.indices.dtype
-    assert [part.dtype for part in rows(small)] == [part.dtype for part in rows(large)]
+    assert [part.dtype for part in csr_arrays(small)] == [part.dtype for part in csr_arrays(large)]
 
 
 def test_steps_are_compiled_once_whether_edges_are_driven_or_not():

@@ -102,12 +102,12 @@ def test_energy_from_nowhere_is_told_with_time_and_place(problem):
     v[equations.assembly.lattice.columns()[2, 4, 0], 2] = 1.0
     moving = State(0.25, state.u, v, state.a)
     row = np.array([0.25, 1.0, 1.0, 0.0, 0.0, 0.0])  # time, kinetic, elastic, potential, dissipated, work
-    assert watchdog.bark(equations, moving, row, origin=0.0, round_about=3.0) is None
-    fault = watchdog.bark(equations, moving, row, origin=0.0, round_about=1.0)
+    assert watchdog.check_sample(equations, moving, row, origin=0.0, round_about=3.0) is None
+    fault = watchdog.check_sample(equations, moving, row, origin=0.0, round_about=1.0)
     assert fault is not None and fault.status is Status.DIVERGED
     assert "0.25 s" in fault.message and "x = 0.188 m, y = 0.094 m" in fault.message
     row[2] = np.inf
-    fault = watchdog.bark(equations, moving, row, origin=0.0, round_about=1.0)
+    fault = watchdog.check_sample(equations, moving, row, origin=0.0, round_about=1.0)
     assert fault is not None and fault.status is Status.NON_FINITE
 
 

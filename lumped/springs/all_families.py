@@ -21,7 +21,7 @@ from lumped.springs.cells import CellArrays
 from lumped.springs.families import Cells, Links
 from lumped.springs.family import Family
 from lumped.springs.links import LinkArrays
-from lumped.springs.tiles import YES
+from lumped.springs.tiles import NUMBA_TRUE
 
 
 class Springs(NamedTuple):
@@ -136,9 +136,9 @@ def tangent(
     where they are empty, and with M + share (D − M). It is symmetric: what is above the diagonal is copied,
     mirror (k, 2) `Pattern.mirror`."""
     blocks = np.zeros((count, 3, 3))
-    links.add_tangent(u, springs.links, stress[0], share, YES, blocks)
-    cells.add_tangent(u, springs.layers, stress[1], share, YES, blocks)
-    cells.add_tangent(u, springs.middle, stress[2], share, YES, blocks)
+    links.add_tangent(u, springs.links, stress[0], share, NUMBA_TRUE, blocks)
+    cells.add_tangent(u, springs.layers, stress[1], share, NUMBA_TRUE, blocks)
+    cells.add_tangent(u, springs.middle, stress[2], share, NUMBA_TRUE, blocks)
     copy_above(blocks, mirror)
     return blocks
 

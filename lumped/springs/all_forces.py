@@ -15,10 +15,10 @@ from lumped.springs.cell_tiles import HALF, gather_sides, push_corner, resist_ce
 from lumped.springs.link_tiles import pull_ends, resist_links, stretch_directional, stretch_links
 from lumped.springs.membrane_tiles import stretch_others
 from lumped.springs.packing import Packing, Scratch
-from lumped.springs.tiles import LANES, NO, OPTIONS, ROWS, YES
+from lumped.springs.tiles import LANES, NUMBA_FALSE, NUMBA_TRUE, OPTIONS, ROWS
 
 DIRECTIONAL, CELLS = np.uint64(kinds.DIRECTIONAL), np.uint64(kinds.CELLS)
-ONE = np.uint64(1)
+UINT_ONE = np.uint64(1)
 R6, R11 = ROWS[6], ROWS[11]
 
 
@@ -62,10 +62,11 @@ def add_at_places(
     force: np.ndarray,
     tile: np.ndarray,
 ) -> tuple[float, float]:
-    """The same with u, v and force at the places of a packing, flat. The mid-surface's are written to."""
+    """Add internal and damping forces as `add_forces` does, u, v and force flat at the places of a packing.
+    The mid-surface's places of u are written to."""
     if packing.mid:
         average(packing, u)
-    return _pass(u, v, YES, elastic, damped, packing, force, tile)
+    return _pass(u, v, NUMBA_TRUE, elastic, damped, packing, force, tile)
 
 
 @njit(**OPTIONS)
@@ -74,7 +75,7 @@ def add_damping_again(
 ) -> float:
     """Add the damping force at velocity v once more, at the displacement u of the last pass, whose shapes
     are taken if the packing keeps them; the power taken [W]. The mid-surface's places of v are written to."""
-    return _pass(u, v, not packing.keeping, NO, YES, packing, force, tile)[1]
+    return _pass(u, v, not packing.keeping, NUMBA_FALSE, NUMBA_TRUE, packing, force, tile)[1]
 
 
 @njit(**OPTIONS)
@@ -144,7 +145,7 @@ def average(packing: Packing, x: np.ndarray) -> None:
         first = np.uint64(q) * packing.size
         for i in range(plane):
             x[first + mid + i] = x[first + i]
-        for k in range(ONE, packing.layers):
+        for k in range(UINT_ONE, packing.layers):
             for i in range(plane):
                 x[first + mid + i] += x[first + k * plane + i]
         for i in range(plane):

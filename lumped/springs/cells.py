@@ -34,7 +34,7 @@ from lumped.springs.laws import (
 from lumped.springs.vectors import Vector, dot, less, plus, times
 
 HALF = 0.5
-NONE = (0.0, 0.0, 0.0)
+NO_STRESS = (0.0, 0.0, 0.0)
 
 
 class CellArrays(NamedTuple):
@@ -193,7 +193,8 @@ def add_damping_forces(u: np.ndarray, v: np.ndarray, cells: CellArrays, force: n
         q, now = of_cell(cells.constants, c), products(a, b)
         moving = rate(a, b, *side_changes(v, cells.nodes, c))
         stress = times_six(
-            stiffness_of_area_and_strains(NONE, now, 0.0, now[0] * now[1] - now[2] * now[2], 0.0, q), moving
+            stiffness_of_area_and_strains(NO_STRESS, now, 0.0, now[0] * now[1] - now[2] * now[2], 0.0, q),
+            moving,
         )
         power += dot(stress, moving)
         pull(cells.nodes, c, stress, a, b, force)
@@ -238,7 +239,7 @@ def add_damping_tangent(u: np.ndarray, v: np.ndarray, cells: CellArrays, blocks:
         va, vb = side_changes(v, cells.nodes, c)
         moving = rate(a, b, va, vb)
         square = now[0] * now[1] - now[2] * now[2]
-        k = stiffness_of_area_and_strains(NONE, now, 0.0, square, 0.0, q)
+        k = stiffness_of_area_and_strains(NO_STRESS, now, 0.0, square, 0.0, q)
         n, turned = (now[1], now[0], -2.0 * now[2]), (moving[1], moving[0], -2.0 * moving[2])
         along = dot(n, moving) / square
         scale = 0.25 * q[0] / square

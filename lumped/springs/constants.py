@@ -20,7 +20,7 @@ SIGNED = ("area", "mid_area", "mid_shear", *EDGES_OWN)
 
 
 def number(table: SpringSet | DamperSet, family: str, direction: str) -> float | None:
-    """The same as `along` where it is one number for all components and cells, else None."""
+    """Return what `along` does where that is one number for all components and cells, else None."""
     value: Any = getattr(table, family)
     if isinstance(value, PerDirection):
         if value.z is not None or direction not in ("x", "y"):

@@ -28,7 +28,7 @@ CACHE_LIMIT = 2**18  # numbers of all shapes at most: from beyond the caches the
 BRIDGED = 4  # places at most from one spring of a run to the next
 ROWS = {LINKS: link_tiles.DATA, DIRECTIONAL: link_tiles.DATA}
 ROWS |= {CELLS: cell_tiles.DATA, NEO_HOOKEAN: membrane_tiles.DATA}
-NOTHING = {  # rest data where there is no spring: a link or a cell of side 1 [m]
+ABSENT_SPRING = {  # rest data where there is no spring: a link or a cell of side 1 [m]
     LINKS: (1.0, 0.0, 0.0, 1.0),
     DIRECTIONAL: (1.0, 0.0, 0.0, 1.0),
     CELLS: (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0),
@@ -238,7 +238,7 @@ def _tables(kind: int, topology: Topology, data: np.ndarray) -> tuple[np.ndarray
     hashes = np.add.reduceat(_folded(mixed) * ODD[place], begins)
     _, kinds, of_runs = np.unique(hashes, return_index=True, return_inverse=True)
     tables = np.zeros((len(kinds), len(data), STRIDE))
-    tables[:, : len(NOTHING[kind])] = np.array(NOTHING[kind])[:, None]
+    tables[:, : len(ABSENT_SPRING[kind])] = np.array(ABSENT_SPRING[kind])[:, None]
     number = np.full(len(begins), -1)
     number[kinds] = np.arange(len(kinds))
     shown = np.flatnonzero(number[run] >= 0)

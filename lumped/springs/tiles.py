@@ -20,8 +20,8 @@ import numpy as np
 
 WIDTH = 128
 LANES = np.uint64(8)  # springs of a run come in blocks of so many, as wide as the widest vectors
-YES: Any = np.True_  # for Python's own numba compiles a kernel once for each
-NO: Any = np.False_
+NUMBA_TRUE: Any = np.True_  # for Python's own numba compiles a kernel once for each
+NUMBA_FALSE: Any = np.False_
 STRIDE = WIDTH + 8  # of rows; a power of two would put them all in the same few places of a cache
 ROWS = tuple(np.uint64(row * STRIDE) for row in range(24))
 OPTIONS: dict[str, Any] = {

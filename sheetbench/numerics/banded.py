@@ -85,7 +85,7 @@ def band_of(
 
 
 @njit(cache=True, nogil=True)
-def rows(n: int) -> int:
+def padded_length(n: int) -> int:
     """Rows of the storage: whole panels, and two that the loops run over into."""
     return -(-n // PANEL) * PANEL + 2
 
@@ -93,7 +93,7 @@ def rows(n: int) -> int:
 @njit(cache=True, nogil=True)
 def stored(blocks: np.ndarray, band: Band) -> np.ndarray:
     """The matrix of blocks (b, 3, 3) in band storage: whole panels, and zeros where the loops run over."""
-    out = room(band)
+    out = empty_storage(band)
     store(blocks, band, out)
     return out
 
@@ -101,18 +101,18 @@ def stored(blocks: np.ndarray, band: Band) -> np.ndarray:
 @njit(cache=True, nogil=True)
 def shape(band: Band) -> tuple[int, int]:
     """Rows and columns of the storage."""
-    return rows(len(band.order)), band.width + 1 + PANEL
+    return padded_length(len(band.order)), band.width + 1 + PANEL
 
 
 @njit(cache=True, nogil=True)
-def room(band: Band) -> np.ndarray:
-    """Band storage, empty."""
+def empty_storage(band: Band) -> np.ndarray:
+    """Return band storage of zeros."""
     return np.zeros(shape(band))
 
 
 @njit(cache=True, nogil=True)
 def store(blocks: np.ndarray, band: Band, out: np.ndarray) -> None:
-    """The same into storage that there is, whatever it held."""
+    """Write the matrix of blocks (b, 3, 3) into band storage `out`, over what it held."""
     out[:] = 0.0
     entries = blocks.ravel()
     for e in range(len(band.source)):

@@ -17,8 +17,8 @@ class Rows(NamedTuple):
     values: np.ndarray
 
 
-def rows(matrix: sp.csr_array) -> Rows:
-    """The rows of SciPy's matrix, with integers of one size: kernels are compiled for either apart."""
+def csr_arrays(matrix: sp.csr_array) -> Rows:
+    """Return the arrays of a SciPy matrix, their integers int64: kernels are compiled for each size apart."""
     pointers, columns = (part.astype(np.int64) for part in (matrix.indptr, matrix.indices))
     return Rows(pointers, columns, matrix.data)
 

@@ -19,7 +19,7 @@ from sheetbench.numerics.fronts import Fronts
 
 PANEL, BLOCK = 6, 48  # columns
 WIDE = 160  # from here on a front is eliminated by blocks
-NOTHING = 1e-13  # of the diagonal, up to which a pivot counts as rounding
+ROUNDING_PIVOT = 1e-13  # of the diagonal, up to which a pivot counts as rounding
 GROWTH = 1e3
 REORDERED = {"reassoc", "contract", "nsz"}  # sums in any order, for vector instructions; infinities count
 
@@ -120,7 +120,7 @@ def _eliminate(dense: np.ndarray, diagonal: np.ndarray, signs: np.ndarray, panel
             for k in range(k0, start):
                 column, p = dense[k], k - k0
                 pivot = np.abs(column[k])
-                if not (pivot > NOTHING * diagonal[k] and pivot > 0.0 and pivot < np.inf):
+                if not (pivot > ROUNDING_PIVOT * diagonal[k] and pivot > 0.0 and pivot < np.inf):
                     return False
                 sign[p] = 1.0 if column[k] > 0.0 else -1.0
                 column[k] = np.sqrt(pivot)

@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 from lumped.dynamics.explicit.follower_loads import Followers
-from lumped.dynamics.explicit.steps import Motion, Room
+from lumped.dynamics.explicit.steps import ExplicitArrays, Workspace
 from lumped.dynamics.integrator import Advance, StepFailed
 from lumped.dynamics.system import State, System
 from lumped.springs.packing import pack, scratch
@@ -22,7 +22,7 @@ LEAST = 8  # steps of a call: to lay a large lattice out for it and back takes a
 
 
 class FlatSystem:
-    """A system without chains at the places of a packing. size: of flat vectors; motion: what compiled steps
+    """A system without chains at the places of a packing. size: of flat vectors; arrays: what compiled steps
     take; at_once: steps of a call."""
 
     def __init__(self, system: System):
@@ -46,7 +46,7 @@ class FlatSystem:
         springs = sum(map(len, assembly.springs))
         self.at_once = max(LEAST, round(CALL / (springs * PER_SPRING)))
         self.size = 3 * self._stride
-        self.motion = Motion(
+        self.arrays = ExplicitArrays(
             packing,
             mass,
             inverse,
@@ -69,7 +69,7 @@ class FlatSystem:
             times = np.cumsum(np.append(state.time, np.full(count, step)))  # as they add up one by one
             tables = self._factors(times), *self._placed(times)
             whole, taken, dissipated, work = steps_of(
-                count, step, self.motion, *tables, u, v, a, self._room(u)
+                count, step, self.arrays, *tables, u, v, a, self._workspace(u)
             )
             if whole:
                 after = State(float(times[taken]), self.by_mass(u), self.by_mass(v), self.by_mass(a))
@@ -82,7 +82,7 @@ class FlatSystem:
         """Compile steps, or load what was compiled, before there is anything to do."""
         still, at_once = np.zeros(self.size), np.zeros(1)
         tables = self._factors(at_once), *self._placed(at_once)
-        steps_of(0, 1.0, self.motion, *tables, still, still.copy(), still.copy(), self._room(still))
+        steps_of(0, 1.0, self.arrays, *tables, still, still.copy(), still.copy(), self._workspace(still))
 
     def flat(self, vector: np.ndarray) -> np.ndarray:
         """A vector (n, 3) at the places, (3 s,)."""
@@ -96,14 +96,14 @@ class FlatSystem:
         out[self._order] = flat.reshape(3, self._stride)[:, : self._count].T
         return out
 
-    def _room(self, u: np.ndarray) -> Room:
+    def _workspace(self, u: np.ndarray) -> Workspace:
         """Where steps of the displacement u (3 s,) are computed."""
-        kind = self.motion.packing.rest.dtype
-        x = np.zeros(len(u), kind) if self.motion.single else u
+        kind = self.arrays.packing.rest.dtype
+        x = np.zeros(len(u), kind) if self.arrays.single else u
         w, d, force, damping = (np.zeros(len(u), kind) for _ in range(4))
         load, before, moved = (np.zeros(len(u)) for _ in range(3))
-        tile = scratch(self.motion.packing).tile
-        return Room(x, w, d, force, damping, tile, load, before, moved, np.zeros(len(self._driven)))
+        tile = scratch(self.arrays.packing).tile
+        return Workspace(x, w, d, force, damping, tile, load, before, moved, np.zeros(len(self._driven)))
 
     def _factors(self, times: np.ndarray) -> np.ndarray:
         """Factors of the loads' histories at times (k,) [s], (k, parts)."""

@@ -13,8 +13,8 @@ import numpy as np
 from numba import njit
 
 from lumped.dynamics.explicit.steps import (
-    Motion,
-    Room,
+    ExplicitArrays,
+    Workspace,
     exerted_on,
     external,
     resist,
@@ -23,10 +23,10 @@ from lumped.dynamics.explicit.steps import (
     work_of_supports,
 )
 from lumped.springs.all_forces import add_at_places, add_damping_again
-from lumped.springs.tiles import NO, OPTIONS, YES
+from lumped.springs.tiles import NUMBA_FALSE, NUMBA_TRUE, OPTIONS
 from sheetbench.numerics import banded
 
-CLOSE = 1e-8  # what corrections leave of the velocity, relative to the largest
+VELOCITY_TOLERANCE = 1e-8  # what corrections leave of the velocity, relative to the largest
 STALE = 0.1  # ratio of successive corrections above which the factors are made anew
 MEASURED = 32  # steps at most from one measurement of that ratio to the next
 CORRECTIONS = 12
@@ -48,7 +48,7 @@ class Factors(NamedTuple):
 def march(
     steps: int,
     h: float,
-    motion: Motion,
+    arrays: ExplicitArrays,
     matrix: Factors,
     factors: np.ndarray,
     place: np.ndarray,
@@ -56,7 +56,7 @@ def march(
     u: np.ndarray,
     v: np.ndarray,
     a: np.ndarray,
-    room: Room,
+    workspace: Workspace,
     guess: np.ndarray,
     last: np.ndarray,
     solved: np.ndarray,
@@ -64,21 +64,21 @@ def march(
     """As `lumped.dynamics.explicit.steps.march`, but for steps that it ends early, whole, once corrections
     shrink slowly, and that it cannot take without new factors. guess, last: (3 s,); solved: as long as the
     band, and its width."""
-    packing, driven, rate = motion.packing, motion.driven, motion.rate
-    x, w, force, damping, load = room.x, room.w, room.force, room.damping, room.load
+    packing, driven, rate = arrays.packing, arrays.driven, arrays.rate
+    x, w, force, damping, load = workspace.x, workspace.w, workspace.force, workspace.damping, workspace.load
     count = packing.layers * packing.plane
     taken = work = 0.0
-    external(motion, factors[0], u, load)
-    rounded(motion, u, x)
+    external(arrays, factors[0], u, load)
+    rounded(arrays, u, x)
     w[:] = v
     last[:] = v
     force[:] = 0.0
-    _, power = add_at_places(x, w, NO, YES, packing, force, room.tile)
+    _, power = add_at_places(x, w, NUMBA_FALSE, NUMBA_TRUE, packing, force, workspace.tile)
     power += resist(rate, w, force)
     if len(driven):
-        add_at_places(x, w, YES, NO, packing, force, room.tile)
+        add_at_places(x, w, NUMBA_TRUE, NUMBA_FALSE, packing, force, workspace.tile)
     for i in range(len(driven)):
-        room.exerted[i] = exerted_on(motion, driven[i], a, force, load)
+        workspace.exerted[i] = exerted_on(arrays, driven[i], a, force, load)
     ratio, measured = 1.0, 0
     for n in range(steps):
         for i in range(len(u)):
@@ -88,35 +88,35 @@ def march(
             half = v[i] + 0.5 * h * a[i]
             v[i] = half
             u[i] += h * half
-        if motion.working:
+        if arrays.working:
             for i in range(len(u)):
-                room.moved[i] = h * v[i]
+                workspace.moved[i] = h * v[i]
         for i in range(len(driven)):
             p, jump = driven[i], place[n + 1, i] - place[n, i] - h * place_rate[n, i]
             u[p] += jump
-            room.moved[p] += jump
+            workspace.moved[p] += jump
             v[p] += place_rate[n + 1, i] - place_rate[n, i]
             guess[p] = v[p]
-        if motion.working:
-            room.load_before[:] = load
-            external(motion, factors[n + 1], u, load)
-        rounded(motion, u, x)
+        if arrays.working:
+            workspace.load_before[:] = load
+            external(arrays, factors[n + 1], u, load)
+        rounded(arrays, u, x)
         force[:] = 0.0
-        add_at_places(x, w, YES, NO, packing, force, room.tile)
+        add_at_places(x, w, NUMBA_TRUE, NUMBA_FALSE, packing, force, workspace.tile)
         size, aged = np.inf, False
         for k in range(CORRECTIONS):
             w[:] = guess
             damping[:] = 0.0
-            add_damping_again(x, w, packing, damping, room.tile)
+            add_damping_again(x, w, packing, damping, workspace.tile)
             resist(rate, w, damping)
             before = size
-            size, largest = _correct(0.5 * h, motion, matrix, v, load, force, damping, guess, solved)
+            size, largest = _correct(0.5 * h, arrays, matrix, v, load, force, damping, guess, solved)
             if not np.isfinite(size):
                 return False, n, taken, work
             if k > 0:
                 ratio, measured = size / before if before > 0.0 else 0.0, n
                 aged = aged or ratio > STALE
-            if min(ratio, 1.0) * size <= CLOSE * largest and (k > 0 or n - measured < MEASURED):
+            if min(ratio, 1.0) * size <= VELOCITY_TOLERANCE * largest and (k > 0 or n - measured < MEASURED):
                 break
         else:
             return False, n, taken, work
@@ -125,22 +125,22 @@ def march(
             first = np.uint64(q) * packing.size
             for i in range(count):
                 gained = (guess[first + i] - v[first + i]) * (2.0 / h)
-                inertia = motion.mass[first + i] * gained
+                inertia = arrays.mass[first + i] * gained
                 a[first + i] = gained
                 v[first + i] = guess[first + i]
                 now += v[first + i] * (load[first + i] - force[first + i] - inertia)
         for i in range(len(driven)):
             p = driven[i]
-            now += v[p] * (damping[p] - (load[p] - force[p] - motion.mass[p] * a[p]))
+            now += v[p] * (damping[p] - (load[p] - force[p] - arrays.mass[p] * a[p]))
         taken += 0.5 * h * (power + now)
         power = now
-        if motion.working:
-            work += work_of_loads(motion, room.load_before, load, room.moved)
+        if arrays.working:
+            work += work_of_loads(arrays, workspace.load_before, load, workspace.moved)
         if len(driven):
             for i in range(len(force)):
                 force[i] += damping[i]
         work += work_of_supports(
-            motion, room, driven, (a, force, load), place[n : n + 2], place_rate[n : n + 2]
+            arrays, workspace, driven, (a, force, load), place[n : n + 2], place_rate[n : n + 2]
         )
         if aged:
             return True, n + 1, taken, work
@@ -150,7 +150,7 @@ def march(
 @njit(**OPTIONS)
 def _correct(
     half: float,
-    motion: Motion,
+    arrays: ExplicitArrays,
     matrix: Factors,
     w: np.ndarray,
     load: np.ndarray,
@@ -164,7 +164,7 @@ def _correct(
     solved[:] = 0.0
     for e in range(len(matrix.place)):
         p = matrix.place[e]
-        pull = motion.mass[p] * (w[p] - guess[p]) + half * (load[p] - force[p] - damping[p])
+        pull = arrays.mass[p] * (w[p] - guess[p]) + half * (load[p] - force[p] - damping[p])
         solved[matrix.unknown[e]] += matrix.value[e] * pull
     banded.substitute(matrix.band, matrix.unknowns, matrix.width, solved)
     size = largest = 0.0

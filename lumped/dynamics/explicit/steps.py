@@ -19,10 +19,10 @@ from numba import njit
 from lumped.dynamics.explicit.follower_loads import Followers, add_followers
 from lumped.springs.all_forces import add_at_places, add_damping_again
 from lumped.springs.packing import Packing
-from lumped.springs.tiles import OPTIONS, YES
+from lumped.springs.tiles import NUMBA_TRUE, OPTIONS
 
 
-class Motion(NamedTuple):
+class ExplicitArrays(NamedTuple):
     """What stays the same from step to step, at s places. mass, inverse_mass: (3 s,) [kg], the latter zero
     where supports hold; rate: (3 s,) or empty, damping of each mass [N·s/m]; columns: (h, layers) places
     whose mean is held; dead: (parts, 3 s) loads [N] to be scaled by each history, the first by none; driven:
@@ -42,7 +42,7 @@ class Motion(NamedTuple):
     single: bool
 
 
-class Room(NamedTuple):
+class Workspace(NamedTuple):
     """What steps are computed in. In the precision of the forces: displacement x, predicted velocity w, its
     correction d, force and damping force, a tile. In double: loads at the end of a step and at its start,
     what the masses moved (3 s,), and what is exerted on the driven places."""
@@ -63,14 +63,14 @@ class Room(NamedTuple):
 def march(
     steps: int,
     h: float,
-    motion: Motion,
+    arrays: ExplicitArrays,
     factors: np.ndarray,
     place: np.ndarray,
     place_rate: np.ndarray,
     u: np.ndarray,
     v: np.ndarray,
     a: np.ndarray,
-    room: Room,
+    workspace: Workspace,
 ) -> tuple[bool, int, float, float]:
     """Take u, v and a (3 s,) `steps` steps of h [s] on. factors: (steps + 1, parts) of the loads' histories;
     place and place_rate: (steps + 1, driven) [m], [m/s].
@@ -78,89 +78,96 @@ def march(
     Whether no number overflowed, else u, v and a are spoilt; the steps before that; the energy that dampers
     took and the work done [J].
     """
-    packing, driven, rate = motion.packing, motion.driven, motion.rate
-    x, w, d, force, damping, load = room.x, room.w, room.d, room.force, room.damping, room.load
+    packing, driven, rate = arrays.packing, arrays.driven, arrays.rate
+    x, w, d = workspace.x, workspace.w, workspace.d
+    force, damping, load = workspace.force, workspace.damping, workspace.load
     taken = work = power = 0.0
-    external(motion, factors[0], u, load)
-    if motion.damped or len(driven):
-        rounded(motion, u, x)
+    external(arrays, factors[0], u, load)
+    if arrays.damped or len(driven):
+        rounded(arrays, u, x)
         w[:] = v
         force[:] = 0.0
-        _, power = add_at_places(x, w, YES, packing.damped, packing, force, room.tile)
+        _, power = add_at_places(x, w, NUMBA_TRUE, packing.damped, packing, force, workspace.tile)
         power += resist(rate, w, force)
         for i in range(len(driven)):
-            room.exerted[i] = exerted_on(motion, driven[i], a, force, load)
+            workspace.exerted[i] = exerted_on(arrays, driven[i], a, force, load)
     for n in range(steps):
-        _predict(h, motion, u, v, a, w, room.moved)
+        _predict(h, arrays, u, v, a, w, workspace.moved)
         for i in range(len(driven)):
             p, jump = driven[i], place[n + 1, i] - place[n, i] - h * place_rate[n, i]
             u[p] += jump
-            room.moved[p] += jump
+            workspace.moved[p] += jump
             v[p] += place_rate[n + 1, i] - place_rate[n, i]
-        if motion.working:
-            room.load_before[:] = load
-            external(motion, factors[n + 1], u, load)
-        rounded(motion, u, x)
+        if arrays.working:
+            workspace.load_before[:] = load
+            external(arrays, factors[n + 1], u, load)
+        rounded(arrays, u, x)
         force[:] = 0.0
-        _, now = add_at_places(x, w, YES, packing.damped, packing, force, room.tile)
+        _, now = add_at_places(x, w, NUMBA_TRUE, packing.damped, packing, force, workspace.tile)
         now += resist(rate, w, force)
-        if not _accelerate(0.5 * h, motion, load, force, a, v):
+        if not _accelerate(0.5 * h, arrays, load, force, a, v):
             return False, n, taken, work
-        if motion.damped:
+        if arrays.damped:
             for i in range(len(d)):
                 d[i] = v[i] - w[i]
             damping[:] = 0.0
             beyond = resist(rate, d, damping)
             if packing.damped:
-                beyond += add_damping_again(x, d, packing, damping, room.tile)
-            now += 2.0 * _correct(motion, w, damping, force) + beyond
+                beyond += add_damping_again(x, d, packing, damping, workspace.tile)
+            now += 2.0 * _correct(arrays, w, damping, force) + beyond
             taken += 0.5 * h * (power + now)
             power = now
-            if not _accelerate(0.0, motion, load, force, a, v):
+            if not _accelerate(0.0, arrays, load, force, a, v):
                 return False, n, taken, work
-        if motion.working:
-            work += work_of_loads(motion, room.load_before, load, room.moved)
+        if arrays.working:
+            work += work_of_loads(arrays, workspace.load_before, load, workspace.moved)
         work += work_of_supports(
-            motion, room, driven, (a, force, load), place[n : n + 2], place_rate[n : n + 2]
+            arrays, workspace, driven, (a, force, load), place[n : n + 2], place_rate[n : n + 2]
         )
     return True, steps, taken, work
 
 
 @njit(**OPTIONS)
-def rounded(motion: Motion, u: np.ndarray, x: np.ndarray) -> None:
+def rounded(arrays: ExplicitArrays, u: np.ndarray, x: np.ndarray) -> None:
     """Displacements in single precision; in double x is u."""
-    if motion.single:
+    if arrays.single:
         x[:] = u
 
 
 @njit(**OPTIONS)
 def _predict(
-    h: float, motion: Motion, u: np.ndarray, v: np.ndarray, a: np.ndarray, w: np.ndarray, moved: np.ndarray
+    h: float,
+    arrays: ExplicitArrays,
+    u: np.ndarray,
+    v: np.ndarray,
+    a: np.ndarray,
+    w: np.ndarray,
+    moved: np.ndarray,
 ) -> None:
     """w = v + h a where there are dampers, v half a step and u a step on; what u moved where loads work."""
-    count = motion.packing.layers * motion.packing.plane
-    size = motion.packing.size
+    count = arrays.packing.layers * arrays.packing.plane
+    size = arrays.packing.size
     for q in range(3):
         first = np.uint64(q) * size
-        if motion.damped:
+        if arrays.damped:
             for i in range(count):
                 w[first + i] = v[first + i] + h * a[first + i]
         for i in range(count):
             half = v[first + i] + 0.5 * h * a[first + i]
             v[first + i] = half
             u[first + i] += h * half
-        if motion.working:
+        if arrays.working:
             for i in range(count):
                 moved[first + i] = h * v[first + i]
 
 
 @njit(**OPTIONS)
 def _accelerate(
-    half: float, motion: Motion, load: np.ndarray, force: np.ndarray, a: np.ndarray, v: np.ndarray
+    half: float, arrays: ExplicitArrays, load: np.ndarray, force: np.ndarray, a: np.ndarray, v: np.ndarray
 ) -> bool:
     """a = T M⁻¹ Tᵀ (load − force), and v by half a step [s] of it; whether all is finite."""
-    count = motion.packing.layers * motion.packing.plane
-    size, inverse = motion.packing.size, motion.inverse_mass
+    count = arrays.packing.layers * arrays.packing.plane
+    size, inverse = arrays.packing.size, arrays.inverse_mass
     lost = 0.0
     for q in range(3):
         first = np.uint64(q) * size
@@ -169,12 +176,12 @@ def _accelerate(
             a[first + i] = gained
             v[first + i] += half * gained
             lost += 0.0 * gained  # not a number if any is not finite
-    for c in range(len(motion.columns)):
+    for c in range(len(arrays.columns)):
         mean = weight = 0.0
-        for p in motion.columns[c]:
+        for p in arrays.columns[c]:
             mean += a[p]
             weight += inverse[p]
-        for p in motion.columns[c]:
+        for p in arrays.columns[c]:
             back = mean / weight * inverse[p]
             a[p] -= back
             v[p] -= half * back
@@ -193,12 +200,12 @@ def resist(rate: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
 
 
 @njit(**OPTIONS)
-def _correct(motion: Motion, w: np.ndarray, damping: np.ndarray, force: np.ndarray) -> float:
+def _correct(arrays: ExplicitArrays, w: np.ndarray, damping: np.ndarray, force: np.ndarray) -> float:
     """Add the correction of the damping force to the force; its power on the predicted velocity [W]."""
-    count = motion.packing.layers * motion.packing.plane
+    count = arrays.packing.layers * arrays.packing.plane
     power = 0.0
     for q in range(3):
-        first = np.uint64(q) * motion.packing.size
+        first = np.uint64(q) * arrays.packing.size
         for i in range(count):
             power += w[first + i] * damping[first + i]
             force[first + i] += damping[first + i]
@@ -206,15 +213,15 @@ def _correct(motion: Motion, w: np.ndarray, damping: np.ndarray, force: np.ndarr
 
 
 @njit(**OPTIONS)
-def exerted_on(motion: Motion, p: int, a: np.ndarray, force: np.ndarray, load: np.ndarray) -> float:
+def exerted_on(arrays: ExplicitArrays, p: int, a: np.ndarray, force: np.ndarray, load: np.ndarray) -> float:
     """What holds a place [N]."""
-    return motion.mass[p] * a[p] + force[p] - load[p]
+    return arrays.mass[p] * a[p] + force[p] - load[p]
 
 
 @njit(**OPTIONS)
 def work_of_supports(
-    motion: Motion,
-    room: Room,
+    arrays: ExplicitArrays,
+    workspace: Workspace,
     driven: np.ndarray,
     at: tuple[np.ndarray, np.ndarray, np.ndarray],
     place: np.ndarray,
@@ -224,36 +231,36 @@ def work_of_supports(
     that they hold gain by their prescribed rates.
 
     at: accelerations, forces and loads at the step's end; place, rate: of what is driven (2, k), at both
-    ends. What is exerted is kept in `room`.
+    ends. What is exerted is kept in `workspace`.
     """
     a, force, load = at
     work = 0.0
     for i in range(len(driven)):
-        exerted = exerted_on(motion, driven[i], a, force, load)
-        work += 0.5 * (room.exerted[i] + exerted) * (place[1, i] - place[0, i])
-        work += 0.5 * motion.mass[driven[i]] * (rate[1, i] ** 2 - rate[0, i] ** 2)
-        room.exerted[i] = exerted
+        exerted = exerted_on(arrays, driven[i], a, force, load)
+        work += 0.5 * (workspace.exerted[i] + exerted) * (place[1, i] - place[0, i])
+        work += 0.5 * arrays.mass[driven[i]] * (rate[1, i] ** 2 - rate[0, i] ** 2)
+        workspace.exerted[i] = exerted
     return work
 
 
 @njit(**OPTIONS)
-def external(motion: Motion, factors: np.ndarray, u: np.ndarray, load: np.ndarray) -> None:
+def external(arrays: ExplicitArrays, factors: np.ndarray, u: np.ndarray, load: np.ndarray) -> None:
     """The loads at displacement u, scaled by the factors of their histories."""
-    load[:] = motion.dead[0]
-    for part in range(1, len(motion.dead)):
+    load[:] = arrays.dead[0]
+    for part in range(1, len(arrays.dead)):
         for i in range(len(load)):
-            load[i] += factors[part] * motion.dead[part, i]
-    add_followers(motion.packing, motion.followers, factors, u, load)
+            load[i] += factors[part] * arrays.dead[part, i]
+    add_followers(arrays.packing, arrays.followers, factors, u, load)
 
 
 @njit(**OPTIONS)
-def work_of_loads(motion: Motion, before: np.ndarray, after: np.ndarray, moved: np.ndarray) -> float:
+def work_of_loads(arrays: ExplicitArrays, before: np.ndarray, after: np.ndarray, moved: np.ndarray) -> float:
     """Work [J] of what loads are beyond those without a history, by the trapezoidal rule."""
-    count = motion.packing.layers * motion.packing.plane
+    count = arrays.packing.layers * arrays.packing.plane
     work = 0.0
     for q in range(3):
-        first = np.uint64(q) * motion.packing.size
+        first = np.uint64(q) * arrays.packing.size
         for i in range(count):
-            mean = 0.5 * (before[first + i] + after[first + i]) - motion.dead[0, first + i]
+            mean = 0.5 * (before[first + i] + after[first + i]) - arrays.dead[0, first + i]
             work += mean * moved[first + i]
     return work

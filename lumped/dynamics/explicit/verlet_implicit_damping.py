@@ -22,7 +22,7 @@ import numpy as np
 from lumped.dynamics.explicit.flat_system import FlatSystem, Steps
 from lumped.dynamics.explicit.implicit_damping_steps import Factors, march
 from lumped.dynamics.explicit.step_limit import StepLimit, step_limit
-from lumped.dynamics.explicit.steps import Motion
+from lumped.dynamics.explicit.steps import ExplicitArrays
 from lumped.dynamics.integrator import Advance, Integrator, StepFailed
 from lumped.dynamics.system import State, System
 from sheetbench.numerics import banded
@@ -50,7 +50,9 @@ class VerletImplicitDamping(Integrator):
         self._factors: Factors | None = None
         self._made_for = 0.0
         places = np.empty(0, np.uint64)
-        nothing = Factors(np.ones((banded.rows(1), 1 + banded.PANEL)), 1, 0, places, places, np.empty(0))
+        nothing = Factors(
+            np.ones((banded.padded_length(1), 1 + banded.PANEL)), 1, 0, places, places, np.empty(0)
+        )
         self._flat.compile(self._steps_with(nothing))
 
     @classmethod
@@ -87,9 +89,11 @@ class VerletImplicitDamping(Integrator):
         guess, last = np.zeros(self._flat.size), np.zeros(self._flat.size)
         solved = np.zeros(len(factors.band) + factors.width)
 
-        def steps(count: int, h: float, motion: Motion, *arrays: Any) -> tuple[bool, int, float, float]:
+        def steps(
+            count: int, h: float, arrays: ExplicitArrays, *tables: Any
+        ) -> tuple[bool, int, float, float]:
             taken: tuple[bool, int, float, float] = march(
-                count, h, motion, factors, *arrays, guess, last, solved
+                count, h, arrays, factors, *tables, guess, last, solved
             )
             return taken
 

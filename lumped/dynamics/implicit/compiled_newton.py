@@ -16,9 +16,9 @@ from lumped.dynamics.implicit.compiled_tangent import factorised, tangent_of
 from lumped.dynamics.system import System
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import Packing, Scratch
-from lumped.springs.tiles import YES
+from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.numerics import banded
-from sheetbench.numerics.maps import Rows, rows
+from sheetbench.numerics.maps import Rows, csr_arrays
 
 CONVERGED, STALE, LOST = range(3)
 
@@ -36,7 +36,7 @@ class Arrays(NamedTuple):
     width: int
 
 
-class Room(NamedTuple):
+class Workspace(NamedTuple):
     """What the iteration is computed in: force and velocity, û and v̂ (n, 3), and the right side in the band's
     order, padded."""
 
@@ -48,7 +48,7 @@ class Room(NamedTuple):
 
 
 class CompiledNewton:
-    """The iteration for a system that `serves`. arrays, room, factors: what it takes."""
+    """The iteration for a system that `serves`. arrays, workspace, factors: what it takes."""
 
     def __init__(self, system: System):
         band = system.problem.system.band
@@ -58,15 +58,15 @@ class CompiledNewton:
             system.packing,
             system.scratch,
             system.damping.rate,
-            rows(system.mass),
-            rows(system.transform),
+            csr_arrays(system.mass),
+            csr_arrays(system.transform),
             np.argsort(band.order),
             band.width,
         )
         size = system.assembly.pattern.size
         force, velocity, base_u, base_v = np.zeros((4, size, 3))
-        right = np.zeros(banded.rows(len(band.order)) + band.width)
-        self.room = Room(force, velocity, base_u, base_v, right)
+        right = np.zeros(banded.padded_length(len(band.order)) + band.width)
+        self.workspace = Workspace(force, velocity, base_u, base_v, right)
         self.factors = np.empty((0, 0))
         self._tangent = tangent_of(system)
 
@@ -77,13 +77,19 @@ class CompiledNewton:
         still = system.problem.conservative and not system.problem.loads.follow
         return plain and still and system.problem.system.band is not None
 
-    def factorise(self, u: np.ndarray, v: np.ndarray, time: float, by_u: float, by_v: float) -> bool:
+    def factorise(
+        self, u: np.ndarray, v: np.ndarray, time: float, mass_coefficient: float, damping_coefficient: float
+    ) -> bool:
         """Keep the factors of K + c₁ C + c₂ M at a state; False where it is not positive definite."""
         self._system.problem.factorisations += 1
         if self._tangent is not None:
-            definite, factors = factorised(np.ascontiguousarray(u), by_u, by_v, self._tangent)
+            definite, factors = factorised(
+                np.ascontiguousarray(u), mass_coefficient, damping_coefficient, self._tangent
+            )
         else:
-            factors = banded.stored(self._system.matrix(u, v, time, by_u, by_v, 1.0), self._band)
+            factors = banded.stored(
+                self._system.matrix(u, v, time, mass_coefficient, damping_coefficient, 1.0), self._band
+            )
             definite = banded.factor(factors, len(self._band.order), self._band.width)
         if definite:
             self.factors = factors
@@ -102,7 +108,7 @@ class CompiledNewton:
         """Correct u (n, 3) in place with the factors kept; how that ended, and after how many corrections."""
         status, done, _ = iterate(
             u, *base, *by, external, tolerance, self._system.problem.size, stale, corrections,
-            self.arrays, self.factors, self.room,
+            self.arrays, self.factors, self.workspace,
         )  # fmt: skip
         return status, done
 
@@ -112,8 +118,8 @@ def iterate(
     u: np.ndarray,
     base_u: np.ndarray,
     base_v: np.ndarray,
-    by_u: float,
-    by_v: float,
+    mass_coefficient: float,
+    damping_coefficient: float,
     external: np.ndarray,
     tolerance: float,
     largest: float,
@@ -121,29 +127,31 @@ def iterate(
     corrections: int,
     arrays: Arrays,
     factors: np.ndarray,
-    room: Room,
+    workspace: Workspace,
 ) -> tuple[int, int, float]:
     """Correct u in place; how that ended, after how many corrections, and the power [W] that the lattice's
     dampers and the masses' own damping took where the last one was found."""
     last, n, power = np.inf, len(arrays.place), 0.0
-    force, velocity, right = room.force, room.velocity, room.right
+    force, velocity, right = workspace.force, workspace.velocity, workspace.right
     mass, free = arrays.mass, arrays.free
     moved, held, began = u.reshape(-1), base_u.reshape(-1), base_v.reshape(-1)
     pull, speed, acting = force.reshape(-1), velocity.reshape(-1), external.reshape(-1)
     for done in range(1, corrections + 1):
         for row in range(len(moved)):
-            speed[row] = began[row] + by_v * (moved[row] - held[row])
+            speed[row] = began[row] + damping_coefficient * (moved[row] - held[row])
             inertia = 0.0
             for e in range(mass.pointers[row], mass.pointers[row + 1]):
                 inertia += mass.values[e] * (moved[mass.columns[e]] - held[mass.columns[e]])
-            pull[row] = by_u * inertia - acting[row]
+            pull[row] = mass_coefficient * inertia - acting[row]
         by_masses = 0.0
         for i in range(len(arrays.rate)):
             for q in range(3):
                 resisted = arrays.rate[i] * velocity[i, q]
                 force[i, q] += resisted
                 by_masses += resisted * velocity[i, q]
-        _, power = add_forces(u, velocity, YES, arrays.packing.damped, arrays.packing, arrays.scratch, force)
+        _, power = add_forces(
+            u, velocity, NUMBA_TRUE, arrays.packing.damped, arrays.packing, arrays.scratch, force
+        )
         power += by_masses
         right[:] = 0.0
         for row in range(len(moved)):

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.dynamics.implicit.compiled_newton import CONVERGED, Arrays, Room, iterate
+from lumped.dynamics.implicit.compiled_newton import CONVERGED, Arrays, Workspace, iterate
 
 
 class Stages(NamedTuple):
@@ -36,8 +36,8 @@ class Step(NamedTuple):
     length: float
     weights: np.ndarray
     guesses: np.ndarray
-    by_v: float
-    by_u: float
+    damping_coefficient: float
+    mass_coefficient: float
     shifts: np.ndarray
     loads: np.ndarray
 
@@ -54,22 +54,22 @@ def solve_stages(
     corrections: int,
     arrays: Arrays,
     factors: np.ndarray,
-    room: Room,
+    workspace: Workspace,
 ) -> tuple[int, int, int, int]:
     """Solve the stages from the `first` on; that one is begun if it has corrections `left`. How that ended,
     the stage where it did, what corrections that one has left, and how many were made in all."""
     made = 0
     for i in range(first, len(stages.u)):
         u, v, a = stages.u[i].reshape(-1), stages.v[i].reshape(-1), stages.a[i].reshape(-1)
-        base_u, base_v = room.base_u.reshape(-1), room.base_v.reshape(-1)
+        base_u, base_v = workspace.base_u.reshape(-1), workspace.base_v.reshape(-1)
         _begin(i, step, stages, base_u, base_v)
         if i > first or left == 0:
             left = corrections
             _guess(i, step, stages, base_u, u)
         load = step.loads[min(i, len(step.loads) - 1)]
         status, done, power = iterate(
-            stages.u[i], room.base_u, room.base_v, step.by_u, step.by_v, load, tolerance, largest, stale,
-            left, arrays, factors, room,
+            stages.u[i], workspace.base_u, workspace.base_v, step.mass_coefficient, step.damping_coefficient,
+            load, tolerance, largest, stale, left, arrays, factors, workspace,
         )  # fmt: skip
         left -= done
         made += done
@@ -77,8 +77,8 @@ def solve_stages(
             return status, i, left, made
         for row in range(len(u)):
             change = u[row] - base_u[row]
-            v[row] = base_v[row] + step.by_v * change
-            a[row] = step.by_u * change
+            v[row] = base_v[row] + step.damping_coefficient * change
+            a[row] = step.mass_coefficient * change
         stages.power[i, 0] = power
     return CONVERGED, len(stages.u), 0, made
 
@@ -100,7 +100,7 @@ def _begin(i: int, step: Step, stages: Stages, base_u: np.ndarray, base_v: np.nd
         shift = step.shifts[i].reshape(-1)
         for row in range(len(base_u)):
             base_u[row] += shift[row]
-    own = 1.0 / step.by_v
+    own = 1.0 / step.damping_coefficient
     for row in range(len(base_u)):
         base_u[row] += own * base_v[row]
 
@@ -110,7 +110,7 @@ def _guess(i: int, step: Step, stages: Stages, base_u: np.ndarray, u: np.ndarray
     """What the accelerations of the stages before let expect."""
     u[:] = base_u
     for j in range(i):
-        weight = step.guesses[i, j] / (step.by_v * step.by_v)
+        weight = step.guesses[i, j] / (step.damping_coefficient * step.damping_coefficient)
         if weight != 0.0:
             a = stages.a[j].reshape(-1)
             for row in range(len(u)):

@@ -47,12 +47,14 @@ def tangent_of(system: System) -> Tangent | None:
 
 
 @njit(cache=True, nogil=True)
-def factorised(u: np.ndarray, by_u: float, by_v: float, tangent: Tangent) -> tuple[bool, np.ndarray]:
+def factorised(
+    u: np.ndarray, mass_coefficient: float, damping_coefficient: float, tangent: Tangent
+) -> tuple[bool, np.ndarray]:
     """Whether the tangent at u (n, 3) [m] with c₂ [1/s²] and c₁ [1/s] is positive definite; its factors."""
-    both = 1.0 + by_v * tangent.time
+    both = 1.0 + damping_coefficient * tangent.time
     blocks = all_families.own_tangent(u, tangent.springs, 1.0 / both, tangent.blocks, tangent.mirror)
     for i in range(len(tangent.own)):
-        inert = (by_u * tangent.mass[i] + by_v * tangent.rate[i]) / both
+        inert = (mass_coefficient * tangent.mass[i] + damping_coefficient * tangent.rate[i]) / both
         for q in range(3):
             blocks[tangent.own[i], q, q] += inert
     factors = banded.stored(blocks, tangent.band)

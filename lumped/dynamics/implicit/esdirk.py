@@ -21,7 +21,7 @@ import numpy as np
 from numba import njit
 
 from lumped.dynamics.implicit.compiled_stages import Stages, Step
-from lumped.dynamics.implicit.newton import Motion, Newton
+from lumped.dynamics.implicit.newton import Newton, StepEquation
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSES, STAGES
 from lumped.dynamics.integrator import Advance, DenseIntegrator, Passed, StepFailed
 from lumped.dynamics.system import State, System
@@ -32,12 +32,12 @@ ERROR = 3e-5  # of a step
 FORETOLD = 0.1  # share of the displacement at rest, linear, that counts as reached at the start
 LEAST = 1e-6  # of the sheet's side: no error is asked to be smaller beside it
 FIRST = 0.05  # first step over the time in which the first acceleration goes as far
-CLOSE = 1e-11  # last correction of a fixed step relative to the sheet's side
+STEP_TOLERANCE = 1e-11  # last correction of a fixed step relative to the sheet's side
 SHARE = 0.3  # last correction of an adaptive step relative to the error it may have
 STALE = (
     1.5  # ratio of successive corrections above which a step, which begins with its own, makes factors anew
 )
-EASY = 12  # corrections of a step's stages up to which the next one keeps the factors: two each
+KEEP_FACTORS_UP_TO = 12  # corrections of a step's stages up to which the next one keeps the factors: two each
 
 
 class Esdirk(DenseIntegrator):
@@ -55,7 +55,7 @@ class Esdirk(DenseIntegrator):
             )
         super().__init__(system, step)
         self._fixed, self._first, self._error = fixed, step, error
-        self._newton = Newton(system, CLOSE, STALE)
+        self._newton = Newton(system, STEP_TOLERANCE, STALE)
         self._largest = 0.0
         self._end: tuple[State | None, np.ndarray] = None, np.zeros(2)  # the last state, and its power
         self._curve: np.ndarray | None = None  # of the last step, once it is asked for,
@@ -145,9 +145,9 @@ class Esdirk(DenseIntegrator):
         u, v, a = np.empty((3, len(times), *state.u.shape))
         u[0], v[0], a[0] = state.u, state.v, state.a
         stages = Stages(times, u, v, a, np.zeros((len(times), 2)))
-        if not (self._newton.near(by * by) and 0 < self._newton.made <= EASY):
+        if not (self._newton.near(by * by) and 0 < self._newton.made <= KEEP_FACTORS_UP_TO):
             middle = state.u + 0.5 * h * state.v
-            self._newton.renew(Motion(state.time + 0.5 * h, middle, state.v, by * by, by), middle)
+            self._newton.renew(StepEquation(state.time + 0.5 * h, middle, state.v, by * by, by), middle)
         step = Step(h, STAGES, GUESSES, by, by * by, self._shifts(times), self._loads(times))
         if not self._newton.solve_stages(step, stages, tolerance):
             self._solve_one_by_one(step, stages, tolerance)
@@ -170,17 +170,17 @@ class Esdirk(DenseIntegrator):
 
     def _solve_one_by_one(self, step: Step, stages: Stages, tolerance: float | None) -> None:
         """Fill the tables of stages by the general iteration."""
-        h, by_u, by_v = step.length, step.by_u, step.by_v
+        h, c1, c2 = step.length, step.damping_coefficient, step.mass_coefficient
         for i in range(1, len(ABSCISSAE)):
             u = stages.u[0] + h * np.tensordot(STAGES[i, :i], stages.v[:i], 1)
             v = stages.v[0] + h * np.tensordot(STAGES[i, :i], stages.a[:i], 1)
             if len(step.shifts):
                 u += step.shifts[i]
-            motion = Motion(float(stages.time[i]), u + v / by_v, v, by_u, by_v)
-            guess = motion.base_u + np.tensordot(GUESSES[i, :i], stages.a[:i], 1) / by_v**2
-            u = self._newton.solve_motion(motion, guess, tolerance)
+            equation = StepEquation(float(stages.time[i]), u + v / c1, v, c2, c1)
+            guess = equation.base_u + np.tensordot(GUESSES[i, :i], stages.a[:i], 1) / c1**2
+            u = self._newton.solve_equation(equation, guess, tolerance)
             stages.u[i] = u
-            stages.v[i], stages.a[i] = self._newton.state(motion, u)
+            stages.v[i], stages.a[i] = self._newton.state(equation, u)
             stages.power[i, 0], _ = self.system.damping_force(u, stages.v[i])
 
     def at(self, time: float) -> Passed:

@@ -17,14 +17,14 @@ from typing import Any
 
 import numpy as np
 
-from lumped.dynamics.implicit.newton import Motion, Newton
+from lumped.dynamics.implicit.newton import Newton, StepEquation
 from lumped.dynamics.integrator import Advance, Integrator, StepFailed
 from lumped.dynamics.system import State, System
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.scenes.errors import BadInput
 
 ERROR = 1e-6  # of a step, relative to the largest displacement so far
-CLOSE = 1e-11  # last correction relative to the sheet's side
+STEP_TOLERANCE = 1e-11  # last correction relative to the sheet's side
 
 
 class GeneralisedAlpha(Integrator):
@@ -40,7 +40,7 @@ class GeneralisedAlpha(Integrator):
         self._gamma = 0.5 + self._af - self._am
         self._beta = 0.25 * (self._gamma + 0.5) ** 2
         self._fixed = fixed
-        self._newton = Newton(system, CLOSE)
+        self._newton = Newton(system, STEP_TOLERANCE)
         self._algorithm: np.ndarray | None = None
         self._largest = 0.0
         self._taken: tuple[State | None, float] = None, 0.0  # the power of the dampers at the last state
@@ -110,12 +110,12 @@ class GeneralisedAlpha(Integrator):
         start = (af * state.a - am * old) / (1.0 - am)  # a₁ with no acceleration at the end
         base_u = state.u + h * state.v + h * h * ((0.5 - beta) * old + beta * start) + held
         base_v = state.v + h * ((1.0 - gamma) * old + gamma * start) + turn
-        by_u, by_v = 1.0 / (h * h * beta * share), gamma / (h * beta)
+        mass_coefficient, damping_coefficient = 1.0 / (h * h * beta * share), gamma / (h * beta)
 
-        motion = Motion(time, base_u, base_v, by_u, by_v)
+        equation = StepEquation(time, base_u, base_v, mass_coefficient, damping_coefficient)
         try:
-            u = self._newton.solve_motion(motion, base_u + state.a / by_u)
+            u = self._newton.solve_equation(equation, base_u + state.a / mass_coefficient)
         except StepFailed:  # after a jump the old acceleration leads nowhere
-            u = self._newton.solve_motion(motion, state.u + held + h * state.v)
-        v, a = self._newton.state(motion, u)
+            u = self._newton.solve_equation(equation, state.u + held + h * state.v)
+        v, a = self._newton.state(equation, u)
         return State(time, u, v, a), start + share * a

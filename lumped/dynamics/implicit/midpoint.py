@@ -17,7 +17,7 @@ from lumped.dynamics.implicit.newton import Newton
 from lumped.dynamics.integrator import Advance, Integrator
 from lumped.dynamics.system import State, System
 
-CLOSE = 1e-13  # last correction relative to the sheet's side
+STEP_TOLERANCE = 1e-13  # last correction relative to the sheet's side
 
 
 class Midpoint(Integrator):
@@ -27,7 +27,7 @@ class Midpoint(Integrator):
 
     def __init__(self, system: System, step: float):
         super().__init__(system, step)
-        self._newton = Newton(system, CLOSE)
+        self._newton = Newton(system, STEP_TOLERANCE)
 
     def forget(self) -> None:
         """Drop the factors."""

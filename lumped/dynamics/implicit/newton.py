@@ -1,6 +1,6 @@
 """Newton's iteration for implicit integrators, with factors kept from step to step.
 
-`solve` takes any equation of a system. `solve_motion` takes that of a step or a stage,
+`solve` takes any equation of a system. `solve_equation` takes that of a step or a stage,
 
     M c₂ (u − û) + f(u, v, t) = 0,   v = v̂ + c₁ (u − û),
 
@@ -24,19 +24,19 @@ from sheetbench.numerics.reduced import Factor
 
 CORRECTIONS = 20
 STALE = 0.2  # ratio of successive corrections above which the factors are made anew
-NEAR = 0.2  # relative change of c₂ within which factors serve
+REUSE_FACTORS_WITHIN = 0.2  # relative change of c₂ within which factors serve
 UNSOLVED = "the time step's equations did not converge: use smaller steps"
 
 
 @dataclass(frozen=True)
-class Motion:
+class StepEquation:
     """The equation of a step or stage: time t [s], û and v̂ (size, 3), c₂ [1/s²], c₁ [1/s]."""
 
     time: float
     base_u: np.ndarray
     base_v: np.ndarray
-    by_u: float
-    by_v: float
+    mass_coefficient: float
+    damping_coefficient: float
 
 
 class Newton:
@@ -92,44 +92,46 @@ class Newton:
         self._factor = None
         raise StepFailed(UNSOLVED)
 
-    def state(self, motion: Motion, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def state(self, equation: StepEquation, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """v and c₂ (u − û), zero for multipliers."""
-        change = u - motion.base_u
+        change = u - equation.base_u
         if self._system.coupling is not None:
             change = np.where(self.algebraic, 0.0, change)
-        return motion.base_v + motion.by_v * change, motion.by_u * change
+        return equation.base_v + equation.damping_coefficient * change, equation.mass_coefficient * change
 
-    def solve_motion(self, motion: Motion, guess: np.ndarray, tolerance: float | None = None) -> np.ndarray:
+    def solve_equation(
+        self, equation: StepEquation, guess: np.ndarray, tolerance: float | None = None
+    ) -> np.ndarray:
         """u of the equation. tolerance [m]: of the last correction, else the iteration's own.
         Raises StepFailed, or SingularMatrixError."""
         small = self.tolerance if tolerance is None else tolerance
         if self._compiled is not None:
-            u = self._solve_compiled(self._compiled, motion, guess, small)
+            u = self._solve_compiled(self._compiled, equation, guess, small)
             if u is not None:
                 return u
         system = self._system
 
         def residual(u: np.ndarray) -> np.ndarray:
-            v, a = self.state(motion, u)
+            v, a = self.state(equation, u)
             inertia: np.ndarray = (system.mass @ a.ravel()).reshape(-1, 3)
-            return inertia - system.unbalanced(u, v, motion.time)
+            return inertia - system.unbalanced(u, v, equation.time)
 
-        key = (motion.by_u, motion.by_v)
-        return self.solve(key, residual, lambda u: self._blocks(motion, u), guess, tolerance=small)
+        key = (equation.mass_coefficient, equation.damping_coefficient)
+        return self.solve(key, residual, lambda u: self._blocks(equation, u), guess, tolerance=small)
 
     def solve_stages(self, step: Step, stages: Stages, tolerance: float | None) -> bool:
         """Fill the tables of a step's stages, which hold its start, compiled; False where that cannot be
-        done, as where the tangent is not positive definite. tolerance [m]: as in `solve_motion`. Raises
+        done, as where the tangent is not positive definite. tolerance [m]: as in `solve_equation`. Raises
         StepFailed."""
         compiled, first, left = self._compiled, 1, 0
         small = self.tolerance if tolerance is None else tolerance
         self.made = 0
-        if compiled is None or not self.near(step.by_u):
+        if compiled is None or not self.near(step.mass_coefficient):
             return False
         while True:
             status, first, left, made = solve_stages(
                 first, left, step, stages, small, self._system.problem.size, self._stale, CORRECTIONS,
-                compiled.arrays, compiled.factors, compiled.room,
+                compiled.arrays, compiled.factors, compiled.workspace,
             )  # fmt: skip
             self.made += made
             if status == CONVERGED:
@@ -137,47 +139,54 @@ class Newton:
             self._factored = None
             if status != compiled_newton.STALE or left == 0:
                 raise StepFailed(UNSOLVED)
-            base = compiled.room.base_u, compiled.room.base_v
-            motion = Motion(float(stages.time[first]), *base, step.by_u, step.by_v)
-            if not self._factorise(compiled, motion, stages.u[first]):
+            base = compiled.workspace.base_u, compiled.workspace.base_v
+            equation = StepEquation(
+                float(stages.time[first]), *base, step.mass_coefficient, step.damping_coefficient
+            )
+            if not self._factorise(compiled, equation, stages.u[first]):
                 return False
 
-    def near(self, by_u: float) -> bool:
+    def near(self, mass_coefficient: float) -> bool:
         """Whether the compiled iteration's factors serve an equation with this c₂."""
-        return self._factored is not None and abs(by_u / self._factored - 1.0) < NEAR
+        return (
+            self._factored is not None and abs(mass_coefficient / self._factored - 1.0) < REUSE_FACTORS_WITHIN
+        )
 
-    def renew(self, motion: Motion, u: np.ndarray) -> None:
+    def renew(self, equation: StepEquation, u: np.ndarray) -> None:
         """Make the factors for an equation and those like it anew, at u. Raises SingularMatrixError."""
-        if self._compiled is not None and self._factorise(self._compiled, motion, u):
+        if self._compiled is not None and self._factorise(self._compiled, equation, u):
             return
-        self._factor = self._system.problem.factor(self._blocks(motion, u))
-        self._key = (motion.by_u, motion.by_v)
+        self._factor = self._system.problem.factor(self._blocks(equation, u))
+        self._key = (equation.mass_coefficient, equation.damping_coefficient)
 
-    def _factorise(self, compiled: CompiledNewton, motion: Motion, u: np.ndarray) -> bool:
+    def _factorise(self, compiled: CompiledNewton, equation: StepEquation, u: np.ndarray) -> bool:
         """Make the compiled iteration's factors at u; False where the tangent is not positive definite."""
         self._factored = None
-        v, _ = self.state(motion, u)
-        if compiled.factorise(u, v, motion.time, motion.by_u, motion.by_v):
-            self._factored = motion.by_u
+        v, _ = self.state(equation, u)
+        if compiled.factorise(u, v, equation.time, equation.mass_coefficient, equation.damping_coefficient):
+            self._factored = equation.mass_coefficient
         return self._factored is not None
 
-    def _blocks(self, motion: Motion, u: np.ndarray) -> np.ndarray:
-        v, _ = self.state(motion, u)
-        return self._system.matrix(u, v, motion.time, motion.by_u, motion.by_v, 1.0)
+    def _blocks(self, equation: StepEquation, u: np.ndarray) -> np.ndarray:
+        v, _ = self.state(equation, u)
+        return self._system.matrix(
+            u, v, equation.time, equation.mass_coefficient, equation.damping_coefficient, 1.0
+        )
 
     def _solve_compiled(
-        self, compiled: CompiledNewton, motion: Motion, guess: np.ndarray, small: float
+        self, compiled: CompiledNewton, equation: StepEquation, guess: np.ndarray, small: float
     ) -> np.ndarray | None:
         """u, or None where the tangent is not positive definite."""
         u = np.array(guess)
-        external = self._system.external(u, motion.time)
-        base, by = (motion.base_u, motion.base_v), (motion.by_u, motion.by_v)
+        external = self._system.external(u, equation.time)
+        base = equation.base_u, equation.base_v
+        by = equation.mass_coefficient, equation.damping_coefficient
         left, status = CORRECTIONS, compiled_newton.STALE
-        if self.near(motion.by_u):
+        if self.near(equation.mass_coefficient):
             status, done = compiled.iterate(u, base, by, external, small, self._stale, left)
             left -= done
         while status == compiled_newton.STALE and left > 0:
-            if not self._factorise(compiled, motion, u):
+            if not self._factorise(compiled, equation, u):
                 return None
             status, done = compiled.iterate(u, base, by, external, small, self._stale, left)
             left -= done

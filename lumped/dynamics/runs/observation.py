@@ -12,7 +12,7 @@ from numba import njit
 
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import Packing, Scratch
-from lumped.springs.tiles import YES
+from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.numerics.maps import Rows
 
 
@@ -44,7 +44,7 @@ def observe(
     displacements (3 p,) [m] and the forces of the supports (3 s,) [N]."""
     exerted = np.zeros_like(u)
     damped = observed.packing.damped
-    elastic, _ = add_forces(u, v, YES, damped, observed.packing, observed.scratch, exerted)
+    elastic, _ = add_forces(u, v, NUMBA_TRUE, damped, observed.packing, observed.scratch, exerted)
     for i in range(len(observed.rate)):
         for q in range(3):
             exerted[i, q] += observed.rate[i] * v[i, q]

@@ -33,7 +33,8 @@ class Plan:
     first: int
 
     def longer(self, duration: float) -> Plan:
-        """The same run up to the first sample at or after `duration` [s]; BadInput if it ends before that."""
+        """Return the plan that goes on to the first sample at or after `duration` [s]. Raises BadInput where
+        that is before the end of this one."""
         samples = int(np.ceil(duration / self.every - 1e-9))
         if samples < self.samples:
             raise BadInput(

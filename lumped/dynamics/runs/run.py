@@ -132,7 +132,7 @@ class Run:
         state, dissipated, work = self._now()
         row = self._sampling.row(state, dissipated, work)
         reached.largest = max(reached.largest, float(np.abs(row[1:6]).max()))
-        fault = watchdog.bark(self._system, state, row, reached.origin, reached.largest)
+        fault = watchdog.check_sample(self._system, state, row, reached.origin, reached.largest)
         if fault is None or fault.status is not Status.NON_FINITE:
             self._kept.sample(row)
         if fault is None:

@@ -7,7 +7,7 @@ import numpy as np
 from lumped.dynamics.runs.observation import Observed, observe
 from lumped.dynamics.system import State, System
 from lumped.mid_surface import MidSurface
-from sheetbench.numerics.maps import rows
+from sheetbench.numerics.maps import csr_arrays
 from sheetbench.scenes.history import ENERGIES
 
 
@@ -35,11 +35,11 @@ class Sampling:
             self._observed = Observed(
                 system.packing,
                 system.scratch,
-                rows(system.mass),
+                csr_arrays(system.mass),
                 system.damping.rate,
                 system.problem.loads.dead,
-                rows(self._probes.matrix(masses)),
-                rows(system.problem.constraints.summed()),
+                csr_arrays(self._probes.matrix(masses)),
+                csr_arrays(system.problem.constraints.summed()),
             )
         self.width = sum(int(np.prod(shape)) for _, _, shape in self.columns)
 

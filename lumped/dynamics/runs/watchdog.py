@@ -18,8 +18,10 @@ GROWN = 1.0  # energy from nowhere, relative to the energy that went round, that
 MOST_STEPS = 100_000  # of an adaptive integrator between two samples
 
 
-def bark(system: System, state: State, row: np.ndarray, origin: float, round_about: float) -> Fault | None:
-    """What is wrong with a state, if anything is.
+def check_sample(
+    system: System, state: State, row: np.ndarray, origin: float, round_about: float
+) -> Fault | None:
+    """Return what is wrong with a sampled state, or None.
 
     row: its sample; origin: the balance at the start [J]; round_about: the largest energy so far [J].
     """

@@ -1,6 +1,7 @@
 """A scene's motion by the lattice and by a reference, side by side: what is measured, shown and written."""
 
 import json
+from dataclasses import replace
 
 import meshio
 import numpy as np
@@ -9,6 +10,8 @@ import pytest
 import sheetbench as sb
 from comparisons.cli import main
 from comparisons.motion.measures import difference, extrema, measured_alike
+from comparisons.pages.stage import stage
+from comparisons.pages.studies import read
 from sheetbench.scenes import History, Status
 from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.history import ENERGIES
@@ -73,6 +76,14 @@ def test_lattice_and_shell_move_alike():
 def test_the_reference_has_a_bar_by_mesh_and_by_step():
     both = sb.compare("two-edges-settling", duration=0.05, **SMALL)
     assert 0.0 < both.uncertainty["step"] < both.uncertainty["mesh"] < 0.2
+    notes = both.report().notes
+    assert "elements twice as large move it by up to" in notes[0] and "steps twice as long move" in notes[0]
+    nearer = both.differences[0]["largest"] < both.uncertainty["mesh"]
+    assert any("more --elements" in note for note in notes) == nearer
+    good = replace(both, uncertainty={"mesh": 1e-6, "step": 1e-6})
+    poor = replace(both, uncertainty={"mesh": 0.5, "step": 1e-6})
+    assert not any("--elements" in note for note in good.report().notes)
+    assert any("--elements" in note for note in poor.report().notes)
 
 
 def test_the_command_prints_and_writes_a_motion(tmp_path, capsys):
@@ -93,6 +104,11 @@ def test_the_command_prints_and_writes_a_motion(tmp_path, capsys):
     expected = np.subtract(motion["probes"]["lumped"]["P4"][-1], motion["probes"]["shell"]["P4"][-1])
     assert fields["difference"][corner] == pytest.approx(expected, abs=1e-12)
     assert (tmp_path / "shell.pvd").exists() and (tmp_path / "lumped.pvd").exists()
+    assert "[s]   [s]" in printed
+    shown = stage(read(tmp_path).studies[0])
+    assert [view["label"] for view in shown["views"]] == ["lumped and shell", "lumped", "shell"]
+    assert shown["views"][0]["sheets"] == [sheet["name"] for sheet in shown["sheets"]]
+    assert all(len(sheet["frames"]) > 1 for sheet in shown["sheets"])
 
 
 def test_its_picture_has_a_panel_a_probe():

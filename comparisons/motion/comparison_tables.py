@@ -106,8 +106,8 @@ def _runs(found: MotionComparison) -> Table:
         Column("integrator"),
         Column("status"),
         Column("steps", form="d"),
-        Column("set-up", "s", form=".2f"),
-        Column("time", "s", form=".2f"),
+        Column("set-up", "s", "s", 1.0, ".2f"),
+        Column("time", "s", "s", 1.0, ".2f"),
     )
     rows = [
         (name, h.label, h.integrator, str(h.status), h.steps, h.setup_seconds, h.solve_seconds)
@@ -121,9 +121,17 @@ def _bars(found: MotionComparison) -> list[str]:
     known = {name: bar for name, bar in found.uncertainty.items() if bar is not None}
     if not known:
         return []
-    how = {"mesh": "on elements twice as large", "step": "in steps twice as long"}
-    said = " and ".join(f"{number(100 * bar, '.2g')} % {how[name]}" for name, bar in known.items())
-    return [f"the {found.reference} itself differs by at most {said}"]
+    how = {"mesh": "elements twice as large", "step": "steps twice as long"}
+    parts = (f"{how[name]} move it by up to {number(100 * bar, '.2g')} %" for name, bar in known.items())
+    said = " and ".join(parts)
+    notes = [f"error of the {found.reference} itself: {said} of its largest displacement"]
+    largest, mesh = found.differences[0]["largest"], known.get("mesh")
+    if largest is not None and mesh is not None and largest < mesh:
+        notes.append(
+            f"the lattice is {number(100 * largest, '.2g')} % off, less than what larger elements change: "
+            "give more --elements before judging it"
+        )
+    return notes
 
 
 def _write_samples(path: Path, found: MotionComparison, name: str) -> None:

@@ -173,7 +173,7 @@ def _identify(document: Document) -> list[str]:
 def _stability(document: Document) -> list[str]:
     counted = Counter(str(row["status"]) for row in document["rows"])
     parts = ", ".join(f"{count} {status}" for status, count in counted.most_common())
-    return [f"{len(document['rows'])} cells: {parts}."]
+    return [f"{len(document['rows'])} runs: {parts}."]
 
 
 def _advise(document: Document) -> list[str]:

@@ -105,6 +105,7 @@ def _study(study: Study, number: int) -> dict[str, Any]:
         "unfinished": bool(study.run) and not study.run.get("finished", True),
         "met": words.get("met", True),
         "stage": plain({**sheets, "label": f"Sheet of {study.title}"}) if sheets else None,
+        "moving": any(sheet.get("frames") for sheet in (sheets or {}).get("sheets", [])),
         "tables": tables(study),
         "plots": charts(study),
         "pictures": pictures(study),

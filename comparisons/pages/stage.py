@@ -32,12 +32,17 @@ def stage(study: Study) -> Options | None:
     moving = {name: found for name in study.ending(".pvd") if (found := study.read(name, _series))}
     sheets: list[Options] = []
     views: list[Options] = []
+    models = _models(study.document)
     for name, frames in moving.items():
-        sheet = study.attempt(name, lambda n=name, f=frames: _moving(n, f, study.scene))  # type: ignore[misc]
+        if "difference" in frames[-1][1].point_data:  # moves as the reference does
+            continue
+        model = Path(name).stem if Path(name).stem in models else ""
+        key = model or name
+        sheet = study.attempt(name, lambda n=key, f=frames: _moving(n, f, study.scene))  # type: ignore[misc]
         if sheet is not None:
             sheets.append(sheet)
             coloured = _coloured(frames[-1][1])
-            views.append({"name": name, "label": "Motion", "sheets": [name], "field": coloured})
+            views.append({"name": key, "label": model or "Motion", "sheets": [key], "field": coloured})
     for name, mesh in meshes.items():
         parts = study.attempt(name, lambda n=name, m=mesh: _parts(n, m, study))  # type: ignore[misc]
         for sheet, view in parts or []:

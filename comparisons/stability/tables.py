@@ -1,4 +1,4 @@
-"""The tables of a scene's stability: where each model holds, the largest stable steps, every cell."""
+"""The tables of a scene's stability: where each model holds, the largest stable steps, every run."""
 
 from __future__ import annotations
 
@@ -137,4 +137,4 @@ def cells(study: tuple[str, list[Row]]) -> Table:
         Column("seconds", "s", "s", 1.0, ".2f"),
         Column("message", prose=True, detail=True),
     )
-    return Table(f"{VARIED[name].partition(' [')[0].capitalize()}: every cell", columns, rows, name)
+    return Table(f"{VARIED[name].partition(' [')[0].capitalize()}: every run", columns, rows, name)

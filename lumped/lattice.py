@@ -25,7 +25,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from lumped.grid_lines import Lines, grid_lines
-from lumped.pattern import KEPT
+from lumped.pattern import SHARED_UP_TO
 from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.errors import BadInput
@@ -182,7 +182,7 @@ def build(
     on a graded grid. A small lattice is the same object every time: its arrays are not to
     be written to, and read-only where no kernel takes them (numba has another type for those).
     """
-    small = math.prod(grid) <= KEPT
+    small = math.prod(grid) <= SHARED_UP_TO
     return (_kept_lattice if small else _build)(sheet, grid, layer_distance, weights, twisting, grading, half)
 
 
@@ -206,7 +206,7 @@ def _build(
     positions = np.stack([across_x.at[i], across_y.at[j], heights], axis=1)
 
     families = []
-    for step in (_kept_steps if nx * ny * layers <= KEPT else _steps)(grid):
+    for step in (_kept_steps if nx * ny * layers <= SHARED_UP_TO else _steps)(grid):
         shares = step.shares
         if weights == "full":
             shares = shares / shares.sum(axis=1, keepdims=True)

@@ -9,7 +9,7 @@ import numpy as np
 from sheetbench.numerics.fronts import Cells
 from sheetbench.scenes.grid import Grid
 
-KEPT = 3000  # masses up to which what is the same for all sheets on a grid is kept for the next one
+SHARED_UP_TO = 3000  # masses up to which what is the same for all sheets on a grid is kept for the next one
 ASKED = 32  # sets of masses whose blocks a small pattern keeps
 
 
@@ -47,7 +47,7 @@ class Pattern:
     def among(self, nodes: np.ndarray) -> np.ndarray:
         """Block numbers of every pair within each row of masses (m, p): (m, p, p), not to be written to; a
         small pattern keeps those that it was asked for, which lattices on one grid share."""
-        if self.size > KEPT:
+        if self.size > SHARED_UP_TO:
             return self._among(nodes)
         key = nodes.shape, nodes.tobytes()
         found = self._found.get(key)
@@ -64,7 +64,7 @@ class Pattern:
 def of_grid(grid: Grid) -> Pattern:
     """The pattern of a lattice on a grid alone; that of a small one is the same object every time."""
     nx, ny, layers = grid
-    return (_kept if nx * ny * layers <= KEPT else _of_grid)(grid)
+    return (_kept if nx * ny * layers <= SHARED_UP_TO else _of_grid)(grid)
 
 
 def _of_grid(grid: Grid) -> Pattern:

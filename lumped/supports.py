@@ -22,7 +22,7 @@ from scipy.sparse.linalg import splu
 from lumped.actuators import Coupling
 from lumped.actuators.corners import Tie
 from lumped.lattice import Lattice
-from lumped.pattern import KEPT, Pattern
+from lumped.pattern import SHARED_UP_TO, Pattern
 from lumped.springs.rest import Itself
 from sheetbench.numerics.kept import frozen
 from sheetbench.numerics.maps import Rows, csr_arrays
@@ -51,7 +51,7 @@ class Constraints:
         return self.turned(load_factor) + load_factor * self.shift
 
     @cached_property
-    def rows(self) -> Rows:
+    def transform_arrays(self) -> Rows:
         """The transform as compiled loops take it."""
         return csr_arrays(self.transform)
 
@@ -126,7 +126,7 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
     """The constraints of a scene's supports on a lattice, and of its actuators: u of a bound mass is a linear
     map of the actuator's rows. Columns of edges moved rigidly are the motion's, not the supports'. Of the
     same supports without actuators on the same small lattice they are the same every time."""
-    if coupling is not None or lattice.mass_count > KEPT:
+    if coupling is not None or lattice.mass_count > SHARED_UP_TO:
         return _constrain(scene.supports, scene.sheet, lattice, coupling)
     return _kept(tuple(scene.supports), scene.sheet, Itself(lattice))
 

@@ -13,7 +13,13 @@ def arrays(problem):
     """All that a lattice is solved with."""
     families = [part for family in problem.assembly.all_families.springs for part in family]
     constraints = problem.constraints
-    return [*families, *constraints.rows, constraints.held, constraints.prescribed(0.5), problem.loads.dead]
+    return [
+        *families,
+        *constraints.transform_arrays,
+        constraints.held,
+        constraints.prescribed(0.5),
+        problem.loads.dead,
+    ]
 
 
 @pytest.mark.parametrize("name", ["two-edges-clamped", "curved-edge"])
@@ -24,8 +30,8 @@ def test_what_is_kept_is_what_would_be_found(name, monkeypatch):
     several = [full, full.with_constant("vertical", 0.0), full.with_constant("edge_shear", 0.0), full]
     kept = [lumped.build_problem(scene, springs) for springs in several]
     assert kept[0].constraints is kept[3].constraints and kept[0].system is kept[3].system
-    monkeypatch.setattr(rest, "KEPT", 0)
-    monkeypatch.setattr(supports, "KEPT", 0)
+    monkeypatch.setattr(rest, "SHARED_UP_TO", 0)
+    monkeypatch.setattr(supports, "SHARED_UP_TO", 0)
     for problem, springs in zip(kept, several, strict=True):
         anew = lumped.build_problem(scene, springs)
         assert anew.constraints is not problem.constraints

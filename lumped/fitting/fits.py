@@ -36,7 +36,7 @@ from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grading import Graded
 
 PRIOR = {"fit-static": 1e-3, "fit-modal": 1e-1}
-KEPT = ("vertical", "layer_distance", "stretch", *EDGES_OWN)
+FIXED_CONSTANTS = ("vertical", "layer_distance", "stretch", *EDGES_OWN)
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ def _fit(
     """The fit of `method` to targets, from the springs `first` on."""
     from scipy.optimize import least_squares
 
-    names = [name for name in constants.names(first.springs) if name not in KEPT]
+    names = [name for name in constants.names(first.springs) if name not in FIXED_CONSTANTS]
     start = {name: constants.value_of(first.springs, name) for name in names}
     signed = {name for name in names if name in ("area", "mid_area")}
     unit = constants.value_of(first.springs, "diagonal")

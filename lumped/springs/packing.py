@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lumped.lattice import Lattice
-from lumped.pattern import ASKED, KEPT
+from lumped.pattern import ASKED, SHARED_UP_TO
 from lumped.springs import cell_tiles, link_tiles, membrane_tiles
 from lumped.springs.families import Cells, DirectionalLinks, Links, NeoHookeanCells
 from lumped.springs.family import Dampers, Family
@@ -177,7 +177,7 @@ def _add_data(family: Family, damped: bool, at: np.ndarray, data: np.ndarray) ->
 
 def _topology_of(grid: Grid, nodes: Sequence[np.ndarray]) -> Topology:
     """The topology of springs (m, 2) or (m, 4, p) of one kind; a small lattice's is found once."""
-    if grid[0] * grid[1] * grid[2] > KEPT:
+    if grid[0] * grid[1] * grid[2] > SHARED_UP_TO:
         return _topology(grid, nodes)
     key = grid, *((part.shape, part.tobytes()) for part in nodes)  # as `Pattern.among` keeps its own
     if key not in _topologies:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lumped.lattice import Lattice, mean_sides
-from lumped.pattern import ASKED, KEPT, Pattern
+from lumped.pattern import ASKED, SHARED_UP_TO, Pattern
 
 
 class LinkRest(NamedTuple):
@@ -118,7 +118,7 @@ class Itself:
 
 def rest_of(lattice: Lattice, pattern: Pattern) -> Rest:
     """The springs of a lattice at rest, their blocks of this pattern; of a small one the same every time."""
-    if lattice.mass_count > KEPT:
+    if lattice.mass_count > SHARED_UP_TO:
         return Rest(lattice, pattern)
     return _kept_rest(Itself(lattice), pattern)
 

@@ -89,7 +89,7 @@ class Problem:
         self.conservative = self.assembly.conservative and dead
         coupling = self.assembly.coupling
         self.multipliers = coupling.multipliers if coupling is not None else 0
-        self._free = self.constraints.rows
+        self._free = self.constraints.transform_arrays
         pattern, transform = self.assembly.pattern, self.constraints.transform
         if coupling is None:
             self.system = self.constraints.reduced(pattern, self.conservative)

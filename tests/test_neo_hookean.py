@@ -8,6 +8,8 @@ from scipy.optimize import brentq
 
 import lumped
 from lumped import System, build_problem, step_limit
+from lumped.assembly import Assembly
+from lumped.statics import validity
 from sheetbench import scenes
 from sheetbench.scenes import Scene, Status
 from sheetbench.scenes.errors import BadInput
@@ -169,3 +171,16 @@ def test_what_the_law_cannot_do_is_refused_by_name():
         lumped.describe(scene, lattice(scene))
     with pytest.raises(ValueError, match="cannot have area, stretch and shear"):
         scenes.SpringSet.model_validate({**lattice(scene).springs.model_dump(), "area": 1.0})
+
+
+def test_layers_that_shear_alike_hold_all_the_energy_in_their_mean_stretch():
+    """Links along the sides know nothing of a shear along them; layers displaced oppositely have no mean."""
+    sheet = scenes.Sheet(length_x=0.1, length_y=0.1, thickness=1e-3)
+    assembly = Assembly(sheet, lumped.calibrate(sheet, scenes.Material(**SOFT), grid=5, method="neo-hookean"))
+    points, height = assembly.lattice.positions, assembly.lattice.positions[:, 2:]
+    alike = 0.02 * points[:, [1, 0, 2]] * [1.0, 1.0, 0.0]
+    for u, share in ((alike, 1.0), (alike * np.sign(height), 0.0)):
+        total, elongations = assembly.force(u)[0], np.zeros(len(assembly.links.nodes))
+        own = assembly.energies(u)
+        assert own["axial"] < 0.01 * own["neo_hookean"] and total > 0.0
+        assert validity._stretch_share(assembly, u, elongations, total) == pytest.approx(share, abs=0.01)

@@ -79,7 +79,7 @@ def layers(scene: Scene, assembly: Assembly, u: np.ndarray, elongations: np.ndar
     """Return a sentence where the sheet's stretching lies in layers thinner than the grid's cells, else
     nothing. elongations: of the links (m,) [m]; energy: all that the springs store [J]."""
     lattice = assembly.lattice
-    if _stretch_share(assembly, elongations, energy) < FREE_OF_STRETCH:
+    if _stretch_share(assembly, u, elongations, energy) < FREE_OF_STRETCH:
         return ""
     x, y = lattice.lines
     longest = np.maximum(x.widths[None, :], y.widths[:, None])
@@ -98,8 +98,14 @@ def layers(scene: Scene, assembly: Assembly, u: np.ndarray, elongations: np.ndar
     )
 
 
-def _stretch_share(assembly: Assembly, elongations: np.ndarray, total: float) -> float:
-    """Energy of the layers' mean stretch, as the in-plane links have it, over the elastic energy [J]."""
+def _stretch_share(assembly: Assembly, u: np.ndarray, elongations: np.ndarray, total: float) -> float:
+    """Energy of the layers' mean stretch over the elastic energy [J]: as the in-plane links have it, of
+    neo-Hookean layers, whose links know no shear, that of all layers displaced as their mean."""
+    if total > 0.0 and assembly.any_strain:
+        columns, mean = assembly.lattice.columns(), u.copy()
+        mean[columns] = u[columns].mean(axis=2, keepdims=True)
+        energies = assembly.energies(mean)
+        return (energies["axial"] + energies["neo_hookean"]) / total
     links, layers_ = assembly.links, assembly.lattice.grid[2]
     in_plane = np.flatnonzero(links.offset[:, 2] == 0.0)
     if total <= 0.0 or len(in_plane) == 0:

@@ -104,7 +104,7 @@ def test_the_command_prints_and_writes_a_motion(tmp_path, capsys):
     expected = np.subtract(motion["probes"]["lumped"]["P4"][-1], motion["probes"]["shell"]["P4"][-1])
     assert fields["difference"][corner] == pytest.approx(expected, abs=1e-12)
     assert (tmp_path / "shell.pvd").exists() and (tmp_path / "lumped.pvd").exists()
-    assert "[s]   [s]" in printed
+    assert "[s]   [s]" in printed and max(map(len, printed.splitlines())) <= 80
     shown = stage(read(tmp_path).studies[0])
     assert [view["label"] for view in shown["views"]] == ["lumped and shell", "lumped", "shell"]
     assert shown["views"][0]["sheets"] == [sheet["name"] for sheet in shown["sheets"]]

@@ -101,7 +101,7 @@ def _differences(found: MotionComparison) -> Table:
 
 def _runs(found: MotionComparison) -> Table:
     columns = (
-        Column("model"),
+        Column("model", detail=True),  # labels begin with it
         Column("label"),
         Column("integrator"),
         Column("status"),

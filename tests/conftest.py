@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,8 @@ import fake_solutions
 import pytest
 from campaigns import Here
 from matplotlib.figure import Figure
+from matrix_options import scene_files
+from matrix_rows import Tally, check, tally
 
 from comparisons.comparison import comparison as displacement
 from comparisons.models.candidate import Candidate
@@ -75,3 +77,33 @@ def in_process(monkeypatch: pytest.MonkeyPatch) -> None:
     """Campaigns run in this process: no worker has to start."""
     monkeypatch.setattr(executors, "processes", Here)
     monkeypatch.setitem(carry_out.__kwdefaults__, "pool", Here)
+
+
+@pytest.fixture(scope="module")
+def places(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """What the matrices' rows have in braces: files by name."""
+    return scene_files(tmp_path_factory.mktemp("scenes"))
+
+
+@pytest.fixture(scope="module")
+def counted() -> Iterator[Tally]:
+    with tally() as found:
+        yield found
+
+
+@pytest.fixture
+def ends(
+    places: dict[str, str],
+    counted: Tally,
+    tmp_path: Path,
+    undrawn: None,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> Callable[..., int]:
+    """Run a command line of the matrices, names in braces filled in, and check how it ends."""
+    known = {**places, "folder": str(tmp_path / "out"), "export": str(tmp_path / "export")}
+
+    def ends(*arguments: str) -> int:
+        return check([one.format(**known) for one in arguments], counted, monkeypatch, capsys)
+
+    return ends

@@ -53,15 +53,25 @@ kind = "{kind}"
 edge = "x1"
 kind = "clamped"
 """
+TABLES = {  # what was measured: rows of numbers below the header, and headers alone
+    "heights": "x,y,uz\n0.05,0.05,-0.001\n0.1,0.05,-0.003\n0.11,0.1,-0.004\n0.08,0.03,-0.002\n",
+    "displacements": "x,y,ux,uy,uz\n0.05,0.05,0,0,-0.001\n0.1,0.05,-1e-4,,-0.003\n0.11,0.1,-2e-4,0,-0.004\n",
+    "motion": "time,x,y,uz\n0.002,0.1,0.05,-1e-5\n0.004,0.1,0.05,-5e-5\n0.006,0.1,0.05,-1.2e-4\n"
+    "0.008,0.1,0.05,-2e-4\n",
+    "empty": "x,y,uz\n",
+}
 WEIGHT = "[gravity]\nacceleration = [0.0, 0.0, -9.81]\n"
 
 
 def scene_files(folder: Path) -> dict[str, str]:
-    """Write scenes that the catalogue lacks into a folder; their paths by the names in braces."""
+    """Write scenes that the catalogue lacks, and measurements, into a folder; their paths by name."""
     found = {}
     for name, more in FILES.items():
         weight, kind = ("" if name == "weightless" else WEIGHT), ("hinged" if more else "clamped")
         text = SHEET.format(name=name, weight=weight, kind=kind) + more
         (folder / f"{name}.toml").write_text(text, encoding="utf-8")
         found[name] = str(folder / f"{name}.toml")
+    for name, text in TABLES.items():
+        (folder / f"{name}.csv").write_text(text, encoding="utf-8")
+        found[name] = str(folder / f"{name}.csv")
     return found

@@ -1,18 +1,18 @@
 """`compare` in every pair of its options: scenes, grids, springs, references, more models, outputs.
 
 Twice a month somebody finds two options that never met. Rows cover all pairs; the size and the time are
-printed (`pytest -s tests/test_matrix.py`). The other verbs: test_matrix_verbs.py.
+printed (`pytest -s tests/test_matrix.py`). The other verbs: test_matrix_verbs.py and
+test_matrix_small.py.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from itertools import combinations, product
-from pathlib import Path
 
 import pytest
-from matrix_options import GRIDS, OUTPUTS, SCENES, SPRINGS, scene_files
-from matrix_rows import Row, Tally, check, named, pairwise, tally
+from matrix_options import GRIDS, OUTPUTS, SCENES, SPRINGS
+from matrix_rows import Row, named, pairwise
 
 REFERENCES = (
     ("--reference", "plate"),
@@ -32,17 +32,6 @@ HOW = ((), ("--symmetry",), ("--uncertainty",), ("--no-uncertainty",))
 ROWS = pairwise([SPRINGS, SCENES, MORE, REFERENCES, OUTPUTS, GRIDS, HOW])
 
 
-@pytest.fixture(scope="module")
-def places(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
-    return scene_files(tmp_path_factory.mktemp("scenes"))
-
-
-@pytest.fixture(scope="module")
-def counted() -> Iterator[Tally]:
-    with tally() as found:
-        yield found
-
-
 def test_rows_have_every_pair() -> None:
     dimensions = [SPRINGS, SCENES, MORE, REFERENCES, OUTPUTS, GRIDS, HOW]
     wanted = sum(len(a) * len(b) for a, b in combinations(dimensions, 2))
@@ -52,22 +41,7 @@ def test_rows_have_every_pair() -> None:
     assert {row[:2] for row in ROWS} == set(product(SPRINGS, SCENES))
 
 
-@pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize("row", ROWS, ids=named)
-def test_compare(
-    row: Row,
-    places: dict[str, str],
-    counted: Tally,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_compare(row: Row, ends: Callable[..., int]) -> None:
     springs, scene, *others = row
-    named_places = {**places, "folder": str(tmp_path / "out"), "export": str(tmp_path / "export")}
-    options = [part.format(**named_places) for part in (*springs, *(p for one in others for p in one))]
-    check(
-        ["compare", scene[0].format(**named_places), "--elements", "2", *options],
-        counted,
-        monkeypatch,
-        capsys,
-    )
+    ends("compare", *scene, "--elements", "2", *springs, *(part for one in others for part in one))

@@ -1,16 +1,15 @@
-"""Every other verb in every pair of its options, as test_matrix.py has it for `compare`.
+"""Verbs that ask one lattice in every pair of their options, as test_matrix.py has it for `compare`.
 
 Fits are met by `calibrate`, on every scene and grid, and by `compare`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
+from collections.abc import Callable
 
 import pytest
-from matrix_options import CLOSED, GRIDS, OUTPUTS, SCENES, scene_files
-from matrix_rows import Row, Tally, check, named, pairwise, tally
+from matrix_options import CLOSED, GRIDS, OUTPUTS, SCENES
+from matrix_rows import Row, named, pairwise
 
 from sheetbench.choices import CALIBRATIONS, INTEGRATORS, MASSES
 
@@ -69,28 +68,6 @@ MORE = {
 ROWS = [(verb, row) for verb, dimensions in VERBS.items() for row in pairwise(dimensions)]
 
 
-@pytest.fixture(scope="module")
-def places(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
-    return scene_files(tmp_path_factory.mktemp("scenes"))
-
-
-@pytest.fixture(scope="module")
-def counted() -> Iterator[Tally]:
-    with tally() as found:
-        yield found
-
-
-@pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize(("verb", "row"), ROWS, ids=[f"{verb} {named(row)}" for verb, row in ROWS])
-def test_verb(
-    verb: str,
-    row: Row,
-    places: dict[str, str],
-    counted: Tally,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    known = {**places, "folder": str(tmp_path / "out"), "export": str(tmp_path / "export")}
-    options = [part.format(**known) for one in row for part in one]
-    check([verb, *options, *MORE.get(verb, ())], counted, monkeypatch, capsys)
+def test_verb(verb: str, row: Row, ends: Callable[..., int]) -> None:
+    ends(verb, *(part for one in row for part in one), *MORE.get(verb, ()))

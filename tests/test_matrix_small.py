@@ -1,0 +1,77 @@
+"""Motions, exports and small verbs in every pair of their options, as test_matrix.py has it.
+
+Left out: `live`, a server; `report --open`, a browser; and studies, which take longer than the matrix may.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable
+
+import pytest
+from commands import run
+from matrix_options import OUTPUTS
+from matrix_rows import Row, named, pairwise
+
+SUITES = ("statics", "settling", "modes")
+VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
+    "compare --duration 0.004 --elements 2": [
+        (("two-edges-settling",), ("{pressed}",)),
+        (("--grid", "3"), ("--grid", "3x4")),
+        (("--calibration", "neo-hookean"), ("--k", "550")),
+        (("--json",), ("--out", "{folder}")),
+    ],
+    "calibrate --export {export}": [
+        (("--method", "neo-hookean"), ("--method", "central")),
+        (("two-edges-settling",), ("{pressed}",)),
+        (("--for", "mujoco"), ("--for", "sofa")),
+        (("--grid", "3"), ("--grid", "3x4")),
+    ],
+    "report": [
+        (("{studies}",), ("{studies}/compare",), ("{export}",)),
+        ((), ("--json",), ("--out", "{page}"), ("--quiet",)),
+    ],
+    "score": [
+        tuple((f"{{{name}}}",) for name in (*SUITES, "heights", "nothing")),
+        ((), *(("--suite", name) for name in SUITES)),
+        ((), ("--case", "thin"), ("--case", "modes-round"), ("--case", "corner-struck")),
+        OUTPUTS[:4],
+    ],
+    "new {folder}.toml --young 1MPa --poisson 0.4": [
+        (("--side", "0.1"), ("--side", "12cmx4cm"), ()),
+        (("--thickness", "2mm"), ("--thickness", "0.5"), ()),
+        ((), ("--clamped", "x0,y1"), ("--clamped", "x0,x1,y0,y1"), ("--clamped", "")),
+        ((), ("--density", "1.1g/cm3"), ("--overwrite",)),
+    ],
+    "schema": [((), ("--markdown",)), ((), ("--quiet",))],
+}
+ROWS = [(verb, row) for verb, dimensions in VERBS.items() for row in pairwise(dimensions)]
+
+
+@pytest.fixture(scope="module")
+def places(places: dict[str, str], tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """With studies for a report, and answers to the reference set, every one the same number."""
+    folder = tmp_path_factory.mktemp("studies")
+    places = {
+        **places,
+        "studies": str(folder),
+        "page": str(folder / "page.html"),
+        "nothing": str(folder / "no.csv"),
+    }
+    small = ("--grid", "3", "--elements", "2", "--no-pictures", "--out")
+    for verb in ("compare", "modes"):
+        assert run(verb, "one-edge-clamped", *small, str(folder / verb)) == 0
+    for suite in SUITES:
+        assert run("suite", "--suite", suite, "--out", str(folder / "suites" / suite)) == 0
+        path = folder / "suites" / suite / f"answers-{suite}.csv"
+        with path.open(newline="", encoding="utf-8") as file:
+            rows = [[value or "0.001" for value in row] for row in csv.reader(file)]
+        with path.open("w", newline="", encoding="utf-8") as file:
+            csv.writer(file).writerows(rows)
+        places[suite] = str(path)
+    return places
+
+
+@pytest.mark.parametrize(("verb", "row"), ROWS, ids=[f"{verb} {named(row)}" for verb, row in ROWS])
+def test_verb(verb: str, row: Row, ends: Callable[..., int]) -> None:
+    ends(*verb.split(), *(part for one in row for part in one))

@@ -1,6 +1,6 @@
-"""Motions, exports and small verbs in every pair of their options, as test_matrix.py has it.
+"""Motions, exports, fits, campaigns and small verbs in every pair of their options, as test_matrix.py has it.
 
-Left out: `live`, a server; `report --open`, a browser; and studies, which take longer than the matrix may.
+Left out: `live`, a server, and `report --open`, a browser.
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ import pytest
 from commands import run
 from matrix_options import OUTPUTS
 from matrix_rows import Row, named, pairwise
+
+from comparisons.stability import extremes
 
 SUITES = ("statics", "settling", "modes")
 VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
@@ -44,6 +46,50 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         ((), ("--density", "1.1g/cm3"), ("--overwrite",)),
     ],
     "schema": [((), ("--markdown",)), ((), ("--quiet",))],
+    "identify": [
+        (("one-edge-clamped",), ("{pressed}",), ("{springs}",)),
+        tuple(("--measured", f"{{{name}}}") for name in ("heights", "displacements", "empty")),
+        (("--lumped", "3"), ("--lumped", "3x4"), ("--model", "shell", "--elements", "2")),
+        ((), ("--calibration", "neo-hookean"), ("--k", "550"), ("--grading", "auto")),
+        (("--unknown", "young"), ("--unknown", "poisson"), ("--unknown", "tilt_x0")),
+        OUTPUTS[:3],
+    ],
+    "identify two-edges-settling --measured {motion}": [
+        (("--lumped", "3"), ("--lumped", "3x4")),
+        (("--unknown", "young"), ("--unknown", "damping_time")),
+        OUTPUTS[:3],
+    ],
+    "tradeoff --repeats 1 --elements 3 --plate 2 --workers 1": [
+        (("one-edge-clamped",), ("{pressed}",), ("{weightless}",)),
+        (("--lumped", "3"), ("--lumped", "3x4,4"), ("--lumped", ""), ("--lumped-pair", "3:4")),
+        (("--calibration", "neo-hookean"), ("--calibration", "auto"), ("--grading", "auto")),
+        (("--shell", "2", "--solid", ""), ("--shell", "", "--solid", "2")),
+        OUTPUTS[:3],
+    ],
+    "tradeoff two-edges-settling --duration 0.004 --repeats 1 --workers 1": [
+        (("--lumped", "3"), ("--lumped", "3x4"), ("--k", "550")),
+        ((), ("--calibration", "neo-hookean")),
+        OUTPUTS[:3],
+    ],
+    "crosscheck --plate 2,3 --shell 2,3 --workers 1": [
+        (("one-edge-clamped",), ("{pressed}",)),
+        (("--lumped", "3,4,5"), ("--lumped", "3,4")),
+        (("--solid", ""), ("--solid", "1,2")),
+        (("--calibration", "neo-hookean"), ("--grading", "0.4")),
+        OUTPUTS[:3],
+    ],
+    "stability --elements 2 --workers 1": [
+        (("one-edge-clamped",), ("{pressed}",), ("{weightless}",)),
+        tuple(("--vary", name) for name in ("load", "slenderness", "grid")),
+        (("--lumped", "3"), ("--lumped", "3x4")),
+        ((), ("--calibration", "neo-hookean"), ("--k", "550"), ("--grading", "auto")),
+        OUTPUTS[:3],
+    ],
+    "stability two-edges-settling --lumped 3 --elements 2 --workers 1": [
+        (("--vary", "damping"), ("--vary", "time-step")),
+        ((), ("--calibration", "neo-hookean")),
+        OUTPUTS[:2],
+    ],
 }
 ROWS = [(verb, row) for verb, dimensions in VERBS.items() for row in pairwise(dimensions)]
 
@@ -72,6 +118,18 @@ def places(places: dict[str, str], tmp_path_factory: pytest.TempPathFactory) -> 
     return places
 
 
+@pytest.fixture
+def few(in_process: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Campaigns run here, and maps have two runs along each axis."""
+    monkeypatch.setattr(
+        extremes, "FACTORS", {name: (1.0, max(all_)) for name, all_ in extremes.FACTORS.items()}
+    )
+    monkeypatch.setattr(extremes, "CELLS", {"lumped": (2, 4), "references": (2,)})
+    monkeypatch.setattr(extremes, "DAMPING", (0.1,))
+    monkeypatch.setattr(extremes, "DIVISIONS", (20, 4))
+
+
+@pytest.mark.usefixtures("few")
 @pytest.mark.parametrize(("verb", "row"), ROWS, ids=[f"{verb} {named(row)}" for verb, row in ROWS])
 def test_verb(verb: str, row: Row, ends: Callable[..., int]) -> None:
     ends(*verb.split(), *(part for one in row for part in one))

@@ -103,7 +103,8 @@ def _difference(
 def _models(document: Mapping[str, Any]) -> list[str]:
     """Models of a comparison, the one in question first."""
     solutions = document.get("solutions")
-    return [str(one.get("model")) for one in solutions] if isinstance(solutions, list) else []
+    listed = solutions if isinstance(solutions, list) else []
+    return [str(one.get("model")) for one in listed if isinstance(one, dict)]
 
 
 def _ordered(views: list[Options], study: Study) -> list[Options]:

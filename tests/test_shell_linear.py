@@ -8,7 +8,8 @@ from scipy.sparse import csr_matrix, random_array
 
 import fem_reference.shell.statics
 import sheetbench.numerics.direct
-from fem_reference.solving.equilibrium import Start, trace
+from fem_reference.solving.equilibrium import trace
+from fem_reference.solving.newton import Start
 from sheetbench import scenes
 from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
 from sheetbench.numerics.stability import nearest_to_zero

@@ -17,7 +17,7 @@ from fem_reference.shell.element import MEMBRANE
 from fem_reference.shell.membrane_strains import at_nodes, sampled
 from fem_reference.shell.state import State
 from fem_reference.shell.structure import UP, ShellStructure
-from fem_reference.solving.equilibrium import Start
+from fem_reference.solving.newton import Start
 from fem_reference.solving.path import Path
 from fem_reference.surface.location import interpolate
 from sheetbench.scenes import Scene, Status

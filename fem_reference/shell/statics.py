@@ -23,7 +23,8 @@ from fem_reference.shell.laws import LAWS
 from fem_reference.shell.state import State
 from fem_reference.shell.structure import UP, ShellStructure
 from fem_reference.shell.validity import STRETCHED, inspector, judge, membrane_strain
-from fem_reference.solving.equilibrium import Start, trace
+from fem_reference.solving.equilibrium import trace
+from fem_reference.solving.newton import Start
 from fem_reference.solving.path import FACTORISATIONS, Path, Progress
 from fem_reference.solving.pseudo_transient import settler
 from fem_reference.surface import loads, rod

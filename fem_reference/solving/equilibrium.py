@@ -8,11 +8,9 @@ same, the path from the flat sheet is a few iterations long. Supports move in th
 
 Load steps adapt. The first linear step towards a load may go no farther than a reach of a few sizes of the
 structure: a longer one is cut to it, load and all, with the factors at hand. A load step whose corrections
-stop shrinking is given up at once and halves the reach; an easy one raises it. Three watchdogs end a load
-step: a number that is not finite, a step that leaves the structure far behind, corrections that stagnate;
-`inspect` may end the whole path at an equilibrium that the structure itself does not vouch for. Where the
-path ends before the full load, the inertia of the last equilibrium's tangent says whether it has lost its
-uniqueness.
+stop shrinking (`newton`) is given up at once and halves the reach; an easy one raises it. `inspect` may end
+the whole path at an equilibrium that the structure itself does not vouch for. Where the path ends before the
+full load, the inertia of the last equilibrium's tangent says whether it has lost its uniqueness.
 
 A path whose corrections stop shrinking however short the step has come to a limit point. Given a `settle`, it
 goes on from the stable equilibrium that this finds a little beyond (see `pseudo_transient`): the structure
@@ -25,29 +23,19 @@ tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Generic
-
-import numpy as np
 
 from fem_reference.solving.careful import continuous, negatives, worth
+from fem_reference.solving.newton import FIRST_REACH, TOLERANCE, Predictor, Start, newton
 from fem_reference.solving.path import FACTORISATIONS, Fault, Path, Progress, StepFailed
 from fem_reference.solving.stability import stability
 from fem_reference.solving.structure import Forces, State, Structure
-from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
+from sheetbench.numerics.direct import DirectSolver, Factor
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Status
 
-TOLERANCE = 5e-9  # residual, relative to the forces that balance
-SOLVED = 1e-14  # backward error of a correction that is not refined: the next one is its refinement
 SAME_TANGENT = 1e-2  # of (thickness/size)², strains that buckle a sheet: what changes by less has one tangent
-VANISHING = 1e-13  # work of a step, relative to the load step's first: beyond it only rounding is left
-ITERATIONS = 24  # in one load step
-BACK = 4  # corrections that are no shorter than so many before are given up
 LENGTHEN_UP_TO, GROWTH = 6, 4.0  # a load step that took no more is followed by one so many times as long
-FIRST_REACH = 8.0  # sizes of the structure that the first linear step may move it
 SMALLEST_STEP = 2.0**-10
-FARTHEST = 1e3  # a step beyond so many sizes of the structure has diverged
 CAREFUL_REACH = 0.1  # sizes of the structure that the first careful linear step may move it
 SHORTEST = 5e-4  # the same, of one that fails and is the last: half of what may cross a bifurcation
 CAREFUL_TOLERANCE = 3e-3  # residual at which a careful load step ends, but for the last
@@ -164,7 +152,7 @@ def _follow(
     while path.load_factor < 1.0:
         before = path.factorisations
         try:
-            first = _Predictor(structure, solver, path, min(1.0, path.load_factor + size), reach, factor)
+            first = Predictor(structure, solver, path, min(1.0, path.load_factor + size), reach, factor)
             factor = first.factor if structure.symmetric else None
             close = CAREFUL_TOLERANCE if careful and first.target < 1.0 else 0.0
             state, found = newton(structure, solver, path, first, close)
@@ -235,103 +223,6 @@ def _snap(
     path.state, path.load_factor, path.factor = settle(path, beyond), beyond, None
     path.limit = min(path.factorisations + FACTORISATIONS, SNAPPING)
     return inspect(path) or _follow(structure, solver, path, inspect, careful)
-
-
-@dataclass(frozen=True)
-class Start(Generic[State]):
-    """What Newton's method starts from: a state, the load factor it is for, and length and work of the step
-    that has led to it."""
-
-    state: State
-    target: float
-    length: float
-    work: float
-
-
-class _Predictor(Generic[State, Forces]):
-    """The first linear step from a path's last equilibrium towards a load, no longer than `reach`.
-
-    factor: of the tangent there, where it is at hand; it serves as long as the tangent does not depend on the
-    load. target: the load factor that the step is for.
-    """
-
-    def __init__(
-        self,
-        structure: Structure[State, Forces],
-        solver: DirectSolver,
-        path: Path[State],
-        target: float,
-        reach: float,
-        factor: Factor | None,
-    ):
-        self.target, self.factor = target, factor
-        self._aim(structure, solver, path)
-        if reach < self.length < np.inf:
-            self.target = path.load_factor + (target - path.load_factor) * reach / self.length
-            self._aim(structure, solver, path)
-        if not self.length < FARTHEST:
-            raise StepFailed(Status.DIVERGED, "the first step has no end", FIRST_REACH)
-
-    def _aim(self, structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> None:
-        forces = structure.forces(path.state, self.target)
-        try:
-            matrix, rows = structure.system(path.state, forces, self.target)
-            if self.factor is None or not structure.symmetric:
-                path.factorisations += 1
-                self.factor = solver.factor(matrix)
-            step = self.factor.solve(rows, SOLVED)
-        except SingularMatrixError as error:
-            raise StepFailed(Status.SINGULAR, str(error), FIRST_REACH) from None
-        self.state = structure.advance(path.state, forces, self.target, step)
-        self.length = structure.length(path.state, self.state)
-        self.work = abs(float(step @ rows))
-
-
-def newton(
-    structure: Structure[State, Forces],
-    solver: DirectSolver,
-    path: Path[State],
-    first: Start[State] | _Predictor[State, Forces],
-    close: float = 0.0,
-) -> tuple[State, Factor | None]:
-    """The equilibrium at the load factor of a start, and the factors of its tangent where those of the last
-    correction are, which was next to nothing. close: a residual that is good enough. Raises StepFailed."""
-    state, target, before = first.state, first.target, np.inf
-    factor: Factor | None = None
-    works, lengths = [first.work], [first.length]
-    for _ in range(ITERATIONS):
-        forces = structure.forces(state, target)
-        imbalance = structure.imbalance(state, forces)
-        relative = imbalance / forces.size if forces.size > 0.0 else imbalance
-        path.note(target, relative, lengths[-1])
-        if not np.isfinite(relative):
-            raise StepFailed(Status.NON_FINITE, "a number overflowed", first.length)
-        rounded = works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before
-        if (relative <= TOLERANCE or rounded) and structure.gap(state, target) <= TOLERANCE:
-            # the extrapolated stress, too, is off by the square of the correction before
-            alike = factor is not None and max(lengths[-1], lengths[-2] ** 2) <= path.alike
-            return state, factor if alike else None
-        if relative <= close:
-            return state, None
-        if len(lengths) > BACK and lengths[-1] >= lengths[-1 - BACK]:
-            raise StepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
-        if path.factorisations >= path.limit:
-            said = f"{path.limit} factorisations were not enough"
-            raise StepFailed(Status.STEP_LIMIT, said, first.length)
-        path.factorisations += 1
-        try:
-            matrix, rows = structure.system(state, forces, target)
-            factor = solver.factor(matrix)
-            step = factor.solve(rows, SOLVED)
-        except SingularMatrixError as error:
-            raise StepFailed(Status.SINGULAR, str(error), first.length) from None
-        following = structure.advance(state, forces, target, step)
-        lengths.append(structure.length(state, following))
-        if not lengths[-1] < FARTHEST:
-            raise StepFailed(Status.DIVERGED, "the corrections have no end", first.length)
-        works.append(abs(float(step @ rows)))
-        state, before = following, imbalance
-    raise StepFailed(Status.STEP_LIMIT, f"no equilibrium in {ITERATIONS} corrections", first.length)
 
 
 def _give_up(

@@ -24,7 +24,7 @@ from typing import Generic
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from fem_reference.solving.equilibrium import TOLERANCE, Start, newton
+from fem_reference.solving.newton import TOLERANCE, Start, newton
 from fem_reference.solving.path import Path, StepFailed
 from fem_reference.solving.structure import Creeping, Forces, State
 from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError

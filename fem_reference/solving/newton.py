@@ -1,0 +1,123 @@
+"""Newton's method with extrapolated stresses at one load, and the linear step that leads to it.
+
+The corrections are those of Magisano, Leonetti & Garcea (2017), as `fem_reference.solving.equilibrium` says.
+Three watchdogs end them: a number that is not finite, a step that leaves the structure far behind, and
+corrections that do not shrink.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Generic
+
+import numpy as np
+
+from fem_reference.solving.path import Path, StepFailed
+from fem_reference.solving.structure import Forces, State, Structure
+from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
+from sheetbench.scenes import Status
+
+TOLERANCE = 5e-9  # residual, relative to the forces that balance
+SOLVED = 1e-14  # backward error of a correction that is not refined: the next one is its refinement
+VANISHING = 1e-13  # work of a step, relative to the load step's first: beyond it only rounding is left
+ITERATIONS = 24  # in one load step
+BACK = 4  # corrections that are no shorter than so many before are given up
+FARTHEST = 1e3  # a step beyond so many sizes of the structure has diverged
+FIRST_REACH = 8.0  # sizes of the structure that the first linear step may move it
+
+
+@dataclass(frozen=True)
+class Start(Generic[State]):
+    """What Newton's method starts from: a state, the load factor it is for, and length and work of the step
+    that has led to it."""
+
+    state: State
+    target: float
+    length: float
+    work: float
+
+
+class Predictor(Generic[State, Forces]):
+    """The first linear step from a path's last equilibrium towards a load, no longer than `reach`.
+
+    factor: of the tangent there, where it is at hand; it serves as long as the tangent does not depend on the
+    load. target: the load factor that the step is for.
+    """
+
+    def __init__(
+        self,
+        structure: Structure[State, Forces],
+        solver: DirectSolver,
+        path: Path[State],
+        target: float,
+        reach: float,
+        factor: Factor | None,
+    ):
+        self.target, self.factor = target, factor
+        self._aim(structure, solver, path)
+        if reach < self.length < np.inf:
+            self.target = path.load_factor + (target - path.load_factor) * reach / self.length
+            self._aim(structure, solver, path)
+        if not self.length < FARTHEST:
+            raise StepFailed(Status.DIVERGED, "the first step has no end", FIRST_REACH)
+
+    def _aim(self, structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> None:
+        forces = structure.forces(path.state, self.target)
+        try:
+            matrix, rows = structure.system(path.state, forces, self.target)
+            if self.factor is None or not structure.symmetric:
+                path.factorisations += 1
+                self.factor = solver.factor(matrix)
+            step = self.factor.solve(rows, SOLVED)
+        except SingularMatrixError as error:
+            raise StepFailed(Status.SINGULAR, str(error), FIRST_REACH) from None
+        self.state = structure.advance(path.state, forces, self.target, step)
+        self.length = structure.length(path.state, self.state)
+        self.work = abs(float(step @ rows))
+
+
+def newton(
+    structure: Structure[State, Forces],
+    solver: DirectSolver,
+    path: Path[State],
+    first: Start[State] | Predictor[State, Forces],
+    close: float = 0.0,
+) -> tuple[State, Factor | None]:
+    """The equilibrium at the load factor of a start, and the factors of its tangent where those of the last
+    correction are, which was next to nothing. close: a residual that is good enough. Raises StepFailed."""
+    state, target, before = first.state, first.target, np.inf
+    factor: Factor | None = None
+    works, lengths = [first.work], [first.length]
+    for _ in range(ITERATIONS):
+        forces = structure.forces(state, target)
+        imbalance = structure.imbalance(state, forces)
+        relative = imbalance / forces.size if forces.size > 0.0 else imbalance
+        path.note(target, relative, lengths[-1])
+        if not np.isfinite(relative):
+            raise StepFailed(Status.NON_FINITE, "a number overflowed", first.length)
+        rounded = works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before
+        if (relative <= TOLERANCE or rounded) and structure.gap(state, target) <= TOLERANCE:
+            # the extrapolated stress, too, is off by the square of the correction before
+            alike = factor is not None and max(lengths[-1], lengths[-2] ** 2) <= path.alike
+            return state, factor if alike else None
+        if relative <= close:
+            return state, None
+        if len(lengths) > BACK and lengths[-1] >= lengths[-1 - BACK]:
+            raise StepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
+        if path.factorisations >= path.limit:
+            said = f"{path.limit} factorisations were not enough"
+            raise StepFailed(Status.STEP_LIMIT, said, first.length)
+        path.factorisations += 1
+        try:
+            matrix, rows = structure.system(state, forces, target)
+            factor = solver.factor(matrix)
+            step = factor.solve(rows, SOLVED)
+        except SingularMatrixError as error:
+            raise StepFailed(Status.SINGULAR, str(error), first.length) from None
+        following = structure.advance(state, forces, target, step)
+        lengths.append(structure.length(state, following))
+        if not lengths[-1] < FARTHEST:
+            raise StepFailed(Status.DIVERGED, "the corrections have no end", first.length)
+        works.append(abs(float(step @ rows)))
+        state, before = following, imbalance
+    raise StepFailed(Status.STEP_LIMIT, f"no equilibrium in {ITERATIONS} corrections", first.length)

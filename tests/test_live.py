@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import http.client
 import json
+import signal
 import socket
 import stat
+import threading
 import webbrowser
+from contextlib import suppress
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
@@ -16,13 +20,16 @@ import pytest
 from commands import one_line, run
 from live_server import hear, serving, talking
 from terminals import COMMAND, Terminal
-from websockets.exceptions import InvalidStatus
+from websockets.asyncio.connection import Connection
+from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 import sheetbench as sb
+from comparisons.cli.interruption import heeded
 from comparisons.live import server
 from comparisons.live.newest import Newest
 from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
 from comparisons.live.server import MESSAGE
+from comparisons.live.session import Session
 from sheetbench.scenes.errors import BadInput
 
 SCENE = sb.load("curved-edge")
@@ -250,3 +257,25 @@ def test_it_ends_by_ctrl_c():
     assert terminal.end() == 130
     assert "nothing was kept" not in terminal.shown and "served no longer" in terminal.shown
     assert "Traceback" not in terminal.shown and "http://127.0.0.1:" in terminal.shown
+
+
+def test_an_interrupt_in_the_midst_of_a_send_is_no_fault(panel, monkeypatch, caplog):
+    async def interrupted(session, document):
+        monkeypatch.setattr(Connection, "send_data", struck)
+        await say(session, document)
+
+    def struck(connection):
+        monkeypatch.setattr(Connection, "send_data", send)
+        signal.raise_signal(signal.SIGINT)
+        send(connection)
+
+    def visit(address):
+        with suppress(ConnectionClosed), talking(address) as page:
+            hear(page, lambda message: False)
+
+    say, send = Session._say, Connection.send_data
+    monkeypatch.setattr(Session, "_say", interrupted)
+    with heeded(), pytest.raises(KeyboardInterrupt):
+        server.run(panel, 0, lambda address: threading.Thread(target=visit, args=(address,)).start())
+    gc.collect()  # a task whose exception nobody took says so when it goes
+    assert not caplog.records

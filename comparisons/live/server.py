@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import signal
 import socket
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
@@ -31,8 +32,17 @@ PAGES = 4  # open at once
 
 def run(panel: Panel, port: int, opened: Callable[[str], None]) -> None:
     """Serve the page until interrupted. opened: called with its address. Raises BadInput for a port that
-    cannot be had."""
-    asyncio.run(_until_interrupted(panel, port, opened))
+    cannot be had.
+
+    An interrupt may come in the midst of any instruction, a send of `websockets` too, which would then report
+    a failed connection. So asyncio hears it here: it cancels the server, and raises KeyboardInterrupt after.
+    """
+    heard_by = signal.getsignal(signal.SIGINT)
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # which asyncio replaces by its own
+    try:
+        asyncio.run(_until_interrupted(panel, port, opened))
+    finally:
+        signal.signal(signal.SIGINT, heard_by)
 
 
 async def _until_interrupted(panel: Panel, port: int, opened: Callable[[str], None]) -> None:

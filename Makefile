@@ -7,10 +7,6 @@ OUT    ?= demo
 EDITABLE := --config-settings editable_mode=compat --editable
 FUZZ   ?=
 KILLS  ?=
-CHECK  := $(addprefix tests/test_,architecture.py scenes.py refusals.py catalogue.py cli.py compare.py \
-            lattice.py lattice_mechanics.py lumped_statics.py calibration.py balance.py dynamics_forces.py \
-            shell_element.py shell_linear.py solid_element.py sections.py snaps.py campaign.py \
-            report.py measurements.py) tests/fuzz
 
 .PHONY: docs docs-scene help install demo wheel test check nightly kernels slow fuzz kills catalogue verify tradeoff animations pictures \
         notebooks bench mutants viewer wheel-check extras-check lint clean
@@ -23,7 +19,7 @@ help:
 	@echo "               (half an hour; goes on where it stopped; files in $(OUT)/fuzz/; others: FUZZ='--seed 2 --scenes 500')"
 	@echo "make kills     a hundred kills of campaigns, runs and trade-offs, and what stands there after (ten minutes; $(OUT)/kills/)"
 	@echo "make mutants   how many of 120 faults put into the packages the tests notice: docs/quality.md (an hour; goes on where it stopped)"
-	@echo "make catalogue the table of the catalogue's answers, tests/catalogue.json, for a change that is meant"
+	@echo "make catalogue the table of the catalogue's answers, tests/helpers/catalogue.json, for a change that is meant"
 	@echo "make verify    the references against published values, every row (about a minute)"
 	@echo "make nightly   every other test, as those of the studies, notebooks, browsers and the slow ones (half an hour)"
 	@echo "make studies   what the studies of the laboratory are, and the target of each (studies/Makefile)"
@@ -71,11 +67,11 @@ test: $(VENV)/testing lint kernels
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile
 
 check: $(VENV)/testing lint kernels
-	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile $(CHECK)
+	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile -m 'smoke and not nightly and not slow'
 
 # once, and not by each of the tests' processes
 kernels: $(VENV)/testing
-	@$(BIN)/python tests/kernels.py
+	@$(BIN)/python tests/helpers/kernels.py
 
 nightly: $(VENV)/testing kernels
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile -m 'nightly or slow'
@@ -84,13 +80,13 @@ slow: $(VENV)/testing
 	@$(BIN)/python -m pytest --numprocesses auto -m slow
 
 fuzz: $(VENV)/testing
-	@PYTHONPATH=tests $(BIN)/python -m fuzz.long $(OUT)/fuzz $(FUZZ)
+	@PYTHONPATH=tests/helpers $(BIN)/python -m fuzz.long $(OUT)/fuzz $(FUZZ)
 
 kills: $(VENV)/testing
-	@PYTHONPATH=tests $(BIN)/python -m fuzz.kills $(OUT)/kills $(KILLS)
+	@PYTHONPATH=tests/helpers $(BIN)/python -m fuzz.kills $(OUT)/kills $(KILLS)
 
 catalogue: $(VENV)/testing
-	@$(BIN)/python tests/catalogue.py
+	@$(BIN)/python tests/helpers/catalogue.py
 
 verify: install
 	@$(BIN)/sheetbench verify

@@ -13,6 +13,8 @@ import pytest
 
 import lumped
 
+pytestmark = pytest.mark.smoke
+
 ROOT = Path(__file__).parent.parent
 GROUND = ("sheetbench.scenes", "sheetbench.choices", "sheetbench.files", "sheetbench.kernels")
 GROUND += ("sheetbench.numerics", "sheetbench.clock")

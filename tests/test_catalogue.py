@@ -12,6 +12,8 @@ import pytest
 from catalogue import CASES, FILE, ROUNDED, WITHIN, answer
 from threadpoolctl import threadpool_limits
 
+pytestmark = pytest.mark.smoke
+
 KEPT = json.loads(FILE.read_text(encoding="utf-8"))
 
 

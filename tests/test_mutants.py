@@ -63,12 +63,12 @@ def test_names_stay_when_lines_come():
 def test_the_nearest_tests_speak_of_the_module():
     nearest = Nearest(TREE)
     for module, function, test in (
-        ("lumped/statics/polygon.py", "", "tests/test_polygon.py"),
-        ("lumped/dynamics/explicit/verlet.py", "Verlet.advance", "tests/test_dynamics.py"),
-        ("fem_reference/solid/element.py", "Bricks.build", "tests/test_solid_element.py"),
+        ("lumped/statics/polygon.py", "", "tests/lumped/statics/test_polygon.py"),
+        ("lumped/dynamics/explicit/verlet.py", "Verlet.advance", "tests/lumped/dynamics/test_dynamics.py"),
+        ("fem_reference/solid/element.py", "Bricks.build", "tests/fem_reference/solid/test_solid_element.py"),
     ):
         assert test in nearest.tests(module, words_of(module, function))[:2]
-    assert "tests/test_cli.py" in nearest.tests("fem_reference/solid/element.py", [])
+    assert "tests/comparisons/cli/test_cli.py" in nearest.tests("fem_reference/solid/element.py", [])
 
 
 def test_noticed_is_what_a_test_of_the_first_commit_notices():

@@ -10,7 +10,7 @@ nothing to hold straight) on an edge of length L of a sheet of bending stiffness
 The form is of its causes: harmonics of the parabolas between the joints as r cells can show them, and the
 sheet's own resistance beside the chain's. Its five numbers were fitted to 85 chains, n = 2 to 16, r = 2 to 8,
 z = 0.015 to 6, sheets of ½ to 2 L across the edge, commands of 0.1 to 12 1/m, against the same grid with a
-segment a cell: they are within a factor of 1.51 of all that lose more than 0.5 % (tests/test_polygon.py). How
+segment a cell: they are within a factor of 1.51 of all that lose more than 0.5 % (test_polygon.py). How
 much less the probes move is not told so well: it depends on where they are, and on what else moves the sheet.
 """
 

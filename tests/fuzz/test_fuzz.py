@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, Phase, given, settings
-
 from fuzz import trials
 from fuzz.grammar import command_lines, measured, sound, texts
+from hypothesis import HealthCheck, Phase, given, settings
+
+pytestmark = pytest.mark.smoke
 
 
 def tries(examples: int) -> settings:

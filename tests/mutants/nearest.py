@@ -66,7 +66,7 @@ def modules(tree: Path, folder: str) -> dict[str, Path]:
     for path in sorted((tree / folder).rglob("*.py")):
         parts = path.relative_to(tree).with_suffix("").parts
         parts = parts[:-1] if parts[-1] == "__init__" else parts
-        found[".".join(parts).removeprefix("tests.")] = path
+        found[".".join(parts).removeprefix("tests.helpers.")] = path
     return found
 
 

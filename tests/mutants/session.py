@@ -36,7 +36,7 @@ from sheetbench.kernels import COMPILED
 
 HERE = Path(__file__).resolve().parent
 TRIED, EQUIVALENT, JUDGE = HERE / "tried.jsonl", HERE / "equivalent.toml", HERE / "judge.py"
-KERNELS = "tests/kernels.py"
+KERNELS = "tests/helpers/kernels.py"
 NOT_PYTHON = ("lumped.springs.memory", "link_tiles")  # whose intrinsics only the compiler knows
 ENOUGH = 25.0  # seconds of processor time after which a fault has survived
 COMPILING = 50.0  # seconds more where kernels are compiled anew

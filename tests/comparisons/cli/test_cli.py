@@ -1,0 +1,293 @@
+"""The command line: exit statuses, one line for bad input, one JSON document, and quick help."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import tomllib
+from importlib.metadata import version
+from pathlib import Path
+
+import fake_solutions
+import numpy as np
+import pytest
+from commands import one_line, run
+from scene_files import BAD, LOOSE, written
+
+from comparisons.cli import interruption
+from comparisons.comparison import comparison as displacement
+from comparisons.models.candidate import Candidate
+from sheetbench import scenes
+from sheetbench.scenes import Scene, Solution, Status
+
+pytestmark = pytest.mark.smoke
+
+HEAVY = ("numpy", "scipy", "pydantic", "matplotlib", "pyvista", "vtkmodules", "numba", "skfem", "meshio")
+
+
+def test_importing_the_command_line_imports_nothing_heavy() -> None:
+    code = "import sys, comparisons.cli; print([m for m in sys.argv[1:] if m in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code, *HEAVY], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+UNUSED = ("matplotlib", "pyvista", "vtkmodules", "meshio", "pandas", "fem_reference.solid", "lumped.dynamics")
+UNUSED += ("scipy.optimize", "scipy.interpolate", "scipy.spatial", "scipy.stats", "numba.cpython.printimpl")
+COMPARE = """
+import sys
+from comparisons.cli import main
+try:
+    main(["compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json"])
+finally:
+    print([name for name in sys.argv[1:] if name in sys.modules], file=sys.stderr)
+"""
+
+
+def test_a_comparison_imports_nothing_that_it_does_not_use() -> None:
+    asked = [sys.executable, "-c", COMPARE, *UNUSED]
+    done = subprocess.run(asked, capture_output=True, text=True, check=True)
+    assert done.stderr.splitlines()[-1] == "[]"
+
+
+@pytest.mark.parametrize("asked", [(), ("--help",)])
+def test_help_lists_the_verbs(asked: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(*asked) == 0
+    printed = capsys.readouterr().out
+    assert all(verb in printed for verb in ("scenes", "compare", "calibrate"))
+
+
+def test_version_is_said_alone(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("--version") == 0
+    assert capsys.readouterr().out == f"sheetbench {version('sheetbench')}\n"
+
+
+def test_a_shell_can_complete_the_verbs(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("_SHEETBENCH_COMPLETE", "complete_bash")
+    monkeypatch.setenv("COMP_WORDS", "sheetbench s")
+    monkeypatch.setenv("COMP_CWORD", "1")
+    run()
+    assert {"simulate", "stability", "study"} <= set(capsys.readouterr().out.split())
+
+
+@pytest.mark.parametrize(
+    ("grid", "verb"),
+    [
+        ("2x2", ["compare"]),
+        ("3x2", ["compare"]),
+        ("2x2", ["modes", "--count", "1"]),
+        ("2x2", ["simulate", "--duration", "0.01"]),
+    ],
+)
+def test_a_grid_whose_masses_are_all_held_is_named(
+    tmp_path: Path, grid: str, verb: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    edges = "".join(f'[[support]]\nedge = "{edge}"\nkind = "clamped"\n' for edge in ("x0", "x1", "y0", "y1"))
+    text = "name = 'frame'\n[sheet]\nlength_x = 0.2\nlength_y = 0.2\nthickness = 0.002\n"
+    text += "[material]\nyoung = 1e6\npoisson = 0.3\ndensity = 1000.0\n"
+    path = written(tmp_path, text + edges)
+    assert run(verb[0], str(path), "--lumped", grid, *verb[1:]) == 2
+    said = capsys.readouterr().err.splitlines()[-1]
+    assert f"{grid.replace('x', '×')}×2" in said and "every mass" in said
+
+
+@pytest.mark.parametrize("fault", BAD)
+def test_bad_scene_leaves_with_2_and_one_line(
+    tmp_path: Path, fault: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text, named = BAD[fault]
+    path = written(tmp_path, text)
+    assert run("compare", str(path)) == 2
+    said = one_line(capsys)
+    assert str(path) in said
+    assert all(part in said for part in named)
+
+
+@pytest.mark.parametrize("case", LOOSE)
+def test_scene_that_floats_leaves_with_2_and_names_the_file(
+    tmp_path: Path, case: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = written(tmp_path, LOOSE[case])
+    assert run("compare", str(path)) == 2
+    said = one_line(capsys)
+    assert str(path) in said and "support" in said
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        (("compare", "no-such-scene"), ["no-such-scene", "two-edges-clamped"]),
+        (("compare", "two-edges-clamped", "--lumped", "9y"), ["--lumped", "9y"]),
+        (("compare", "two-edges-clamped", "--calibration", "guess"), ["guess", "consistent", "uniform"]),
+        (("compare", "two-edges-clamped", "--reference", "beam"), ["beam", "shell"]),
+        (("compare", "two-edges-clamped", "--elements", "0"), ["elements", "0"]),
+        (("compare", "two-edges-clamped", "--k", "-5"), ["k", "-5"]),
+        (("compare", "two-edges-clamped", "--layer-distance", "0"), ["layer-distance", "0"]),
+        (("calibrate",), ["--young", "--poisson", "--thickness", "--side"]),
+        (("calibrate", "two-edges-clamped", "--poisson", "0.5"), ["--poisson", "0.5"]),
+        (("calibrate", "two-edges-clamped", "--side", "18q"), ["--side", "18q"]),
+        (("calibrate", "two-edges-clamped", "--side", "0.001"), ["thickness", "0.001"]),
+        (("calibrate", "two-edges-clamped", "--method", "guess"), ["guess", "consistent"]),
+        (
+            ("calibrate", "two-edges-clamped", "--method", "consistent", "--k", "550"),
+            ["k", "consistent", "uniform"],
+        ),
+        (("calibrate", "two-edges-clamped", "--toml", "--json"), ["--toml", "--json"]),
+    ],
+)
+def test_bad_option_leaves_with_2_and_one_line(
+    arguments: tuple[str, ...], named: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(*arguments) == 2
+    said = one_line(capsys)
+    assert all(part in said for part in named)
+
+
+def test_out_that_is_a_file_leaves_with_2(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    taken = tmp_path / "taken"
+    taken.write_text("")
+    assert run("compare", "two-edges-clamped", "--out", str(taken)) == 2
+    assert str(taken) in one_line(capsys)
+
+
+@pytest.mark.parametrize("arguments", [("compare",), ("weigh",), ("compare", "x", "--elements", "many")])
+def test_usage_errors_leave_with_2(arguments: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(*arguments) == 2
+    assert "Traceback" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "fault", [ValueError("of ours"), TypeError("of ours"), np.linalg.LinAlgError("of ours")]
+)
+def test_a_fault_of_ours_is_not_passed_off_as_bad_input(
+    fault: Exception, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def stumble(*_: object, **__: object) -> None:
+        raise fault
+
+    monkeypatch.setattr(displacement, "answer", stumble)
+    assert run("compare", "two-edges-clamped") == 1
+    *trace, asked = capsys.readouterr().err.splitlines()
+    assert any("in stumble" in line for line in trace)
+    assert trace[-1].endswith(f"{type(fault).__name__}: of ours")
+    assert "please report it" in asked
+
+
+@pytest.mark.usefixtures("quick")
+def test_json_is_all_that_standard_output_holds(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("compare", "two-edges-clamped", "--json") == 0
+    printed = capsys.readouterr()
+    document = json.loads(printed.out)
+    assert [s["model"] for s in document["solutions"]] == ["lumped", "shell", "lumped-uniform"]
+
+
+@pytest.mark.usefixtures("quick")
+def test_printed_table_has_units_error_time_and_status(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("compare", "two-edges-clamped") == 0
+    printed = capsys.readouterr().out
+    for part in ("[mm]", "[ms]", "−10.100", "0.99", "converged", "factorisations", "54.5 MPa"):
+        assert part in printed
+    assert max(len(line.rstrip()) for line in printed.splitlines()) <= 80
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_a_solver_that_does_not_converge_leaves_with_3_and_keeps_its_answer(
+    quick: dict[str, Solution], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = scenes.load("two-edges-clamped")
+    quick["lumped"] = fake_solutions.solution(scene, status=Status.DIVERGED, load_factor=0.4)
+    assert run("compare", "two-edges-clamped", "--calibration", "uniform", "--out", str(tmp_path)) == 3
+    printed = capsys.readouterr()
+    assert "diverged" in printed.out
+    assert "diverged at 40 % of the load" in printed.err
+    assert Status.DIVERGED.advice in " ".join(printed.err.split())
+    document = json.loads((tmp_path / "comparison.json").read_text(encoding="utf-8"))
+    assert document["solutions"][0]["status"] == "diverged"
+    assert document["solutions"][0]["load_factor"] == 0.4
+    assert (tmp_path / "lumped.vtu").exists()
+
+
+def test_what_is_finished_is_kept_when_a_later_model_fails(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def answer(scene: Scene, candidate: Candidate, name: str = "", **_: object) -> Solution:
+        if candidate.model == "shell":
+            raise KeyboardInterrupt
+        return fake_solutions.solution(scene, name)
+
+    monkeypatch.setattr(displacement, "answer", answer)
+    assert run("compare", "two-edges-clamped", "--out", str(tmp_path)) != 0
+    assert {path.name for path in tmp_path.iterdir()} == {"lumped.vtu", "manifest.json"}
+    (run_of_compare,) = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))["runs"].values()
+    assert run_of_compare["files"] == ["lumped.vtu"] and not run_of_compare["finished"]
+
+
+def test_an_interrupt_within_compiled_code_is_an_interrupt(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def answer(*_: object, **__: object) -> Solution:
+        raise SystemError("returned a result with an exception set") from KeyboardInterrupt()
+
+    monkeypatch.setattr(displacement, "answer", answer)
+    assert run("compare", "two-edges-clamped") == interruption.STATUS
+    assert capsys.readouterr().err.strip().endswith("interrupted; nothing was kept")
+
+
+def test_scenes_lists_the_catalogue_whole(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("scenes") == 0
+    printed = capsys.readouterr().out
+    assert all(name in printed for name in scenes.catalogue())
+    assert run("scenes", "--json", "--out", str(tmp_path)) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert {row["name"] for row in document["scenes"]} == set(scenes.catalogue())
+    assert scenes.load(tmp_path / "one-edge-clamped.toml") == scenes.load("one-edge-clamped")
+    (listed,) = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))["runs"].values()
+    assert listed["finished"] and "one-edge-clamped.toml" in listed["files"]
+
+
+def test_a_long_version_says_what_is_installed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("--version", "--verbose") == 0
+    said = dict(line.split(":", 1) for line in capsys.readouterr().out.splitlines())
+    assert said["sheetbench"].split(",")[0].strip() == version("sheetbench")
+    assert "multifrontal" in said["solvers"] and "CalculiX" in said["other codes"]
+    assert f"numpy {version('numpy')}" in said["packages"] and Path(said["kernels"].strip()).is_absolute()
+
+
+def test_an_animation_is_a_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    asked = ("--duration", "0.01", "--animate", "--no-pictures", "--out", str(tmp_path / "run"))
+    assert run("simulate", "one-edge-clamped", *asked) == 2
+    assert "--animate: draws, and --no-pictures" in one_line(capsys) and not (tmp_path / "run").exists()
+
+
+def test_calibrate_from_options_and_from_a_scene_agree(capsys: pytest.CaptureFixture[str]) -> None:
+    options = ("--young", "54.5e6", "--poisson", "0.48", "--thickness", "0.003", "--side", "0.188")
+    assert run("calibrate", *options, "--grid", "9", "--json") == 0
+    by_options = json.loads(capsys.readouterr().out)
+    assert run("calibrate", "two-edges-clamped", "--json") == 0
+    by_scene = json.loads(capsys.readouterr().out)
+    assert by_scene == {**by_options, "expected_error": by_scene["expected_error"]}  # a scene has loads
+    assert by_options["method"] == "consistent"
+    assert set(by_options["springs"]) == {
+        "axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area",
+        "edge_shear", "strip_shear",
+    }  # fmt: skip
+    assert {"D11", "D12", "D66", "A11", "A12", "A66", "S"} <= {row["name"] for row in by_options["moduli"]}
+
+
+def test_calibrate_as_toml_makes_a_scene_that_uses_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("calibrate", "one-edge-clamped", "--grid", "5x7", "--toml", "--out", str(tmp_path)) == 0
+    pasted = capsys.readouterr().out
+    assert (tmp_path / "springs.toml").read_text(encoding="utf-8") == pasted
+    scene = scenes.catalogue()["one-edge-clamped"].read_text(encoding="utf-8") + pasted
+    assert set(tomllib.loads(pasted)) == {"springs"}
+    assert scenes.load(written(tmp_path, scene)).springs is not None
+
+
+def test_calibrate_prints_springs_and_moduli(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("calibrate", "two-edges-clamped", "--method", "uniform", "--k", "550") == 0
+    printed = capsys.readouterr().out
+    assert "550" in printed and "[N/m]" in printed and "D66" in printed

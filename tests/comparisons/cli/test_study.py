@@ -1,0 +1,65 @@
+"""`sheetbench study`: names, options and exit statuses of the studies; refused without a checkout."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from commands import one_line, run
+
+from comparisons.cli import removed, study
+from comparisons.cli.app import VERBS
+from studies import STUDIES
+
+ROOT = Path(__file__).parents[3]
+
+
+def test_studies_are_listed_and_each_has_a_help_page(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("study") == 0
+    listed = capsys.readouterr().out
+    for name in STUDIES:
+        assert f"  {name}: " in listed
+        assert run("study", name, "--help") == 0
+        assert f"sheetbench study {name}" in capsys.readouterr().out
+
+
+def test_every_study_is_in_the_documentation_and_has_a_make_target() -> None:
+    page = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
+    targets = (ROOT / "studies" / "Makefile").read_text(encoding="utf-8")
+    for name in STUDIES:
+        assert f"| `{name}` |" in page and f"sheetbench study {name}" in targets
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("nosuch",), "study = 'nosuch': unknown, choose one of advisor, "),
+        (("coverage", "--wrongly"), "No such option: --wrongly; see sheetbench study coverage --help"),
+        (("coverage", "--model", "lumped"), "model = 'lumped': unknown, choose one of plate, shell"),
+    ],
+)
+def test_bad_input_is_said_in_a_line(
+    arguments: tuple[str, ...], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("study", *arguments) == 2
+    assert said in one_line(capsys)
+
+
+def test_an_installed_package_says_where_studies_are(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(study, "CHECKOUT", tmp_path)
+    assert run("study", "coverage") == 2
+    assert "studies are not installed with the package; clone the repository" in one_line(capsys)
+    assert run("study", "--help") == 0
+    assert "clone the repository" in capsys.readouterr().out
+
+
+def test_what_is_gone_is_refused_with_what_replaces_it(capsys: pytest.CaptureFixture[str]) -> None:
+    for verb, instead in removed.VERBS.items():
+        assert verb not in VERBS
+        assert run(verb, "two-edges-clamped") == 2
+        assert one_line(capsys) == f"sheetbench: {verb}: removed; {instead}\n"
+    for (verb, option), instead in removed.OPTIONS.items():
+        assert run(verb, option) == 2
+        assert one_line(capsys) == f"sheetbench: {verb} {option}: removed; {instead}\n"

@@ -1,0 +1,210 @@
+"""Comparisons: what error and difference mean, what is left out when a solve fails, and real solves."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import fake_solutions
+import numpy as np
+import pytest
+from commands import run
+
+from comparisons.comparison import comparison as displacement
+from comparisons.comparison import tables as summary
+from comparisons.comparison.comparison import Comparison, compare
+from comparisons.comparison.error_bar import ErrorBar
+from comparisons.models.grading import told
+from comparisons.report.files import to_json
+from fem_reference.uncertainty import estimate
+from sheetbench import scenes
+from sheetbench.scenes import Scene, Status
+from sheetbench.scenes.errors import BadInput
+
+pytestmark = pytest.mark.smoke
+
+SMALL = {"grid": (5, 5, 2), "elements": 4}
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    return scenes.load("two-edges-clamped")
+
+
+@pytest.fixture(scope="module")
+def real(scene: Scene) -> Comparison:
+    return compare(scene, grid=(5, 5, 2), elements=4)
+
+
+def test_error_is_the_largest_component_over_the_probes() -> None:
+    reference = np.array([[0.0, 0.0, -2.0], [1.0, 0.0, -10.0]])
+    model = np.array([[0.5, 0.0, -2.0], [1.0, -0.1, -10.2]])
+    assert displacement.error(model, reference) == pytest.approx(0.05)
+    assert displacement.relative(model[0], reference[0]) == pytest.approx(0.25)
+
+
+def test_error_has_no_meaning_where_nothing_moves_or_a_number_is_not_finite() -> None:
+    still = np.zeros((4, 3))
+    assert displacement.error(still, still) is None
+    assert displacement.relative(np.array([np.nan, 0.0, 0.0]), np.ones(3)) is None
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"status": Status.DIVERGED, "load_factor": 0.4},
+        {"status": Status.STEP_LIMIT},
+        {"status": Status.REFUSED},
+    ],
+)
+def test_a_partial_answer_is_kept_but_not_measured(scene: Scene, changes: dict) -> None:
+    partial = fake_solutions.solution(scene, "lumped", **changes)
+    both = Comparison(scene, (partial, fake_solutions.solution(scene, "shell")))
+    assert both.error(partial) is None
+    assert [d.relative for d in both.differences] == [None] * 4
+    assert not both.converged
+    document = json.loads(to_json(both.as_dict()))
+    assert document["solutions"][0]["probes"]["P4"][2] == pytest.approx(-0.01)
+    (said,) = summary.complaints(both)
+    assert partial.status.advice in said
+
+
+def test_numbers_that_are_not_finite_become_null_in_json(scene: Scene) -> None:
+    broken = fake_solutions.solution(scene, "lumped", size=np.nan, status=Status.NON_FINITE)
+    both = Comparison(scene, (broken, fake_solutions.solution(scene, "shell")))
+    document = json.loads(to_json(both.as_dict()), parse_constant=pytest.fail)
+    assert document["solutions"][0]["probes"]["P4"] == [None, None, None]
+
+
+def test_a_probe_on_a_clamped_edge_has_no_relative_difference(scene: Scene) -> None:
+    held = scene.model_copy(update={"probes": {"held": (0.0, 0.1), "free": (0.188, 0.188)}})
+
+    def round_off(points: np.ndarray) -> np.ndarray:
+        return truth.sample(points) + 1e-18
+
+    truth = fake_solutions.solution(held, "shell")
+    lattice = fake_solutions.solution(held, "lumped", sample=round_off)
+    first, second = Comparison(held, (lattice, replace(truth, sample=round_off))).differences
+    assert (first.relative, second.relative) == (None, 0.0)
+
+
+def test_a_probe_on_a_clamped_edge_has_no_bar_in_percent(scene: Scene) -> None:
+    """The bar of rounding over rounding is no number that says anything."""
+    held = scene.model_copy(update={"probes": {"held": (0.0, 0.1), "free": (0.188, 0.188)}})
+    rounding = np.array([[1e-18], [0.0]])
+    meshes = [fake_solutions.solution(held, "shell", size).sample for size in (-0.01, -0.0101, -0.0103)]
+    answers = [sample(held.probe_points()) + i * rounding for i, sample in enumerate(meshes, start=1)]
+    bar = ErrorBar(estimate(answers, [1.0, 4.0 / 3.0, 2.0]), ("held", "free"), (16, 12, 8), 0.0)
+    truth = fake_solutions.solution(held, "shell", sample=lambda points: answers[0])
+    table = summary.displacements(Comparison(held, (fake_solutions.solution(held), truth), bar))
+    names = [column.name for column in table.columns]
+    rows = [dict(zip(names, row, strict=True)) for row in table.rows]
+    shown = {row["probe"]: row["±"] for row in rows if row["model"] == "shell"}
+    assert shown["held"] is None and 0.0 < shown["free"] < 0.1
+
+
+def test_a_companion_that_fails_does_not_make_the_comparison_fail(scene: Scene) -> None:
+    pair = (fake_solutions.solution(scene, "lumped"), fake_solutions.solution(scene, "shell"))
+    companion = fake_solutions.solution(scene, "lumped-uniform", status=Status.DIVERGED, load_factor=0.1)
+    assert Comparison(scene, (*pair, companion)).converged
+
+
+def test_default_comparison_is_consistent_then_shell_then_uniform(real: Comparison) -> None:
+    assert [solution.model for solution in real.solutions] == ["lumped", "shell", "lumped-uniform"]
+    assert [s.settings.get("calibration") for s in real.solutions] == ["consistent", None, "uniform"]
+    assert real.converged
+    assert {(d.of, d.against) for d in real.differences} == {("lumped", "shell"), ("lumped-uniform", "shell")}
+
+
+def test_coarse_lattice_is_near_the_reference_and_uniform_springs_less_so(real: Comparison) -> None:
+    consistent, reference, uniform = real.solutions
+    near, far = real.error(consistent), real.error(uniform)
+    assert near is not None and far is not None
+    assert near < 0.02
+    assert far > near
+    assert real.error(reference) is None
+
+
+def test_json_document_has_the_promised_keys(real: Comparison) -> None:
+    document = json.loads(to_json(real.as_dict()))
+    assert Scene.model_validate(document["scene"]) == real.scene
+    first, second = document["solutions"][:2]
+    assert (first["model"], second["model"]) == ("lumped", "shell")
+    assert first["settings"]["grid"] == [5, 5, 2]
+    assert first["settings"]["calibration"] == "consistent"
+    for solution in document["solutions"]:
+        assert solution["status"] == "converged"
+        assert solution["unknowns"] > 0 and solution["iterations"] > 0
+        assert solution["solve_seconds"] >= 0 and solution["setup_seconds"] >= 0
+        assert list(solution["probes"]) == ["P1", "P2", "P3", "P4"]
+        assert all(len(u) == 3 for u in solution["probes"].values())
+        assert set(solution["reactions"]) == {"x0", "y0"}
+    difference = document["differences"][0]
+    assert set(difference) == {"probe", "of", "against", "relative", "distinguishable"}
+    u, truth = (np.array(s["probes"]["P1"]) for s in (first, second))
+    assert difference["relative"] == pytest.approx(np.linalg.norm(u - truth) / np.linalg.norm(truth))
+
+
+def test_naming_a_calibration_leaves_no_companion(scene: Scene) -> None:
+    done = []
+    alone = compare(scene, calibration="uniform", finished=lambda s: done.append(s.model), **SMALL)
+    assert done == ["lumped", "shell"] == [s.model for s in alone.solutions]
+    assert alone.solutions[0].settings["calibration"] == "uniform"
+
+
+def test_k_means_uniform(scene: Scene) -> None:
+    lattice = compare(scene, k=550.0, **SMALL).solutions[0]
+    assert lattice.settings["calibration"] == "uniform"
+
+
+@pytest.mark.parametrize(
+    ("load", "said"), [(64.0, "these times were taken under a load of up to 64"), (0.1, "")]
+)
+def test_times_of_a_busy_machine_are_said_to_be_so(quick, scene, monkeypatch, load: float, said: str) -> None:
+    monkeypatch.setattr("os.getloadavg", lambda: (load, load, load))
+    monkeypatch.setattr("os.cpu_count", lambda: 8)
+    text = compare(scene, grid=3, elements=2, uncertainty=False, companion=False).report().tables[1].text
+    assert text.startswith(said) and bool(text) == bool(said)
+
+
+def test_a_scene_with_its_own_springs_uses_them(scene: Scene) -> None:
+    springs = scenes.SpringSet(
+        axial=2e4, diagonal=1e4, vertical=2e4, cross=1e4, cross_diagonal=5e3, layer_distance=0.003
+    )
+    own = compare(scene.model_copy(update={"springs": springs}), **SMALL)
+    assert [s.model for s in own.solutions] == ["lumped", "shell"]
+    assert own.solutions[0].settings["calibration"] not in ("consistent", "uniform")
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"calibration": "guess"}, "calibration = 'guess'.*consistent"),
+        ({"reference": "beam"}, "reference = 'beam'.*shell"),
+        ({"elements": 0}, "elements = 0"),
+        ({"k": -1.0}, "k = -1 N/m"),
+        ({"layer_distance": 0.0}, "layer-distance = 0 m"),
+    ],
+)
+def test_settings_that_do_not_exist_are_refused_before_any_solve(
+    scene: Scene, settings: dict, said: str
+) -> None:
+    with pytest.raises(BadInput, match=said):
+        compare(scene, starting=pytest.fail, **settings)
+
+
+@pytest.mark.parametrize(
+    "options", [("--reference", "solid"), ("--model", "solid:elements=2"), ("--reference", "plate")]
+)
+def test_a_comparison_prints_with_every_reference(
+    options: tuple[str, ...], capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The solid's setting `grading` is a word, the lattice's a number."""
+    assert run("compare", "two-edges-clamped", "--lumped", "3", "--elements", "2", *options) == 0
+    printed = capsys.readouterr().out
+    assert options[1].partition(":")[0] in printed and "converged" in printed
+
+
+def test_reasons_are_read_from_the_settings_of_any_model() -> None:
+    assert told({"elements": [2, 2], "grading": "edges"}) == ()
+    assert told({"grading": 0.3, "grading_reason": "why"}) == ("grading 0.3: why",)

@@ -1,0 +1,166 @@
+"""Files for named simulators: MuJoCo finds our forces and our equilibrium, SOFA's scene holds our lattice."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from cases import CLAMP, GRAVITY, OBLONG, SILICONE
+from commands import one_line, run
+
+import lumped
+from comparisons.export.mujoco import to_mjcf
+from comparisons.export.sofa import to_sofa
+from sheetbench import scenes
+from sheetbench.scenes import Hinged, PointLoad, Scene
+from sheetbench.scenes.errors import BadInput
+from studies.simulators.mujoco import at_rest, displacement, loaded, put
+
+READER = runpy.run_path(str(Path(__file__).parents[3] / "examples" / "other-codes" / "read_lattice.py"))
+CORNER = scenes.load("two-edges-clamped").replace(
+    loads=(PointLoad(at=(0.188, 0.188), force=(0.05, 0.0, 0.1)),), gravity=None
+)
+HINGED = Scene(
+    name="hinged",
+    sheet=OBLONG,
+    material=SILICONE,
+    gravity=GRAVITY,
+    support=(CLAMP, Hinged(edge="x1")),
+)
+
+
+def described(scene: Scene, grid: Any = 4, method: str = "central") -> lumped.Description:
+    return lumped.describe(scene, lumped.calibrate(scene.sheet, scene.material, grid=grid, method=method))
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [scenes.load("two-edges-clamped"), scenes.load("curved-edge"), CORNER],
+    ids=lambda s: s.name,
+)
+def test_mujocos_masses_rest_where_ours_do(scene: Scene) -> None:
+    """Put where we say, no mass accelerates by more than rounding beside what its springs would do to it."""
+    mujoco = pytest.importorskip("mujoco")
+    lattice = described(scene)
+    model, data = loaded(mujoco, to_mjcf(lattice, scene))
+    put(model, data, lattice.states[-1].displacement, lattice.positions)
+    mujoco.mj_forward(model, data)
+    links = lattice.links
+    pull = (links.stiffness * links.rest_length).max() / lattice.mass.min()
+    assert np.abs(data.qacc).max() < 1e-9 * pull
+
+
+def test_mujocos_hinged_edge_holds_the_mean_of_its_layers() -> None:
+    """A constraint there takes 0.9999 of what would break it, so masses along the edge accelerate by 1e-4 of
+    what their springs do to them, the others by nothing; brought to rest the mean stays by as much."""
+    mujoco = pytest.importorskip("mujoco")
+    lattice = described(HINGED, 3)
+    model, data = loaded(mujoco, to_mjcf(lattice, HINGED))
+    truth = lattice.states[-1].displacement
+    put(model, data, truth, lattice.positions)
+    mujoco.mj_forward(model, data)
+    links = lattice.links
+    pull = (links.stiffness * links.rest_length).max() / lattice.mass.min()
+    held = [hold for hold in lattice.holds if len(hold.masses) > 1]
+    along = np.zeros(truth.shape, dtype=bool)
+    for hold in held:
+        along[list(hold.masses), hold.axis] = True
+    joints = [
+        (int(body) - 1, int(axis.argmax()))
+        for body, axis in zip(model.jnt_bodyid, model.jnt_axis, strict=True)
+    ]
+    fast = np.abs(data.qacc) / pull
+    assert held and fast[[not along[joint] for joint in joints]].max() < 1e-9
+    assert 0.0 < fast.max() < 1e-4
+    assert at_rest(mujoco, model, data, 0.2) > 0
+    found = displacement(data, lattice.positions)
+    assert np.abs(found - truth).max() < 1e-3 * np.abs(truth).max()
+    for hold in held:
+        assert abs(found[list(hold.masses), hold.axis].mean()) < 1e-4 * np.abs(truth).max()
+
+
+def test_mujoco_comes_to_rest_there_by_itself() -> None:
+    mujoco = pytest.importorskip("mujoco")
+    scene = scenes.load("two-edges-clamped")
+    lattice = described(scene)
+    model, data = loaded(mujoco, to_mjcf(lattice, scene))
+    assert at_rest(mujoco, model, data, 0.188) > 0
+    truth = lattice.states[-1].displacement
+    assert np.abs(displacement(data, lattice.positions) - truth).max() < 5e-3 * np.abs(truth).max()
+
+
+def test_sofas_scene_holds_the_lattice() -> None:
+    """Read back by our NumPy reader, which finds the displacements of ours."""
+    for scene in (scenes.load("curved-edge"), CORNER):
+        lattice = described(scene, 3)
+        root = ElementTree.fromstring(to_sofa(lattice, scene))
+        found = lattice_of(root)
+        u = READER["equilibrium"](found, READER["differences"](found), 1)
+        truth = lattice.states[-1].displacement
+        assert np.abs(u - truth).max() < 1e-6 * np.abs(truth).max()
+
+
+def test_sofas_scene_has_what_it_names() -> None:
+    root = ElementTree.fromstring(to_sofa(described(CORNER, 3), CORNER))
+    assert root.tag == "Node" and {child.tag for child in root} == {
+        "RequiredPlugin",
+        "DefaultAnimationLoop",
+        "Node",
+    }
+    sheet = root.find("Node")
+    assert sheet is not None
+    order = [child.tag for child in sheet]
+    assert order.index("MechanicalObject") < order.index("SpringForceField")
+    assert len(set(order)) == len(order)
+
+
+def test_what_they_do_not_have_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(BadInput, match="area and strain springs of cells; take --method central"):
+        to_mjcf(described(CORNER, method="consistent"), CORNER)
+    with pytest.raises(BadInput, match="hold the mean of their layers"):
+        to_sofa(described(HINGED, 3), HINGED)
+    asked = ["calibrate", "two-edges-clamped", "--grid", "3", "--method", "central"]
+    assert run(*asked, "--for", "mujoco") == 2
+    assert "--export" in one_line(capsys)
+    assert run(*asked, "--for", "bullet", "--export", str(tmp_path / "a")) == 2
+    assert "mujoco" in one_line(capsys)
+    assert run(*asked, "--for", "mujoco", "--for", "sofa", "--export", str(tmp_path / "b")) == 0
+    assert {"mujoco.xml", "sofa.scn", "links.csv"} <= {path.name for path in (tmp_path / "b").iterdir()}
+    assert "`sofa.scn`" in (tmp_path / "b" / "README.md").read_text(encoding="utf-8")
+
+
+def lattice_of(root: ElementTree.Element) -> dict[str, np.ndarray]:
+    """What the scene says, as the reader's arrays."""
+    sheet = root.find("Node")
+    assert sheet is not None
+    data = {child.tag: child.attrib for child in sheet}
+
+    def numbers(tag: str, name: str, *shape: int) -> np.ndarray:
+        return np.array(data[tag][name].split(), dtype=float).reshape(*shape)
+
+    rest, start = (numbers("MechanicalObject", name, -1, 3) for name in ("rest_position", "position"))
+    springs = numbers("SpringForceField", "spring", -1, 5)
+    held = numbers("FixedProjectiveConstraint", "indices", -1).astype(int)
+    mass = numbers("DiagonalMass", "vertexMass", -1)
+    load = mass[:, None] * np.array(root.attrib["gravity"].split(), dtype=float)
+    if "ConstantForceField" in data:
+        loaded_at = numbers("ConstantForceField", "indices", -1).astype(int)
+        load[loaded_at] += numbers("ConstantForceField", "forces", -1, 3)
+    nothing = {"rest": np.empty(0), "corners": np.empty((0, 4, 2), dtype=int)}
+    return {
+        "positions": rest,
+        "link_masses": springs[:, :2].astype(int),
+        "link_stiffness": springs[:, 2],
+        "link_rest_length": springs[:, 4],
+        **{f"{kind}_{name}": value for kind in ("area", "strain") for name, value in nothing.items()},
+        "area_stiffness": np.empty(0),
+        "strain_stiffness": np.empty((0, 3)),
+        "hold_masses": np.repeat(held, 3)[:, None],
+        "hold_axis": np.tile(np.arange(3), len(held)),
+        "hold_displacement": (start - rest)[held].ravel(),
+        "load": load,
+    }

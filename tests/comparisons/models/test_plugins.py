@@ -1,0 +1,242 @@
+"""Models from outside: the example of the docs in our tables, and what is said of faulty ones."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import one_line, run
+
+from comparisons.models import plugins
+from comparisons.models import registry as models
+from comparisons.tradeoff import timing
+from sheetbench import scenes
+from sheetbench.scenes import Chain, Clamped, EdgeLoad, FactorTable, Hinged, PointLoad, Status
+from sheetbench.scenes.errors import BadInput
+
+DOCS = Path(__file__).parents[3] / "docs"
+ENTRY = "[sheetbench.models]\nstrip = plugin:MODEL\nabsent = no_such_module:MODEL\nhalf = plugin:np\n"
+
+
+@pytest.fixture
+def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """docs/plugin.py as an installed package would offer it, beside two that are broken."""
+    metadata = tmp_path / "outside-1.0.dist-info"
+    metadata.mkdir()
+    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: outside\nVersion: 1.0\n")
+    (metadata / "entry_points.txt").write_text(ENTRY)
+    monkeypatch.setattr(sys, "path", [str(tmp_path), str(DOCS), *sys.path])
+    plugins._found.cache_clear()
+    models.warm.cache_clear()
+    yield
+    plugins._found.cache_clear()
+    models.warm.cache_clear()
+
+
+def test_the_example_of_the_docs_answers_like_a_beam(installed: None) -> None:
+    scene = scenes.load("one-edge-clamped")
+    solution = models.solve(scene, "strip", plane_strain=True)
+    assert (solution.model, solution.settings) == ("strip", {"plane_strain": True})
+    sheet, material = scene.sheet, scene.material
+    rigidity = material.young * sheet.thickness**3 / 12 / (1 - material.poisson**2)
+    tip = -material.density * sheet.thickness * 9.81 * sheet.length_x**4 / (8 * rigidity)
+    assert solution.displacement(scene.probe_points())[3, 2] == pytest.approx(tip)
+    assert models.solve(scene, "strip").settings == {"plane_strain": False}
+
+
+def test_the_example_takes_a_history_and_refuses_what_it_does_not_know(installed: None) -> None:
+    scene = scenes.load("one-edge-clamped")
+    (clamp,), gravity = scene.supports, scene.gravity
+    assert gravity is not None
+    waning = gravity.model_copy(update={"history": FactorTable(time=(0.0, 1.0), factor=(1.0, 0.5))})
+    whole = models.solve(scene, "strip").displacement(scene.probe_points())
+    half = models.solve(scene.model_copy(update={"gravity": waning}), "strip")
+    np.testing.assert_allclose(half.displacement(scene.probe_points()), 0.5 * whole, rtol=1e-12)
+    chain = Chain(edge="x1", segments=2, bending_stiffness=1.0, line_density=1.0, radius=1e-3)
+    for update in (
+        {"loads": (PointLoad(at=(0.1, 0.1), force=(0.0, 0.0, 1.0)),)},
+        {"supports": (clamp, Hinged(edge="x1"))},
+        {"supports": (Clamped(edge="x0", tilt=0.1),)},
+        {"actuators": (chain,)},
+        {"gravity": None},
+        {"gravity": gravity.model_copy(update={"acceleration": (1.0, 0.0, -9.81)})},
+    ):
+        with pytest.raises(ValueError, match="strip: knows"):
+            models.solve(scene.model_copy(update=update), "strip")
+
+
+@pytest.mark.usefixtures("in_process")
+def test_a_plugin_stands_in_the_same_table_and_on_the_same_front(
+    installed: None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    arguments = ("--lumped", "5", "--calibration", "consistent", "--plate", "", "--shell", "2", "--solid", "")
+    options = ("--model", "strip", "--model", "strip:plane_strain=true", "--elements", "4", "--repeats", "1")
+    assert run("tradeoff", "one-edge-clamped", *arguments, *options, "--json") == 0
+    document = json.loads(capsys.readouterr().out)
+    rows = {row["series"]: row for row in document["rows"]}
+    assert set(rows) == {"lumped consistent", "shell", "strip", "strip plane_strain"}
+    assert rows["strip"]["error"] == pytest.approx(0.32, abs=0.02)  # it is linear
+    assert rows["lumped consistent"]["error"] < rows["strip"]["error"]
+    quickest = document["rows"][document["front"][0]]
+    assert quickest["model"] == "strip"
+
+
+def test_what_is_wrong_with_a_plugin_is_said_in_a_line(
+    installed: None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = scenes.load("one-edge-clamped")
+    assert plugins.names()[:1] == ["absent"]
+    for name, said in (
+        ("absent", "cannot be loaded.*no_such_module"),
+        ("half", "lacks a name"),
+        ("none", "unknown, choose one of lumped, .*plate, shell, solid, absent, .*half"),
+    ):
+        with pytest.raises(BadInput, match=f"model = '{name}': .*{said}"):
+            models.solve(scene, name)
+    with pytest.raises(BadInput, match="no setting 'grid'; it has plane_strain"):
+        models.solve(scene, "strip", grid=9)
+    assert run("tradeoff", "one-edge-clamped", "--model", "strip:grid=9") == 2
+    assert "no setting 'grid'" in one_line(capsys)
+
+
+@pytest.mark.parametrize("where", ["when it is loaded", "when it solves"])
+def test_one_that_ends_the_program_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], where: str
+) -> None:
+    """The exit status was 0, and nothing was said."""
+    file, example = tmp_path / f"{where[-5:].strip()}.py", (DOCS / "plugin.py").read_text()
+    if where == "when it is loaded":
+        file.write_text("raise SystemExit(0)\n")
+    else:
+        file.write_text(
+            f"{example}\n\nclass Ends(Strip):\n    def solve(self, *_):\n        raise SystemExit(0)\n"
+        )
+    few = ("--lumped", "3", "--elements", "2", "--no-uncertainty")
+    assert run("compare", "one-edge-clamped", *few, "--model", f"{file}:Ends") == 2
+    assert "plug-in" in (said := capsys.readouterr().err) and "Traceback" not in said
+
+
+def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_path: Path) -> None:
+    """Rows of an edited plug-in were read as if nothing had changed."""
+    file, beside = tmp_path / "own.py", tmp_path / "constants.py"
+    example = (DOCS / "plugin.py").read_text()
+    file.write_text(f"from constants import UNIT\n{example}")
+    beside.write_text("UNIT = 1\n")
+    (tmp_path / "elsewhere.py").write_text("x = 1\n")
+    scene, name = scenes.load("one-edge-clamped"), f"{file}:Strip"
+
+    def key() -> str:
+        return timing.run(scene, name, {}).key
+
+    first = key()
+    (tmp_path / "elsewhere.py").write_text("x = 2\n")
+    assert key() == first
+    beside.write_text("UNIT = 2\n")
+    second = key()
+    file.write_text(f"from constants import UNIT\n{example}\n")
+    assert len({first, second, key()}) == 3
+    with pytest.raises(RuntimeError, match="changed since this was asked"):
+        timing.measure(scene.document(), name, {}, 0, plugins.digest("lumped"))
+
+
+def test_a_row_is_of_an_installed_plug_ins_version(installed: None, tmp_path: Path) -> None:
+    scene = scenes.load("one-edge-clamped")
+    first = timing.run(scene, "strip", {}).key
+    assert timing.run(scene, "strip", {}).key == first
+    metadata = tmp_path / "outside-1.0.dist-info" / "METADATA"
+    metadata.write_text(metadata.read_text().replace("Version: 1.0", "Version: 1.1"))
+    plugins._found.cache_clear()
+    assert timing.run(scene, "strip", {}).key != first
+
+
+def test_mujoco_is_installed_as_a_plugin() -> None:
+    assert "mujoco" in plugins.names()
+    with pytest.raises(BadInput, match="elastic2d = 'none'"):
+        models.solve(scenes.load("one-edge-clamped"), "mujoco", elastic2d="none")
+    with pytest.raises(BadInput, match="grid = 2"):
+        models.solve(scenes.load("one-edge-clamped"), "mujoco", grid=2)
+
+
+def test_mujocos_sheet_at_rest_as_it_is() -> None:
+    """With two edges clamped it bends half as far as the shell, less on a finer grid: nothing is tuned."""
+    scene = scenes.load("two-edges-clamped")
+    truth = models.solve(scene, "shell", elements=8).displacement(scene.probe_points())
+    corner = {}
+    for grid in (9, 17):
+        solution = models.solve(scene, "mujoco", grid=grid)
+        assert solution.status is Status.CONVERGED
+        assert solution.settings["grid"] == [grid, grid]
+        u = solution.displacement(scene.probe_points())
+        assert u[1, [1, 0, 2]] == pytest.approx(u[2, [0, 1, 2]], rel=1e-4)  # the sheet's diagonal symmetry
+        corner[grid] = u[3, 2]
+    assert truth[3, 2] == pytest.approx(-13.5e-3, rel=0.01)
+    assert corner[9] == pytest.approx(-7.24e-3, rel=0.02)
+    assert corner[17] == pytest.approx(-6.83e-3, rel=0.02)
+
+
+def test_mujocos_clamps_hinges_and_point_loads() -> None:
+    base = scenes.load("one-edge-clamped")
+    light = base.model_copy(
+        update={"gravity": None, "loads": (PointLoad(at=(0.188, 0.094), force=(0, 0, 1e-3)),)}
+    )
+    clamped = models.solve(light, "mujoco", grid=9)
+    assert np.abs(clamped.displacement(np.array([[0.0, 0.05], [0.0, 0.188]]))).max() == 0.0
+    tip = clamped.displacement(np.array([[0.188, 0.094]]))[0, 2]
+    shell = models.solve(light, "shell", elements=8).displacement(np.array([[0.188, 0.094]]))[0, 2]
+    assert 0.5 * shell < tip < 2.0 * shell
+    middle = np.array([[0.094, 0.094]])
+    sagging = []
+    for kind in (Clamped, Hinged):
+        supports = tuple(kind(edge=edge) for edge in ("x0", "x1"))
+        bridge = base.model_copy(update={"supports": supports})
+        sagging.append(models.solve(bridge, "mujoco", grid=9).displacement(middle)[0, 2])
+    assert sagging[1] < sagging[0] < 0.0
+
+
+def test_mujoco_refuses_what_it_does_not_have() -> None:
+    base = scenes.load("one-edge-clamped")
+    pulled = base.model_copy(update={"loads": (EdgeLoad(edge="x1", force_per_length=(1.0, 0.0, 0.0)),)})
+    tilted = base.model_copy(update={"supports": (Clamped(edge="x0", tilt=0.1),)})
+    for scene in (scenes.load("curved-edge"), pulled, tilted):
+        solution = models.solve(scene, "mujoco")
+        assert solution.status is Status.REFUSED and solution.message
+
+
+@pytest.mark.parametrize(
+    ("model", "settings", "said"),
+    [
+        ("lumped", {"elements": 4}, "lumped: no setting 'elements'; it has grid"),
+        ("lumped", {"grid": 1}, "grid = 1x1x2"),
+        ("lumped", {"grid": ["a", "b"]}, "grid = "),
+        ("plate", {"layers": 2}, "plate: no option 'layers'; it has hard_edges"),
+        ("solid", {"layers": "two"}, "solid: layers = 'two'"),
+        ("shell", {"elements": "many"}, "elements = 'many'"),
+        ("shell", {"elements": []}, "elements = "),
+    ],
+)
+def test_settings_of_our_own_models_are_looked_at_before_solving(
+    model: str, settings: dict[str, object], said: str
+) -> None:
+    with pytest.raises(BadInput, match=said):
+        models.solve(scenes.load("one-edge-clamped"), model, **settings)
+
+
+def test_compare_takes_a_plug_in_from_its_file(capsys: pytest.CaptureFixture[str]) -> None:
+    asked = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
+    assert run(*asked, "--model", f"{DOCS / 'plugin.py'}:Strip") == 0
+    document = json.loads(capsys.readouterr().out)
+    models_shown = [solution["model"] for solution in document["solutions"]]
+    assert models_shown[-1] == "strip" and {"lumped", "shell"} < set(models_shown)
+    assert {"strip"} == {d["of"] for d in document["differences"]} - {"lumped", "lumped-uniform"}
+
+
+@pytest.mark.parametrize("named", ["absent.py:Strip", f"{DOCS / 'plugin.py'}:Absent", "nobody"])
+def test_a_model_that_is_not_there_is_said_in_a_line(named: str, capsys: pytest.CaptureFixture[str]) -> None:
+    asked = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty")
+    assert run(*asked, "--model", named) == 2
+    said = one_line(capsys)
+    assert any(part in said for part in named.split(":"))

@@ -1,0 +1,198 @@
+"""Models that are programs: what they are asked and answer, and that one that crashes, hangs, floods, lies or
+answers nothing that can be read costs its own row and no other."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from campaigns import alive, wait_for
+from commands import one_line, run
+
+from comparisons.models import plugins, registry
+from comparisons.models.candidate import parse_model, written
+from sheetbench import scenes
+from sheetbench.scenes import Status
+from sheetbench.scenes.errors import BadInput
+
+STRIP = Path(__file__).parents[3] / "docs" / "strip.sh"
+SCENE = scenes.load("one-edge-clamped")
+ANSWER = {"status": "converged", "probes": {name: [0.0, 0.0, -0.04] for name in SCENE.probes}}
+Make = Callable[..., str]
+
+
+@pytest.fixture
+def program(tmp_path: Path) -> Make:
+    """Makes a shell script, and says how to ask for it."""
+
+    def make(name: str, *lines: str) -> str:
+        path = tmp_path / name
+        path.write_text("\n".join(["#!/bin/sh", *lines, ""]), encoding="utf-8")
+        path.chmod(0o755)
+        return f"exec:{path}"
+
+    return make
+
+
+def says(answer: object) -> str:
+    return f"cat <<'END'\n{json.dumps(answer)}\nEND"
+
+
+@pytest.mark.skipif(shutil.which("jq") is None, reason="the example reads JSON with jq")
+def test_the_example_of_the_docs_answers_like_a_beam(capsys: pytest.CaptureFixture[str]) -> None:
+    assert len(STRIP.read_text(encoding="utf-8").splitlines()) <= 10
+    solution = registry.solve(SCENE, f"exec:{STRIP}")
+    sheet, material = SCENE.sheet, SCENE.material
+    rigidity = material.young * sheet.thickness**3 / 12
+    tip = -material.density * sheet.thickness * 9.81 * sheet.length_x**4 / (8 * rigidity)
+    assert (solution.model, solution.status) == ("strip", Status.CONVERGED)
+    assert solution.displacement(SCENE.probe_points())[3] == pytest.approx([0.0, 0.0, tip])
+    assert np.isnan(solution.displacement([[0.01, 0.01]])).all()  # it is asked for the probes alone
+    asked = ["two-edges-clamped", "--lumped", "3", "--elements", "2", "--model", f"exec:{STRIP}"]
+    assert run("compare", *asked) == 2
+    assert "strip: knows a sheet clamped at x0" in capsys.readouterr().err
+
+
+def test_it_gets_the_scene_and_its_settings_and_may_tell_more(program: Make, tmp_path: Path) -> None:
+    kept = tmp_path / "kept"
+    more = {**ANSWER, "solve_seconds": 1e-4, "unknowns": 7, "iterations": 3, "reactions": {"x0": [0, 0, 1.7]}}
+    model = program("mine", f"cat > '{kept}'", f"echo \"$@\" > '{kept}.options'", says(more))
+    asked = parse_model(f"{model}:seconds=5,n=9,grid=9x5,quick=true,name=a b")
+    solution = registry.solve(SCENE, asked.model, **asked.settings)
+    assert scenes.Scene.model_validate_json(kept.read_text()) == SCENE
+    assert Path(f"{kept}.options").read_text() == "--n=9 --grid=9x5 --quick --name=a b\n"
+    assert solution.settings == {"n": 9, "grid": [9, 5], "quick": True, "name": "a b"}
+    assert (solution.unknowns, solution.iterations, solution.solve_seconds) == (7, 3, 1e-4)
+    assert solution.setup_seconds > 0.0 and solution.reactions["x0"][2] == 1.7
+    assert parse_model(written(asked)) == asked
+
+
+def test_what_ends_badly_is_a_row_of_its_own_in_the_tradeoff(
+    program: Make, tmp_path: Path, in_process: None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    truth = registry.solve(SCENE, "shell", elements=4).displacement(SCENE.probe_points())
+    right = {"probes": dict(zip(SCENE.probes, truth.tolist(), strict=True))}
+    wrong = {"probes": dict(zip(SCENE.probes, (-truth).tolist(), strict=True))}
+    models = [
+        program("right", says(right)),
+        program("wrong", says(wrong)),
+        program("crash", "echo 'out of luck' >&2", "kill -SEGV $$"),
+        program("hang", "sleep 600 &", f"echo $! > '{tmp_path / 'sleeper'}'", "wait") + ":seconds=0.3",
+        program("garbage", "echo 'P4 = -0.04'"),
+    ]
+    asked = [part for model in models for part in ("--model", model)]
+    few = ["--lumped", "3", "--shell", "2", "--plate", "", "--solid", "", "--elements", "8", "--repeats", "1"]
+    assert run("tradeoff", "one-edge-clamped", *few, *asked, "--json") == 0
+    found = json.loads(capsys.readouterr().out)
+    rows = {row["model"]: row for row in found["rows"]}
+    assert rows["right"]["error"] < 0.05 < 1.5 < rows["wrong"]["error"]
+    assert rows["right"]["solve_seconds"]["median"] > 0.0 and rows["right"]["peak_memory_bytes"] is None
+    assert rows["lumped"]["status"] == rows["shell"]["status"] == rows["right"]["status"] == "converged"
+    for name, said in (
+        ("crash", "ended by SIGSEGV: out of luck"),
+        ("hang", "no answer within 0.3 s"),
+        ("garbage", "its answer cannot be read: not one JSON document"),
+    ):
+        assert (rows[name]["status"], rows[name]["error"]) == ("failed", None)
+        assert rows[name]["message"] == said
+    front = [found["rows"][number]["model"] for number in found["front"]]
+    assert not {"crash", "hang", "garbage"} & set(front)
+    sleeper = int((tmp_path / "sleeper").read_text())
+    wait_for(lambda: not alive(sleeper), 10.0)  # killed with what it had started
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (["exit 7"], "exit status 7"),
+        (["yes"], "more than 16 MB of answer"),
+        ([says([1, 2])], "not a JSON object"),
+        ([says({"probes": {"P1": [0, 0, 0]}})], "probes: P2, P3, P4 missing"),
+        ([says({**ANSWER, "status": "fine"})], "status = 'fine': choose from"),
+        ([says({**ANSWER, "probes": {**ANSWER["probes"], "P1": [0, None, 0]}})], "probes.P1 = "),
+        ([says(ANSWER).replace("-0.04", "NaN", 1)], "three finite numbers"),
+        ([says({**ANSWER, "unknowns": -3})], "unknowns = -3"),
+        ([says({**ANSWER, "unknowns": 10**400})], "unknowns = 1000"),
+        ([says({**ANSWER, "probes": {**ANSWER["probes"], "P1": [0, -(10**400), 0]}})], "at most 1e+15"),
+        ([says(ANSWER).replace("-0.04", "9" * 5000, 1)], "not one JSON document"),
+        ([f"exec '{sys.executable}' -c 'x = bytearray(2**30)'"], "exit status 1: MemoryError"),
+    ],
+)
+def test_what_is_no_answer_is_told(program: Make, lines: list[str], said: str) -> None:
+    solution = registry.solve(SCENE, program("mine", *lines), memory_mb=800)
+    assert (solution.status, solution.load_factor) == (Status.FAILED, 0.0)
+    assert not solution.comparable
+    assert said in solution.message
+
+
+def test_a_comparison_goes_on_without_it(
+    program: Make, tmp_path: Path, undrawn: None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    few = ["--lumped", "3", "--elements", "2", "--no-uncertainty", "--out", str(tmp_path / "out")]
+    assert run("compare", "one-edge-clamped", *few, "--model", program("crash", "exit 9")) == 0
+    printed = capsys.readouterr()
+    assert "crash: failed at 0 % of the load: exit status 9" in " ".join(printed.err.split())
+    assert (
+        json.loads((tmp_path / "out" / "comparison.json").read_text())["solutions"][3]["status"] == "failed"
+    )
+
+
+def test_what_cannot_be_run_is_refused(
+    program: Make, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    plain = tmp_path / "plain"
+    plain.write_text("#!/bin/sh\n")
+    for model, said in (
+        (f"exec:{tmp_path / 'absent'}", "no such program"),
+        (f"exec:{plain}", "not executable, see chmod +x"),
+        (program("mine", says(ANSWER)) + ":seconds", "exec:PROGRAM:key=value"),
+    ):
+        assert run("tradeoff", "one-edge-clamped", "--model", model) == 2
+        assert said in one_line(capsys)
+    with pytest.raises(BadInput, match="seconds = 0: a number above 0"):
+        registry.solve(SCENE, program("mine", says(ANSWER)), seconds=0)
+
+
+@pytest.mark.parametrize("leaves", ["", " >/dev/null"], ids=["holding its output", "holding its errors"])
+def test_a_child_that_is_left_behind_holds_nothing_up(program: Make, tmp_path: Path, leaves: str) -> None:
+    """It was waited for, beyond the time limit and at any length, and the answer lost."""
+    left = f"setsid sh -c 'echo $$ > {tmp_path / 'left'}; exec sleep 60'{leaves} &"
+    ready = f"while [ ! -s {tmp_path / 'left'} ]; do sleep 0.01; done"
+    solution = registry.solve(SCENE, program("mine", left, ready, says(ANSWER)), seconds=30)
+    child = int((tmp_path / "left").read_text())
+    assert alive(child)  # nothing but its end could have ended a wait for it
+    os.kill(child, signal.SIGKILL)
+    assert solution.comparable
+
+
+def test_a_child_that_goes_on_to_talk_is_not_listened_to(program: Make, tmp_path: Path) -> None:
+    talking = f"setsid sh -c 'echo $$ > {tmp_path / 'left'}; exec yes >&2' 2>&2 &"
+    ready = f"while [ ! -s {tmp_path / 'left'} ]; do sleep 0.01; done"
+    solution = registry.solve(SCENE, program("mine", talking, ready, says(ANSWER)), seconds=1e15)
+    assert solution.status is Status.CONVERGED
+    wait_for(lambda: not alive(int((tmp_path / "left").read_text())), 10.0)  # its pipe is closed
+
+
+@pytest.mark.parametrize("limits", ["seconds=1e20", "seconds=1" + 400 * "0", "memory_mb=1e999"])
+def test_limits_without_end_are_refused(
+    program: Make, capsys: pytest.CaptureFixture[str], limits: str
+) -> None:
+    assert run("tradeoff", "one-edge-clamped", "--model", f"{program('mine', says(ANSWER))}:{limits}") == 2
+    assert "a number of at most 1e+15 is needed" in one_line(capsys)
+    assert registry.solve(SCENE, program("mine", says(ANSWER)), seconds=1e15, memory_mb=1e15).comparable
+
+
+def test_another_program_under_the_same_name_is_another_model(program: Make) -> None:
+    model = program("mine", says(ANSWER))
+    before = plugins.digest(model)
+    program("mine", says(ANSWER), "# changed")
+    plugins._of_file.cache_clear()
+    assert plugins.digest(model) != before
+    assert os.path.basename(model.removeprefix("exec:")) == plugins.shown_name(model)

@@ -1,0 +1,285 @@
+"""Reports: figures with their units, text of a scene made harmless, files of one scene in a folder."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+import warnings
+from pathlib import Path
+
+import pytest
+from commands import one_line, run
+from scene_files import written
+
+from comparisons.cli.finish import finish
+from comparisons.cli.warned import in_a_line
+from comparisons.report import escape
+from comparisons.report.report import Report
+from comparisons.report.table import Column, Table, Unit, quantity, unit
+from comparisons.runs.folder import MANIFEST, Folder
+from sheetbench import scenes
+from sheetbench.scenes.errors import BadInput, Implausible
+
+pytestmark = pytest.mark.smoke
+
+HOSTILE = '\x1b[31m<script>alert("x")</script>|=1+1\n`$\\'
+NUMBERS = Column("a", "m", "mm", 1e3, ".4g")
+
+
+def test_a_row_with_a_unit_is_shown_in_it_and_kept_in_si() -> None:
+    columns = (
+        Column("name"),
+        Column("unit"),
+        Column("value", form=".4g"),
+        Column("off", "", "%", 100.0, ".1f"),
+    )
+    table = Table("", columns, (("young", unit("Pa"), 4.1e6, 0.5), ("poisson", unit(""), 0.3, 0.5)))
+    assert table.shown_rows() == [["young", "MPa", "4.1", "50.0"], ["poisson", "", "0.3", "50.0"]]
+    assert "young,Pa,4100000.0,0.5" in table.to_csv()
+    assert unit("kg/m³") == Unit("kg/m³", "kg/m³")
+    assert [quantity(-4.1e6, "Pa"), quantity(0.3, "")] == ["−4.1 MPa", "0.3"]
+
+
+def test_terminal_text_acts_on_no_terminal() -> None:
+    shown = escape.terminal(HOSTILE + "\x9b2J\u202eab\u2028")
+    assert shown.startswith(r"\x1b[31m<script>") and shown.isprintable()
+    assert escape.terminal("E = 5 MPa · ν ≥ ½ 膜 e\u0301") == "E = 5 MPa · ν ≥ ½ 膜 e\u0301"
+    assert escape.terminal("a\nb", keep="\n") == "a\nb"
+
+
+def hostile_table() -> Table:
+    return Table(HOSTILE, (Column(HOSTILE), NUMBERS), ((HOSTILE, 1.0), ("=HYPERLINK(1)", -2.0)))
+
+
+def test_markdown_has_neither_tags_nor_more_cells() -> None:
+    page = Report("x", HOSTILE, {}, tables=(hostile_table(),), notes=("[a](javascript:b)",)).to_markdown()
+    assert "<" not in page and "\x1b" not in page
+    rows = [line for line in page.splitlines() if line.startswith("|")]
+    assert len(rows) == 4
+    assert all(len(re.findall(r"(?<!\\)\|", row)) == 3 for row in rows)
+    assert not re.search(r"(?<!\\)\]\(", page)
+
+
+def test_csv_cells_are_no_formulas_and_numbers_stay_numbers() -> None:
+    rows = list(csv.reader(io.StringIO(hostile_table().to_csv())))
+    assert rows[2] == ["'=HYPERLINK(1)", "-2.0"]
+    assert (
+        escape.csv_cell("\tx") == "'\tx" and escape.csv_cell(-1.0) == -1.0 and escape.csv_cell("P1") == "P1"
+    )
+
+
+def test_latex_is_plain_on_one_line_a_row() -> None:
+    text = hostile_table().to_latex()
+    assert len(text.splitlines()) == 9 and "\x1b" not in text
+    row = text.splitlines()[5]
+    assert r"\$" in row and r"\textbackslash{}" in row and row.count(" & ") == 1
+    assert (
+        Report("x", "t", {}, tables=(hostile_table(),))
+        .to_latex()
+        .startswith("% needs \\usepackage{booktabs}")
+    )
+
+
+HOSTILE_SCENE = """
+name = "=cmd<script>"
+title = "\\u001b[2J <img src=x> | `$\\\\foo$"
+[sheet]
+length_x = 0.188
+length_y = 0.188
+thickness = 0.003
+[material]
+young = 54.5e6
+poisson = 0.48
+density = 1678.0
+[gravity]
+acceleration = [0.0, 0.0, -9.81]
+[[support]]
+edge = "x0"
+kind = "clamped"
+[probes]
+"=HYPERLINK(1)" = [0.1, 0.1]
+"a|b<i>" = [0.188, 0.1]
+"""
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_hostile_scene_is_harmless_wherever_it_is_shown(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("comparisons.comparison.tables.draw", lambda *_: "not drawn here")
+    assert run("compare", str(written(tmp_path, HOSTILE_SCENE)), "--out", str(tmp_path / "out")) == 0
+    printed = capsys.readouterr()
+    assert "\x1b" not in printed.out + printed.err and r"\x1b[2J" in printed.out
+    page = (tmp_path / "out" / "table.md").read_text(encoding="utf-8")
+    assert "<" not in page and "\x1b" not in page
+    first = [row[0] for row in csv.reader((tmp_path / "out" / "table.csv").open(encoding="utf-8"))]
+    assert "'=HYPERLINK(1)" in first and "=HYPERLINK(1)" not in first
+
+
+def test_a_refusal_spells_out_what_would_act_on_the_terminal(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = HOSTILE_SCENE.replace("[sheet]", '"\\u001b[2Jkey" = 1\n[sheet]')
+    assert run("compare", str(written(tmp_path, text))) == 2
+    said = one_line(capsys)
+    assert "\x1b" not in said and r"\x1b[2Jkey" in said
+
+
+def about(**changes: object) -> dict[str, object]:
+    document = scenes.load("one-edge-clamped").model_dump(mode="json", by_alias=True, exclude_none=True)
+    return {"scene": {**document, **changes}}
+
+
+def report(*names: str) -> Report:
+    return Report(
+        "answer", "t", {"a": 1}, attachments={name: lambda path: path.write_text("x") for name in names}
+    )
+
+
+def files(folder: Path) -> set[str]:
+    return {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
+
+
+def test_the_same_scene_and_verb_again_is_fine_and_so_is_another_verb(tmp_path: Path) -> None:
+    Folder(tmp_path, "modes", ["m"], about=about()).report(report("a.txt"))
+    Folder(tmp_path, "modes", ["m"], about=about()).report(report("a.txt"))
+    Folder(tmp_path, "advise", ["a"], about=about()).report(report("b.txt", "a.txt"))
+    runs = json.loads((tmp_path / MANIFEST).read_text())["runs"]
+    assert runs["modes"]["files"] == []  # what another verb has written since is that verb's
+    assert runs["advise"]["files"] == ["b.txt", "a.txt", "answer.json"]
+
+
+def test_a_folder_of_another_scene_is_refused_with_what_differs(tmp_path: Path) -> None:
+    Folder(tmp_path, "modes", ["m"], about=about()).report(report("a.txt"))
+    before = files(tmp_path)
+    other = about(name="other", sheet={"length_x": 0.188, "length_y": 0.188, "thickness": 0.004})
+    for verb in ("modes", "compare"):
+        with pytest.raises(
+            BadInput, match=r"scene.name is one-edge-clamped there, other here; .*thickness is 0.003"
+        ):
+            Folder(tmp_path, verb, ["m"], about=other)
+    assert files(tmp_path) == before
+
+
+def test_springs_of_another_sheet_are_refused_beside_a_scene(tmp_path: Path) -> None:
+    Folder(tmp_path, "modes", ["m"], about=about()).report(report())
+    same = {"sheet": about()["scene"]["sheet"]}  # type: ignore[index]
+    Folder(tmp_path, "calibrate", ["c"], about=same)
+    with pytest.raises(BadInput, match=r"thickness is 0\.003 there, 0\.004 here"):
+        Folder(tmp_path, "calibrate", ["c"], about={"sheet": {**same["sheet"], "thickness": 0.004}})
+
+
+def test_other_options_of_a_verb_are_refused_where_they_leave_other_files(tmp_path: Path) -> None:
+    Folder(tmp_path, "compare", ["c"], about=about(), apart={"--reference": "shell"}).report(
+        report("shell.vtu")
+    )
+    with pytest.raises(BadInput, match="--reference is shell there, plate here"):
+        Folder(tmp_path, "compare", ["c"], about=about(), apart={"--reference": "plate"})
+    Folder(tmp_path, "modes", ["m"], about=about(), apart={"--reference": "plate"})
+
+
+def test_a_verb_does_not_write_among_files_of_another_that_is_about_something_else(tmp_path: Path) -> None:
+    Folder(tmp_path, "stability", ["s"]).report(report("map.csv"))
+    before = files(tmp_path)
+    for verb, of in (("compare", about()), ("verify", {})):
+        with pytest.raises(BadInput, match=r"holds files of another 'stability' \(about something else\)"):
+            Folder(tmp_path, verb, ["c"], about=of)
+    assert files(tmp_path) == before
+    Folder(tmp_path, "compare", ["c"], about=about(), overwrite=True).report(report("a.txt"))
+    assert files(tmp_path) == {"a.txt", "answer.json", MANIFEST}
+
+
+def test_overwrite_removes_what_the_manifest_lists_and_nothing_else(tmp_path: Path) -> None:
+    first = Folder(tmp_path, "simulate", ["s"], about=about())
+    run_folder = first.own("run/")
+    run_folder.mkdir()
+    (run_folder / "samples.bin").write_text("x")
+    first.report(report("old.txt"))
+    (tmp_path / "mine.txt").write_text("mine")
+    again = Folder(tmp_path, "modes", ["m"], about=about(name="other"), overwrite=True)
+    assert (tmp_path / "old.txt").exists()  # until there is something to put there
+    again.report(report("new.txt"))
+    assert files(tmp_path) == {"mine.txt", "new.txt", "answer.json", MANIFEST}
+    assert list(json.loads((tmp_path / MANIFEST).read_text())["runs"]) == ["modes"]
+
+
+def test_a_manifest_cannot_lead_out_of_its_folder(tmp_path: Path) -> None:
+    outside, inside = tmp_path / "outside.txt", tmp_path / "in"
+    outside.write_text("keep")
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere" / "kept.txt").write_text("keep")
+    Folder(inside, "modes", ["m"], about=about()).report(report())
+    (inside / "link").symlink_to(tmp_path / "elsewhere")
+    manifest = json.loads((inside / MANIFEST).read_text())
+    names = ["../outside.txt", str(outside), "link/kept.txt", "link/", "."]
+    manifest["runs"]["modes"]["files"] += names
+    (inside / MANIFEST).write_text(json.dumps(manifest))
+    Folder(inside, "modes", ["m"], about=about(), overwrite=True).report(report())
+    assert outside.exists() and (tmp_path / "elsewhere" / "kept.txt").exists()
+
+
+@pytest.mark.parametrize("text", ["", "[]", '{"a": 1}', '{"runs": 3}', "\x00"])
+def test_a_manifest_that_is_not_ours_is_refused(tmp_path: Path, text: str) -> None:
+    (tmp_path / MANIFEST).write_text(text)
+    with pytest.raises(BadInput, match=r"manifest\.json there is none"):
+        Folder(tmp_path, "modes", ["m"], about=about(), overwrite=True)
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_commands_refuse_a_folder_of_another_scene(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    few = ("--lumped", "3", "--elements", "2", "--count", "2", "--out", str(tmp_path))
+    assert run("modes", "one-edge-clamped", *few) == 0
+    capsys.readouterr()
+    assert run("modes", "two-edges-clamped", *few) == 2
+    said = one_line(capsys)
+    assert "one-edge-clamped there, two-edges-clamped here" in said and "--overwrite" in said
+    assert run("modes", "two-edges-clamped", *few, "--overwrite") == 0
+
+
+@pytest.mark.parametrize(
+    "verb",
+    [
+        ("scenes",),
+        ("compare", "one-edge-clamped"),
+        ("calibrate", "one-edge-clamped"),
+        ("modes", "one-edge-clamped"),
+        ("simulate", "one-edge-clamped"),
+        ("tradeoff", "one-edge-clamped"),
+        ("advise", "one-edge-clamped"),
+        ("stability", "one-edge-clamped"),
+        ("verify",),
+    ],
+)
+def test_an_empty_out_is_refused(verb: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(*verb, "--out", "") == 2
+    assert "--out = ''" in one_line(capsys)
+
+
+def test_brackets_in_help_are_no_markup(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("calibrate", "--help") == 0
+    assert "[springs]" in capsys.readouterr().out
+
+
+def test_a_questions_own_warnings_stand_before_those_about_its_scene(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with in_a_line():
+        warnings.warn(Implausible("young = 54.5 Pa"), stacklevel=1)
+        with finish("identify", json=True, out=None) as end:
+            end(Report("identification", "t", {"warnings": ["a poor fit"]}))
+    assert json.loads(capsys.readouterr().out)["warnings"] == ["a poor fit", "young = 54.5 Pa"]
+
+
+def test_what_compiling_took_is_said_before_the_remarks_which_may_end_in_a_command(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("comparisons.cli.finish.clock.compiled", lambda: 23.2)
+    with finish("advise", json=False, out=None) as end:
+        end(Report("advice", "t", {}, notes=("Solve it with:", "sheetbench compare x")))
+    *_, compiled, before, command = capsys.readouterr().out.splitlines()
+    assert compiled.startswith("Kernels were compiled, once on this machine: 23.2 s")
+    assert (before, command) == ("Solve it with:", "sheetbench compare x")

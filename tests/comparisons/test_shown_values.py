@@ -1,0 +1,204 @@
+"""What tables, a picture and lists of cells hold, where nothing else would notice another number."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from inspect import signature
+from operator import itemgetter
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from matplotlib.pyplot import subplots
+
+import fem_reference
+import lumped
+from comparisons.advice import probing
+from comparisons.calibration.tables import moduli
+from comparisons.cli import modes
+from comparisons.linearisation.tables import poles
+from comparisons.models.candidate import Candidate
+from comparisons.modes.spectra import spectra
+from comparisons.pages import plots
+from comparisons.report.look import PLAIN, WIDTHS
+from comparisons.report.table import Table
+from comparisons.reproduction import figure
+from comparisons.runs.store import Finished
+from comparisons.stability import tiles as stability_figure
+from comparisons.tradeoff import figure as tradeoff_figure
+from comparisons.tradeoff import statics
+from comparisons.tradeoff.motion import DynamicTradeoff
+from comparisons.tradeoff.tables import rows as statics_rows
+from sheetbench import scenes
+from studies.reproduction.tables import nearest
+from studies.stability import STUDIES
+
+PUBLISHED = Path(__file__).parents[2] / "docs" / "stability"
+
+
+def shown(table: Table) -> dict[str, str]:
+    """The first row as people read it, by column."""
+    return dict(zip((column.name for column in table.columns), table.shown_rows()[0], strict=True))
+
+
+def test_a_modulus_is_off_its_target_by_the_difference() -> None:
+    modulus = {"name": "D11", "asked": 2.0, "got": 1.5}
+    calibration = {"moduli": [modulus], "springs": {}, "grid": [3, 3, 2]}
+    row = shown(moduli(calibration))
+    assert float(row["off target by"].replace("−", "-")) == -25.0
+
+
+def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front() -> None:
+    table = statics_rows(SimpleNamespace(rows=[], front=[]))  # type: ignore[arg-type]
+    assert [column.name for column in table.brief().columns] == [
+        "row", "model", "size", "unknowns", "solve", "memory", "error", "field error", "front",
+    ]  # fmt: skip
+
+
+def test_time_is_predicted_by_the_models_own_family() -> None:
+    def lattice(masses: int) -> Candidate:
+        return Candidate("lumped", {"grid": [masses, masses, 2]})
+
+    shell, plate = (Candidate(model, {"elements": [8, 8]}) for model in ("shell", "plate"))
+    took = ((lattice(5), 0.001), (shell, 0.1), (lattice(9), 0.008))
+    trials = {repr(one): SimpleNamespace(candidate=one, seconds=seconds) for one, seconds in took}
+    asked = (shell, lattice(17), shell.but(elements=[16, 16]), plate)
+    found = [probing.Probing.predicted_seconds(SimpleNamespace(trials=trials), one) for one in asked]  # type: ignore[arg-type]
+    # as measured; 8 times as long for 4 times the cells; by the usual power of one; by the unknowns alone
+    assert found == pytest.approx([0.1, 0.064, 0.1 * 4**probing.EXPONENT, probing.unknowns(plate) * 1e-5])
+
+
+@pytest.mark.parametrize(("name", "key"), [
+    ("slenderness", "slenderness"), ("slenderness", "load_number"), ("load", "size"),
+    ("damping", "damping_ratio"), ("mass", "ratio"), ("curved-edge", "turn"),
+])  # fmt: skip
+def test_quick_maps_reach_as_far_as_full_ones(name: str, key: str) -> None:
+    quick, full = ([cell[key] for cell in STUDIES[name].cells(full)] for full in (False, True))
+    assert (min(quick), max(quick)) == (min(full), max(full)) and set(quick) <= set(full)
+
+
+def test_maps_are_as_wide_as_both_columns_of_a_paper() -> None:
+    widths = [study.size[0] for study in STUDIES.values()]
+    assert widths == pytest.approx([WIDTHS["double"]] * len(widths), abs=0.05)
+
+
+def test_tiles_reach_half_way_to_their_neighbours() -> None:
+    _, axis = subplots()
+    rows = [{"x": x, "y": y} for x in (4.0, 1.0, 3.0) for y in (1.0, 100.0)]
+    stability_figure.tiles(
+        axis, rows, itemgetter("x"), itemgetter("y"), of=lambda _: next(iter(stability_figure.OUTCOMES)),
+        text=lambda _: "", scale=("linear", "log"),
+    )  # fmt: skip
+    tiles = sorted(tile.get_bbox().extents.tolist() for tile in axis.patches)
+    across, up = ((0.0, 2.0), (2.0, 3.5), (3.5, 4.5)), ((0.1, 10.0), (10.0, 1000.0))
+    assert tiles == [pytest.approx([x0, y0, x1, y1]) for x0, x1 in across for y0, y1 in up]
+    assert (*axis.get_xlim(), *axis.get_ylim()) == pytest.approx((0.0, 4.5, 0.1, 1000.0))
+
+
+def test_a_tradeoffs_axis_holds_its_errors_and_the_bar_in_percent() -> None:
+    rows = [SimpleNamespace(error=error) for error in (0.002, 0.3, 0.0)]
+    _, axis = subplots()
+    tradeoff_figure._floor(axis, SimpleNamespace(rows=rows, uncertainty=0.01), "bar")  # type: ignore[arg-type]
+    assert axis.get_ylim() == pytest.approx((0.6 * 0.2, 1.6 * 30.0))
+
+
+def test_a_front_without_a_bar_has_every_row_that_errs_less_for_more_time() -> None:
+    rows = [SimpleNamespace(error=e, seconds_per_second=t) for e, t in ((0.2, 1.0), (0.1, 2.0), (0.1, 3.0))]
+    for bar, front in ((None, [0, 1]), (0.5, [0])):
+        found = SimpleNamespace(rows=rows, uncertainty=bar)
+        assert DynamicTradeoff.front.fget(found) == front  # type: ignore[attr-defined]
+
+
+def test_unless_told_otherwise_functions_and_commands_ask_for_as_many_modes() -> None:
+    asked = (spectra, lumped.modes, fem_reference.modes, modes.command)
+    assert [signature(call).parameters["count"].default for call in asked] == [10] * 4
+
+
+@pytest.mark.parametrize("values, shown", [
+    ([1.0, 3.0], (0.9, 3.1)), ([4.0, 4.0], (2.0, 6.0)), ([0.0], (-1.0, 1.0)),
+])  # fmt: skip
+def test_an_axis_has_room_beside_its_values_also_where_they_are_one(
+    values: list[float], shown: tuple[float, float]
+) -> None:
+    assert plots._span(values, False) == pytest.approx(shown)
+
+
+def test_a_pole_is_shown_in_hertz_and_its_damping_in_percent() -> None:
+    found = SimpleNamespace(upper=np.array([-3.0 + 4.0j]), damping_ratios=np.array([0.6]))
+    row = shown(poles(found))  # type: ignore[arg-type]
+    assert float(row["frequency"]) == pytest.approx(5.0 / (2.0 * np.pi), rel=1e-4)
+    assert (float(row["damping ratio"]), float(row["imaginary"])) == (60.0, 4.0)
+
+
+def test_grading_changes_no_rate_and_a_calibration_does() -> None:
+    even, graded, other = (
+        Candidate("lumped", {"grid": [9, 9], "calibration": name, **more})
+        for name, more in (("consistent", {}), ("consistent", {"grading": 0.5}), ("uniform", {}))
+    )
+    assert probing._rate(even) == probing._rate(graded) != probing._rate(other)
+
+
+def test_a_fit_is_shown_in_the_tables_units() -> None:
+    sought = {"young": 2.5e6, "k": 321.0, "layer_distance": 1.5e-3, "tilt": np.pi / 6.0, "curvature": 4.0}
+    fit = SimpleNamespace(
+        tests=(1,), kind="sheet", source="model", sought=sought, by="misfit", rms=0.25, error=0.5, entries=12,
+        met=np.array([True, True, False]),
+    )  # fmt: skip
+    row = shown(nearest(SimpleNamespace(fits=[fit])))  # type: ignore[arg-type]
+    assert [float(row[name]) for name in ("E", "k", "lz", "tilt", "κ")] == [2.5, 321.0, 1.5, 30.0, 4.0]
+    assert (float(row["rms"]), float(row["error"]), row["met"]) == (25.0, 50.0, "2 of 12")
+
+
+def test_the_picture_of_settling_is_in_millimetres_over_the_static_answer() -> None:
+    run = SimpleNamespace(
+        time=np.array([0.0, 1.0]), probes={"P4": np.array([[0.0, 0.0, 0.0], [1e-3, 2e-3, 3e-3]])}
+    )
+    settling = SimpleNamespace(runs={"consistent": run}, rest={"consistent": np.array([4e-3, 5e-3, 6e-3])})
+    panels = figure.motion(settling, PLAIN).axes[:3]  # type: ignore[arg-type]
+    for axis, panel in enumerate(panels):
+        moved, rest = panel.lines[:2]
+        np.testing.assert_allclose(moved.get_ydata(), [0.0, 1.0 + axis])
+        np.testing.assert_allclose(rest.get_ydata(), 4.0 + axis)
+    assert [panel.get_xlabel() for panel in panels] == ["", "", "time [s]"]
+
+
+def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used() -> None:
+    scene, weights, sizes = scenes.load("one-edge-clamped"), np.ones(2), [1.0, 2.0, 4.0]
+
+    def solved(error: float, status: str = "converged") -> Finished:
+        moved = [[0.0, 0.0, 1.0 + error]] * 2
+        row = {"probes": dict(zip("ab", moved, strict=True)), "field": moved, "settings": {"elements": 4}}
+        return Finished("key", status, row | {"load_factor": 1.0}, "", "", "", 0.0)
+
+    fine, middle, coarse = solved(0.01), solved(0.04), solved(0.16)
+    assert None not in statics._bars(scene, [fine, middle, solved(0.16, "diverged")], sizes, weights)
+    assert statics._bars(scene, [solved(0.01, "diverged"), middle, coarse], sizes, weights) == (None, None)
+
+
+@pytest.mark.parametrize(
+    "name", ["stiffness", "grid", "load", "damping", "mass", "slenderness", "curved-edge"]
+)
+def test_full_maps_have_the_published_cells(name: str) -> None:
+    """Every published row is a cell, with as many samples of it."""
+    with (PUBLISHED / f"{name}.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    cells = STUDIES[name].cells(True)
+    heads = {head: head.partition(" [")[0].replace(" ", "_") for head in rows[0]}
+    keys = {key for cell in cells for key in cell} & set(heads.values())
+    assert keys
+
+    def values(row: Mapping[str, object]) -> tuple[str, ...]:
+        return tuple(plain(row.get(key)) for key in sorted(keys))
+
+    published = [{key: row[head] for head, key in heads.items()} for row in rows]
+    assert sorted(map(values, cells)) == sorted(map(values, published))
+
+
+def plain(value: object) -> str:
+    """A value of a cell, or of a file, as the same text; nothing where there is none."""
+    try:
+        return f"{float(value):g}"  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        return str(value or "")

@@ -1,0 +1,328 @@
+"""Trade-offs: the front, the orders, what is measured against what, and the command from end to end."""
+
+from __future__ import annotations
+
+import csv
+import json
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import campaigns
+import numpy as np
+import pytest
+from campaigns import Here, rows_in
+from commands import one_line, run
+
+import lumped
+from comparisons.models import candidate as candidates
+from comparisons.models.candidate import Candidate, lattices, parse_model, series
+from comparisons.models.springs import LatticeSpec
+from comparisons.report import table as tables
+from comparisons.report.files import to_json
+from comparisons.report.look import PLAIN, parse_figure
+from comparisons.runs import load
+from comparisons.runs.campaign import campaign
+from comparisons.runs.store import FILE
+from comparisons.tradeoff import timing
+from comparisons.tradeoff.figure import compose
+from comparisons.tradeoff.motion import SHARES, dynamic_tradeoff, explicit_limit, folded
+from comparisons.tradeoff.motion_row import MotionRow, oscillation
+from comparisons.tradeoff.pareto import front, grouped, order
+from comparisons.tradeoff.row import TradeoffRow
+from comparisons.tradeoff.statics import Tradeoff
+from sheetbench import scenes
+from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
+from sheetbench.scenes.errors import BadInput
+
+SMALL = [
+    *("tradeoff", "two-edges-clamped", "--lumped", "3,5", "--calibration", "consistent,uniform"),
+    *("--plate", "", "--shell", "2,4", "--solid", "", "--elements", "8", "--repeats", "2"),
+]
+KILLED = """
+import os, signal, sys
+sys.path.insert(0, {here!r})
+from campaigns import Here
+from comparisons.cli import main
+from comparisons.runs import campaign, executors
+from comparisons.runs.store import Store
+campaign.carry_out.__kwdefaults__["pool"] = executors.processes = Here
+kept, add = [], Store.add
+def add_and_die(store, task, arguments, outcome):
+    add(store, task, arguments, outcome)
+    kept.append(outcome)
+    if len(kept) == 4:
+        os.kill(os.getpid(), signal.SIGKILL)
+Store.add = add_and_die
+main()
+"""
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    return scenes.load("two-edges-clamped")
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a small trade-off, killed once in the middle, resumed, and asked for once more."""
+    folder = tmp_path_factory.mktemp("tradeoff")
+    command = [sys.executable, "-c", "from comparisons.cli import main; main()"]
+    arguments = [*SMALL, "--out", str(folder)]
+    killing = KILLED.format(here=str(Path(campaigns.__file__).parent))
+    killed = subprocess.run([*command[:2], killing, *arguments], stderr=subprocess.DEVNULL)
+    assert killed.returncode == -signal.SIGKILL
+    kept = rows_in(folder / FILE)
+    assert len(kept) == 4
+    subprocess.run([*command, *arguments], check=True, capture_output=True)
+    after = rows_in(folder / FILE)
+    assert len(after) == 9
+    assert {key: after[key] for key in kept} == kept  # time stamps and all
+    return folder
+
+
+def test_front_holds_what_nothing_beats() -> None:
+    errors = [0.1, 0.05, 0.2, None, 0.01, float("nan"), 0.04]
+    seconds = [1.0, 2.0, 3.0, 0.1, 4.0, 0.1, 2.0]
+    assert front(errors, seconds) == [0, 6, 4]
+    assert front(errors, seconds, floor=0.04) == [0, 6]  # below the floor nothing can be told apart
+    assert front([None], [1.0]) == []
+
+
+def test_order_is_the_slope_of_the_logarithms() -> None:
+    h = [0.1, 0.05, 0.025]
+    assert order(h, [3.0 * x**2 for x in h]) == pytest.approx(2.0)
+    assert order([0.1, 0.1], [1.0, 2.0]) is None
+    assert grouped(["b", "a", "b"]) == {"b": [0, 2], "a": [1]}
+
+
+def test_lists_of_sizes_become_rows_with_near_square_cells() -> None:
+    scene = scenes.load("one-edge-clamped").replace(length_x=0.1, length_y=0.2, thickness=0.001)
+    found = lattices(scene, ["5", "3x4x3"], ["consistent", "uniform"])
+    assert [c.settings["grid"] for c in found] == [[5, 9, 2], [3, 4, 3]] * 2
+    assert found[3].series == "lumped uniform 3 layers"
+    assert series("shell", {"elements": 4}) == "shell"
+    assert series("mine", {"grid": 9, "fast": True, "slow": False, "kind": "a"}) == "mine fast kind a"
+    assert parse_model("mine:grid=9,soft=true,kind=a") == Candidate(
+        "mine", {"grid": 9, "soft": True, "kind": "a"}
+    )
+    for text in ("mine:grid", "mine:=3,x"):
+        with pytest.raises(BadInput, match="--model"):
+            parse_model(text)
+    with pytest.raises(BadInput, match="--shell = 'x'"):
+        candidates.references("shell", ["x"])
+
+
+def test_a_measured_row_says_what_it_cost(scene: Scene) -> None:
+    asked = timing.run(scene, "lumped", {"grid": [9, 9, 2], "calibration": "consistent"}, repeats=3)
+    row = timing.measure(**asked.arguments)
+    assert row["status"] == "converged" and row["unknowns"] == 384
+    samples = row["solve_seconds"]["samples"]
+    assert len(samples) >= 3 and row["solve_seconds"]["median"] == pytest.approx(np.median(samples))
+    assert row["peak_memory_bytes"] >= 0
+    assert {"python", "processor", "cpu_count"} <= set(row["machine"])
+    assert {"sheetbench", "numpy", "scipy"} <= set(row["versions"])
+    assert row["probes"]["P4"][2] == pytest.approx(-0.01346, rel=1e-2)
+
+
+def test_memory_is_that_of_the_run(scene: Scene) -> None:
+    _, memory = timing._with_peak_memory(lambda: np.ones(8_000_000).sum())  # type: ignore[arg-type, return-value]
+    assert memory == pytest.approx(64e6, rel=0.1)
+
+
+def test_field_points_integrate_over_the_sheet(scene: Scene) -> None:
+    points, weights = timing.field_points(scene.sheet)
+    assert weights.sum() == pytest.approx(1.0)
+    lx, ly = scene.sheet.lengths
+    assert weights @ (points[:, 0] ** 3 * points[:, 1]) == pytest.approx(lx**3 * ly / 8)
+
+
+def test_killed_and_resumed_tradeoff_has_all_its_rows(finished: Path) -> None:
+    document = json.loads((finished / "tradeoff.json").read_text(encoding="utf-8"))
+    rows = document["rows"]
+    assert [row["model"] for row in rows] == ["lumped"] * 4 + ["shell"] * 2
+    assert all(row["status"] == "converged" for row in rows)
+    for row in rows:
+        assert 0.0 < row["error"] < 0.2 and 0.0 < row["field_error"] < 0.3
+        assert row["solve_seconds"]["median"] > 0.0 and len(row["solve_seconds"]["samples"]) >= 2
+        assert row["peak_memory_bytes"] >= 0 and row["machine"] and row["versions"]
+    consistent, uniform = rows[1], rows[3]
+    assert consistent["error"] < uniform["error"]
+    assert 0.0 < document["reference"]["uncertainty"] < 0.01
+    errors = [rows[i]["error"] for i in document["front"]]
+    assert errors == sorted(errors, reverse=True)
+    assert {entry["series"] for entry in document["orders"]} == {
+        "lumped consistent",
+        "lumped uniform",
+        "shell",
+    }
+    with (finished / "tradeoff.csv").open(encoding="utf-8") as file:
+        assert len(list(csv.DictReader(file))) == 6
+    assert (finished / "tradeoff.png").stat().st_size > 20_000
+    assert (finished / "tradeoff.pdf").read_bytes().startswith(b"%PDF")
+    assert "\\toprule" in (finished / "tradeoff.tex").read_text(encoding="utf-8")
+    assert json.loads((finished / "manifest.json").read_text(encoding="utf-8"))["machine"]
+
+
+def test_asked_again_nothing_is_run_and_the_document_is_the_same(
+    finished: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = rows_in(finished / FILE)
+    written = json.loads((finished / "tradeoff.json").read_text(encoding="utf-8"))
+    assert run(*SMALL, "--json", "--out", str(finished)) == 0
+    printed = capsys.readouterr()
+    assert json.loads(printed.out) == written
+    drawing = {"drawing tradeoff.png …"}  # said where it lasts, as on a busy machine
+    assert set(printed.err.splitlines()) <= drawing
+    assert rows_in(finished / FILE) == before
+
+
+def test_oscillation_of_a_damped_cosine() -> None:
+    time = np.linspace(0.0, 2.0, 401)
+    rate = 2.0 * np.pi * 5.0
+    period, damping = oscillation(time, -0.3 - 0.1 * np.exp(-0.03 * rate * time) * np.cos(rate * time))
+    assert period == pytest.approx(0.2, rel=1e-3)
+    assert damping == pytest.approx(0.03, rel=0.02)
+    assert oscillation(time, time) == (None, None)
+
+
+def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path: Path) -> None:
+    scene = scenes.load("two-edges-settling")
+    with campaign(tmp_path) as store:
+        found = dynamic_tradeoff(
+            scene,
+            0.6,
+            store,
+            lattice=LatticeSpec(grid=(3, 3, 2)),
+            integrators=("generalised-alpha", "midpoint"),
+            divisions=(40, 80, 160),
+            reference=800,
+            pool=Here,
+        )
+    assert len(found.rows) == 6 and all(row.status == "converged" for row in found.rows)
+    assert found.uncertainty is not None and found.uncertainty < 1e-4
+    for slope in found.orders.values():
+        assert slope == pytest.approx(2.0, abs=0.15)
+    assert all(row.error < 1e-3 for row in found.rows if row.step < found.lowest_period / 150)
+    assert found.reference.damping == pytest.approx(found.rows[-1].damping, rel=1e-2)
+    assert all(row.seconds_per_second > 0.0 for row in found.rows)
+    assert found.front and json.loads(to_json(found.as_dict()))["rows"]
+
+
+def test_labels_of_close_points_do_not_lie_on_each_other(scene: Scene) -> None:
+    """A grid and a pair of grids, the front's last two, a tenth apart in time and an eighth in error."""
+    pair = {"coarser": 5, "grid": 9}
+    made = (("lumped", {"grid": 9}, 1.0e-3, 0.010), ("lumped-pair", pair, 1.1e-3, 0.0088))
+    rows = [
+        TradeoffRow(
+            model, "", settings, "converged", "", f"{model} consistent", size, "", "",
+            solve_seconds=(seconds,), error=error,
+        )
+        for model, settings, seconds, error in (("lumped", {"grid": 3}, 1e-4, 0.1), *made)
+        for size in [0.188 / settings["grid"]]
+    ]  # fmt: skip
+    found = Tradeoff(scene, tuple(rows), rows[-1], 1e-3, 1e-3)
+    for look in (PLAIN, parse_figure("pdf:single")):
+        drawn = compose(found, look)
+        drawn.draw_without_rendering()
+        boxes = {t.get_text(): t.get_window_extent() for t in drawn.axes[0].texts}
+        assert {"3", "9", "5:9"} <= set(boxes)
+        assert not boxes["9"].overlaps(boxes["5:9"])
+        names = [text.get_text() for text in drawn.legends[0].get_texts()]
+        assert any(name.startswith("lumped consistent  (order ") for name in names)
+        assert drawn.axes[1].get_title(loc="left") == "Observed convergence"
+
+
+def test_latex_says_what_the_cells_say() -> None:
+    table = tables.Table(
+        "Rows & more", (tables.Column("a_b"), tables.Column("x", form="z.1f")), (("5 %", -1.0),)
+    )
+    text = table.to_latex()
+    assert r"a\_b & x \\" in text and r"5 \% & $-$1.0 \\" in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("--lumped", "1"), "--lumped = '1'"),
+        (("--calibration", "guess"), "calibration = 'guess'"),
+        (("--elements", "1"), "--elements = 1"),
+        (("--model", "nothing:grid=3"), "model = 'nothing'"),
+        (("--lumped", "", "--plate", "", "--shell", "", "--solid", ""), "no model left"),
+    ],
+)
+def test_bad_input_is_said_in_a_line(
+    arguments: tuple[str, ...], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("tradeoff", "two-edges-clamped", *arguments) == 2
+    assert said in one_line(capsys)
+
+
+def test_a_scheduler_is_asked_for_a_motion_too(capsys: pytest.CaptureFixture[str]) -> None:
+    address = ("--scheduler", "tcp://127.0.0.1:9")
+    assert run("tradeoff", "two-edges-settling", "--duration", "0.1", *address) == 2
+    assert "no scheduler there" in one_line(capsys)
+
+
+def test_the_trade_of_a_motion_is_of_one_lattice(tmp_path: Path) -> None:
+    """The scene's own springs, four times as stiff: limit, period and runs are all of them."""
+    scene = scenes.load("two-edges-settling")
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=3)
+    stiff = {name: 4.0 * k for name, k in springs.as_dict()["springs"].items() if isinstance(k, float)}
+    table = {**stiff, "layer_distance": springs.layer_distance, "grid": [3, 3, 2]}
+    own = scene.replace(springs=table)
+    names = ("verlet-implicit-damping",)
+    options = {"integrators": names, "reference": 400, "pool": Here}
+    with campaign(tmp_path) as store:
+        found = dynamic_tradeoff(own, 0.02, store, **options)
+        k_given = dynamic_tradeoff(scene, 0.02, store, lattice=LatticeSpec(3, k=800.0), **options)
+    limit = explicit_limit(names[0], own, lumped.given(own))
+    assert limit < 0.7 * explicit_limit(names[0], own, springs)
+    assert [row.step for row in found.rows] == [pytest.approx(share * limit) for share in SHARES]
+    assert all(row.status == "converged" for row in (*found.rows, *k_given.rows))
+    assert k_given.lattice == "lumped 3×3×2 uniform"
+
+
+def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until_a_row_converges(
+    tmp_path: Path,
+) -> None:
+    """A soft strip of 120 by 40 mm swings in 1.8 s while it is flat, in a quarter of that where it hangs."""
+    sheet = Sheet(length_x=0.12, length_y=0.04, thickness=0.002)
+    material = Material(young=0.6e6, poisson=0.45, density=1100.0)
+    strip = Scene(
+        name="strip",
+        sheet=sheet,
+        material=material,
+        gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
+        support=(Clamped(edge="x0"),),
+    )
+    springs = lumped.calibrate(sheet, material, grid=3)
+    flat = 1.0 / float(lumped.modes(strip, springs, 1, springs.masses).frequencies[0])
+    options = {"lattice": LatticeSpec(3), "integrators": ("esdirk",), "reference": 800, "pool": Here}
+    with campaign(tmp_path) as store:
+        found = dynamic_tradeoff(strip, 0.1, store, divisions=(4,), **options)
+    assert found.lowest_period < 0.5 * flat
+    assert any(row.status == "converged" for row in found.rows)
+    assert len(found.rows) == 1 or found.rows[0].status != "converged"
+
+
+def test_equal_complaints_are_one_line() -> None:
+    ended = [
+        MotionRow("esdirk", step, "diverged", f"at {time} s: use smaller steps")
+        for step, time in ((0.02, 0.1), (0.01, 0.2))
+    ]
+    fine = MotionRow("esdirk", 0.005, "converged", "")
+    other = MotionRow("midpoint", 0.02, "diverged", "use smaller steps")
+    assert folded([*ended, fine, other]) == (
+        "esdirk, steps 20, 10 ms: diverged: use smaller steps",
+        "midpoint, step 20 ms: diverged: use smaller steps",
+    )
+
+
+def test_times_under_load_and_samples_that_scatter_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("os.cpu_count", lambda: 2)
+    assert load.warnings([0.5, 2.0, None], [(1.0, 1.9), (1.0,)]) == []
+    busy, wide = load.warnings([0.5, 20.0], [(1.0, 3.0), (1.0, 1.1)])
+    assert busy.startswith("1 of 2 times were taken under a load of up to 20 on 2 processors")
+    assert wide.startswith("samples of 1 of 2 times scatter by more than 2, by up to 3")

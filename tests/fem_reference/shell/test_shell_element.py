@@ -1,0 +1,286 @@
+"""The shell element: derivatives, rigid motions, zero modes, constant strain on a distorted mesh."""
+
+import numpy as np
+import pytest
+from cases import RUBBER, SHEET
+from scipy.spatial.transform import Rotation
+from skfem import Basis, ElementQuad2, MeshQuad
+
+from fem_reference.plate import statics as plate
+from fem_reference.shell import statics as shell
+from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
+from fem_reference.shell.element import Element, strain_of
+from fem_reference.shell.state import State
+from fem_reference.shell.statics import discretise
+from fem_reference.shell.validity import membrane_strain
+from fem_reference.solid import statics as solid
+from fem_reference.solving.newton import TOLERANCE
+from fem_reference.surface.loads import FollowerMoment, FollowerPressure, Line, area_force, orientation
+from fem_reference.surface.materials import section_of
+from fem_reference.surface.mesh import rectangle
+from sheetbench import scenes
+from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Hinged, Pressure, Scene, Sheet
+
+pytestmark = pytest.mark.smoke
+
+
+def distorted(elements=3, by=0.2, seed=0) -> MeshQuad:
+    """The sheet's mesh with its inner vertices moved by up to `by` of an element."""
+    mesh = rectangle(SHEET, elements)
+    p = mesh.p.copy()
+    inner = mesh.interior_nodes()
+    p[:, inner] += (
+        by * SHEET.length_x / elements * np.random.default_rng(seed).uniform(-1, 1, (2, len(inner)))
+    )
+    moved = MeshQuad(p, mesh.t)
+    return moved.with_boundaries({name: facets for name, facets in mesh.boundaries.items()})
+
+
+def build(mesh: MeshQuad, thickness=SHEET.thickness, material=RUBBER):
+    basis = Basis(mesh, ElementQuad2())
+    nodes, element_nodes = basis.doflocs.T, basis.element_dofs.T
+    return Element.build(nodes[element_nodes], section_of(material, thickness)), nodes, element_nodes
+
+
+def scene(supports=(), loads=(), **more) -> Scene:
+    return Scene(
+        name="t", sheet=SHEET, material=RUBBER, supports=supports, loads=loads, probes={"A": (0, 0)}, **more
+    )
+
+
+def random_state(structure, size=1.0, seed=1) -> State:
+    """Any positions, unit directors within about 45° of e_z."""
+    rng = np.random.default_rng(seed)
+    change = np.zeros((2, structure.count, 3))
+    change[0] = size * 0.02 * rng.uniform(-1, 1, (structure.count, 3))
+    director = np.array([0, 0, 1.0]) + size * 0.5 * rng.uniform(-1, 1, (structure.count, 3))
+    change[1] = director / np.linalg.norm(director, axis=1, keepdims=True) - [0, 0, 1.0]
+    return State(change)
+
+
+def test_strains_are_the_derivative_of_themselves():
+    element, _, _ = build(distorted())
+    rng = np.random.default_rng(2)
+    change = rng.uniform(-0.5, 0.5, element.reference.shape)
+    step = rng.uniform(-1, 1, change.shape)
+    t = 1e-3
+    difference = (element.strain(change + t * step) - element.strain(change - t * step)) / (2 * t)
+    exact = strain_of(element.reference + change, step)
+    np.testing.assert_allclose(difference, exact, rtol=1e-9, atol=1e-9 * np.abs(exact).max())
+
+
+def test_the_internal_force_is_the_derivative_of_the_energy():
+    structure, _ = discretise(distorted(), scene())
+    state = random_state(structure)
+    step = np.random.default_rng(3).uniform(-1, 1, state.change.shape)
+    t = 1e-6
+    energy = [sum(structure.energies(State(state.change + s * t * step)).values()) for s in (1, -1)]
+    force = structure.forces(state, 0.0).residual
+    assert (energy[0] - energy[1]) / (2 * t) == pytest.approx(np.sum(force * step), rel=1e-7)
+
+
+LOADS = {
+    "dead": (),
+    "pressure": (Pressure(value=2e5),),
+    "moment": (EdgeLoad(edge="x1", moment_per_length=30.0), EdgeLoad(edge="y0", moment_per_length=-20.0)),
+}
+
+
+@pytest.mark.parametrize("loads", LOADS.values(), ids=LOADS)
+def test_the_tangent_is_the_derivative_of_the_force_on_unit_directors(loads):
+    """Along the sphere: the difference is taken on normalised directors, projected on the tangent planes."""
+    structure, _ = discretise(distorted(), scene(loads=loads, gravity=Gravity(acceleration=(0, 0, -9.81))))
+    state = random_state(structure, 0.5)
+    frames = structure.frames(state)
+    matrix, _ = structure.system(state, structure.forces(state, 1.0), 1.0, mixed=False)
+    rng = np.random.default_rng(4)
+    for _ in range(3):
+        step = rng.uniform(-1, 1, structure.unknowns)
+        full = step.reshape(-1, 5)
+        rows = []
+        for t in (1e-6, -1e-6):
+            change = state.change.copy()
+            change[0] += t * full[:, :3]
+            director = change[1] + [0, 0, 1.0] + t * np.einsum("nck,nk->nc", frames, full[:, 3:])
+            # on the sphere the projected force is T(d)ᵀ R(d); parallel transport differs in second order only
+            director /= np.linalg.norm(director, axis=1, keepdims=True)
+            change[1] = director - [0, 0, 1.0]
+            residual = structure.forces(State(change), 1.0).residual
+            couple = residual[1] - np.einsum("nc,nc->n", residual[1], director)[:, None] * director
+            rows.append(
+                np.concatenate([residual[0], np.einsum("nc,nck->nk", couple, frames)], axis=1).ravel()
+            )
+        difference = (rows[0] - rows[1]) / 2e-6
+        np.testing.assert_allclose(matrix @ step, difference, rtol=1e-6, atol=1e-6 * np.abs(difference).max())
+    assert (abs(matrix - matrix.T).max() < 1e-9 * abs(matrix).max()) == (not loads)
+
+
+def test_the_linear_step_honours_constraints_and_extrapolates_the_stress():
+    structure, _ = discretise(distorted(), scene(supports=(Clamped(edge="x0"),), loads=LOADS["pressure"]))
+    state = random_state(structure, 0.01)
+    stretched = State(state.change * 1.01)
+    forces = structure.forces(stretched, 1.0)
+    matrix, rows = structure.system(stretched, forces, 1.0)
+    following = structure.advance(stretched, forces, 1.0, np.linalg.solve(matrix.toarray(), rows))
+    director = stretched.change[1] + [0, 0, 1.0]
+    step = following.change - stretched.change
+    square = np.einsum("nc,nc->n", director, director)
+    free = ~structure.supports.director
+    np.testing.assert_allclose(
+        np.einsum("nc,nc->n", director, step[1])[free], (0.5 * (1 - square))[free], atol=1e-13
+    )
+    np.testing.assert_allclose(following.change[:, structure.supports.director], 0.0, atol=1e-14)
+
+
+def test_rigid_motions_cost_nothing():
+    element, _, _ = build(distorted())
+    turn = Rotation.from_rotvec([0.7, -1.1, 2.0]).as_matrix()
+    vectors = element.reference @ turn.T
+    vectors[:, :9] += [0.3, -0.2, 0.5]
+    assert np.abs(element.strain(vectors - element.reference)).max() < 1e-15
+
+
+@pytest.mark.parametrize("mesh", [distorted(1, 0), distorted(2), distorted(3)], ids=["one", "four", "nine"])
+@pytest.mark.parametrize("thickness", [0.003, 0.03])
+def test_the_free_sheet_has_exactly_six_zero_modes(mesh, thickness):
+    thick = Scene(name="t", sheet=Sheet(length_x=0.188, length_y=0.188, thickness=thickness), material=RUBBER)
+    structure, _ = discretise(mesh, thick)
+    matrix, _ = structure.system(structure.rest(), structure.forces(structure.rest(), 0.0), 0.0)
+    scale = np.where(
+        np.arange(structure.unknowns) % 5 < 3, 1.0, 1.0 / thickness
+    )  # a rotation counts as a thickness
+    eigenvalues = np.linalg.eigvalsh(scale[:, None] * matrix.toarray() * scale)
+    assert np.all(np.abs(eigenvalues[:6]) < 1e-12 * eigenvalues[-1])
+    assert eigenvalues[6] > 1e-7 * eigenvalues[-1]
+
+
+@pytest.mark.parametrize("support", [Clamped(edge="x0"), Hinged(edge="x0")], ids=["clamped", "hinged"])
+def test_no_spurious_mode_when_held(support):
+    """The lowest eigenvalue of a held sheet is that of a physical mode: it does not fall on refinement."""
+    hinged = (support, Hinged(edge="y1")) if support.kind == "hinged" else (support,)
+    lowest = []
+    for elements in (3, 6):
+        structure, _ = discretise(rectangle(SHEET, elements), scene(supports=hinged))
+        matrix, _ = structure.system(structure.rest(), structure.forces(structure.rest(), 0.0), 0.0)
+        areas = area_force(structure.element.areas, structure.element_nodes, structure.count, np.ones(1))
+        mass = np.concatenate(
+            [np.repeat(areas, 3, axis=1), np.repeat(areas * SHEET.thickness**2 / 12, 2, axis=1)], 1
+        )
+        scale = 1.0 / np.sqrt(mass[structure.number >= 0])
+        lowest.append(np.linalg.eigvalsh(scale[:, None] * matrix.toarray() * scale)[:6])
+    assert np.all(lowest[1] > 0.9 * lowest[0]) and np.all(lowest[1] < 1.1 * lowest[0])
+
+
+def test_patch_of_constant_strain_on_a_distorted_mesh():
+    """Linear displacement: constant membrane strain. Constant shear of the director: constant γ. Exactly."""
+    element, _, _ = build(distorted(3, 0.3))
+    stretch = np.array([[2e-3, 1e-3, 0.0], [-3e-3, 1.5e-3, 0.0], [0.0, 0.0, 0.0]])
+    vectors = element.reference.copy()
+    vectors[:, :9] += element.reference[:, :9] @ stretch.T
+    strain = element.strain(vectors - element.reference)
+    gradient = (np.eye(3) + stretch)[:, :2]
+    green = 0.5 * (gradient.T @ gradient - np.eye(2))
+    voigt = np.array([green[0, 0], green[1, 1], 2 * green[0, 1]])
+    modulus = RUBBER.young / (1 - 0.48**2) * np.array([[1, 0.48, 0], [0.48, 1, 0], [0, 0, 0.26]])
+    expected = 0.5 * SHEET.thickness * voigt @ modulus @ voigt * element.areas.sum()
+    assert 0.5 * np.sum(strain * element.stress(strain)) == pytest.approx(expected, rel=1e-12)
+
+    vectors = element.reference.copy()
+    vectors[:, 9:] += [1e-3, -2e-3, 0.0]
+    strain = element.strain(vectors - element.reference)
+    shear = 5 / 6 * SHEET.thickness * RUBBER.young / (2 * 1.48)
+    expected = 0.5 * shear * (1e-6 + 4e-6) * element.areas.sum()
+    assert 0.5 * np.sum(strain * element.stress(strain)) == pytest.approx(expected, rel=1e-12)
+
+
+def test_patch_equilibrium_of_constant_stress():
+    """Under a constant stress the inner nodes of a distorted mesh are in balance."""
+    mesh = distorted(3, 0.3)
+    structure, nodes = discretise(mesh, scene())
+    change = np.zeros((2, structure.count, 3))
+    change[0, :, :2] = 1e-9 * nodes @ np.array([[1.0, 0.3], [0.3, -2.0]])
+    residual = structure.forces(State(change), 0.0).residual
+    inner = np.all((nodes > 1e-9) & (nodes < 0.188 - 1e-9), axis=1)
+    assert np.abs(residual[0][inner]).max() < 1e-11 * np.abs(residual[0]).max()
+
+
+@pytest.mark.parametrize("stretched", [(0.02, -0.01), (-0.01, 0.02)])
+def test_how_far_a_patch_is_stretched(stretched):
+    structure, nodes = discretise(rectangle(SHEET, (2, 3)), scene())
+    change = np.zeros((2, structure.count, 3))
+    change[0, :, :2] = nodes * stretched
+    assert membrane_strain(structure, State(change)) == pytest.approx(0.02, rel=1e-10)
+
+
+def test_patch_of_constant_bending():
+    """w = −½ κ x² with its directors, linearised: the exact energy, no shear, the inside in balance."""
+    structure, nodes = discretise(distorted(3, 0.3), scene())
+    kappa = 1e-9
+    change = np.zeros((2, structure.count, 3))
+    change[0, :, 2] = -0.5 * kappa * nodes[:, 0] ** 2
+    change[1, :, 0] = kappa * nodes[:, 0]
+    energies = structure.energies(State(change))
+    rigidity = RUBBER.young * SHEET.thickness**3 / 12 / (1 - 0.48**2)
+    assert energies["bending"] == pytest.approx(0.5 * rigidity * kappa**2 * 0.188**2, rel=1e-9)
+    assert energies["shear"] < 1e-12 * energies["bending"]
+    residual = structure.forces(State(change), 0.0).residual
+    inner = np.all((nodes > 1e-9) & (nodes < 0.188 - 1e-9), axis=1)
+    assert np.abs(residual[1][inner]).max() < 1e-9 * np.abs(residual[1]).max()
+
+
+@pytest.mark.parametrize("kind", ["pressure", "moment"])
+def test_follower_tangents_are_exact(kind):
+    mesh = distorted()
+    element, nodes, element_nodes = build(mesh)
+    load = (
+        FollowerPressure(3.0, orientation(nodes[element_nodes]))
+        if kind == "pressure"
+        else FollowerMoment(2.0, Line.along(mesh, mesh.boundaries["x1"], nodes[element_nodes]))
+    )
+    rng = np.random.default_rng(5)
+    vectors = (element.reference + 0.02 * rng.uniform(-1, 1, element.reference.shape))[load.elements]
+    step = rng.uniform(-1, 1, vectors.shape)
+    t = 1e-6
+    difference = (load.force(vectors + t * step) - load.force(vectors - t * step)) / (2 * t)
+    exact = np.einsum("eicjd,ejd->eic", load.tangent(vectors), step)
+    np.testing.assert_allclose(exact, difference, atol=1e-6 * np.abs(exact).max())
+
+
+def test_an_inverted_element_is_refused_by_every_reference():
+    mesh = rectangle(SHEET, 2)
+    p = mesh.p.copy()
+    p[:, mesh.interior_nodes()] += 0.12
+    folded = MeshQuad(p, mesh.t).with_boundaries(mesh.boundaries)
+    with pytest.raises(ValueError, match="of the mesh is inverted"):
+        build(folded)
+    asked = scenes.load("one-edge-clamped")
+    for solve_on in (plate.solve_on, shell.solve_on, solid.solve_on):
+        with pytest.raises(ValueError, match="of the mesh is inverted"):
+            solve_on(folded, asked)
+
+
+def test_directors_are_brought_to_unit_length_and_turn_across_themselves():
+    """Of length s, the step is Newton's for s² = 1, to (s² + 1)/2s; tangents are orthonormal, whatever s."""
+    rng = np.random.default_rng(7)
+    unit = rng.normal(size=(6, 3))
+    unit /= np.linalg.norm(unit, axis=1, keepdims=True)
+    lengths = np.array([0.5, 0.9, 1.0, 1.001, 1.5, 3.0])
+    directors = lengths[:, None] * unit
+    np.testing.assert_allclose(
+        directors + to_unit(directors), ((lengths**2 + 1.0) / (2.0 * lengths))[:, None] * unit, rtol=1e-14
+    )
+    frames = tangent_frames(directors, np.full(len(directors), -1))
+    whole = np.concatenate([frames, unit[:, :, None]], axis=2)
+    np.testing.assert_allclose(whole.swapaxes(1, 2) @ whole, np.tile(np.eye(3), (6, 1, 1)), atol=1e-14)
+    couple = rng.normal(size=(6, 3))
+    held = couple + multiplier(directors, couple)[:, None] * directors
+    np.testing.assert_allclose(np.einsum("nc,nc->n", held, directors), 0.0, atol=1e-13)
+
+
+def test_directors_of_the_bent_sheet_are_unit_vectors():
+    """To the tolerance of Newton's method, turned by up to a right angle and stressed."""
+    up = EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, 20.0), moment_per_length=1.0)
+    found = shell.solve(scene((Clamped(edge="x0"),), (up,)), 4)
+    directors = found.mesh.point_data["director"]
+    assert directors[:, 2].min() < 0.5
+    np.testing.assert_allclose(np.linalg.norm(directors, axis=1), 1.0, atol=TOLERANCE)

@@ -1,0 +1,161 @@
+"""The sparse direct solver with rslab and without, and the adaptive tracing of an awkward structure."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from scipy.sparse import csr_matrix, random_array
+
+import fem_reference.shell.statics
+import sheetbench.numerics.direct
+from fem_reference.solving.equilibrium import trace
+from fem_reference.solving.newton import Start
+from sheetbench import scenes
+from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
+from sheetbench.numerics.stability import nearest_to_zero
+from sheetbench.scenes import Status
+
+pytestmark = pytest.mark.smoke
+
+
+def indefinite(n=120, negative=17) -> csr_matrix:
+    noise = random_array((n, n), density=0.03, rng=np.random.default_rng(1))
+    diagonal = np.where(np.arange(n) < negative, -50.0, 50.0)
+    matrix = csr_matrix(noise + noise.T) + csr_matrix(np.diag(diagonal))
+    matrix.sum_duplicates()
+    matrix.sort_indices()
+    return matrix
+
+
+@pytest.fixture(params=["rslab", "superlu"])
+def library(request, monkeypatch):
+    """Factors by rslab, and without it."""
+    if request.param == "superlu":
+        monkeypatch.setattr(sheetbench.numerics.direct, "rslab", None)
+
+
+@pytest.mark.parametrize("symmetric", [True, False])
+def test_solves_and_tells_the_inertia(library, symmetric):
+    matrix, b = indefinite(), np.arange(120.0)
+    solver = DirectSolver(symmetric)
+    for scale in (1.0, 3.0):  # the second time on the analysis of the first
+        factor = solver.factor(matrix * scale)
+        np.testing.assert_allclose(scale * (matrix @ factor.solve(b)), b, atol=1e-9)
+        assert factor.inertia == ((103, 17, 0) if symmetric else None)
+
+
+def test_the_inertia_is_told_where_a_diagonal_is_small(library):
+    factor = DirectSolver().factor(csr_matrix(np.array([[1.0, 2.0], [2.0, 1.0]])))
+    assert factor.inertia == (1, 1, 0)  # eigenvalues 3 and −1
+
+
+@pytest.mark.parametrize("entry", [1.0, np.nan], ids=["singular", "not finite"])
+def test_refuses_what_it_cannot_solve(library, entry):
+    matrix = csr_matrix(np.array([[1.0, entry, 0.0], [entry, 1.0, 0.0], [0.0, 0.0, 2.0]]))
+    with pytest.raises(SingularMatrixError):
+        DirectSolver().factor(matrix).solve(np.array([1.0, 2.0, 3.0]))
+
+
+def test_the_shell_does_without_rslab(monkeypatch):
+    scene = scenes.load("two-edges-clamped")
+    with_it = fem_reference.shell.statics.solve(scene, 4)
+    monkeypatch.setattr(sheetbench.numerics.direct, "rslab", None)
+    without = fem_reference.shell.statics.solve(scene, 4)
+    assert without.status is Status.CONVERGED and without.message == ""
+    assert without.iterations == with_it.iterations
+    points = scene.probe_points()
+    np.testing.assert_allclose(
+        without.displacement(points), with_it.displacement(points), rtol=1e-9, atol=1e-12
+    )
+
+
+@dataclass
+class Spring:
+    """One unknown with force f(u) = λ: whatever the test wants it to be."""
+
+    force: object
+    slope: object
+    symmetric: bool = True
+
+    def rest(self):
+        return 0.0
+
+    def forces(self, u, load_factor):
+        return Balance(self.force(u) - load_factor)
+
+    def imbalance(self, u, forces):
+        return abs(forces.residual)
+
+    def gap(self, u, load_factor):
+        return 0.0
+
+    def system(self, u, forces, load_factor, mixed=True):
+        return csr_matrix(([self.slope(u)], ([0], [0]))), np.array([-forces.residual])
+
+    def advance(self, u, forces, load_factor, step):
+        return u + step[0]
+
+    def length(self, start, end):
+        return abs(end - start)
+
+
+@dataclass
+class Balance:
+    residual: float
+    size: float = 1.0
+
+
+def test_steps_shrink_where_one_step_does_not_converge():
+    """f = atan 8(u − 0.4) + atan 3.2: soft, stiff, soft; Newton in one step flies off the far end."""
+    whole = np.arctan(8 * 0.8) + np.arctan(3.2)
+
+    def force(u):
+        return (np.arctan(8 * (u - 0.4)) + np.arctan(3.2)) / whole
+
+    path = trace(Spring(force, lambda u: 8 / (1 + 64 * (u - 0.4) ** 2) / whole), DirectSolver())
+    assert path.status is Status.CONVERGED and path.load_factor == 1.0
+    assert path.state == pytest.approx(1.2, rel=1e-6)
+    assert any(entry.load_factor < 1.0 for entry in path.history)
+
+
+def test_a_limit_point_ends_with_its_load_and_a_status():
+    """f = u (1 − u) · 2: no equilibrium beyond λ = ½."""
+    path = trace(Spring(lambda u: 2 * u * (1 - u), lambda u: 2 - 4 * u), DirectSolver())
+    assert path.status in (Status.DIVERGED, Status.STEP_LIMIT, Status.SINGULAR)
+    assert 0.45 < path.load_factor <= 0.5
+    assert "load factor" in path.notes[-1]
+
+
+def test_a_start_close_to_an_unstable_equilibrium_is_left_for_the_path_from_rest():
+    """f = 4 u − 2 u² = 1 at u = 1 ∓ √½."""
+    spring = Spring(lambda u: 4 * u - 2 * u**2, lambda u: 4 - 4 * u)
+    for near in (0.29, 1.7, 1.0):
+        path = trace(spring, DirectSolver(), near=Start(near, 1.0, near, 1.0))
+        assert path.status is Status.CONVERGED and path.state == pytest.approx(1 - np.sqrt(0.5), rel=1e-8)
+
+
+def test_overflow_is_told():
+    path = trace(Spring(lambda u: np.inf if u else 0.0, lambda u: 1.0), DirectSolver())
+    assert path.status is Status.NON_FINITE and path.load_factor == 0.0
+
+
+@pytest.mark.parametrize("slope, status", [(-1.0, Status.UNSTABLE), (1.0, Status.CONVERGED)])
+def test_the_end_is_checked_for_stability(slope, status):
+    path = trace(Spring(lambda u: slope * u, lambda u: slope), DirectSolver())
+    assert path.status is status
+    assert path.factorisations == 2
+
+
+@pytest.mark.parametrize("slope, status", [(-1.0, Status.UNSTABLE), (1.0, Status.CONVERGED)])
+def test_the_end_is_checked_under_follower_loads_too(slope, status):
+    path = trace(Spring(lambda u: slope * u, lambda u: slope, symmetric=False), DirectSolver(symmetric=False))
+    assert path.status is status
+
+
+def test_the_eigenvalues_nearest_to_zero_of_an_unsymmetric_matrix():
+    noise = np.triu(np.random.default_rng(2).uniform(-1, 1, (60, 60)), 1)
+    values = np.concatenate([[-0.5, 1.0, 2.0, 3.0, 4.0, 5.0], np.arange(50.0, 104.0)])
+    matrix = csr_matrix(noise + np.diag(values))
+    lowest = nearest_to_zero(matrix, DirectSolver(symmetric=False).factor(matrix).solve, 6)
+    assert lowest is not None
+    np.testing.assert_allclose(np.sort(lowest.real), values[:6], rtol=1e-8)

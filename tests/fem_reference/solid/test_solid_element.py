@@ -1,0 +1,223 @@
+"""The solid's element: laws, bricks, zero modes, patch tests, the tangent of the bent structure."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+import pytest
+from skfem import ElementHex2, MeshQuad
+from solid_cases import block
+
+from fem_reference.solid import statics as solid
+from fem_reference.solid.element import Bricks, geometric, reference, shape
+from fem_reference.solid.materials import LAWS, PAIRS, lame
+from fem_reference.solid.structure import State
+from fem_reference.solid.supports import into_forces, vectors
+from fem_reference.surface.mesh import rectangle
+from sheetbench.numerics.direct import solve_free
+from sheetbench.scenes import Material, Scene, Sheet
+
+pytestmark = pytest.mark.smoke
+
+
+def distorted() -> MeshQuad:
+    mesh = MeshQuad.init_tensor(*2 * [np.linspace(0.0, 1.0, 4)])
+    mesh = mesh.with_boundaries(rectangle(block().sheet, 3).boundaries)
+    moved, inner = mesh.p.copy(), mesh.interior_nodes()
+    moved[:, inner] += np.random.default_rng(3).uniform(-0.08, 0.08, (2, len(inner)))
+    return MeshQuad(moved, mesh.t).with_boundaries(mesh.boundaries)
+
+
+@pytest.fixture
+def rng():
+    return np.random.default_rng(5)
+
+
+def warped(rng) -> np.ndarray:
+    """A thin brick with straight edges but no parallel faces, (1, 27, 3)."""
+    x, y, z = ElementHex2.doflocs.T
+    corner = np.array([2.0 * x, y, 0.2 * z])
+    twist = np.array([0.2 * x * y + 0.1 * y * z, 0.15 * x * y * z, 0.03 * x * y])
+    return (corner + twist).T[None]
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("part", ["distortion", "volume"])
+def test_laws_are_triads(law, part, rng):
+    """Stress is the slope of energy, tangent the slope of stress."""
+    function, strain, step = getattr(LAWS[law], part), 0.1 * rng.normal(size=(4, 6)), 1e-6
+    _, first, second = function(strain)
+    for i, direction in enumerate(np.eye(6)):
+        up, down = function(strain + step * direction), function(strain - step * direction)
+        np.testing.assert_allclose((up.value - down.value) / (2 * step), first[:, i], atol=1e-7)
+        np.testing.assert_allclose((up.first - down.first) / (2 * step), second[:, :, i], atol=1e-6)
+
+
+def test_laws_agree_at_small_strain():
+    """Value, stress and stiffness at rest are those of linear elasticity in both."""
+    rest = np.zeros((1, 6))
+    green, neo = LAWS["st-venant-kirchhoff"], LAWS["neo-hookean"]
+    for part in ("distortion", "volume"):
+        one, other = getattr(green, part)(rest), getattr(neo, part)(rest)
+        np.testing.assert_allclose(one.value, other.value)
+        np.testing.assert_allclose(one.first, other.first)
+    np.testing.assert_allclose(green.distortion(rest).second, neo.distortion(rest).second)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("poisson", [0.3, 0.4999])
+def test_brick_energy_residual_tangent(law, poisson, rng):
+    bricks = Bricks.build(warped(rng), LAWS[law], lame(Material(young=1.0, poisson=poisson, density=1.0)))
+    u = 0.02 * rng.normal(size=(1, 27, 3)) * [1.0, 1.0, 0.2]
+    direction, step = rng.normal(size=u.shape) * [1.0, 1.0, 0.2], 1e-7
+
+    def energy(u):
+        return sum(bricks.energies(bricks.strain(u)))
+
+    def residual(u):
+        return np.einsum("ekic,ek->eic", bricks.gradient(u), bricks.stress(bricks.strain(u)))
+
+    slope = (energy(u + step * direction) - energy(u - step * direction)) / (2 * step)
+    assert slope == pytest.approx(np.sum(residual(u) * direction), rel=1e-5)
+    gradient = bricks.gradient(u)
+    strain = np.einsum("ekic,eic->ek", gradient, direction)
+    pull = np.einsum("ekl,el->ek", bricks.stiffness(bricks.strain(u)), strain)
+    exact = np.einsum("ekic,ek->eic", gradient, pull) + geometric(bricks.stress(bricks.strain(u))) @ direction
+    difference = (residual(u + step * direction) - residual(u - step * direction)) / (2 * step)
+    np.testing.assert_allclose(difference, exact, atol=1e-5 * np.abs(exact).max())
+
+
+# Of the six covariant strains, along which of ξ, η, ζ only linear functions are kept.
+LINEAR = {"ξξ": (0,), "ηη": (1,), "ζζ": (), "ξη": (0, 1), "ηζ": (1,), "ξζ": (0,)}
+
+
+@pytest.mark.parametrize("component", LINEAR)
+def test_assumed_strains_keep_what_does_not_lock(component):
+    """Along a direction of two Gauss points s² is taken for 1/3, its value there; powers up to the second are
+    kept otherwise. The shear in the plane is known at three: what is dropped of it is the rest."""
+    ref, number = reference(), list(LINEAR).index(component)
+    points = 2.0 * ref.points - 1.0
+    for powers in product(range(3), repeat=3):
+        whole = np.prod([x**power for x, power in zip(points, powers, strict=True)], axis=0)
+        linear = [power == 2 and axis in LINEAR[component] for axis, power in enumerate(powers)]
+        parts = zip(points, powers, linear, strict=True)
+        taken = np.prod([np.full_like(x, 1.0 / 3.0) if cut else x**power for x, power, cut in parts], axis=0)
+        samples = np.concatenate([np.prod(at**powers, axis=1) for at in sites()])
+        np.testing.assert_allclose(ref.assumed[:, number] @ samples, taken, atol=1e-13)
+        rest = whole - taken if component == "ξη" else 0.0
+        np.testing.assert_allclose(ref.lost[:, number] @ samples, rest, atol=1e-13)
+
+
+def test_samples_are_green_s_strains_at_the_sites(rng):
+    """½ (x,a · x,b − X,a · X,b), the shears twice, at two or three Gauss points a direction."""
+    bricks = Bricks.build(warped(rng), LAWS["st-venant-kirchhoff"], (1.0, 1.0))
+    change = rng.uniform(-0.1, 0.1, bricks.positions.shape)
+    expected = []
+    for at, (a, b) in zip(sites(), PAIRS, strict=True):
+        _, slope = shape((at.T + 1.0) / 2.0)
+        flat = bricks.positions
+        then, now = (np.einsum("ic,idt->tdc", x[0], slope) for x in (flat, flat + change))
+        green = [0.5 * np.einsum("tc,tc->t", x[:, a], x[:, b]) for x in (now, then)]
+        expected.append((1.0 if a == b else 2.0) * (green[0] - green[1]))
+    np.testing.assert_allclose(bricks.strain(change)[0], np.concatenate(expected), atol=1e-14)
+
+
+def sites() -> list[np.ndarray]:
+    """Where each covariant strain is sampled, (k, 3) in [−1, 1]³: at two points along what locks, else three;
+    but the shear in the plane at three, and it is projected."""
+    two, three = np.array([-1.0, 1.0]) / np.sqrt(3.0), np.array([-1.0, 0.0, 1.0]) * np.sqrt(0.6)
+    along = [[two, three], [three, two], [three, three], [three, three], [three, two], [two, three]]
+    return [np.array(list(product(*plan, three))) for plan in along]
+
+
+@pytest.mark.parametrize("stretched", [1.0, 20.0])
+def test_constant_strain_is_exact_in_a_warped_brick(stretched, rng):
+    """A homogeneous finite deformation gives its Green–Lagrange strain at every Gauss point."""
+    bricks = Bricks.build(warped(rng) * [stretched, 1.0, 1.0], LAWS["neo-hookean"], (1.0, 1.0))
+    f = np.eye(3) + 0.2 * rng.normal(size=(3, 3))
+    strain = 0.5 * (f.T @ f - np.eye(3))
+    samples = bricks.strain(bricks.positions @ (f - np.eye(3)).T)
+    voigt = [strain[0, 0], strain[1, 1], strain[2, 2], 2 * strain[0, 1], 2 * strain[1, 2], 2 * strain[0, 2]]
+    np.testing.assert_allclose(bricks.to_strain[0] @ samples[0] - voigt, 0.0, atol=1e-12 * stretched)
+    ratio = bricks.volume_ratio(bricks.positions @ (f - np.eye(3)).T)
+    np.testing.assert_allclose(ratio, np.linalg.det(f))
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_rigid_motion_costs_nothing(law, rng):
+    structure = solid.discretise(distorted(), block(0.05, poisson=0.49), law=law)
+    rotation = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    rotation *= np.sign(np.linalg.det(rotation))
+    x = structure.columns.positions
+    state = State(x @ rotation.T - x + [0.3, -0.2, 0.1])
+    assert max(abs(e) for e in structure.energies(state).values()) < 1e-10  # J, of a sheet with E V = 5e4 J
+    assert np.abs(structure.forces(state, 1.0).residual).max() < 1e-7  # N, with E h a = 5e4 N
+
+
+@pytest.mark.parametrize(("thickness", "layers"), [(1.0, 1), (0.01, 1), (0.2, 2)])
+@pytest.mark.parametrize("poisson", [0.0, 0.3, 0.4999])
+@pytest.mark.parametrize("mesh", ["one", "distorted"])
+def test_six_zero_modes(thickness, layers, poisson, mesh):
+    """The free solid has six rigid motions and no spurious mode."""
+    plan = distorted() if mesh == "distorted" else rectangle(block().sheet, 1)
+    structure = solid.discretise(plan, block(thickness, poisson), layers)
+    rest = structure.rest()
+    stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0)
+    values = np.linalg.eigvalsh(stiffness.toarray()) / (1.0e6 * thickness)
+    assert np.sum(np.abs(values) < 1e-8) == 6
+    assert values[6] > 2e-3 * thickness**2
+
+
+@pytest.mark.parametrize("poisson", [0.0, 0.3, 0.4999])
+@pytest.mark.parametrize("layers", [1, 2])
+def test_patch_of_plane_stress(poisson, layers):
+    """Uniaxial stress prescribed on the rim of a distorted mesh is found inside, faces free."""
+    structure = solid.discretise(distorted(), block(0.1, poisson), layers)
+    exact = structure.columns.positions * [1e-3, -1e-3 * poisson, -1e-3 * poisson]
+    exact[..., 0] += 4e-4 * structure.columns.positions[..., 1]  # and a rotation with shear
+    exact[..., 1] += 4e-4 * structure.columns.positions[..., 0]
+    rest = structure.rest()
+    stiffness, _ = structure.system(rest, structure.forces(rest, 0.0), 0.0)
+    free = np.ones(exact.shape, dtype=bool)
+    free[structure.columns.plan.get_dofs().flatten()] = False
+    free = np.flatnonzero(free)
+    u = solve_free(stiffness, np.zeros(exact.size), exact.ravel(), free)
+    np.testing.assert_allclose(u, exact.ravel(), atol=1e-9 * np.abs(exact).max())
+
+
+@pytest.mark.parametrize("layers", [1, 2])
+@pytest.mark.parametrize("law", LAWS)
+def test_tangent_of_the_loaded_and_bent_structure(layers, law, rng):
+    """Residual and tangent with pressure, edge moment, weight and a bent rod, against finite differences."""
+    scene = Scene(
+        name="all",
+        sheet=Sheet(length_x=1.0, length_y=0.8, thickness=0.1),
+        material=Material(young=1e4, poisson=0.4, density=10.0),
+        gravity={"acceleration": [0.0, 1.0, -9.81]},
+        supports=[
+            {"edge": "x0", "kind": "curved", "curvature": 0.8},
+            {"edge": "x1", "kind": "held", "components": ["x"]},
+        ],
+        loads=[
+            {"kind": "pressure", "value": 40.0},
+            {"kind": "edge", "edge": "y1", "force_per_length": (1.0, 2.0, 3.0), "moment_per_length": 2.0},
+            {"kind": "point", "at": (0.4, 0.3), "force": (1.0, -1.0, 0.5)},
+        ],
+    )
+    structure = solid.discretise(rectangle(scene.sheet, (2, 2), graded=True), scene, layers, law)
+    bases = structure.supports.bases(0.7)
+    u = structure.supports.target(0.7) + 2e-3 * rng.normal(size=structure.free.shape)
+    step, local = 1e-6, np.zeros(structure.free.shape)
+    local[structure.free] = rng.normal(size=structure.unknowns)
+    direction = vectors(bases, local)
+
+    def rows(u):
+        forces = structure.forces(State(u), 0.7)
+        return into_forces(bases, forces.residual)[structure.free]
+
+    difference = (rows(u + step * direction) - rows(u - step * direction)) / (2 * step)
+    forces = structure.forces(State(u), 0.7)
+    matrix, _ = structure.system(State(u), forces, 0.7, mixed=False)
+    exact = matrix @ local[structure.free]
+    np.testing.assert_allclose(difference, exact, atol=2e-6 * np.abs(exact).max())

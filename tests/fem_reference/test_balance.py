@@ -1,0 +1,254 @@
+"""Balance: every answer's reactions carry its loads, forces and moments, in every model; and what if not."""
+
+from dataclasses import replace
+from pkgutil import resolve_name
+
+import numpy as np
+import pytest
+from dynamic_cases import scene, springs
+from numpy.testing import assert_allclose
+
+import lumped
+from comparisons.models import registry as models
+from fem_reference.surface.mesh import rectangle
+from sheetbench.scenes import Balance, Status, catalogue, dead_force, load
+
+pytestmark = pytest.mark.smoke
+
+SIDE = 0.188
+CLAMP = {"edge": "x0", "kind": "clamped"}
+LOADS = [
+    {"kind": "point", "at": [0.15, 0.1], "force": [0.1, -0.2, 0.3]},
+    {"kind": "edge", "edge": "x1", "force_per_length": [1.0, 0.5, -1.0], "moment_per_length": 0.05},
+    {"kind": "pressure", "value": 40.0, "history": {"time": [0.0, 1.0], "factor": [1.0, -0.5]}},
+]
+TURNED = {
+    "kind": "motion",
+    "edge": "x1",
+    "time": [0.0],
+    "displacement": [[-0.002, 0.0, 0.01]],
+    "rotation": [[0.0, 0.2, 0.1]],
+}
+CORNERS = [TURNED, {"kind": "motion", "edge": "y0", "time": [0.0], "displacement": [[0.0, 0.0, 0.0]]}]
+
+
+def held(base, **more):
+    """A sheet that nothing holds but the base of a chain on edge x0."""
+    chain = {"edge": "x0", "base": base, "bending_stiffness": 5.0, "curvature": 2.0, **more}
+    return scene(supports=[], actuators=[chain])
+
+
+def sideways(asked):
+    """The scene under a gravity along x, y and z."""
+    return asked.model_copy(update={"gravity": asked.gravity.replace(acceleration=(3.0, -4.0, -8.0))})
+
+
+SCENES = {
+    "clamped, all loads": scene(supports=[CLAMP], loads=LOADS),
+    "tilted and held": scene(
+        supports=[{**CLAMP, "tilt": 0.3}, {"edge": "y1", "kind": "held", "components": ["z"]}],
+        loads=LOADS[:1],
+    ),
+    "hinged all around": scene(
+        supports=[{"edge": e, "kind": "hinged"} for e in ("x0", "x1", "y0", "y1")], loads=LOADS
+    ),
+    "curved": load("curved-edge"),
+    "cut by symmetry": scene(
+        supports=[{**CLAMP, "kind": "curved", "curvature": 2.0}, {"edge": "y1", "kind": "symmetric"}],
+        loads=LOADS[2:],
+    ),
+    "a moved edge": scene(supports=[CLAMP], actuators=[TURNED], loads=LOADS[:1]),
+    "a chain at a held corner": scene(
+        supports=[{"edge": "y0", "kind": "clamped"}],
+        actuators=[{"edge": "x1", "face": "top", "curvature": 4.0}],
+    ),
+    "chains that share a corner": scene(
+        supports=[CLAMP],
+        actuators=[{"edge": "y1", "face": "top", "curvature": 4.0}, {"edge": "x1", "curvature": -2.0}],
+    ),
+    "unequal chains": sideways(
+        scene(
+            supports=[CLAMP],
+            actuators=[{"face": "top", "line_density": 0.02}, {"face": "bottom", "line_density": 0.07}],
+        )
+    ),
+    "held at its start": held("start", face="top"),
+    "held at a joint in the middle": held("middle", plane="spatial"),
+    "held at a segment in the middle": held("middle", segments=7, face="bottom"),
+    "weightless": scene(supports=[CLAMP, {"edge": "x1", "kind": "clamped"}], gravity=False),
+}
+REFERENCES = ("plate", "shell", "solid")
+MODELS = {
+    "lattice": ("lumped", {"grid": (5, 5, 2)}),
+    "graded lattice": ("lumped", {"grid": (5, 5, 2), "grading": 0.6}),
+    "linear lattice": ("lumped", {"grid": (5, 5, 2), "linear": True}),
+    **{name: (name, {"elements": 4}) for name in REFERENCES},
+}
+SHARP = 1e-5  # of all forces, above which no tolerance is: rods are 10⁵ times as stiff as sheets
+
+
+# the linear lattice refuses actuators
+CASES = [(m, n) for m in MODELS for n in SCENES if m != "linear lattice" or not SCENES[n].actuators]
+
+
+@pytest.mark.parametrize(("model", "name"), CASES)
+def test_forces_and_moments_are_in_balance(name, model):
+    asked = SCENES[name]
+    solution = models.solve(asked, MODELS[model][0], **MODELS[model][1])
+    assert solution.status in (Status.CONVERGED, Status.UNSTABLE), solution.message
+    balance = solution.balance
+    assert balance.holds and balance.allowed <= SHARP * balance.size
+    if not any(load.kind == "pressure" for load in asked.loads):
+        carried = sum(solution.reactions.values()) + dead_force(asked)
+        assert_allclose(carried, 0.0, atol=max(1e-8 * balance.size, balance.allowed))
+    assert list(balance.document()) == ["force", "moment", "relative", "holds"]
+
+
+@pytest.mark.parametrize("model", [m for m in MODELS if m != "solid"])  # which is solved whole
+def test_a_part_is_in_balance_and_so_is_the_whole(model):
+    asked = scene(
+        supports=[{"edge": e, "kind": "hinged"} for e in ("x0", "x1", "y0", "y1")],
+        loads=[LOADS[2], {"kind": "point", "at": [SIDE / 2, SIDE / 2], "force": [0.0, 0.0, 0.3]}],
+    )
+    name, settings = MODELS[model]
+    solution = models.solve(asked, name, symmetry=True, **settings)
+    assert solution.settings["symmetry"] == ["x", "y"]
+    assert solution.balance.holds and solution.balance.relative < 1e-8
+
+
+def test_the_image_of_a_force_is_where_a_mirror_puts_it():
+    """A force left over at a point of the part, and the same at the point's image."""
+    at, force = np.array([0.03, 0.05, 0.01]), np.array([1.0, 2.0, -3.0])
+    part = Balance(force, np.cross(at, force), size=1.0, allowed=1e-9, arm=0.2)
+    for axis in (0, 1):
+        flip = np.where(np.arange(3) == axis, -1.0, 1.0)
+        image = flip * at + 2.0 * 0.1 * (np.arange(3) == axis)
+        whole = part.mirrored(axis, 0.1)
+        assert_allclose(whole.force, force + flip * force)
+        assert_allclose(whole.moment, np.cross(at, force) + np.cross(image, flip * force))
+        assert whole.size == 2.0 and not whole.holds
+
+
+def test_no_answer_out_of_balance_is_an_equilibrium():
+    solution = lumped.solve(SCENES["curved"], springs(SCENES["curved"]))
+    off = replace(solution.balance, force=np.array([0.0, 0.0, 1e-3]))
+    found = replace(solution, balance=off)
+    assert found.status is Status.DIVERGED and not found.comparable
+    assert found.message.startswith("forces out of balance by 0.001 N")
+    assert replace(found, model="other").message == found.message  # said once
+
+
+def test_a_reaction_left_out_and_a_wrong_weight_are_found(monkeypatch):
+    asked = SCENES["a moved edge"]
+    monkeypatch.setattr("lumped.actuators.coupling.Coupling.reactions", lambda self, exerted: {})
+    assert lumped.solve(asked, springs(asked)).status is Status.DIVERGED
+    monkeypatch.undo()
+    asked = SCENES["unequal chains"]
+    weight = lumped.actuators.chain.Chain.weight
+    monkeypatch.setattr("lumped.actuators.chain.Chain.weight", lambda self, g: 0.999 * weight(self, g))
+    found = lumped.solve(asked, springs(asked))
+    assert found.status is Status.DIVERGED and "out of balance" in found.message
+
+
+@pytest.mark.parametrize("model", REFERENCES)
+def test_a_mesh_of_any_outline_is_in_balance(model):
+    """Elements that are no parallelograms, on a sheet of another shape than the scene's, under every load."""
+    asked = scene(supports=[CLAMP], loads=[{**LOADS[0], "at": [0.05, 0.1]}, *LOADS[1:]])
+    flat = rectangle(asked.sheet, (3, 2))
+    x, y = flat.p
+    leaning = type(flat)(np.array([x * (1.0 - 2.0 * y), y + 0.2 * x]), flat.t).with_boundaries(
+        flat.boundaries
+    )
+    solve_on = resolve_name(f"fem_reference.{model}.statics").solve_on
+    found = solve_on(leaning, asked)
+    assert found.status is Status.CONVERGED and found.balance.allowed <= SHARP * found.balance.size
+
+
+def _times(factor):
+    """What makes of a function one whose answer is a multiple."""
+    return lambda function: lambda *asked: factor * function(*asked)
+
+
+def _without_couples(weight):
+    """A chain whose weight acts on the mid-line: forces are right, moments are not."""
+
+    def on_mid_line(*asked):
+        out = weight(*asked)
+        out[:, 3:6] = 0.0
+        return out
+
+    return on_mid_line
+
+
+OFF = _times(1.001)
+LOADED, HUNG = "clamped, all loads", "unequal chains"
+FAULTS = {
+    "weight": ("loads.area_force", OFF, LOADED),
+    "force on an edge": ("loads.line_force", OFF, LOADED),
+    "force at a point": ("loads.point_force", OFF, LOADED),
+    "pressure": ("loads.FollowerPressure.force", OFF, LOADED),
+    "moment on an edge": ("loads.FollowerMoment.force", OFF, LOADED),
+    "sense of a moment": ("loads.FollowerMoment.force", _times(-1.0), LOADED),
+    "weight of chains": ("rod._weight", OFF, HUNG),
+    "height of chains": ("rod._weight", _without_couples, HUNG),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("model", REFERENCES)
+def test_no_reference_answers_with_a_load_that_is_not_the_scenes(monkeypatch, model, fault):
+    where, wrong, asked = FAULTS[fault]
+    where = f"fem_reference.surface.{where}"
+    owner, name = where.rsplit(".", 1)
+    monkeypatch.setattr(where, wrong(getattr(resolve_name(owner), name)))
+    found = models.solve(SCENES[asked], model, elements=2)
+    assert found.status is Status.DIVERGED and "out of balance" in found.message
+
+
+@pytest.mark.parametrize("model", REFERENCES)
+def test_no_reference_leaves_a_reaction_out(monkeypatch, model):
+    owner = "solid.supports.ColumnSupports" if model == "solid" else "surface.supports.Supports"
+    found = models.solve(SCENES["a moved edge"], model, elements=2)
+    monkeypatch.setattr(f"fem_reference.{owner}.reactions", lambda *asked: {"x0": found.reactions["x0"]})
+    assert models.solve(SCENES["a moved edge"], model, elements=2).status is Status.DIVERGED
+
+
+@pytest.mark.parametrize("name", catalogue())
+@pytest.mark.parametrize("model", REFERENCES)
+def test_the_references_are_in_balance_on_every_scene_of_the_catalogue(model, name):
+    found = models.solve(load(name), model, elements=2)
+    assert found.status is Status.CONVERGED and found.balance.allowed <= SHARP * found.balance.size
+
+
+@pytest.mark.parametrize(
+    ("model", "options"),
+    [
+        ("plate", {"hard_edges": ("y0", "y1"), "graded": False}),
+        ("shell", {"graded": False}),
+        ("solid", {"clamp": "full", "layers": 2}),
+        ("solid", {"law": "neo-hookean", "grading": "uniform"}),
+    ],
+)
+def test_a_reference_is_in_balance_with_every_option(model, options):
+    found = models.solve(SCENES[LOADED], model, elements=2, **options)
+    assert found.status is Status.CONVERGED and found.balance.allowed <= SHARP * found.balance.size
+
+
+@pytest.mark.parametrize("options", [{"weights": "full"}, {"precision": "single"}, {"branch": "stable"}])
+def test_a_lattice_is_in_balance_with_every_option(options):
+    asked = SCENES["clamped, all loads"]
+    assert lumped.solve(asked, springs(asked), **options).balance.holds
+
+
+def test_springs_that_are_not_central_keep_no_moments_and_are_not_asked_to():
+    uniform = lumped.calibrate(
+        load("one-edge-clamped").sheet, load("one-edge-clamped").material, (5, 5), "uniform"
+    )
+    k = uniform.springs.axial
+    uneven = uniform.springs.model_copy(update={"axial": {"x": k, "y": k, "z": 0.5 * k}})
+    asked = load("one-edge-clamped").model_copy(update={"springs": type(uneven).model_validate(dict(uneven))})
+    solution = lumped.solve(asked, lumped.given(asked, (5, 5, 2)))
+    balance, weight = solution.balance, np.linalg.norm(dead_force(asked))
+    assert solution.status is Status.CONVERGED and balance.holds and not balance.objective
+    assert np.linalg.norm(balance.moment) > 0.01 * weight * SIDE  # 3 % of what the clamp carries
+    assert "keep no moments" in solution.message

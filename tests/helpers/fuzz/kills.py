@@ -1,0 +1,223 @@
+"""`make kills`: campaigns, runs in time and trade-offs, killed at drawn instants and resumed to their end.
+
+    python -m fuzz.kills FOLDER [--campaign 45] [--run 40] [--tradeoff 15] [--seed 1]
+
+A process writes into a folder and gets SIGKILL at an instant drawn between its start and somewhat beyond the
+time that it takes undisturbed; the next process goes on in the same folder, and is killed in turn, until one
+comes to its end. What had been kept by a kill must stand there unchanged ever after, and what stands there at
+the end must be what an undisturbed process leaves: nothing lost, nothing doubled, no partial file. A folder
+that came to its end is a line of FOLDER/kills-SEED.jsonl and is not filled again.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import signal
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from campaigns import Here, rows_in, task
+from dynamic_cases import scene, springs
+
+import lumped
+from comparisons.runs.campaign import campaign, carry_out
+from comparisons.runs.manifest import made_with
+from comparisons.runs.store import FILE
+from fuzz import record
+from sheetbench.files import LOCK
+
+TREE = Path(__file__).resolve().parents[3]
+Kept = dict[str, Any]  # what a folder holds and must go on holding, by name
+TRADEOFF = (
+    *("tradeoff", "two-edges-clamped", "--lumped", "3,4,5", "--lumped-pair", "", "--calibration", "uniform"),
+    *("--plate", "2", "--shell", "2", "--solid", "", "--elements", "4", "--repeats", "1", "--workers", "1"),
+)
+TIMED = ("seconds", "memory", "samples")  # parts of the names of what no two runs have alike
+
+
+def run_campaign(folder: Path) -> None:
+    """Forty runs with long rows, in this process."""
+    with campaign(folder) as store:
+        carry_out([task("ballast", x=x, size=50_000) for x in range(40)], store, pool=Here)
+
+
+def run_in_time(folder: Path) -> None:
+    """A motion with samples, frames and some checkpoints."""
+    asked = scene("one-edge-clamped", damping_time=1e-3)
+    lumped.simulate(asked, springs(asked, 4), 0.06, store=folder, every=2e-4, frames=20, integrator="verlet")
+
+
+def run_tradeoff(folder: Path) -> None:
+    """The command itself, with a worker process."""
+    os.execv(sys.executable, [sys.executable, "-m", "sheetbench", *TRADEOFF, "--out", str(folder)])
+
+
+def rows(folder: Path) -> Kept:
+    """A campaign's rows as they stand, time stamps and all."""
+    return dict(rows_in(folder / FILE))
+
+
+def checkpointed(folder: Path) -> Kept:
+    """The bytes of a run's samples that its checkpoint counts, a thousand at a time."""
+    if not (folder / "checkpoint.npz").exists():
+        return {}
+    with np.load(folder / "checkpoint.npz") as checkpoint:
+        size = int(checkpoint["samples"])
+    content = (folder / "samples.bin").read_bytes()[:size]
+    return {str(at): content[at : at + 1000] for at in range(0, size - 999, 1000)}
+
+
+def answers(folder: Path) -> Kept:
+    """A campaign's rows without what no two runs have alike."""
+    found = {}
+    for key, (_, name, asked, status, row, message, *_) in rows_in(folder / FILE).items():
+        found[key] = (name, asked, status, timeless(json.loads(row)), message)
+    return found
+
+
+def timeless(data: Any) -> Any:
+    """A document without times and memory."""
+    if isinstance(data, dict):
+        return {key: timeless(value) for key, value in data.items() if not any(part in key for part in TIMED)}
+    return [timeless(value) for value in data] if isinstance(data, list) else data
+
+
+def contents(folder: Path) -> Kept:
+    """The files of a run to the last bit."""
+    return {name: (folder / name).read_bytes() for name in ("samples.bin", "frames.bin")}
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What is run in a folder, what must not change there once it is kept, and how it looks at the end."""
+
+    title: str
+    run: Callable[[Path], None]
+    kept: Callable[[Path], Kept]
+    end: Callable[[Path], Kept]
+    kills: int
+
+
+KINDS = {
+    "campaign": Kind("campaigns of forty runs", run_campaign, rows, answers, 45),
+    "run": Kind("runs in time", run_in_time, checkpointed, contents, 40),
+    "tradeoff": Kind("the verb tradeoff with a worker", run_tradeoff, rows, answers, 15),
+}
+
+
+def started(run: Callable[[Path], None], folder: Path) -> int:
+    """A process of its own that runs in a folder, silently."""
+    process = os.fork()
+    if process:
+        return process
+    try:
+        with Path(os.devnull).open("w") as nowhere:
+            os.dup2(nowhere.fileno(), 1)
+            os.dup2(nowhere.fileno(), 2)
+        os.chdir(TREE)
+        run(folder)
+    except BaseException:
+        os._exit(1)
+    os._exit(0)
+
+
+def ended(process: int) -> int:
+    """Its exit status, negative the signal that killed it."""
+    return os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+
+
+def killed(process: int, seconds: float) -> int:
+    """The exit status of a process that is killed after so many seconds, if it still runs."""
+    time.sleep(seconds)
+    os.kill(process, signal.SIGKILL)  # of a child not waited for: it is nobody else
+    return ended(process)
+
+
+def names(folder: Path) -> set[str]:
+    return {str(path.relative_to(folder)) for path in folder.rglob("*") if path.name != LOCK}
+
+
+def undisturbed(kind: Kind, place: Path) -> tuple[Kept, set[str], float]:
+    """What a process leaves that nobody kills, and how long it takes once all kernels are compiled."""
+    for number in range(2):
+        folder, clock = place / f"undisturbed-{number}", time.perf_counter()
+        folder.mkdir()
+        status = ended(started(kind.run, folder))
+        assert status == 0, f"{kind.title}: undisturbed it ends with {status}"
+        seconds = time.perf_counter() - clock
+    return kind.end(folder), names(folder), seconds
+
+
+def chain(kind: Kind, folder: Path, whole: tuple[Kept, set[str], float], instants: random.Random) -> int:
+    """Processes in a folder, killed until one ends; how many were. AssertionError where anything is amiss."""
+    folder.mkdir()
+    kept: Kept = {}
+    for kills in count():
+        status = killed(started(kind.run, folder), instants.uniform(0.0, 1.2) * whole[2])
+        now = kind.kept(folder)
+        lost = [key for key, value in kept.items() if now.get(key) != value]
+        assert not lost, f"lost or changed after {kills} kills: {lost}"
+        kept = now
+        if status != -signal.SIGKILL:
+            break
+    assert status == 0, f"after {kills} kills it ends with {status}"
+    found = kind.end(folder)
+    differing = [key for key in found.keys() | whole[0].keys() if found.get(key) != whole[0].get(key)]
+    assert not differing, f"after {kills} kills other than undisturbed: {differing}"
+    left = names(folder) ^ whole[1]
+    assert not left, f"after {kills} kills other files than undisturbed: {left}"
+    return kills
+
+
+def table(done: list[dict[str, Any]], seed: int) -> str:
+    """Kills of every kind, in Markdown, with the machine and the date."""
+    lines = ["| killed | kills | folders brought to their end | faults |", "|---|---|---|---|"]
+    for name, kind in KINDS.items():
+        mine = [line for line in done if line["kind"] == name]
+        faults = [line["fault"] for line in mine if line["fault"]]
+        lines.append(
+            f"| {kind.title} | {sum(line['kills'] for line in mine)} | {len(mine)} | {len(faults)} |"
+        )
+    return "\n".join([*lines, "", f"Seed {seed}. {made_with()}", ""])
+
+
+def main() -> int:
+    asked = record.asked(__doc__, {name: kind.kills for name, kind in KINDS.items()})
+    done: list[dict[str, Any]] = []
+    with record.opened(asked.folder / f"kills-{asked.seed}.jsonl", "chain") as found:
+        for name, kind in KINDS.items():
+            with tempfile.TemporaryDirectory() as place:
+                whole, kills, wanted = None, 0, getattr(asked, name)
+                for number in count():
+                    if kills >= wanted:
+                        break
+                    line = found.get(name, number)
+                    if line is None or line["fault"]:
+                        whole = whole or undisturbed(kind, Path(place))
+                        instants = random.Random(f"{asked.seed} {name} {number}")
+                        line = {"kind": name, "chain": number, "kills": 0, "fault": ""}
+                        try:
+                            line["kills"] = chain(kind, Path(place) / str(number), whole, instants)
+                        except AssertionError as fault:
+                            line |= {"kills": 1, "fault": str(fault)}
+                        found.add(line)
+                    done.append(line)
+                    kills += line["kills"]
+                    print(f"{name}: {kills}/{wanted} {line['fault']}", file=sys.stderr)
+    said = table(done, asked.seed)
+    (asked.folder / "kills.md").write_text(said, encoding="utf-8")
+    print(said)
+    return int(any(line["fault"] for line in done))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,53 @@
+"""Compiles the kernels, each once, before the tests' processes start, which would each compile them all.
+
+    python tests/helpers/kernels.py
+
+Two processes, since that is what small machines have: one for equilibria and implicit steps, the other for
+explicit ones, in both precisions, and the shell. Where all is in the cache, three seconds.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+
+DURATION = 1e-3  # s: kernels are compiled whatever the duration
+
+
+def equilibria() -> None:
+    """What statics, the linear algebra and implicit integrators call."""
+    from dynamic_cases import scene, springs
+
+    import lumped
+
+    still, damped = scene(), scene(damping_time=1e-3)
+    for precision in ("double", "single"):
+        lumped.solve(still, springs(still, 3), precision=precision)
+    lumped.modes(still, springs(still, 3), 3)
+    for integrator in ("generalised-alpha", "esdirk"):
+        lumped.simulate(damped, springs(damped, 3), DURATION, integrator=integrator)
+
+
+def explicit() -> None:
+    """What explicit integrators and the shell call."""
+    from dynamic_cases import scene, springs
+
+    import fem_reference
+    import lumped
+
+    fem_reference.solve(scene(), "shell", elements=2)
+    damped = scene(damping_time=1e-3)
+    for integrator, precision in (
+        ("verlet", "double"),
+        ("verlet", "single"),
+        ("verlet-implicit-damping", "double"),
+    ):
+        lumped.simulate(damped, springs(damped, 3), DURATION, integrator=integrator, precision=precision)
+
+
+if __name__ == "__main__":
+    processes = [multiprocessing.get_context("spawn").Process(target=half) for half in (equilibria, explicit)]
+    for process in processes:
+        process.start()
+    for process in processes:
+        process.join()
+    raise SystemExit(max(abs(process.exitcode or 0) for process in processes))

@@ -1,0 +1,254 @@
+"""Calibrations: closed form against homogenisation, numerical and by imposed strains; the moduli reports."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import lumped
+from comparisons.calibration import tables
+from lumped import moduli
+from lumped.assembly import Assembly
+from lumped.calibration.report import _admissible, _require_positive, report
+from sheetbench import scenes
+from sheetbench.scenes import BadInput, Material, PerDirection, Sheet, SpringSet
+
+pytestmark = pytest.mark.smoke
+
+SEED = scenes.load("two-edges-clamped")
+RIGIDITY = 54.5e6 * 0.003**3 / 12 / (1 - 0.48**2)
+
+
+def imposed_energy(assembly, strain, curvature, shear):
+    """Energy per area [J/m²] of the lattice under a uniform plate strain state, thickness relaxed.
+
+    u = ε x − z κ-rotation field: in-plane ε + z κ with γ_xy engineering, transverse shear γ, and the layer
+    gap free; every mass is placed, the vertical displacement of the outer layers is minimised over.
+    """
+    x, y, z = assembly.lattice.positions.T
+    e = np.array([[strain[0], strain[2] / 2], [strain[2] / 2, strain[1]]])
+    k = np.array([[curvature[0], curvature[2] / 2], [curvature[2] / 2, curvature[1]]])
+    plan = np.stack([x, y])
+    u = np.zeros((len(x), 3))
+    u[:, :2] = (e @ plan).T + z[:, None] * ((k @ plan).T + np.array(shear))
+    u[:, 2] = -0.5 * np.einsum("ip,ij,jp->p", plan, k, plan)
+    stretch = np.zeros_like(u)
+    stretch[:, 2] = z
+
+    def energy(v):
+        return assembly.force(v)[0]
+
+    # quadratic in the stretch: exact minimum from three values
+    h = 1e-9
+    scale = 1e-6
+    a, b, c = (energy(scale * u + s * stretch) for s in (-h, 0.0, h))
+    best = 0.5 * h * (a - c) / (a - 2 * b + c) if a - 2 * b + c > 0 else 0.0
+    return energy(scale * u + best * stretch) / scale**2 / 0.188**2
+
+
+def small_assembly(calibration):
+    return Assembly(SEED.sheet, calibration)
+
+
+@pytest.mark.parametrize("grid", [(5, 5, 2), (9, 9, 2), (33, 33, 2), (65, 65, 3)])
+def test_consistent_meets_every_modulus(grid):
+    calibration = lumped.calibrate(SEED.sheet, SEED.material, grid)
+    for row in calibration.moduli:
+        assert row["got"] == pytest.approx(row["asked"], rel=1e-10), row["name"]
+
+
+@pytest.mark.parametrize("method", ["consistent", "consistent-membrane"])
+def test_consistent_is_the_printed_closed_form(method):
+    calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), method)
+    nu, spacing, share = 0.48, 0.188 / 8, 1 / 3
+    shear = 1 / (1 / (5 / 6 * 54.5e6 / 2 / 1.48 * 0.003) + spacing**2 / (12 * RIGIDITY))
+    stretching = 12 * RIGIDITY / 0.003**2
+    lz2 = (4 * RIGIDITY + 2 * share * shear * spacing**2 / (1 - nu)) / stretching
+    if method == "consistent-membrane":
+        lz2 = 0.003**2 * (1 - nu + shear * spacing**2 / (6 * RIGIDITY)) / (1 - nu**2)
+    c, t = 2 * RIGIDITY / lz2, shear * spacing**2 / (2 * lz2)
+    springs = calibration.springs
+    assert calibration.layer_distance == pytest.approx(np.sqrt(lz2), rel=1e-12)
+    assert springs.axial == pytest.approx(c * (1 - nu), rel=1e-12)
+    assert springs.diagonal == pytest.approx(c * (1 - nu) / 2, rel=1e-12)
+    assert springs.area == pytest.approx(c * (3 * nu - 1) / 2, rel=1e-12)
+    assert springs.cross == pytest.approx(t * (1 - share) * (spacing**2 + lz2) / spacing**2, rel=1e-12)
+    assert springs.cross_diagonal == pytest.approx(
+        t * share / 2 * (2 * spacing**2 + lz2) / spacing**2, rel=1e-12
+    )
+    assert springs.vertical == pytest.approx(4 * c, rel=1e-12)
+
+
+def test_uniform_lattice_of_the_theory():
+    calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), "uniform")
+    k = calibration.springs.axial
+    assert k * calibration.layer_distance**2 == pytest.approx(RIGIDITY, rel=1e-12)  # D11 = k lz²
+    row = {r["name"]: r["got"] for r in calibration.moduli}
+    assert row["D12"] / row["D11"] == pytest.approx(0.5) and row["D66"] / row["D11"] == pytest.approx(0.5)
+    miss = {r["name"]: r["miss"] for r in calibration.moduli}
+    assert miss["D66"] == pytest.approx(0.923, abs=1e-3)  # 1.92 times what ν = 0.48 asks for
+
+
+def test_uniform_takes_k_and_layer_distance():
+    calibration = lumped.calibrate(
+        SEED.sheet, SEED.material, (9, 9), "uniform", k=550.0, layer_distance=0.017
+    )
+    springs = calibration.springs
+    assert springs.axial == springs.cross_diagonal == 550.0 and springs.layer_distance == 0.017
+
+
+UNEQUAL = SpringSet(
+    axial=PerDirection(x=900.0, y=500.0),
+    diagonal=300.0,
+    vertical=2000.0,
+    cross=PerDirection(x=700.0, y=400.0),
+    cross_diagonal=150.0,
+    area=200.0,
+    mid_area=-60.0,
+    layer_distance=0.004,
+)
+
+
+@pytest.mark.parametrize("grid", [(9, 9, 2), (7, 11, 2)])
+def test_homogenisation_agrees_with_imposed_strains(grid):
+    springs = UNEQUAL.model_copy(
+        update={"shear": 120.0, "mid_shear": 90.0, "mid_stretch": PerDirection(x=50.0, y=80.0)}
+    )
+    assembly = small_assembly(report("test", SEED.sheet, SEED.material, grid, springs))
+    spacing = (0.188 / (grid[0] - 1), 0.188 / (grid[1] - 1), 0.004)
+    got = moduli.of_springs(springs, spacing, 2)
+    zero = (0.0, 0.0, 0.0)
+    for strain in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 1.0, 0.0), (1.0, -0.4, 0.3)):
+        membrane = imposed_energy(assembly, strain, zero, (0.0, 0.0))
+        assert membrane == pytest.approx(0.5 * np.array(strain) @ got.membrane @ strain, rel=1e-4)
+        bending = imposed_energy(assembly, zero, strain, (0.0, 0.0))
+        assert bending == pytest.approx(0.5 * np.array(strain) @ got.bending @ strain, rel=1e-4)
+    for shear, expected in (((1.0, 0.0), got.shear[0]), ((0.0, 1.0), got.shear[1])):
+        assert imposed_energy(assembly, zero, zero, shear) == pytest.approx(0.5 * expected, rel=1e-4)
+
+
+@pytest.mark.parametrize("masses", [5, 9, 17, 33, 65])
+def test_least_squares_finds_the_closed_form_on_square_cells(masses):
+    grid = (masses, masses)
+    closed = lumped.calibrate(SEED.sheet, SEED.material, grid, "consistent-interior").springs.model_dump()
+    fitted = lumped.calibrate(SEED.sheet, SEED.material, grid, "moduli")
+    assert fitted.notes == ()
+    for name, value in fitted.springs.model_dump().items():
+        known = closed[name]
+        assert value == (known if known is None else pytest.approx(known, rel=1e-5, abs=1e-6)), name
+
+
+@pytest.mark.parametrize("method", ["consistent", "moduli"])
+@pytest.mark.parametrize("grid", [(9, 10), (9, 13), (9, 17), (9, 25), (25, 9)])
+def test_every_modulus_is_met_on_long_cells_too(method, grid):
+    calibration = lumped.calibrate(SEED.sheet, SEED.material, grid, method)
+    within = 1e-9 if method == "consistent" else 1e-5
+    assert all(abs(row["miss"]) < within for row in calibration.moduli) and calibration.notes == ()
+    springs = calibration.springs
+    links = (springs.axial, springs.diagonal, springs.vertical, springs.cross, springs.cross_diagonal)
+    assert all(min(k.x, k.y) > 0.0 if isinstance(k, PerDirection) else k > 0.0 for k in links)
+
+
+def test_without_strain_springs_long_cells_cannot_be_met():
+    """Diagonals stiffen a cell along its length by (lx/ly)² C66: beyond √3 axial links would be negative."""
+    calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 25))
+    bare = calibration.springs.model_copy(update={"shear": 0.0, "mid_shear": 0.0, "mid_stretch": 0.0})
+    stripped = report("stripped", SEED.sheet, SEED.material, (9, 25, 2), bare)
+    assert any("D66 is missed" in note for note in stripped.notes)
+
+
+def test_layers_too_many_for_the_grid_are_said():
+    calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9, 3))
+    assert any("is missed by" in note for note in calibration.notes)
+
+
+def test_a_given_layer_distance_is_kept():
+    calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), layer_distance=0.0045)
+    assert calibration.layer_distance == 0.0045
+    assert all(abs(row["miss"]) < 1e-5 for row in calibration.moduli)  # strain springs take up the stretching
+
+
+def test_cauchy_relation_is_named():
+    for method in ("uniform", "cauchy", "central", "axial", "van-gelder", "lloyd"):
+        calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), method)
+        got = {row["name"]: row["got"] for row in calibration.moduli}
+        assert got["D12"] == pytest.approx(got["D66"], rel=1e-12)
+        assert any("Cauchy's relation" in note for note in calibration.notes)
+
+
+def test_textbook_constructions_on_squares():
+    """Published factors: E2 and E2/4 (Van Gelder 1998), 5/16 and 7/16 E2 a cell (Lloyd et al. 2007)."""
+    strip = 54.5e6 * 0.003 / 2
+    gelder = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), "van-gelder").springs
+    assert (gelder.axial, gelder.diagonal) == pytest.approx((strip, strip / 4))
+    lloyd = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), "lloyd").springs
+    assert (lloyd.axial, lloyd.diagonal) == pytest.approx((2 * 5 / 16 * strip, 7 / 16 * strip))
+    bars = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), "axial").springs
+    assert (bars.axial, bars.diagonal) == pytest.approx((strip, strip / 2))
+
+
+def test_textbook_constructions_on_oblong_cells():
+    """E2 ly/lx along x and E2 lx/ly along y (Van Gelder); K_ij of a rectangle (Lloyd et al.)."""
+    strip = 54.5e6 * 0.003 / 2
+    gelder = lumped.calibrate(SEED.sheet, SEED.material, (9, 17), "van-gelder").springs.axial
+    assert (gelder.x, gelder.y) == pytest.approx((strip / 2, 2 * strip))
+    lloyd = lumped.calibrate(SEED.sheet, SEED.material, (9, 13), "lloyd").springs.axial
+    # c = E2 · 9/8, c66 = c/3: 2 (c ly/3lx − c66 lx/6ly), 2 (c lx/3ly − c66 ly/6lx) with lx/ly = 3/2
+    assert (lloyd.x, lloyd.y) == pytest.approx((strip * 5 / 16, strip * 25 / 24))
+
+
+def test_negative_area_springs_are_said():
+    rubbery = Material(young=54.5e6, poisson=0.2, density=1678.0)
+    calibration = lumped.calibrate(SEED.sheet, rubbery, (9, 9))
+    assert calibration.springs.area < 0.0
+    assert "energy is positive" in " ".join(calibration.notes)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"method": "magic"}, "choose from"),
+        ({"grid": (1, 9)}, "1x9x2"),
+        ({"method": "uniform", "k": -1.0}, "k = -1"),
+        ({"method": "uniform", "layer_distance": 0.0}, "layer_distance = 0"),
+        ({"method": "consistent", "k": 550.0}, "k goes with 'uniform'"),
+    ],
+)
+def test_misuse_is_refused(arguments, said):
+    with pytest.raises(ValueError, match=said):
+        lumped.calibrate(SEED.sheet, SEED.material, **arguments)
+
+
+def test_json_document():
+    long_cells = lumped.calibrate(SEED.sheet, SEED.material, (9, 17)).as_dict()["springs"]
+    assert {"shear", "mid_shear", "mid_stretch"} < set(long_cells) and set(long_cells["axial"]) == {"x", "y"}
+    document = lumped.calibrate(SEED.sheet, SEED.material, (9, 9)).as_dict()
+    assert set(document["springs"]) == {
+        "axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area",
+        "edge_shear", "strip_shear",
+    }  # fmt: skip
+    assert [row["name"] for row in document["moduli"]] == ["D11", "D12", "D66", "A11", "A12", "A66", "S"]
+
+
+def test_the_table_shows_the_sheets_shear_stiffness_beside_the_grids():
+    """A strip of 250 × 120 × 1.5 mm, 9 × 9 masses: κGh = 52.4 N/m, S* of the long cells a 93rd of it."""
+    sheet = Sheet(length_x=0.25, length_y=0.12, thickness=0.0015)
+    found = lumped.calibrate(sheet, Material(young=125e3, poisson=0.49, density=1070.0), (9, 9)).as_dict()
+    shown = {row[0]: row for row in tables.moduli(found).rows}
+    row = next(row for row in found["moduli"] if row["name"] == "Sx")
+    assert row["kappa_G_h"] == pytest.approx(5 / 6 * 125e3 / 2.98 * 0.0015, rel=1e-12)
+    assert shown["Sx"][2:5] == (row["kappa_G_h"], row["asked"], row["got"])
+    assert row["asked"] == pytest.approx(0.562, abs=5e-4)
+    assert shown["D11"][2] == shown["D11"][3]
+
+
+def test_area_springs_of_nothing_need_no_note():
+    none, negative = (SimpleNamespace(area=0.0, mid_area=value) for value in (0.0, -1.0))
+    assert _admissible(none) == () != _admissible(negative)
+
+
+def test_a_bend_that_costs_nothing_is_refused():
+    springs = SimpleNamespace(area=-1.0, mid_area=0.0)
+    costless = SimpleNamespace(membrane=np.eye(3), bending=np.diag([1.0, 1.0, 0.0]))
+    with pytest.raises(BadInput, match="the cell's energy is not positive"):
+        _require_positive(springs, costless)

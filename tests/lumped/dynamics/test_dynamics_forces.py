@@ -1,0 +1,74 @@
+"""Dampers: potential → force → tangents by finite differences; discrete gradients: energy and momentum."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from lattice_cases import ALL, assembly_of, dense, derivative, state
+
+pytestmark = pytest.mark.smoke
+
+GRIDS = [(3, 4, 2), (3, 3, 3)]
+
+
+def dampers_of(assembly):
+    return [family.damped(1.0) for family in assembly.springs]
+
+
+def damper_force(assembly, u, v):
+    force = np.zeros_like(u)
+    return sum(dampers.add_force(u, v, force) for dampers in dampers_of(assembly)), force
+
+
+@pytest.mark.parametrize("grid", GRIDS)
+def test_damper_force_and_tangents_are_derivatives(grid):
+    assembly = assembly_of(grid, **ALL)
+    u, v = state(assembly), state(assembly, seed=3)
+    power, force = damper_force(assembly, u, v)
+    potential = derivative(lambda w: 0.5 * damper_force(assembly, u, w)[0], v)
+    assert np.allclose(potential.ravel(), force.ravel(), atol=1e-7 * np.abs(force).max())
+    assert power == pytest.approx(np.sum(force * v), rel=1e-12)
+    by_velocity, by_displacement = (np.zeros((assembly.pattern.blocks, 3, 3)) for _ in range(2))
+    for dampers in dampers_of(assembly):
+        dampers.add_velocity_tangent(u, 0.5, by_velocity)
+        dampers.add_displacement_tangent(u, v, by_displacement)
+    numeric = derivative(lambda w: damper_force(assembly, u, w)[1], v)
+    assert np.allclose(2.0 * dense(assembly, by_velocity), numeric, atol=1e-7 * np.abs(numeric).max())
+    numeric = derivative(lambda w: damper_force(assembly, w, v)[1], u)
+    assert np.allclose(dense(assembly, by_displacement), numeric, atol=1e-6 * np.abs(numeric).max())
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=st.integers(0, 10**6), size=st.floats(1e-9, 0.1))
+def test_average_forces_give_back_the_energy_and_conserve_momentum(seed, size):
+    assembly = assembly_of(**ALL)
+    start = state(assembly, seed=seed)
+    end = start + state(assembly, size=size, seed=seed + 1)
+    force = assembly.average_force(start, end)
+    stored = assembly.force(end)[0] - assembly.force(start)[0]
+    moved = np.sum(force * (end - start))
+    assert moved == pytest.approx(stored, abs=1e-12 * max(assembly.force(end)[0], assembly.force(start)[0]))
+    scale = np.abs(force).max()
+    assert np.abs(force.sum(axis=0)).max() < 1e-12 * scale * len(force)
+    middle = assembly.lattice.positions + 0.5 * (start + end)
+    assert np.abs(np.cross(middle, force).sum(axis=0)).max() < 1e-12 * scale * len(force)
+
+
+@pytest.mark.parametrize("grid", GRIDS)
+def test_average_force_of_equal_states_is_the_force(grid):
+    assembly = assembly_of(grid, **ALL)
+    u = state(assembly)
+    assert np.allclose(assembly.average_force(u, u), assembly.force(u)[1], atol=1e-11)
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=st.integers(0, 10**6), turn=st.tuples(*[st.floats(-3.0, 3.0)] * 3))
+def test_dampers_only_take_energy_and_spare_rigid_motions(seed, turn):
+    assembly = assembly_of(**ALL)
+    u, v = state(assembly, seed=seed), state(assembly, seed=seed + 1)
+    power, force = damper_force(assembly, u, v)
+    assert power >= 0.0
+    x = assembly.lattice.positions + u
+    assert np.abs(np.cross(x, force).sum(axis=0)).max() < 1e-12 * np.abs(force).max() * len(force)
+    rigid = np.cross(turn, x) + np.array([1.0, -2.0, 0.5])
+    assert np.abs(damper_force(assembly, u, rigid)[1]).max() < 1e-11 * 100.0

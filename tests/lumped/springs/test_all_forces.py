@@ -1,0 +1,94 @@
+"""One compiled pass over all springs and dampers gives the families' own forces, energy and power."""
+
+import numpy as np
+import pytest
+from dynamic_cases import ROD, scene
+from tests.lattice_cases import ALL, assembly_of
+from tests.lattice_cases import state as lattice_state
+
+import lumped
+from lumped import System, build_problem
+from lumped.springs.all_forces import add_forces
+from lumped.springs.packing import pack, scratch
+from sheetbench import scenes
+from sheetbench.scenes import PerDirection
+
+E = np.finfo(float).eps
+
+
+def packed(system, single=False):
+    assembly = system.assembly
+    return pack(assembly.lattice, assembly.springs, system.damping.dampers, single)
+
+
+def state(system, size=1e-3, seed=0):
+    """A displacement that stretches links by some percent, and a velocity."""
+    rng = np.random.default_rng(seed)
+    return (size * rng.standard_normal((system.assembly.pattern.size, 3)) for _ in range(2))
+
+
+SHEET = scene(damping_time=1e-3)
+TABLE = scenes.DamperSet.model_validate(
+    {"axial": 0.3, "diagonal": 0.0, "vertical": 1.0, "cross": {"x": 0.2, "y": 0.1}}
+)
+CASES = {
+    "equal": (SHEET, {"grid": (9, 9)}),
+    "oblong": (SHEET, {"grid": (4, 7)}),
+    "long lines": (SHEET, {"grid": (140, 3)}),
+    "graded, with strain springs": (SHEET, {"grid": (6, 5), "method": "consistent", "grading": 0.5}),
+    "neo-hookean": (SHEET, {"grid": (5, 6), "method": "neo-hookean"}),
+    "neo-hookean, graded, three layers": (
+        SHEET,
+        {"grid": (4, 5, 3), "method": "neo-hookean", "grading": 0.5},
+    ),
+    "three layers": (SHEET, {"grid": (5, 5, 3), "method": "moduli"}),
+    "dampers of a table": (scene().replace(dampers=TABLE), {"grid": (5, 6)}),
+    "with rows of a chain": (
+        scene("one-edge-clamped", actuators=[ROD], damping_time=1e-3),
+        {"grid": (5, 5)},
+    ),
+}
+
+
+@pytest.mark.parametrize(("asked", "options"), CASES.values(), ids=CASES)
+def test_forces_energy_and_power_are_the_families(asked, options):
+    system = System(asked, build_problem(asked, lumped.calibrate(asked.sheet, asked.material, **options)))
+    u, v = state(system)
+    packing = packed(system)
+    room = scratch(packing)
+    energy, elastic = system.assembly.force(u)
+    power, damping = 0.0, np.zeros_like(u)
+    for dampers in system.damping.dampers:
+        power += dampers.add_force(u, v, damping)
+    for with_elastic, with_damping in ((True, True), (True, False), (False, True)):
+        force = np.zeros_like(u)
+        stored, taken = add_forces(u, v, with_elastic, with_damping, packing, room, force)
+        wanted = with_elastic * elastic + with_damping * damping
+        # a force is a sum of some thirty springs', each with a few operations' rounding
+        assert np.abs(force - wanted).max() < 200 * E * np.abs(wanted).max()
+        assert stored == pytest.approx(with_elastic * energy, rel=1e-12)
+        assert taken == pytest.approx(with_damping * power, rel=1e-12)
+
+
+def test_the_seeds_per_direction_law():
+    assembly = assembly_of((4, 5, 2), **{**ALL, "axial": PerDirection(x=90.0, y=70.0, z=50.0)})
+    u, v = lattice_state(assembly), np.zeros((assembly.lattice.mass_count, 3))
+    packing = pack(assembly.lattice, assembly.springs, [family.damped(0.1) for family in assembly.springs])
+    stored, wanted = assembly.force(u)
+    force = np.zeros_like(u)
+    energy, _ = add_forces(u, v, True, True, packing, scratch(packing), force)
+    assert not assembly.conservative
+    assert np.abs(force - wanted).max() < 200 * E * np.abs(wanted).max()
+    assert energy == pytest.approx(stored, rel=1e-12)
+
+
+def test_small_displacements_lose_no_digits_and_single_precision_is_single():
+    asked = scene(damping_time=1e-3)
+    system = System(asked, build_problem(asked, lumped.calibrate(asked.sheet, asked.material, grid=(9, 9))))
+    u, v = state(system, size=1e-12)
+    wanted = system.assembly.force(u)[1]
+    for single, rounding in ((False, E), (True, np.finfo(np.float32).eps)):
+        packing = packed(system, single)
+        force = np.zeros_like(u)
+        add_forces(u, v, True, False, packing, scratch(packing), force)
+        assert np.abs(force - wanted).max() < 200 * rounding * np.abs(wanted).max()

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from dynamic_cases import ROD, scene
-from tests.lattice_cases import ALL, assembly_of
-from tests.lattice_cases import state as lattice_state
+from lattice_cases import ALL, assembly_of
+from lattice_cases import state as lattice_state
 
 import lumped
 from lumped import System, build_problem

@@ -14,8 +14,8 @@ from PIL.PngImagePlugin import PngInfo
 
 import sheetbench as sb
 from comparisons.motion.tables import report
-from comparisons.report import style
-from comparisons.report.report import Report
+from sheetbench.answers import style
+from sheetbench.answers.report import Report
 
 IMAGES = Path(__file__).parent / "images"
 COMPARED = ("two-edges-clamped", "one-edge-clamped", "curved-edge", "curved-edge-down", "actuated-edge")

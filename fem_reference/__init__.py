@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from sheetbench.choices import REFERENCE, REFERENCES, STRAIN_LAWS
+from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import AnyScene, Iteration, Solution, scene_of
-from sheetbench.scenes.errors import BadInput, require_choice
 
 MODELS = {name: f"fem_reference.{name}.statics" for name in REFERENCES}
 

@@ -37,10 +37,10 @@ from fem_reference.solid import supports as column_supports
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
 from sheetbench.clock import now
+from sheetbench.errors import BadInput
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import About, AnyScene, Scene, require_static, scene_of, summary
-from sheetbench.scenes.errors import BadInput
 
 REACH = 0.375  # of the grading
 

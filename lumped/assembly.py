@@ -18,8 +18,8 @@ from lumped.lattice import Lattice, Weights, build
 from lumped.pattern import Pattern, neighbours, of_grid
 from lumped.springs.all_families import Stresses, all_families, copy_above
 from lumped.springs.families import Links, NeoHookeanCells, families
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
-from sheetbench.scenes.errors import BadInput
 
 Precision = Literal["double", "single"]
 

@@ -19,8 +19,8 @@ from lumped.masses import masses
 from lumped.springs.families import Cells, Links, table_dampers
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, solve
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Status, free_rigid_motions
-from sheetbench.scenes.errors import BadInput
 
 STRETCH, WARP, TURN = 0.02, 0.05, 2.0  # of the imposed states: strain, height over length, rad in all
 

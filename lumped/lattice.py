@@ -26,9 +26,9 @@ import numpy as np
 
 from lumped.grid_lines import Lines, grid_lines
 from lumped.pattern import SHARED_UP_TO
+from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import Sheet
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 

@@ -38,6 +38,7 @@ from lumped.sensitivity import rates
 from lumped.state_space import StateSpace
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, solve_path
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
@@ -53,7 +54,6 @@ from sheetbench.scenes import (
     require_static,
     scene_of,
 )
-from sheetbench.scenes.errors import BadInput, NoEquilibrium
 
 MODES = 20  # of the state space unless asked for
 LAST = 1e9  # s: when every history has its last value, as in statics

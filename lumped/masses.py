@@ -44,8 +44,8 @@ import scipy.sparse as sp
 
 from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.springs import Distribution
 from sheetbench.scenes.supports import held_axes
 

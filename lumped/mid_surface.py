@@ -14,7 +14,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from lumped.lattice import Lattice
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 
 class MidSurface:

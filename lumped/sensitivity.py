@@ -28,10 +28,10 @@ from lumped.springs import constants
 from lumped.statics.equilibrium import State
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, solve_path
+from sheetbench.errors import BadInput
 from sheetbench.numerics.reduced import Factor
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene, Status, require_static
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.parameters import parameter, put
 
 STEP = 1e-4  # of a parameter, for the difference of residuals

@@ -21,8 +21,8 @@ from functools import cached_property
 import numpy as np
 import scipy.linalg
 
+from sheetbench.errors import BadInput
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes.errors import BadInput
 
 MOST = 1000  # states that dense Gramians are found for: some ten seconds
 

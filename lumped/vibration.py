@@ -19,6 +19,7 @@ from lumped.mid_surface import MidSurface
 from lumped.springs import constants
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, solve_path
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
@@ -32,7 +33,6 @@ from sheetbench.scenes import (
     scene_of,
     summary,
 )
-from sheetbench.scenes.errors import BadInput, NoEquilibrium
 
 
 @dataclass(frozen=True, repr=False)

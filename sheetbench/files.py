@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 LOCK = ".lock"
 PARTIAL = re.compile(r"\.(?P<stem>.+)\.(?P<process>\d+)\.partial(?P<suffix>\..*)?")

@@ -43,7 +43,7 @@ from llvmlite.binding import get_host_cpu_features
 from platformdirs import user_cache_path
 
 from sheetbench import clock
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 X86_64_V3 = ("avx", "avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe", "xsave")  # beyond x86-64-v2
 

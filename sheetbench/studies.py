@@ -17,17 +17,17 @@ from comparisons.models.grading import Grading
 from comparisons.models.grids import GridLike
 from comparisons.models.springs import LatticeSpec
 from sheetbench.choices import REFERENCE, REFERENCES
+from sheetbench.errors import require_choice
 from sheetbench.scenes import AnyScene, Scene, scene_of
-from sheetbench.scenes.errors import require_choice
 from sheetbench.scenes.schema import for_editors
 
 if TYPE_CHECKING:
     from comparisons.crosscheck.study import Crosscheck
-    from comparisons.report.report import Report
     from comparisons.runs.store import Store
     from comparisons.scoring.score import Score
     from comparisons.stability.extremes import Stability
     from lumped import Calibration
+    from sheetbench.answers.report import Report
 
 
 def export(
@@ -148,7 +148,7 @@ def report(folder: str | Path, out: str | Path | None = None) -> Path:
     """Write one HTML page of the studies in a folder and return its path, FOLDER/report.html unless given."""
     from comparisons.pages.page import page
     from comparisons.pages.studies import read
-    from comparisons.report.files import write_text
+    from sheetbench.answers.files import write_text
 
     folder = Path(folder)
     target = folder / "report.html" if out is None else Path(out)

@@ -16,10 +16,11 @@ from matrix_rows import Tally, check, tally
 
 from comparisons.comparison import comparison as displacement
 from comparisons.models.candidate import Candidate
-from comparisons.report import offscreen, style
+from comparisons.report import offscreen
 from comparisons.runs import executors
 from comparisons.runs.campaign import campaign, carry_out
 from comparisons.runs.store import Store
+from sheetbench.answers import style
 from sheetbench.scenes import Scene, Solution
 
 

@@ -17,9 +17,10 @@ pytestmark = pytest.mark.smoke
 
 ROOT = Path(__file__).parent.parent
 GROUND = ("sheetbench.scenes", "sheetbench.choices", "sheetbench.files", "sheetbench.kernels")
-GROUND += ("sheetbench.numerics", "sheetbench.clock")
+GROUND += ("sheetbench.numerics", "sheetbench.clock", "sheetbench.errors", "sheetbench.answers")
 ALLOWED = {
-    "sheetbench/scenes": {"sheetbench.scenes"},
+    "sheetbench/answers": {"sheetbench.answers", "sheetbench.errors", "sheetbench.files"},
+    "sheetbench/scenes": {"sheetbench.answers", "sheetbench.errors", "sheetbench.scenes"},
     "sheetbench/numerics": {"sheetbench.kernels", "sheetbench.numerics"},
     "lumped": {*GROUND, "lumped"},
     "fem_reference": {*GROUND, "fem_reference"} - {"sheetbench.files"},

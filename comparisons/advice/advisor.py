@@ -23,12 +23,12 @@ from comparisons.comparison.model_error import ModelError
 from comparisons.models.candidate import Candidate, written
 from comparisons.models.grading import Grading
 from comparisons.models.scales import Scales, scales
-from comparisons.report.report import Report
 from comparisons.report.work import Progress, silent
 from comparisons.runs import load
+from sheetbench.answers.report import Report
 from sheetbench.choices import CALIBRATION
+from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, Scene, require_static, scene_of, summary
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import MASSES
 from sheetbench.scenes.summary import few
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from comparisons.models.candidate import series, written
 from comparisons.models.grading import read
-from comparisons.report.report import Report
-from comparisons.report.table import Column, Table, number, quantity
+from sheetbench.answers.report import Report
+from sheetbench.answers.table import Column, Table, number, quantity
 from sheetbench.choices import CALIBRATION
 from sheetbench.scenes.summary import few
 

@@ -18,8 +18,8 @@ from comparisons.models.springs import LatticeSpec, resolve
 from comparisons.models.training import training_scenes
 from comparisons.report.work import Progress, silent
 from sheetbench.choices import AUTO, EXTRAPOLATED
+from sheetbench.errors import BadInput, Implausible
 from sheetbench.scenes import AnyScene, Material, Scene, SceneError, Sheet, Solution, require_static, scene_of
-from sheetbench.scenes.errors import BadInput, Implausible
 from sheetbench.scenes.plausibility import material_slips, sheet_slips
 
 DENSITY = 1000.0  # kg/m³, unless given

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from comparisons.comparison import tables as summary
-from comparisons.report.files import write_text
-from comparisons.report.report import Report
-from comparisons.report.table import Column, Table
+from sheetbench.answers.files import write_text
+from sheetbench.answers.report import Report
+from sheetbench.answers.table import Column, Table
 from sheetbench.scenes.grading import of_settings
 from sheetbench.scenes.summary import few
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from functools import partial
 
-from comparisons.report.files import write_text
-from comparisons.report.report import Report
-from comparisons.report.table import Column, Table
+from sheetbench.answers.files import write_text
+from sheetbench.answers.report import Report
+from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import catalogue, load
 
 

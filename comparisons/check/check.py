@@ -9,11 +9,11 @@ import shlex
 from warnings import catch_warnings, simplefilter
 
 from comparisons.models.grids import scene_grid
-from comparisons.report.report import Report
-from comparisons.report.table import Column, Table
+from sheetbench.answers.report import Report
+from sheetbench.answers.table import Column, Table
 from sheetbench.choices import ELEMENTS
+from sheetbench.errors import Implausible
 from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
-from sheetbench.scenes.errors import Implausible
 from sheetbench.scenes.grid import near_square
 from sheetbench.scenes.plausibility import slips
 from sheetbench.scenes.words import in_words

@@ -50,7 +50,7 @@ def command(
     from comparisons.advice.advisor import advise, checked_tolerance
     from comparisons.cli.finish import finish
     from comparisons.comparison.comparison import load_static
-    from sheetbench.scenes.errors import BadInput
+    from sheetbench.errors import BadInput
 
     asked = load_static(scene)
     if budget is not None and not budget > 0.0:

@@ -164,14 +164,14 @@ def _explained(error: Exception) -> int:
             os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         print(f"sheetbench: {said}", file=sys.stderr)
         return BAD_INPUT
-    from comparisons.report.escape import terminal
+    from sheetbench.answers.escape import terminal
 
     if isinstance(error, UsageError):
         of = error.ctx.command_path if error.ctx else "sheetbench"
         said = terminal(" ".join(error.format_message().split()).rstrip("."))
         print(f"sheetbench: {said}; see {of} --help", file=sys.stderr)
         return BAD_INPUT
-    from sheetbench.scenes.errors import BadInput  # with numpy and pydantic: help must not wait for them
+    from sheetbench.errors import BadInput  # with numpy and pydantic: help must not wait for them
 
     if isinstance(error, BadInput):
         print(f"sheetbench: {terminal(' '.join(str(error).split()))}", file=sys.stderr)

@@ -80,7 +80,7 @@ def command(
     from comparisons.models.quantities import sides
     from comparisons.models.sizes import require_room
     from comparisons.models.springs import LatticeSpec
-    from sheetbench.scenes.errors import BadInput
+    from sheetbench.errors import BadInput
 
     if toml and json:
         raise BadInput("--toml and --json: choose one")

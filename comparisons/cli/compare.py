@@ -83,7 +83,7 @@ def command(
     from comparisons.motion.comparison import compare_motion
     from comparisons.report.vtk import write_solution
     from sheetbench import scenes
-    from sheetbench.scenes.errors import BadInput
+    from sheetbench.errors import BadInput
 
     if duration is not None:
         statics: dict[str, object] = {"--symmetry": symmetry, "--model": model, "--branch": branch != "path"}

@@ -12,12 +12,12 @@ from rich.text import Text
 from comparisons.cli.characters import spelled, takes_everything
 from comparisons.cli.lines import Lines
 from comparisons.report.amounts import duration
-from comparisons.report.escape import terminal
+from sheetbench.answers.escape import terminal
 
 if TYPE_CHECKING:
-    from comparisons.report.table import Table
     from comparisons.report.work import Work
     from comparisons.runs.campaign import Progress
+    from sheetbench.answers.table import Table
 
 out = Console(highlight=False)
 err = Console(stderr=True, highlight=False)
@@ -108,7 +108,7 @@ def tell(text: str) -> None:
 
 def document(content: Mapping[str, Any]) -> None:
     """One JSON document, for programs; characters that the encoding lacks are escaped as JSON has it."""
-    from comparisons.report.files import to_json
+    from sheetbench.answers.files import to_json
 
     print(to_json(content, escaped=not takes_everything(out.encoding)), end="")
 
@@ -124,7 +124,7 @@ def heading(title: str, subtitle: str = "") -> None:
 
 def show(table: Table) -> None:
     """Print a table, folded to the terminal's width; of any width where the output is no terminal."""
-    from comparisons.report.layout import blocks
+    from sheetbench.answers.layout import blocks
 
     out.print()
     for line in _fitted(_said(table.caption)):

@@ -46,7 +46,7 @@ def with_promise(verb: str, command: Callable[..., None]) -> Callable[..., None]
         try:
             command(**given)
         except ValueError as error:
-            from sheetbench.scenes.errors import Impossible, SceneError
+            from sheetbench.errors import Impossible, SceneError
 
             if isinstance(error, Impossible) and given.get("scene"):
                 raise SceneError(f"{given['scene']}: {error}") from None

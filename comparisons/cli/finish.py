@@ -18,14 +18,14 @@ from comparisons.cli import console, warned
 from sheetbench import clock
 
 if TYPE_CHECKING:
-    from comparisons.report.look import Look
-    from comparisons.report.report import Report, Write
     from comparisons.report.work import Work
     from comparisons.runs.campaign import Progress
     from comparisons.runs.executors import Pool
     from comparisons.runs.folder import Folder
     from comparisons.runs.store import Store
     from lumped import Calibration
+    from sheetbench.answers.figure_style import Look
+    from sheetbench.answers.report import Report, Write
     from sheetbench.scenes import Scene
 
 NOT_CONVERGED = 3
@@ -171,8 +171,8 @@ def finish(
     meanwhile (campaigns see to that themselves). Raises BadInput for a folder that cannot be had, or that
     holds files of something else.
     """
-    from comparisons.report.look import parse_figure
-    from sheetbench.scenes.errors import BadInput
+    from sheetbench.answers.figure_style import parse_figure
+    from sheetbench.errors import BadInput
 
     look = parse_figure(figure)
     if figure is not None and out is None:
@@ -183,8 +183,8 @@ def finish(
         folder = None
         if out is not None:
             from comparisons.cli.options import command_line
-            from comparisons.report import files
             from comparisons.runs.folder import Folder
+            from sheetbench.answers import files
             from sheetbench.files import only_writer
 
             if scene is not None:

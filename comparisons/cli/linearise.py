@@ -46,7 +46,7 @@ def command(
     from comparisons.cli.finish import finish
     from comparisons.linearisation.linearisation import linearise
     from sheetbench import scenes
-    from sheetbench.scenes.errors import NoEquilibrium
+    from sheetbench.errors import NoEquilibrium
 
     asked = scenes.load(scene)
     with finish(

@@ -43,7 +43,7 @@ def command(
     from comparisons.live.panel import Panel
     from comparisons.models.registry import check
     from comparisons.models.springs import LatticeSpec, resolve
-    from sheetbench.scenes.errors import BadInput
+    from sheetbench.errors import BadInput
 
     if not 0 <= port <= 65535:
         raise BadInput(f"--port = {port}: from 0 to 65535")

@@ -58,8 +58,8 @@ def command(
     from comparisons.cli.finish import finish
     from comparisons.models.grids import parse_elements
     from comparisons.modes.spectra import spectra
+    from sheetbench.errors import NoEquilibrium
     from sheetbench.scenes import load
-    from sheetbench.scenes.errors import NoEquilibrium
 
     asked = load(scene)
     with finish("modes", json, out, overwrite, scene=asked, figure=figure, pictures=not no_pictures) as end:

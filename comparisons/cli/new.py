@@ -50,10 +50,10 @@ def command(
     """
     from comparisons.cli import console
     from comparisons.models.quantities import sides
-    from comparisons.report.files import to_json, write_text
+    from sheetbench.answers.files import to_json, write_text
+    from sheetbench.errors import BadInput, Implausible
     from sheetbench.files import require_file
     from sheetbench.scenes import Pressure, Scene
-    from sheetbench.scenes.errors import BadInput, Implausible
     from sheetbench.scenes.plausibility import slips
     from sheetbench.scenes.schema import for_editors
     from sheetbench.scenes.template import SCHEMA, template
@@ -95,7 +95,7 @@ def _at_a_terminal() -> bool:
 
 def _edges(text: str) -> list[str]:
     """The edges named, with commas between them. Raises BadInput for what is none."""
-    from sheetbench.scenes.errors import require_choice
+    from sheetbench.errors import require_choice
     from sheetbench.scenes.sheet import EDGES
 
     edges = list(dict.fromkeys(edge.strip() for edge in text.split(",")))
@@ -109,7 +109,7 @@ def _asked() -> tuple[dict[str, float], str, float]:
     sense."""
     from comparisons.cli import console
     from sheetbench import scenes
-    from sheetbench.scenes.errors import BadInput
+    from sheetbench.errors import BadInput
 
     values: dict[str, float] = {}
     for keys, kind in ((SHEET, scenes.Sheet), (MATERIAL, scenes.Material)):
@@ -137,7 +137,7 @@ def _asked() -> tuple[dict[str, float], str, float]:
 def _quantity(key: str, usual: float) -> float:
     """The answer to a question, in SI units."""
     from comparisons.cli import console
-    from sheetbench.scenes.errors import BadInput
+    from sheetbench.errors import BadInput
     from sheetbench.scenes.units import quantity
 
     question, unit = QUESTIONS[key]

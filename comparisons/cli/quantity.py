@@ -11,7 +11,7 @@ def quantity_in(unit: str) -> Callable[[str], float]:
     """A parser of an option's text, a number in the SI unit `unit` or a quantity with a unit of its own."""
 
     def parse(text: str) -> float:
-        from sheetbench.scenes.errors import BadInput  # with numpy and pydantic: help must not wait for them
+        from sheetbench.errors import BadInput  # with numpy and pydantic: help must not wait for them
         from sheetbench.scenes.units import quantity
 
         try:

@@ -37,8 +37,8 @@ def command(
     from comparisons.cli import console
     from comparisons.pages.page import memory_of, page
     from comparisons.pages.studies import read
-    from comparisons.report.files import write_text
-    from sheetbench.scenes.errors import BadInput
+    from sheetbench.answers.files import write_text
+    from sheetbench.errors import BadInput
 
     found = read(folder)
     if not found.studies:

@@ -31,7 +31,7 @@ def command(
     from comparisons.cli.finish import finish
     from comparisons.models.grids import parse_elements
     from comparisons.reproduction.reproduction import PARTS, reproduce
-    from sheetbench.scenes.errors import BadInput, require_choice
+    from sheetbench.errors import BadInput, require_choice
 
     for name in part or ():
         if name in ("errors", "nearest"):

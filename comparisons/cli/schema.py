@@ -21,7 +21,7 @@ def command(
 
         print(page(), end="")
         return
-    from comparisons.report.files import to_json
+    from sheetbench.answers.files import to_json
     from sheetbench.scenes import Scene
     from sheetbench.scenes.schema import for_editors
 

@@ -38,7 +38,7 @@ def command(
     from comparisons.cli.finish import finish
     from comparisons.scoring.score import score
     from comparisons.suite.cases import SUITES
-    from sheetbench.scenes.errors import require_choice
+    from sheetbench.errors import require_choice
 
     require_choice("--suite", suite, SUITES)
     with finish(

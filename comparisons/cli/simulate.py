@@ -79,7 +79,7 @@ def command(
     from comparisons.report import amounts
     from comparisons.report.work import Pace, Work
     from sheetbench import scenes
-    from sheetbench.scenes.errors import BadInput
+    from sheetbench.errors import BadInput
 
     asked = scenes.load(scene)
     if animate and out is None:

@@ -63,10 +63,10 @@ def command(
 
     from comparisons.cli.finish import finish
     from comparisons.models.springs import LatticeSpec
-    from comparisons.report.look import parse_figure
     from comparisons.stability.extremes import VARIED, stability
+    from sheetbench.answers.figure_style import parse_figure
+    from sheetbench.errors import BadInput
     from sheetbench.scenes import load
-    from sheetbench.scenes.errors import BadInput
 
     if parse_figure(figure).narrow:
         raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")

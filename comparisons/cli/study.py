@@ -36,7 +36,7 @@ def command(
     from typer.main import get_command
 
     from comparisons.cli.everywhere import with_everywhere, with_promise
-    from sheetbench.scenes.errors import BadInput, require_choice
+    from sheetbench.errors import BadInput, require_choice
 
     if not studies:
         raise BadInput(f"study {name}: {_no_checkout()}")

@@ -25,7 +25,7 @@ def command(
     from comparisons.cli.finish import finish
     from comparisons.suite.cases import SUITES
     from comparisons.suite.tables import report
-    from sheetbench.scenes.errors import require_choice
+    from sheetbench.errors import require_choice
 
     if suite is not None:
         require_choice("--suite", suite, SUITES)

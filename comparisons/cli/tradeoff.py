@@ -139,8 +139,8 @@ def command(
     from comparisons.models.candidate import items
     from comparisons.models.springs import LatticeSpec
     from comparisons.tradeoff.asked import of_motion, of_statics
+    from sheetbench.errors import BadInput
     from sheetbench.scenes import load
-    from sheetbench.scenes.errors import BadInput
 
     measure: Callable[..., Tradeoff | DynamicTradeoff]
     if duration is not None:

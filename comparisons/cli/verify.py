@@ -36,7 +36,7 @@ def command(
     from comparisons.verification import tables
     from fem_reference.verification import CASES, run
     from fem_reference.verification.locking import MODELS
-    from sheetbench.scenes.errors import BadInput, require_choice
+    from sheetbench.errors import BadInput, require_choice
 
     for name in case or ():
         require_choice("case", name, CASES)

@@ -30,10 +30,10 @@ from comparisons.models.plugins import shown_name
 from comparisons.models.registry import answer, check, check_reference
 from comparisons.models.sizes import has_room
 from comparisons.models.springs import LatticeSpec, resolve
-from comparisons.report.report import Report
 from comparisons.report.work import Progress, silent
 from comparisons.runs.load import average
 from comparisons.runs.load import warnings as doubts
+from sheetbench.answers.report import Report
 from sheetbench.choices import ELEMENTS, REFERENCE
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static, summary
 from sheetbench.scenes.summary import few

@@ -17,12 +17,13 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from comparisons.report import acting, style
+from comparisons.report import acting
 from comparisons.report.labels import place_labels
-from comparisons.report.look import PLAIN, Look
 from comparisons.report.stage import Stage
-from comparisons.report.style import GREY, STYLE, plain, save
 from comparisons.report.vtk import plan_mesh
+from sheetbench.answers import style
+from sheetbench.answers.figure_style import PLAIN, Look
+from sheetbench.answers.style import GREY, STYLE, plain, save
 from sheetbench.scenes import Scene, Solution
 
 if TYPE_CHECKING:

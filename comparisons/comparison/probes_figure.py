@@ -16,8 +16,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
-from comparisons.report.look import PLAIN, Look
-from comparisons.report.style import GREY, MOST, SERIES, STYLE, plain, save
+from sheetbench.answers.figure_style import PLAIN, Look
+from sheetbench.answers.style import GREY, MOST, SERIES, STYLE, plain, save
 
 if TYPE_CHECKING:
     from comparisons.comparison.comparison import Comparison

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.models.grading import told
-from comparisons.report.look import PLAIN, Look
-from comparisons.report.report import Picture, Report
-from comparisons.report.table import Column, Table
 from comparisons.report.vtk import plan_mesh, write_mesh, write_solution
+from sheetbench.answers.figure_style import PLAIN, Look
+from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import Material, Sheet, Solution, Status
 from sheetbench.scenes.summary import few
 

@@ -8,8 +8,8 @@ from comparisons.judges.found import Found
 from comparisons.models.candidate import Candidate, items
 from comparisons.models.grading import Grading
 from comparisons.models.grids import parse_elements
+from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes import Scene, catalogue, load
-from sheetbench.scenes.errors import BadInput, SceneError
 from sheetbench.scenes.rigid_motions import require_static
 
 ALL = "all"

@@ -13,10 +13,10 @@ from comparisons.judges.found import Found
 from comparisons.models import plugins
 from comparisons.models.candidate import Candidate
 from comparisons.models.registry import check
-from comparisons.report.report import Report
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
+from sheetbench.answers.report import Report
 from sheetbench.choices import REFERENCE, REFERENCES
 from sheetbench.scenes import Scene, Status
 

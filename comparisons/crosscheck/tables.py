@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from comparisons.crosscheck.standing import Standing
-from comparisons.report.report import Report
-from comparisons.report.table import Column, Table
+from sheetbench.answers.report import Report
+from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import Scene, Status
 
 if TYPE_CHECKING:

@@ -15,11 +15,11 @@ from comparisons.export.mujoco import to_mjcf
 from comparisons.export.page import page
 from comparisons.export.sofa import to_sofa
 from comparisons.export.tables import tables
-from comparisons.report.files import write_text
 from comparisons.runs.folder import Folder
+from sheetbench.answers.files import write_text
+from sheetbench.errors import require_choice
 from sheetbench.files import whole
 from sheetbench.scenes import Scene
-from sheetbench.scenes.errors import require_choice
 
 if TYPE_CHECKING:
     from lumped import Calibration, Description

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.errors import BadInput
 
 if TYPE_CHECKING:
     from lumped import Description

@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from comparisons.export.arrays import NAMES
-from comparisons.report.escape import markdown
 from comparisons.runs.manifest import version
+from sheetbench.answers.escape import markdown
 from sheetbench.scenes import Scene
 
 if TYPE_CHECKING:

@@ -12,9 +12,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.identification.measurements import Displacements
-from comparisons.report.look import PLAIN, Look
-from comparisons.report.style import COMPONENTS, DARK, GREY, STYLE, plain, save
-from comparisons.report.table import quantity
+from sheetbench.answers.figure_style import PLAIN, Look
+from sheetbench.answers.style import COMPONENTS, DARK, GREY, STYLE, plain, save
+from sheetbench.answers.table import quantity
 
 HEIGHT = 3.0  # of a panel [inches]
 SHADES = "magma_r"

@@ -12,8 +12,8 @@ from comparisons.identification import tables
 from comparisons.identification.measurements import Measured
 from comparisons.identification.outliers import Outlier
 from comparisons.identification.residual_test import Runs
-from comparisons.report.report import Report
-from comparisons.report.table import quantity
+from sheetbench.answers.report import Report
+from sheetbench.answers.table import quantity
 from sheetbench.scenes import Scene, summary
 from sheetbench.scenes.summary import few
 

@@ -49,8 +49,8 @@ from comparisons.models.springs import LatticeSpec, resolve
 from comparisons.report.work import Work, silent
 from lumped import identifiability
 from sheetbench.choices import ELEMENTS, REFERENCES
+from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, Scene, SpringTable, require_static, scene_of
-from sheetbench.scenes.errors import BadInput
 
 __all__ = ["NotReached", "identify"]
 MODELS = ("lumped", *(name for name in REFERENCES if name != "plate"))  # whose large displacements hold

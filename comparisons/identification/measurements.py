@@ -24,8 +24,8 @@ import numpy as np
 
 from comparisons.measured.columns import Columns, Row, read_columns
 from comparisons.measured.ply import read_points
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Sheet
-from sheetbench.scenes.errors import BadInput
 
 PLACE = ("x", "y")
 MOVED = ("ux", "uy", "uz")

@@ -13,8 +13,8 @@ import numpy as np
 from comparisons.identification import surface
 from comparisons.identification.measurements import MOVED, Displacements, Measured, Surface
 from comparisons.identification.prediction import Prediction
-from comparisons.report.table import number
-from sheetbench.scenes.errors import BadInput
+from sheetbench.answers.table import number
+from sheetbench.errors import BadInput
 
 OPPOSITE = -0.5  # correlation with the model's displacement below which the measured one is turned round
 TELLING = 0.1  # of the largest measurement: what a component must reach for its sign to say something

@@ -11,7 +11,7 @@ from comparisons.identification.outliers import Outlier
 from comparisons.identification.residual_test import POOR, Runs, explained
 from comparisons.identification.search import Nearest
 from comparisons.identification.starts import Fit
-from comparisons.report.table import quantity
+from sheetbench.answers.table import quantity
 from sheetbench.scenes.summary import few
 
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from comparisons.identification.measurements import Displacements
 from comparisons.models.grading import told
-from comparisons.report.look import Look
-from comparisons.report.report import Picture, Report
-from comparisons.report.table import Column, Table, unit
+from sheetbench.answers.figure_style import Look
+from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.table import Column, Table, unit
 
 if TYPE_CHECKING:
     from comparisons.identification.found import Identification

@@ -10,8 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import exp, log, pi
 
+from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes import Scene
-from sheetbench.scenes.errors import BadInput, SceneError
 from sheetbench.scenes.grid import grid_of
 from sheetbench.scenes.parameters import parameter, put
 from sheetbench.scenes.supports import LARGEST_TILT

@@ -9,8 +9,8 @@ import numpy as np
 
 from comparisons.judges.bricks import Bricks
 from comparisons.models.plugins import Model
+from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
-from sheetbench.scenes.errors import BadInput, require_choice
 
 
 @runtime_checkable

@@ -22,8 +22,8 @@ from scipy.sparse.linalg import splu
 
 from comparisons.judges.answer import answered, moving_supports, require
 from comparisons.judges.bricks import GRADINGS, Bricks, Held, forces, held
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, EdgeLoad, Material, Pressure, Scene, Solution, Status
-from sheetbench.scenes.errors import BadInput
 
 CORRECTION = 1e-9  # of the displacement: where a step ends
 ITERATIONS, LEAST = 15, 1.0 / 64.0  # of a step, and the smallest step

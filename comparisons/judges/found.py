@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from comparisons.judges.answer import Judge
 from comparisons.models import plugins
-from sheetbench.scenes.errors import BadInput, require_choice
+from sheetbench.errors import BadInput, require_choice
 
 
 @dataclass(frozen=True)

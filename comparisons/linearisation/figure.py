@@ -12,8 +12,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from comparisons.linearisation.units import unit_of
-from comparisons.report.look import PLAIN, Look
-from comparisons.report.style import GREY, STYLE, plain, save
+from sheetbench.answers.figure_style import PLAIN, Look
+from sheetbench.answers.style import GREY, STYLE, plain, save
 
 if TYPE_CHECKING:
     from comparisons.linearisation.linearisation import Linearisation

@@ -16,11 +16,11 @@ from comparisons.models.grids import GridLike
 from comparisons.models.registry import check
 from comparisons.models.sizes import size
 from comparisons.models.springs import LatticeSpec
-from comparisons.report.report import Report
 from comparisons.report.work import Progress, Work, silent
+from sheetbench.answers.report import Report
+from sheetbench.errors import BadInput, require_choice
 from sheetbench.files import whole
 from sheetbench.scenes import AnyScene, Scene, scene_of
-from sheetbench.scenes.errors import BadInput, require_choice
 
 if TYPE_CHECKING:
     from lumped import Balanced, Linear, StateSpace

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.linearisation.units import unit_of
-from comparisons.report.look import Look
-from comparisons.report.report import Picture, Report
-from comparisons.report.table import Column, Table
+from sheetbench.answers.figure_style import Look
+from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.table import Column, Table
 
 if TYPE_CHECKING:
     from comparisons.linearisation.linearisation import Linearisation

@@ -14,8 +14,8 @@ from typing import Any, NoReturn
 
 from comparisons.browser.sheets import free_side, outline
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Curved, Scene, Sheet
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import MASSES, near_square
 from sheetbench.scenes.loads import Pressure
 from sheetbench.scenes.parameters import parameter, put

@@ -24,7 +24,7 @@ from comparisons.live.guard import LOOPBACK, Guard
 from comparisons.live.models import Models
 from comparisons.live.panel import Panel
 from comparisons.live.session import Session
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 MESSAGE = 4096  # bytes of a question at most
 PAGES = 4  # open at once

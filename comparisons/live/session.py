@@ -24,7 +24,7 @@ from comparisons.live.answers import Answered
 from comparisons.live.models import Models
 from comparisons.live.newest import Newest
 from comparisons.live.panel import Panel, Question
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 PAUSE = 0.3  # s without a new question: one rests
 Send = Callable[[str], Awaitable[None]]

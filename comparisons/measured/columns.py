@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from math import isfinite, nan
 from pathlib import Path
 
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 from sheetbench.scenes.quantities import LARGEST
 from sheetbench.scenes.reading import read_text
 

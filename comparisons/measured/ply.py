@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 TYPES = {
     **{"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4"},

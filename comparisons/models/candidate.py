@@ -16,8 +16,8 @@ from comparisons.models import plugins
 from comparisons.models.grids import GridLike, parse_elements, scene_grid
 from comparisons.models.programs import PREFIX
 from sheetbench.choices import AUTO, EXTRAPOLATED
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import LAYERS
 from sheetbench.scenes.quantities import LARGEST
 

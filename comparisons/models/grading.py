@@ -16,8 +16,8 @@ from typing import Any
 
 from comparisons.models.layers import layers
 from sheetbench.choices import AUTO, CALIBRATIONS, method_of
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Clamped, Scene
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grading import Graded, of_settings, towards
 from sheetbench.scenes.grading import Grading as Some
 from sheetbench.scenes.grid import LAYERS

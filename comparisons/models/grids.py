@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Sheet, SpringTable
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import MASSES, Grid, grid_of
 
 GridLike = int | Sequence[int] | str | None

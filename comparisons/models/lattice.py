@@ -11,8 +11,8 @@ from typing import Any
 from comparisons.models.springs import LatticeSpec, resolve
 from comparisons.models.symmetry import by_parts, cut_axes
 from sheetbench.choices import BRANCHES
+from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Iteration, Scene, Solution
-from sheetbench.scenes.errors import BadInput, require_choice
 from sheetbench.scenes.grading import mirrored
 
 Watch = Callable[[Iteration], None]  # called once an iteration

@@ -21,8 +21,8 @@ from typing import Any, ClassVar
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
+from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Clamped, FieldMesh, Hinged, PointLoad, Scene, Solution, Status
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import near_square
 
 AT_REST = 1e-8  # displacement, in sides of the sheet, that one more step would add

@@ -27,9 +27,9 @@ from comparisons.models.grids import GridLike, scene_grid
 from comparisons.models.lattice import Solve, Watch, lattice, require_known
 from comparisons.models.springs import LatticeSpec, resolve
 from sheetbench.choices import EXTRAPOLATED, listed
+from sheetbench.errors import BadInput
 from sheetbench.scenes import FieldMesh, Scene, Solution
 from sheetbench.scenes.balance import Balance
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import Grid
 
 ORDER, REACH, UNSEEN = 2.0, 2.0, 0.2

@@ -28,8 +28,8 @@ from typing import Any, Protocol, runtime_checkable
 
 from comparisons.models import plugin_sources
 from comparisons.models.programs import PREFIX, Program
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Solution
-from sheetbench.scenes.errors import BadInput
 
 GROUP = "sheetbench.models"
 OBJECT = "MODEL"  # what of a file is the model, unless said

@@ -28,8 +28,8 @@ import numpy as np
 
 from comparisons.models import memory
 from comparisons.models.running import run
+from sheetbench.errors import BadInput
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.quantities import LARGEST
 
 PREFIX = "exec:"

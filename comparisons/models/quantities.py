@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 from sheetbench.scenes.refusals import in_one_line
 from sheetbench.scenes.units import quantity
 

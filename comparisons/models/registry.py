@@ -24,8 +24,8 @@ from comparisons.models.symmetry import by_parts, cut_axes
 from comparisons.report.work import Progress, Work, silent
 from sheetbench.choices import ELEMENTS, REFERENCE, REFERENCES
 from sheetbench.clock import now
+from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import History, Scene, Solution, load
-from sheetbench.scenes.errors import BadInput, require_choice
 from sheetbench.scenes.grid import near_square
 
 LATTICES = {"lumped": check_settings, "lumped-pair": check_pair}  # what looks at their settings

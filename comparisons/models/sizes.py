@@ -15,8 +15,8 @@ from comparisons.models.grids import scene_grid
 from comparisons.models.symmetry import cut_axes
 from comparisons.report import amounts
 from sheetbench.choices import ELEMENTS
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Sheet
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import grid_of, near_square
 from sheetbench.scenes.size import Size
 

@@ -18,8 +18,8 @@ from comparisons.models.method import chosen
 from comparisons.models.sizes import require_room
 from comparisons.report.work import Progress, silent
 from sheetbench.choices import AUTO, CALIBRATIONS, method_of
+from sheetbench.errors import BadInput, Implausible, require_choice
 from sheetbench.scenes import Scene
-from sheetbench.scenes.errors import BadInput, Implausible, require_choice
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.plausibility import layer_slips

@@ -18,8 +18,8 @@ from comparisons.models.candidate import Candidate
 from comparisons.models.sizes import size
 from comparisons.report.work import Progress, Work, silent
 from lumped import Calibration, ModalTarget, StaticTarget
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet, Status
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 

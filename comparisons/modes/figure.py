@@ -12,9 +12,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.ndimage import maximum_filter
 
-from comparisons.report.look import PLAIN, Look
-from comparisons.report.style import DARK, GREY, STYLE, plain, save
 from comparisons.report.vtk import plan_mesh
+from sheetbench.answers.figure_style import PLAIN, Look
+from sheetbench.answers.style import DARK, GREY, STYLE, plain, save
 
 MOST, CELLS = 6, 24  # modes; cells along the shorter side
 SHADES = "RdBu_r"

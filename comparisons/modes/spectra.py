@@ -28,12 +28,12 @@ from comparisons.modes import tables
 from comparisons.modes.expected import expected_errors
 from comparisons.modes.kinds import kinds
 from comparisons.modes.pairing import CELLS, Pair, assurance, cell_centres, matched
-from comparisons.report.report import Report
 from comparisons.report.work import Progress, Work, silent
+from sheetbench.answers.report import Report
 from sheetbench.choices import ELEMENTS, MASSES, REFERENCE
 from sheetbench.clock import now
+from sheetbench.errors import BadInput, NoEquilibrium, require_choice
 from sheetbench.scenes import About, Scene, free_rigid_motions, load, summary
-from sheetbench.scenes.errors import BadInput, NoEquilibrium, require_choice
 from sheetbench.scenes.grading import as_settings
 
 if TYPE_CHECKING:

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from comparisons.models.grading import told
-from comparisons.report.look import Look
-from comparisons.report.report import Picture, Report
-from comparisons.report.table import Column, Table, number
+from sheetbench.answers.figure_style import Look
+from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.table import Column, Table, number
 from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:

@@ -20,8 +20,8 @@ from PIL import Image
 from comparisons.comparison.figure import HEIGHTS, colour_bar
 from comparisons.motion.frames import Frame
 from comparisons.report.stage import Stage
-from comparisons.report.style import STYLE, plain
 from comparisons.report.vtk import plan_mesh
+from sheetbench.answers.style import STYLE, plain
 from sheetbench.files import whole
 from sheetbench.scenes import Scene
 

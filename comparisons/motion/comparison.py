@@ -27,7 +27,7 @@ from sheetbench.scenes import AnyScene, History, Scene, Status, scene_of, summar
 from sheetbench.scenes.grid import near_square
 
 if TYPE_CHECKING:
-    from comparisons.report.report import Report
+    from sheetbench.answers.report import Report
 
 ELEMENTS = 8  # of a moving reference along the shorter side
 LONGER = 8.0  # error of a step: steps twice as long

@@ -10,8 +10,8 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from comparisons.report.look import PLAIN, Look
-from comparisons.report.style import DARK, SERIES, STYLE, plain, save
+from sheetbench.answers.figure_style import PLAIN, Look
+from sheetbench.answers.style import DARK, SERIES, STYLE, plain, save
 
 if TYPE_CHECKING:
     from comparisons.motion.comparison import MotionComparison

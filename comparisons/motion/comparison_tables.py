@@ -14,10 +14,10 @@ from comparisons.motion.frames import Frame
 from comparisons.motion.history import COMPONENTS, series
 from comparisons.motion.measures import leading, measured_alike
 from comparisons.motion.tables import balance
-from comparisons.report.files import write_text
-from comparisons.report.look import Look
-from comparisons.report.report import Picture, Report
-from comparisons.report.table import Column, Table, number
+from sheetbench.answers.figure_style import Look
+from sheetbench.answers.files import write_text
+from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.table import Column, Table, number
 from sheetbench.scenes import FieldMesh, Status
 
 if TYPE_CHECKING:

@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from comparisons.motion.history import Measured, error
-from comparisons.report.look import PLAIN, Look
-from comparisons.report.style import COMPONENTS, MOST, STYLE, plain, save
+from sheetbench.answers.figure_style import PLAIN, Look
+from sheetbench.answers.style import COMPONENTS, MOST, STYLE, plain, save
 from sheetbench.scenes import History
 
 DASHES: Any = {"uy": (0, (4, 2))}  # of a symmetric sheet it lies on ux

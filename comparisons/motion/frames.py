@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.report.files import folder, write_text
 from comparisons.report.vtk import write_mesh
 from lumped import Lattice, MidSurface
+from sheetbench.answers.files import folder, write_text
 from sheetbench.scenes import FieldMesh, History
 
 

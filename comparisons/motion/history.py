@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 
 from comparisons.measured.columns import read_columns
-from comparisons.report.table import Column, Table
+from sheetbench.answers.table import Column, Table
+from sheetbench.errors import BadInput
 from sheetbench.scenes import History
-from sheetbench.scenes.errors import BadInput
 
 COMPONENTS = ("ux", "uy", "uz")
 HEADER = ("time", "probe", *COMPONENTS)

@@ -10,10 +10,10 @@ from pathlib import Path
 from comparisons.models.grading import told
 from comparisons.motion import frames
 from comparisons.motion.history import Measured, as_dict, left_out, series, summary
-from comparisons.report.files import write_text
-from comparisons.report.look import Look
-from comparisons.report.report import Picture, Report
-from comparisons.report.table import number
+from sheetbench.answers.figure_style import Look
+from sheetbench.answers.files import write_text
+from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.table import number
 from sheetbench.scenes import History, Scene, Status
 
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from comparisons.pages.studies import Study
-from comparisons.report.table import number
+from sheetbench.answers.table import number
 from sheetbench.scenes.words import in_words
 
 QUESTIONS = {

@@ -9,7 +9,7 @@ from typing import Any
 
 from comparisons.pages.plots import Axis, Plot, Series
 from comparisons.pages.studies import Study
-from comparisons.report.table import number
+from sheetbench.answers.table import number
 
 Document = Mapping[str, Any]
 

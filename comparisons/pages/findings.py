@@ -10,7 +10,7 @@ from typing import Any
 
 from comparisons.pages.asked import short
 from comparisons.pages.studies import Study
-from comparisons.report.table import number
+from sheetbench.answers.table import number
 
 Document = Mapping[str, Any]
 TOLERANCES = (0.05, 0.01, 0.001)

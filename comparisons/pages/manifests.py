@@ -14,7 +14,7 @@ from pydantic import AfterValidator, TypeAdapter, ValidationError
 from typing_extensions import TypedDict
 
 from comparisons.runs.folder import MANIFEST
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 LARGEST = 64_000_000  # bytes of a file that a page reads
 LONGEST = 255  # bytes of a file's name
@@ -30,7 +30,7 @@ Name = Annotated[str, AfterValidator(_name)]
 
 
 class Words(TypedDict, total=False):
-    """What a run said of its answer (`comparisons.report.report.Report.words`)."""
+    """What a run said of its answer (`sheetbench.answers.report.Report.words`)."""
 
     title: str
     subtitle: str | None

@@ -25,9 +25,9 @@ from comparisons.pages.stage import stage
 from comparisons.pages.studies import Found, Study
 from comparisons.pages.tables import tables
 from comparisons.report.amounts import memory
-from comparisons.report.escape import terminal
-from comparisons.report.files import plain
 from comparisons.runs.manifest import made_with
+from sheetbench.answers.escape import terminal
+from sheetbench.answers.files import plain
 
 PACKAGE = "comparisons.pages"
 MANY, OTHERS = 4, 30  # studies from which on each is folded to its findings; other files that are named

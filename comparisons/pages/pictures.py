@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 from PIL import Image
 
 from comparisons.pages.studies import Study
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 WIDEST = 1600  # pixels
 AS_THEY_ARE = {".gif": "gif", ".svg": "svg+xml"}  # what moves, and lines; no script runs in a picture

@@ -18,8 +18,8 @@ import numpy as np
 from comparisons.browser.sheets import displaced, drawn, field, free_side, outline
 from comparisons.pages.studies import Study
 from comparisons.report.vtk import PLAN_CELLS
+from sheetbench.errors import BadInput
 from sheetbench.scenes import FieldMesh, Scene
-from sheetbench.scenes.errors import BadInput
 
 FRAMES, MOVED = 60, 400_000  # moments of a motion on a page; numbers in all of them
 CELLS = 32  # a side of a plan grid on a page

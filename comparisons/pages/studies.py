@@ -15,10 +15,10 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.pages.manifests import LARGEST, manifest
-from comparisons.report.files import digest
 from comparisons.runs.folder import MANIFEST
+from sheetbench.answers.files import digest
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.errors import BadInput
 
 OURS = ("report.html", MANIFEST)
 Say = Callable[[str], None]

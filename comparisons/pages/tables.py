@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.pages.studies import Study
-from comparisons.report.table import Column, Table, Unit, number, unit
+from sheetbench.answers.table import Column, Table, Unit, number, unit
 
 MOST, LONG = 500, 15  # rows of a table on a page, and from which on it is folded
 WORD = 24  # letters; longer texts are broken over lines

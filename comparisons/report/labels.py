@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 
-from comparisons.report.style import DARK, MOST, plain
+from sheetbench.answers.style import DARK, MOST, plain
 
 SIZE, LONGEST = 6.5, 14  # points; characters of a name
 # Where a name may stand, in points from its point, in the order of preference: offset, alignment.

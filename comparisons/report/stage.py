@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import pyvista
 
-from comparisons.report.style import DARK, GREY
 from comparisons.report.vtk import PLAN_CELLS, plan_mesh
+from sheetbench.answers.style import DARK, GREY
 from sheetbench.scenes import EDGES, FieldMesh, Scene, Sheet, Solution, holds_director
 from sheetbench.scenes.grid import near_square
 

@@ -10,10 +10,10 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from comparisons.report.look import Look
-from comparisons.report.style import DARK, GREY, SERIES, STYLE, save
 from comparisons.reproduction.published import COMPONENTS, SOURCES, published
 from comparisons.reproduction.settling import PROBE
+from sheetbench.answers.figure_style import Look
+from sheetbench.answers.style import DARK, GREY, SERIES, STYLE, save
 from sheetbench.scenes.seed import PROBES
 
 if TYPE_CHECKING:

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.report.table import number
 from comparisons.reproduction.answers import Answer, of_model
 from comparisons.reproduction.published import published
 from comparisons.reproduction.settling import PROBE, SETTLED
 from comparisons.reproduction.words import millimetres, percent
+from sheetbench.answers.table import number
 from sheetbench.scenes import Solution, Status
 from sheetbench.scenes.seed import PROBES, seed_inputs
 

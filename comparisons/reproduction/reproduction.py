@@ -14,11 +14,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from comparisons.models.grids import Elements
-from comparisons.report.report import Report
 from comparisons.report.work import Work, silent
 from comparisons.reproduction import findings, tables
 from comparisons.reproduction.answers import Answer, answers
 from comparisons.reproduction.settling import Settling, settling
+from sheetbench.answers.report import Report
 from sheetbench.choices import ELEMENTS
 from sheetbench.scenes import Status
 from sheetbench.scenes.seed import KNOWN_FAULTS, seed_inputs

@@ -12,16 +12,16 @@ import numpy as np
 from comparisons.comparison.tables import sheet, write_plan
 from comparisons.motion.frames import frames, write_series
 from comparisons.motion.history import series
-from comparisons.report.files import write_text
-from comparisons.report.look import Look
-from comparisons.report.report import Picture, Report, Write
-from comparisons.report.table import Column, Table
 from comparisons.report.vtk import write_solution
 from comparisons.reproduction import findings
 from comparisons.reproduction.answers import Answer
 from comparisons.reproduction.published import SOURCES, published, scene
 from comparisons.reproduction.settling import PROBE, SETTLED
 from comparisons.reproduction.words import percent
+from sheetbench.answers.figure_style import Look
+from sheetbench.answers.files import write_text
+from sheetbench.answers.report import Picture, Report, Write
+from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import Status
 from sheetbench.scenes.seed import PROBES, seed_inputs
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from comparisons.report.table import number, quantity
+from sheetbench.answers.table import number, quantity
 
 
 def percent(fraction: float, form: str = ".2g") -> str:

@@ -25,14 +25,14 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from comparisons.report.files import plain
 from comparisons.runs import interrupts
 from comparisons.runs.executors import Pool, Watched, processes, single_threaded
 from comparisons.runs.manifest import source, version
 from comparisons.runs.store import FILE, Finished, Store
 from comparisons.runs.tasks import function
+from sheetbench.answers.files import plain
+from sheetbench.errors import BadInput
 from sheetbench.files import only_writer
-from sheetbench.scenes.errors import BadInput
 
 GOING = "going on"
 LOOK = 1.0  # s between looks at who carries out the runs

@@ -23,7 +23,7 @@ from multiprocessing.resource_tracker import ensure_running
 from typing import Any, Protocol, runtime_checkable
 from urllib.parse import urlsplit
 
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 ONE_THREAD = dict.fromkeys(
     (

@@ -17,10 +17,10 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from comparisons.report.files import folder, plain, to_json, write_text
-from comparisons.report.report import Report, Write
 from comparisons.runs.manifest import made_with, record
-from sheetbench.scenes.errors import BadInput
+from sheetbench.answers.files import folder, plain, to_json, write_text
+from sheetbench.answers.report import Report, Write
+from sheetbench.errors import BadInput
 
 MANIFEST = "manifest.json"
 ABOUT = ("scene", "sheet", "material")  # what a run is about

@@ -20,9 +20,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from comparisons.report.files import plain
+from sheetbench.answers.files import plain
+from sheetbench.errors import BadInput
 from sheetbench.files import require_file
-from sheetbench.scenes.errors import BadInput
 
 FILE = "campaign.sqlite"
 _TEXTS = ("task", "arguments", "status", "row", "message", "started", "finished")

@@ -18,7 +18,7 @@ import numpy as np
 
 from comparisons.measured.columns import Row, read_columns
 from comparisons.suite.reference import Reference, reference, references
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 HEADERS = {
     "statics": ("case", "probe", "ux", "uy", "uz"),

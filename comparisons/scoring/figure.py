@@ -13,8 +13,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.report.labels import spread
-from comparisons.report.look import PLAIN, Look
-from comparisons.report.style import DARK, GREY, STYLE, plain, save
+from sheetbench.answers.figure_style import PLAIN, Look
+from sheetbench.answers.style import DARK, GREY, STYLE, plain, save
 
 if TYPE_CHECKING:
     from comparisons.scoring.score import Score, Standing

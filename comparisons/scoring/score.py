@@ -19,12 +19,12 @@ from typing import Any
 import numpy as np
 
 from comparisons.models.candidate import Candidate, written
-from comparisons.report.report import Report
 from comparisons.scoring import tables
 from comparisons.scoring.answers import Answer, read_answers
 from comparisons.scoring.faults import faults
 from comparisons.scoring.verdict import stiffness, verdict
 from comparisons.suite.reference import Reference, document
+from sheetbench.answers.report import Report
 from sheetbench.choices import REFERENCES
 
 OWN = "answers"

@@ -7,11 +7,11 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.report.look import Look
-from comparisons.report.report import Picture, Report
-from comparisons.report.table import Column, Table, number
 from comparisons.scoring.verdict import verdict
 from comparisons.suite.reference import document
+from sheetbench.answers.figure_style import Look
+from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.table import Column, Table, number
 
 if TYPE_CHECKING:
     from comparisons.scoring.score import Score

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.report.table import number
 from comparisons.scoring.answers import Answer
+from sheetbench.answers.table import number
 
 if TYPE_CHECKING:
     from comparisons.scoring.score import Score

@@ -34,13 +34,13 @@ from comparisons.stability import tables
 from comparisons.stability.rows import Row
 from comparisons.tradeoff.motion import explicit_limit, shortest_period
 from sheetbench.choices import INTEGRATORS, REFERENCE
+from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene, Status
-from sheetbench.scenes.errors import BadInput, require_choice
 from sheetbench.scenes.parameters import put
 from sheetbench.scenes.tables import FactorTable, Loading
 
 if TYPE_CHECKING:
-    from comparisons.report.report import Report
+    from sheetbench.answers.report import Report
 
 FACTORS = {
     "load": (0.001, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0),

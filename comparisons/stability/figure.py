@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import matplotlib
 from matplotlib.figure import Figure
 
-from comparisons.report.look import Look
-from comparisons.report.style import save
 from comparisons.stability import tiles as maps
 from comparisons.stability.rows import VARIED, Row, place, who
+from sheetbench.answers.figure_style import Look
+from sheetbench.answers.style import save
 
 if TYPE_CHECKING:
     from comparisons.stability.extremes import Stability

@@ -8,10 +8,10 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.report.look import Look
-from comparisons.report.report import Picture, Report
-from comparisons.report.table import Column, Table, number
 from comparisons.stability.rows import LARGE, VARIED, Row, place, verdict, who
+from sheetbench.answers.figure_style import Look
+from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.table import Column, Table, number
 
 if TYPE_CHECKING:
     from comparisons.stability.extremes import Stability

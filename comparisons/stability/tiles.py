@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
-from comparisons.report.style import GREY, STYLE
 from comparisons.stability.rows import LARGE, Row, percent
+from sheetbench.answers.style import GREY, STYLE
 
 MAP_STYLE = {**STYLE, "axes.titlesize": 8, "axes.titleweight": "bold", "axes.titlelocation": "left"}
 # Light enough to write on; told apart in grey and by those who do not see red and green alike.

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from sheetbench.errors import require_choice
 from sheetbench.scenes import Scene
-from sheetbench.scenes.errors import require_choice
 
 FILE = Path(__file__).parent / "data" / "suite.json"
 VERSION = "1.0"

@@ -8,12 +8,12 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from comparisons.report.files import write_text
-from comparisons.report.report import Report
-from comparisons.report.table import Column, Table
 from comparisons.scoring.answers import HEADERS
 from comparisons.scoring.score import own_models
 from comparisons.suite.reference import Reference, document, references
+from sheetbench.answers.files import write_text
+from sheetbench.answers.report import Report
+from sheetbench.answers.table import Column, Table
 
 AXES = "xyz"
 LICENCE = """\

@@ -12,8 +12,8 @@ from comparisons.models.springs import LatticeSpec, resolve_each
 from comparisons.tradeoff.motion import DynamicTradeoff, dynamic_tradeoff
 from comparisons.tradeoff.statics import Tradeoff, tradeoff
 from sheetbench.choices import REFERENCE
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.quantities import require_positive
 
 

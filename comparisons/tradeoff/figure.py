@@ -13,11 +13,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation, Text
 
-from comparisons.report.look import PLAIN, Look
-from comparisons.report.style import GREY, SERIES, STYLE, plain, save
 from comparisons.tradeoff.axes import logarithmic
 from comparisons.tradeoff.pareto import grouped
 from comparisons.tradeoff.row import TradeoffRow
+from sheetbench.answers.figure_style import PLAIN, Look
+from sheetbench.answers.style import GREY, SERIES, STYLE, plain, save
 
 if TYPE_CHECKING:
     from comparisons.tradeoff.statics import Tradeoff

@@ -29,18 +29,18 @@ import numpy as np
 
 from comparisons.models.registry import check, simulate
 from comparisons.models.springs import LatticeSpec, resolve
-from comparisons.report.look import Look
-from comparisons.report.report import Picture, Report
-from comparisons.report.table import Column, Table
 from comparisons.runs import load, manifest
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff.motion_row import MotionRow, measured_row
 from comparisons.tradeoff.pareto import error_order, front, grouped
+from sheetbench.answers.figure_style import Look
+from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.table import Column, Table
 from sheetbench.choices import INTEGRATORS
+from sheetbench.errors import NoEquilibrium
 from sheetbench.scenes import Scene, SceneError, Status
-from sheetbench.scenes.errors import NoEquilibrium
 from sheetbench.scenes.quantities import require_positive
 from sheetbench.scenes.summary import few
 

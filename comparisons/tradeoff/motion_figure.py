@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import matplotlib
 from matplotlib.figure import Figure
 
-from comparisons.report.look import PLAIN, Look
-from comparisons.report.style import GREY, SERIES, STYLE, plain, save
 from comparisons.tradeoff.axes import logarithmic
 from comparisons.tradeoff.pareto import grouped
+from sheetbench.answers.figure_style import PLAIN, Look
+from sheetbench.answers.style import GREY, SERIES, STYLE, plain, save
 
 if TYPE_CHECKING:
     from comparisons.tradeoff.motion import DynamicTradeoff

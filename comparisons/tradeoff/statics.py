@@ -22,7 +22,6 @@ import numpy as np
 from comparisons.comparison.comparison import error as probe_error
 from comparisons.models.candidate import Candidate
 from comparisons.models.registry import check
-from comparisons.report.report import Report
 from comparisons.runs import load
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
@@ -32,6 +31,7 @@ from comparisons.tradeoff.pareto import error_order, front, grouped, order
 from comparisons.tradeoff.row import TradeoffRow, measured_row
 from fem_reference.edge_layer import missed_by
 from fem_reference.uncertainty import coarser, estimate, mesh_size
+from sheetbench.answers.report import Report
 from sheetbench.choices import ELEMENTS
 from sheetbench.scenes import Scene, comparable, require_static, summary
 

@@ -9,10 +9,10 @@ from pathlib import Path
 import matplotlib
 from matplotlib.figure import Figure
 
-from comparisons.report.look import PLAIN, Look
-from comparisons.report.style import STYLE, save
 from fem_reference.verification import Row
 from fem_reference.verification.locking import MODELS
+from sheetbench.answers.figure_style import PLAIN, Look
+from sheetbench.answers.style import STYLE, save
 
 WIDEST, HEIGHT = 4.6, 2.9  # inches
 MARKERS = {"plate": "s", "shell": "o", "solid": "^"}

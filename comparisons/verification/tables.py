@@ -9,10 +9,10 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from comparisons.report.look import Look
-from comparisons.report.report import Picture, Report
-from comparisons.report.table import Column, Table, number
 from fem_reference.verification import CASES, Row, strain_laws
+from sheetbench.answers.figure_style import Look
+from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.table import Column, Table, number
 from sheetbench.choices import STRAIN_LAWS
 
 COLUMNS = (

@@ -12,9 +12,9 @@ from fem_reference.plate import statics as plate
 from fem_reference.surface import loads
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from sheetbench.errors import BadInput
 from sheetbench.numerics.direct import DirectSolver, solve_free
 from sheetbench.scenes import EdgeMotion, FieldMesh, Scene
-from sheetbench.scenes.errors import BadInput
 
 
 class MovingPlate(Sheet):

@@ -22,10 +22,10 @@ from fem_reference.motion.solid import MovingSolid
 from fem_reference.vibration import modes
 from sheetbench.choices import REFERENCE, STRAIN_LAW, listed
 from sheetbench.clock import now
+from sheetbench.errors import BadInput, require_choice
 from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import AnyScene, Chain, History, Scene, Status, scene_of
-from sheetbench.scenes.errors import BadInput, require_choice
 from sheetbench.scenes.quantities import require_positive
 
 MODELS: dict[str, Callable[..., Moving]] = {

@@ -44,8 +44,8 @@ from fem_reference.surface.biquadratic import (
     shape,
 )
 from fem_reference.surface.materials import Section
+from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
-from sheetbench.scenes.errors import BadInput
 
 # Sampling grids of the covariant components and their interpolation to the Gauss points.
 GRIDS = {**TYING, "rs": (THREE, THREE)}

@@ -18,8 +18,8 @@ from fem_reference.shell.structure import ShellStructure
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import mesh_of
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.scenes import Scene, Status
-from sheetbench.scenes.errors import BadInput, NoEquilibrium
 
 Sample = Callable[[np.ndarray, np.ndarray], np.ndarray]
 

@@ -38,9 +38,9 @@ from fem_reference.surface.materials import Section, section_of
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, nodes_of, on_boundary, quarters
 from sheetbench.choices import BRANCHES, STRAIN_LAW
 from sheetbench.clock import now
+from sheetbench.errors import BadInput, require_choice
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
-from sheetbench.scenes.errors import BadInput, require_choice
 from sheetbench.scenes.rigid_motions import require_static
 
 

@@ -35,9 +35,9 @@ from fem_reference.surface.mesh import Elements, divisions, mesh_of, require_upr
 from fem_reference.surface.stretch import largest_stretch
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
+from sheetbench.errors import BadInput
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, Solution, Status, outside_model
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.rigid_motions import require_static
 
 GRADINGS = ("edges", "uniform")

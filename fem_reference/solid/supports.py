@@ -29,8 +29,8 @@ from fem_reference.solid.mesh import Columns
 from fem_reference.surface import supports
 from fem_reference.surface.rod import Rod
 from fem_reference.surface.supports import Supports
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Symmetric, holds_director
-from sheetbench.scenes.errors import BadInput
 
 CLAMPS = ("shell-like", "full")
 

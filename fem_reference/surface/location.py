@@ -10,8 +10,8 @@ import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.surface.biquadratic import shape
+from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
-from sheetbench.scenes.errors import BadInput
 
 SLACK = 1e-9  # how far outside, in element sizes, still counts as on the edge: rounding only
 _PAIRS_AT_ONCE = 4_000_000

@@ -12,9 +12,9 @@ from collections.abc import Callable, Collection
 import numpy as np
 from skfem import Dofs, ElementQuad2, MeshQuad
 
+from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 from sheetbench.scenes import EDGES, Scene, Sheet, Symmetric
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import near_square
 
 Elements = int | tuple[int, int]

@@ -35,8 +35,8 @@ from fem_reference.surface.biquadratic import TWO, lagrange, side_shape
 from fem_reference.surface.loads import Line
 from fem_reference.surface.rod_elements import RodElements
 from fem_reference.surface.supports import Supports
+from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Chain, Scene
-from sheetbench.scenes.errors import BadInput
 
 FIRM, SLENDER = 1e3, 1e5  # firm stiffnesses over the sheet's and over the rod's own
 STRAINS = 15

@@ -21,7 +21,7 @@ from fem_reference.verification import (
     strain_laws,
 )
 from fem_reference.verification.rows import Case, Row
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 CASES: dict[str, Case] = {
     "end-shear": Case("cantilever under an end shear", end_shear.rows),

@@ -26,8 +26,8 @@ from lumped.calibration.calibration import Calibration, by_direction, plan_spaci
 from lumped.calibration.central_table import ROWS
 from lumped.calibration.report import report
 from lumped.lattice import Grid
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Sheet, SpringSet
-from sheetbench.scenes.errors import BadInput
 
 STEPS = 30  # of the layer distance: δ is small and depends little on it
 

@@ -20,8 +20,8 @@ from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
 from lumped.calibration.uniform import uniform
 from lumped.springs import by_cell
 from sheetbench import choices
+from sheetbench.errors import Impossible
 from sheetbench.scenes import Scene, SpringTable
-from sheetbench.scenes.errors import Impossible
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import MASSES, grid_of
 

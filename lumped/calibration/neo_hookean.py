@@ -32,8 +32,8 @@ from lumped.calibration.closed_form import diagonals_for_waves, vertical
 from lumped.calibration.edge_twist import with_edges
 from lumped.calibration.report import report
 from lumped.lattice import Grid
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Sheet, SpringSet
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grading import Graded
 
 

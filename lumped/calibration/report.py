@@ -10,8 +10,8 @@ from lumped import moduli
 from lumped.calibration.calibration import Calibration, shown
 from lumped.grid_lines import grid_lines
 from lumped.springs import by_cell, constants
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Sheet, SpringSet
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 

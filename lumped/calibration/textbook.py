@@ -29,8 +29,8 @@ from lumped.calibration.calibration import Calibration, by_direction, plan_spaci
 from lumped.calibration.closed_form import closed_form
 from lumped.calibration.report import report
 from lumped.lattice import Grid
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Sheet, SpringSet
-from sheetbench.scenes.errors import BadInput
 
 CAUCHY_POISSON = 1.0 / 3.0
 

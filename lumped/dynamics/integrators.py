@@ -12,7 +12,7 @@ from lumped.dynamics.implicit.midpoint import Midpoint
 from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.system import System
 from sheetbench.choices import AUTO, REMOVED_INTEGRATORS
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 INTEGRATORS: dict[str, type[Integrator]] = {
     kind.name: kind for kind in (GeneralisedAlpha, Esdirk, Verlet, VerletImplicitDamping, Midpoint)

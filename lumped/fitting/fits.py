@@ -31,8 +31,8 @@ from lumped.sensitivity import sensitivity
 from lumped.springs import constants
 from lumped.springs.by_cell import EDGES_OWN
 from lumped.vibration import frequency_slopes
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Sheet
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grading import Graded
 
 PRIOR = {"fit-static": 1e-3, "fit-modal": 1e-1}

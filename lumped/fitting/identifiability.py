@@ -14,7 +14,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 THRESHOLD = 1e-3  # of the largest singular value: below it a combination counts as not seen
 CORRELATED = 0.98  # |correlation| of two parameters from which on the data cannot tell them apart

@@ -10,9 +10,9 @@ from lumped.calibration.methods import MAKERS, described
 from lumped.fitting.fits import fit_modal, fit_static
 from lumped.fitting.targets import Target
 from sheetbench import choices
+from sheetbench.errors import BadInput
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Material, Sheet
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import MASSES, grid_of
 from sheetbench.scenes.quantities import require_positive

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from sheetbench.errors import BadInput
 from sheetbench.scenes import PerDirection, SpringSet
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.springs import Either
 

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from lumped.springs.by_cell import EDGES_OWN, of_cells
+from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, PerDirection, SpringSet
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.springs import DamperSet, Either
 
 SIGNED = ("area", "mid_area", "mid_shear", *EDGES_OWN)

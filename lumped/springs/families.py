@@ -20,8 +20,8 @@ from lumped.springs.cells import CellArrays
 from lumped.springs.family import Dampers, Family
 from lumped.springs.links import LinkArrays
 from lumped.springs.rest import Rest, rest_of
+from sheetbench.errors import BadInput
 from sheetbench.scenes import SpringSet
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.springs import DamperSet
 
 

@@ -14,9 +14,9 @@ from typing import Any
 
 from lumped.calibration import Calibration
 from lumped.statics.solver import compile_kernels, solve
+from sheetbench.errors import BadInput
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import AnyScene, Scene, Solution, scene_of
-from sheetbench.scenes.errors import BadInput
 
 
 def solve_many(

@@ -35,6 +35,7 @@ from lumped.statics.polygon import polygons
 from lumped.statics.problem import Problem
 from lumped.supports import constrain
 from sheetbench.clock import now
+from sheetbench.errors import BadInput
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import (
@@ -51,7 +52,6 @@ from sheetbench.scenes import (
     require_static,
     scene_of,
 )
-from sheetbench.scenes.errors import BadInput
 
 STRETCH = "largest in-plane link strain"
 UNKNOWN = "stability not known: the tangent's factors do not tell how many eigenvalues are negative"

@@ -1,8 +1,8 @@
 """What is asked: sheet, material, supports, loads, probes, the catalogue, published figures; no solver."""
 
+from sheetbench.errors import BadInput, Implausible, SceneError
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable, EdgeMotion
 from sheetbench.scenes.balance import Balance, dead_force
-from sheetbench.scenes.errors import BadInput, Implausible, SceneError
 from sheetbench.scenes.files import AnyScene, catalogue, load, scene_of
 from sheetbench.scenes.history import History
 from sheetbench.scenes.loads import EdgeLoad, Load, PointLoad, Pressure

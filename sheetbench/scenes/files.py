@@ -9,7 +9,7 @@ from warnings import warn
 
 from pydantic import ValidationError
 
-from sheetbench.scenes.errors import BadInput, Implausible, SceneError
+from sheetbench.errors import BadInput, Implausible, SceneError
 from sheetbench.scenes.plausibility import slips
 from sheetbench.scenes.reading import read_text
 from sheetbench.scenes.refusals import did_you_mean, in_one_line

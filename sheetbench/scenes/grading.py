@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 from sheetbench.scenes.sheet import EDGES
 
 

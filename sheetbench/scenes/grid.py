@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 from sheetbench.scenes.sheet import Sheet
 
 Grid = tuple[int, int, int]

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from math import inf
 from typing import Any
 
+from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes.actuators import Chain
-from sheetbench.scenes.errors import BadInput, SceneError
 from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.supports import LARGEST_TILT, Clamped, Curved
 

@@ -29,7 +29,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, PydanticCustomError
 from pydantic_core.core_schema import no_info_before_validator_function
 
-from sheetbench.scenes.errors import BadInput, SceneError
+from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes.refusals import in_one_line
 from sheetbench.scenes.schema import sentences
 from sheetbench.scenes.units import converted

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 LARGEST = 2**26  # bytes
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 from sheetbench.scenes.limits import wish
 from sheetbench.scenes.schema import branches, json_schema, kind
 from sheetbench.scenes.units import quantity

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from sheetbench.errors import SceneError
 from sheetbench.scenes.actuators import Chain
-from sheetbench.scenes.errors import SceneError
 from sheetbench.scenes.sheet import EDGES, Sheet
 from sheetbench.scenes.supports import Support, held_axes, holds_tilt
 

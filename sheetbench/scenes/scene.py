@@ -14,10 +14,10 @@ from warnings import warn
 import numpy as np
 from pydantic import Field, ValidationError, model_validator
 
+from sheetbench.errors import Implausible
 from sheetbench.scenes import corners, summary
 from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion, disagreement
 from sheetbench.scenes.anchors import held_twice
-from sheetbench.scenes.errors import Implausible
 from sheetbench.scenes.loads import Load, PointLoad
 from sheetbench.scenes.plausibility import slips
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit

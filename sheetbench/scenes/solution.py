@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from sheetbench.errors import BadInput
 from sheetbench.scenes import summary
 from sheetbench.scenes.balance import Balance
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.quantities import PlanPoint
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import Any
 
-from sheetbench.scenes.errors import printable
+from sheetbench.errors import printable
 
 WIDEST = 100  # characters of a value
 ROUNDING = 1e-9  # of the largest force: equilibria are balanced to that

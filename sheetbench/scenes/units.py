@@ -11,7 +11,7 @@ from fractions import Fraction
 from functools import cache
 from math import pi
 
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 Dimension = tuple[int, int, int, int]  # powers of m, kg, s and rad
 

@@ -21,13 +21,13 @@ from comparisons.advice.advisor import advise
 from comparisons.comparison.comparison import error
 from comparisons.models.candidate import Candidate, lattices, references
 from comparisons.models.registry import solve
-from comparisons.report.report import Report
-from comparisons.report.table import Column, Table
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import processes
 from comparisons.runs.manifest import record
 from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff import timing
+from sheetbench.answers.report import Report
+from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import Clamped, Curved, Gravity, Hinged, Material, PointLoad, Scene, Sheet, Status
 from sheetbench.scenes.supports import AnySupport
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import lumped
 from comparisons.cli import console
-from comparisons.report.files import write_text
+from sheetbench.answers.files import write_text
 from studies.central.training import POISSON, trained
 
 HEAD = '''\

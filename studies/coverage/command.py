@@ -10,7 +10,7 @@ import typer
 from comparisons.cli.finish import finish
 from comparisons.cli.options import Json, Out, Overwrite, Retry, Workers
 from sheetbench.choices import REFERENCES
-from sheetbench.scenes.errors import require_choice
+from sheetbench.errors import require_choice
 from studies.coverage import study
 
 

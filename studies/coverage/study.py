@@ -29,7 +29,7 @@ from studies.coverage import tables
 from studies.coverage.scenes import SEED, drawn_scenes
 
 if TYPE_CHECKING:
-    from comparisons.report.report import Report
+    from sheetbench.answers.report import Report
 
 TRUTH = {"plate": 48, "shell": 32, "solid": 24}  # elements along the shorter side
 MODELS = tuple(TRUTH)

@@ -6,9 +6,9 @@ from functools import partial
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from comparisons.report.files import write_text
-from comparisons.report.report import Report
-from comparisons.report.table import Column, Table
+from sheetbench.answers.files import write_text
+from sheetbench.answers.report import Report
+from sheetbench.answers.table import Column, Table
 from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:

@@ -16,9 +16,9 @@ import numpy as np
 from comparisons.comparison.comparison import error
 from comparisons.models import registry
 from comparisons.models.candidate import Candidate, written
-from comparisons.report.files import plain, to_json, write_text
 from comparisons.suite.reference import FILE, Reference, document, references
-from sheetbench.scenes.errors import BadInput, require_choice
+from sheetbench.answers.files import plain, to_json, write_text
+from sheetbench.errors import BadInput, require_choice
 
 REPEATS = 3
 STANDING = (

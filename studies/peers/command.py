@@ -8,7 +8,7 @@ import typer
 
 from comparisons.cli.finish import finish
 from comparisons.cli.options import Json, Out
-from sheetbench.scenes.errors import require_choice
+from sheetbench.errors import require_choice
 from studies.peers.study import QUESTIONS, study
 
 

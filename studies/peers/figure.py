@@ -8,8 +8,8 @@ from pathlib import Path
 import matplotlib
 from matplotlib.figure import Figure
 
-from comparisons.report.look import PLAIN, Look
-from comparisons.report.style import GREY, STYLE, save
+from sheetbench.answers.figure_style import PLAIN, Look
+from sheetbench.answers.style import GREY, STYLE, save
 from studies.peers.row import PeerRow
 
 COLOURS = ("#0072b2", "#222222", "#a0522d", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00")

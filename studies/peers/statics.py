@@ -14,8 +14,8 @@ from comparisons.comparison.comparison import error
 from comparisons.judges.found import installed
 from comparisons.models.candidate import Candidate
 from comparisons.models.registry import MODELS, answer, solve_reference
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Solution, load
-from sheetbench.scenes.errors import BadInput
 from studies.peers.row import PeerRow, repeated
 
 SCENE, TRUTH, OBLIQUE = "two-edges-clamped", 32, "consistent-oblique"

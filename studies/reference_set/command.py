@@ -8,8 +8,8 @@ from typing import Annotated
 import typer
 
 from comparisons.cli import console
-from comparisons.report.files import to_json, write_text
 from comparisons.suite.reference import FILE
+from sheetbench.answers.files import to_json, write_text
 from studies.reference_set.study import regenerate
 
 

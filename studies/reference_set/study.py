@@ -20,11 +20,11 @@ import numpy as np
 import fem_reference
 import lumped
 from comparisons.comparison.comparison import error
-from comparisons.report.files import plain
 from comparisons.runs.manifest import machine, version
 from comparisons.suite.cases import FREQUENCIES, Case, cases
 from comparisons.suite.reference import LICENCE, VERSION, document
 from fem_reference.uncertainty import coarser, estimate, mesh_size, solve_with_bar
+from sheetbench.answers.files import plain
 from sheetbench.scenes import Scene
 
 ELEMENTS, ACROSS = 24, 8  # of the shell along the shorter side; of strips four times as long as wide

@@ -10,7 +10,7 @@ from comparisons.cli.finish import finish
 from comparisons.cli.options import Elements, Figure, Json, NoPictures, Out, Overwrite
 from comparisons.models.grids import parse_elements
 from sheetbench.choices import ELEMENTS
-from sheetbench.scenes.errors import require_choice
+from sheetbench.errors import require_choice
 from studies.reproduction.study import PARTS, study
 
 

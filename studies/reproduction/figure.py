@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from comparisons.report.look import Look
-from comparisons.report.style import GREY, SERIES
 from comparisons.reproduction.figure import legend, picture
+from sheetbench.answers.figure_style import Look
+from sheetbench.answers.style import GREY, SERIES
 from sheetbench.scenes.seed import seed_inputs
 from studies.reproduction.nearest import SOURCE, target
 

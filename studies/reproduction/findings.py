@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.report.table import number
 from comparisons.reproduction.published import published
 from comparisons.reproduction.words import millimetres, percent
+from sheetbench.answers.table import number
 from sheetbench.scenes.seed import PROBES, seed_inputs
 from studies.reproduction.chords import Chord, nearer
 from studies.reproduction.nearest import MOST, NEAR, SQUARES, Fit

@@ -14,12 +14,12 @@ from functools import partial
 from typing import Any
 
 from comparisons.models.grids import Elements
-from comparisons.report.report import Picture, Report
 from comparisons.report.work import Work, silent
 from comparisons.reproduction import findings as of_models
 from comparisons.reproduction.findings import Finding
 from comparisons.reproduction.reproduction import Reproduction, reproduce
 from comparisons.reproduction.tables import findings_table
+from sheetbench.answers.report import Picture, Report
 from sheetbench.choices import ELEMENTS
 from sheetbench.scenes.seed import seed_inputs
 from studies.reproduction import figure, findings, tables

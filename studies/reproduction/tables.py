@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.report.table import Column, Table, Unit, unit
 from comparisons.reproduction.published import SOURCES
 from comparisons.reproduction.tables import PERCENT, length
 from comparisons.reproduction.words import percent
+from sheetbench.answers.table import Column, Table, Unit, unit
 from studies.reproduction.nearest import NEAR
 
 if TYPE_CHECKING:

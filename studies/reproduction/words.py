@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from math import degrees
 
-from comparisons.report.table import number, quantity
 from comparisons.reproduction.published import COMPONENTS
 from comparisons.reproduction.words import millimetres
+from sheetbench.answers.table import number, quantity
 from sheetbench.scenes.seed import PROBES, seed_inputs
 from studies.reproduction.nearest import LAYERS, YOUNG, Fit
 

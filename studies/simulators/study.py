@@ -20,9 +20,9 @@ import numpy as np
 
 from comparisons.export.mujoco import to_mjcf
 from comparisons.models.mujoco import MODEL
-from comparisons.report.report import Report
-from comparisons.report.table import Column, Table
 from comparisons.report.work import Progress, Work
+from sheetbench.answers.report import Report
+from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import Scene
 from studies.simulators.mujoco import at_rest, displacement, loaded, put
 from studies.transfer.scenes import transfer_scenes

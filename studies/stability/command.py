@@ -21,8 +21,8 @@ from comparisons.cli.options import (
     Wait,
     Workers,
 )
-from comparisons.report.look import parse_figure
-from sheetbench.scenes.errors import BadInput, require_choice
+from sheetbench.answers.figure_style import parse_figure
+from sheetbench.errors import BadInput, require_choice
 from studies.stability import STUDIES, survey
 from studies.stability.texts import report
 

@@ -17,9 +17,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from comparisons.models.grading import Grading
-from comparisons.report.table import Column
 from comparisons.stability import tiles as maps
 from comparisons.stability.rows import Cell, Row, percent
+from sheetbench.answers.table import Column
 from sheetbench.scenes import Curved
 from studies.stability.equilibria import SIDE, compare, sheet
 from studies.stability.study import Study

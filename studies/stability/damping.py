@@ -17,10 +17,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from comparisons.report.table import Column
 from comparisons.stability import tiles as maps
 from comparisons.stability.limit import start, system
 from comparisons.stability.rows import LARGE, Cell, Row, percent
+from sheetbench.answers.table import Column
 from studies.stability.equilibria import FALLEN
 from studies.stability.study import Study
 from studies.stability.vibrating import FirstMode, follow, weightless

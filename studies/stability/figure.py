@@ -8,10 +8,10 @@ from pathlib import Path
 import matplotlib
 from matplotlib.figure import Figure
 
-from comparisons.report.look import PLAIN, Look
-from comparisons.report.style import save
 from comparisons.stability.rows import Row
 from comparisons.stability.tiles import MAP_STYLE
+from sheetbench.answers.figure_style import PLAIN, Look
+from sheetbench.answers.style import save
 from studies.stability.study import Study
 
 

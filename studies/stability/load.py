@@ -21,9 +21,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from comparisons.models.grading import Grading
-from comparisons.report.table import Column
 from comparisons.stability import tiles as maps
 from comparisons.stability.rows import Cell, Row, percent
+from sheetbench.answers.table import Column
 from sheetbench.scenes import EdgeLoad, PointLoad
 from sheetbench.scenes.strains import WEIGHT_LIMIT
 from studies.stability.equilibria import SIDE, compare, lattice, loaded, outcome, sheet

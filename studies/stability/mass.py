@@ -10,10 +10,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from comparisons.report.table import Column
 from comparisons.stability import tiles as maps
 from comparisons.stability.limit import energy, measured_limit, noise, start, system
 from comparisons.stability.rows import Cell, Row
+from sheetbench.answers.table import Column
 from studies.stability.study import Study
 from studies.stability.vibrating import follow, weightless
 

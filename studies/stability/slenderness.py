@@ -16,9 +16,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from comparisons.models.grading import Grading
-from comparisons.report.table import Column
 from comparisons.stability import tiles as maps
 from comparisons.stability.rows import Cell, Row
+from sheetbench.answers.table import Column
 from sheetbench.scenes.sheet import EdgeName
 from sheetbench.scenes.strains import WEIGHT_LIMIT
 from studies.stability.equilibria import compare, sheet

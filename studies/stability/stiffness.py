@@ -14,10 +14,10 @@ from dataclasses import replace
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from comparisons.report.style import DARK
-from comparisons.report.table import Column
 from comparisons.stability import tiles as maps
 from comparisons.stability.rows import Cell, Row
+from sheetbench.answers.style import DARK
+from sheetbench.answers.table import Column
 from sheetbench.scenes.strains import WEIGHT_LIMIT
 from studies.stability.equilibria import compare, sheet
 from studies.stability.study import Study

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from matplotlib.figure import Figure
 
-from comparisons.report.table import Column
 from comparisons.stability.rows import Cell, Row
+from sheetbench.answers.table import Column
 
 
 @dataclass(frozen=True)

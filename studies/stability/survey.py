@@ -11,8 +11,8 @@ from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
 from comparisons.stability.rows import Row
+from sheetbench.errors import BadInput
 from sheetbench.scenes import load
-from sheetbench.scenes.errors import BadInput
 from studies.stability.study import Study
 
 

@@ -8,10 +8,10 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from comparisons.report.look import Look
-from comparisons.report.report import Picture, Report
-from comparisons.report.table import Column, Table
 from comparisons.stability.rows import Row, doubtful, percent
+from sheetbench.answers.figure_style import Look
+from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.table import Column, Table
 from studies.stability.study import Study
 
 _COMMON = (

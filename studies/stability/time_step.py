@@ -14,11 +14,11 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from comparisons.report.style import DARK, GREY
-from comparisons.report.table import Column
 from comparisons.stability import tiles as maps
 from comparisons.stability.limit import energy, measured_limit, start, system
 from comparisons.stability.rows import LARGE, Cell, Row, percent
+from sheetbench.answers.style import DARK, GREY
+from sheetbench.answers.table import Column
 from sheetbench.scenes import Gravity
 from studies.stability.equilibria import FALLEN
 from studies.stability.study import Study

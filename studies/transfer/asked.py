@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 
 from comparisons.models.candidate import items
 from sheetbench.choices import AUTO, CALIBRATIONS
-from sheetbench.scenes.errors import BadInput, require_choice
+from sheetbench.errors import BadInput, require_choice
 from studies.transfer.scenes import transfer_scenes
 from studies.transfer.study import METHODS, PARTS
 

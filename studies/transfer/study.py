@@ -26,10 +26,10 @@ from comparisons.models.candidate import Candidate, lattices
 from comparisons.models.grading import Grading
 from comparisons.models.sizes import require_room
 from comparisons.models.springs import LatticeSpec, resolve, resolve_each
-from comparisons.report.report import Report
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
+from sheetbench.answers.report import Report
 from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.scenes import Scene, comparable
 from studies.transfer import tables

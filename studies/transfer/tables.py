@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from comparisons.report.report import Report
-from comparisons.report.table import Column, Table
+from sheetbench.answers.report import Report
+from sheetbench.answers.table import Column, Table
 
 if TYPE_CHECKING:
     from studies.transfer.study import Transfer

@@ -22,8 +22,6 @@ from comparisons.linearisation.tables import poles
 from comparisons.models.candidate import Candidate
 from comparisons.modes.spectra import spectra
 from comparisons.pages import plots
-from comparisons.report.look import PLAIN, WIDTHS
-from comparisons.report.table import Table
 from comparisons.reproduction import figure
 from comparisons.runs.store import Finished
 from comparisons.stability import tiles as stability_figure
@@ -32,6 +30,8 @@ from comparisons.tradeoff import statics
 from comparisons.tradeoff.motion import DynamicTradeoff
 from comparisons.tradeoff.tables import rows as statics_rows
 from sheetbench import scenes
+from sheetbench.answers.figure_style import PLAIN, WIDTHS
+from sheetbench.answers.table import Table
 from studies.reproduction.tables import nearest
 from studies.stability import STUDIES
 

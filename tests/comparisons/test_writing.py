@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 from commands import one_line, run
 
-from comparisons.report.files import folder
-from comparisons.report.report import Report
 from comparisons.runs.folder import Folder
+from sheetbench.answers.files import folder
+from sheetbench.answers.report import Report
 from sheetbench.files import only_writer, require_file, whole, writing
 from sheetbench.scenes import BadInput
 

@@ -23,8 +23,8 @@ from fem_reference.verification import run
 from fem_reference.verification.rows import EXACT
 from fem_reference.verification.strain_laws import STRAINS, WAYS, stress
 from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Scene, Sheet, Status
-from sheetbench.scenes.errors import BadInput
 
 PLAN = np.array([[0, 0], [2, 0.1], [2.1, 1.2], [-0.1, 1], [1, 0.05], [2.05, 0.65], [1, 1.1], [-0.05, 0.5]])
 NODES = np.concatenate([PLAN, PLAN[4:].mean(axis=0, keepdims=True)])[None]

@@ -13,10 +13,10 @@ from comparisons.comparison import comparison as displacement
 from comparisons.comparison import tables as summary
 from comparisons.comparison.comparison import compare
 from comparisons.models.candidate import Candidate
-from comparisons.report.files import to_json
 from fem_reference.edge_layer import Missed, missed_by
 from fem_reference.uncertainty import coarser, estimate, of_solutions, solve_with_bar
 from sheetbench import scenes
+from sheetbench.answers.files import to_json
 from sheetbench.scenes import Scene, Solution, Status
 
 SIZES = [1 / 16, 1 / 12, 1 / 8]

@@ -17,7 +17,7 @@ import pytest
 from commands import run
 
 from comparisons.cli.finish import End
-from comparisons.report.report import Report
+from sheetbench.answers.report import Report
 
 Row = tuple[tuple[str, ...], ...]
 

@@ -13,7 +13,7 @@ from scipy.io import loadmat
 
 import lumped
 from sheetbench import scenes
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 BARE = scenes.load("two-edges-clamped")
 DAMPED = with_material(BARE, damping_time=2e-3, damping_rate=0.5)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import lumped
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, SceneError, Status, load
-from sheetbench.scenes.errors import BadInput
 
 SCENE = load("two-edges-clamped")
 SPRINGS = lumped.calibrate(SCENE.sheet, SCENE.material, grid=(5, 5))

@@ -13,10 +13,10 @@ from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
 
 import lumped
-from comparisons.report.table import Column
 from comparisons.runs.campaign import campaign
 from comparisons.stability import limit
 from comparisons.stability.rows import LARGE
+from sheetbench.answers.table import Column
 from sheetbench.scenes import BadInput, EdgeLoad, Status
 from studies.stability import (
     STUDIES,

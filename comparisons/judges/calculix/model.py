@@ -23,8 +23,8 @@ from comparisons.judges.bricks import GRADINGS, Bricks
 from comparisons.judges.calculix import results
 from comparisons.judges.calculix.deck import deck
 from comparisons.judges.program import Failed, run
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, EdgeLoad, Scene, Solution, Status
-from sheetbench.scenes.errors import BadInput
 
 PROGRAM, JOB = "ccx", "sheet"
 SAYS_ITS_VERSION = 201  # its exit status after `ccx -v`

@@ -23,8 +23,8 @@ import numpy as np
 from comparisons.judges.answer import moving_supports
 from comparisons.judges.kratos.problem import Triangles, problem
 from comparisons.judges.program import Failed, run
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, EdgeLoad, FieldMesh, Scene, Solution, Status
-from sheetbench.scenes.errors import BadInput
 
 STEPS = (1, 4, 16)
 PACKAGES = (

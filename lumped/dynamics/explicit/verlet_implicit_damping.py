@@ -25,8 +25,8 @@ from lumped.dynamics.explicit.step_limit import StepLimit, step_limit
 from lumped.dynamics.explicit.steps import ExplicitArrays
 from lumped.dynamics.integrator import Advance, Integrator, StepFailed
 from lumped.dynamics.system import State, System
+from sheetbench.errors import BadInput
 from sheetbench.numerics import banded
-from sheetbench.scenes.errors import BadInput
 
 MOST = 2**30  # bytes of the factors
 

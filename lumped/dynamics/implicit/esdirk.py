@@ -25,8 +25,8 @@ from lumped.dynamics.implicit.newton import Newton, StepEquation
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, GUESSES, STAGES
 from lumped.dynamics.integrator import Advance, DenseIntegrator, Passed, StepFailed
 from lumped.dynamics.system import State, System
+from sheetbench.errors import BadInput
 from sheetbench.numerics.reduced import SingularMatrixError
-from sheetbench.scenes.errors import BadInput
 
 ERROR = 3e-5  # of a step
 FORETOLD = 0.1  # share of the displacement at rest, linear, that counts as reached at the start

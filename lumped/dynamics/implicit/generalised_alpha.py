@@ -20,8 +20,8 @@ import numpy as np
 from lumped.dynamics.implicit.newton import Newton, StepEquation
 from lumped.dynamics.integrator import Advance, Integrator, StepFailed
 from lumped.dynamics.system import State, System
+from sheetbench.errors import BadInput
 from sheetbench.numerics.reduced import SingularMatrixError
-from sheetbench.scenes.errors import BadInput
 
 ERROR = 1e-6  # of a step, relative to the largest displacement so far
 STEP_TOLERANCE = 1e-11  # last correction relative to the sheet's side

@@ -12,7 +12,7 @@ from lumped.dynamics.explicit.step_limit import StepLimit
 from lumped.dynamics.integrators import INTEGRATORS
 from lumped.dynamics.system import System
 from lumped.vibration import modes
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 SAMPLES_PER_PERIOD = 100
 MOST_DEFAULT_STEPS = 10_000_000  # that an explicit run takes unasked: an hour or more

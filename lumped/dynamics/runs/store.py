@@ -22,8 +22,8 @@ from typing import Any, BinaryIO, Self
 
 import numpy as np
 
+from sheetbench.errors import BadInput
 from sheetbench.files import NOT_FOLLOWED, only_writer, whole, writing
-from sheetbench.scenes.errors import BadInput
 
 APPENDED = ("samples", "frames")
 CHECKSUM = "{}_crc32"  # in the checkpoint, of what it counts of a file

@@ -14,7 +14,7 @@ from comparisons.cli import lines as cli_lines
 from comparisons.cli.app import VERBS, app
 from comparisons.report import work
 from comparisons.runs.campaign import Progress
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 SMALL = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
 

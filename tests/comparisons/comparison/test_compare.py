@@ -15,11 +15,11 @@ from comparisons.comparison import tables as summary
 from comparisons.comparison.comparison import Comparison, compare
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.grading import told
-from comparisons.report.files import to_json
 from fem_reference.uncertainty import estimate
 from sheetbench import scenes
+from sheetbench.answers.files import to_json
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Status
-from sheetbench.scenes.errors import BadInput
 
 pytestmark = pytest.mark.smoke
 

@@ -18,10 +18,11 @@ import pyvista
 from comparisons.calibration import tables as calibration
 from comparisons.comparison.comparison import Comparison, compare
 from comparisons.comparison.tables import draw
-from comparisons.report import files, style, vtk
 from comparisons.report import offscreen as rendering
+from comparisons.report import vtk
 from comparisons.runs.folder import Folder
 from sheetbench import scenes
+from sheetbench.answers import files, style
 from sheetbench.scenes import Scene
 
 DPI = style.DPI  # of pictures as users have them

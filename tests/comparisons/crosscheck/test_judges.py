@@ -19,6 +19,7 @@ from comparisons.judges.calculix.model import MODEL as CALCULIX
 from comparisons.judges.felupe import MODEL as FELUPE
 from comparisons.judges.kratos.model import MODEL as KRATOS
 from comparisons.judges.program import Failed
+from sheetbench.errors import BadInput
 from sheetbench.scenes import (
     Chain,
     Clamped,
@@ -34,7 +35,6 @@ from sheetbench.scenes import (
     Symmetric,
     load,
 )
-from sheetbench.scenes.errors import BadInput
 
 JUDGES: tuple[Judge, ...] = (CALCULIX, KRATOS, FELUPE)
 SEED = load("two-edges-clamped")

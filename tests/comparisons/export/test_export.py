@@ -20,8 +20,8 @@ import lumped
 from comparisons.export.arrays import NAMES, arrays
 from comparisons.export.export import export
 from sheetbench import scenes
+from sheetbench.errors import BadInput
 from sheetbench.scenes import EdgeLoad, Held, Hinged, Material, PointLoad, Pressure, Scene, Sheet, Symmetric
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.springs import DamperSet
 
 READERS = Path(__file__).parents[3] / "examples" / "other-codes"

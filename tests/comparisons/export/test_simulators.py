@@ -16,8 +16,8 @@ import lumped
 from comparisons.export.mujoco import to_mjcf
 from comparisons.export.sofa import to_sofa
 from sheetbench import scenes
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Hinged, PointLoad, Scene
-from sheetbench.scenes.errors import BadInput
 from studies.simulators.mujoco import at_rest, displacement, loaded, put
 
 READER = runpy.run_path(str(Path(__file__).parents[3] / "examples" / "other-codes" / "read_lattice.py"))

@@ -12,7 +12,7 @@ from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements
 from fem_reference.pulled_strip import pulled
 from sheetbench import scenes
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 
 def test_the_law_of_strain_that_made_the_data_finds_its_e() -> None:

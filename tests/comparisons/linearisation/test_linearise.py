@@ -16,8 +16,8 @@ import lumped
 from comparisons.linearisation import figure, tables
 from comparisons.linearisation.linearisation import linearise
 from sheetbench import scenes
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Clamped, Gravity, Hinged, Pressure, Scene
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.parameters import parameter, put
 from sheetbench.scenes.supports import Motion
 

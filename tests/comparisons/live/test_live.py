@@ -30,7 +30,7 @@ from comparisons.live.newest import Newest
 from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
 from comparisons.live.server import MESSAGE
 from comparisons.live.session import Session
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 SCENE = sb.load("curved-edge")
 

@@ -8,7 +8,7 @@ from commands import run
 from comparisons.models import training as targets
 from comparisons.models.springs import LatticeSpec, resolve
 from sheetbench import scenes
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 SCENE = scenes.load("two-edges-clamped")
 

@@ -9,8 +9,8 @@ from commands import run
 import lumped
 import sheetbench as sb
 from comparisons.models.springs import LatticeSpec, resolve
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, SpringTable
-from sheetbench.scenes.errors import BadInput
 
 OPTIONS = {"k": 550.0, "layer_distance": 0.004}
 FLAGS = ("--grid", "3", "--k", "550", "--layer-distance", "0.004")

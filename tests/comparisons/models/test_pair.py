@@ -11,8 +11,8 @@ from comparisons.models.registry import solve
 from comparisons.suite.reference import reference
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench.choices import CALIBRATIONS, EXTRAPOLATED
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Solution, Status, load
-from sheetbench.scenes.errors import BadInput
 
 # Where the cells of 9 × 9 masses are seen, and where they hardly are (less than 0.5 % off, with errors that
 # are no l²: there a pair is no better, and its bar has to say so).

@@ -15,8 +15,8 @@ from comparisons.models import plugins
 from comparisons.models import registry as models
 from comparisons.tradeoff import timing
 from sheetbench import scenes
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Clamped, EdgeLoad, FactorTable, Hinged, PointLoad, Status
-from sheetbench.scenes.errors import BadInput
 
 DOCS = Path(__file__).parents[3] / "docs"
 ENTRY = "[sheetbench.models]\nstrip = plugin:MODEL\nabsent = no_such_module:MODEL\nhalf = plugin:np\n"

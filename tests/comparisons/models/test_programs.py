@@ -19,8 +19,8 @@ from commands import one_line, run
 from comparisons.models import plugins, registry
 from comparisons.models.candidate import parse_model, written
 from sheetbench import scenes
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Status
-from sheetbench.scenes.errors import BadInput
 
 STRIP = Path(__file__).parents[3] / "docs" / "strip.sh"
 SCENE = scenes.load("one-edge-clamped")

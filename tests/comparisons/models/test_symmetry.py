@@ -10,6 +10,7 @@ import fem_reference
 from comparisons.models import registry as models
 from comparisons.models.symmetry import half, planes, whole
 from sheetbench import scenes
+from sheetbench.errors import BadInput
 from sheetbench.scenes import (
     Clamped,
     Curved,
@@ -26,7 +27,6 @@ from sheetbench.scenes import (
     Status,
     Symmetric,
 )
-from sheetbench.scenes.errors import BadInput
 
 SHEET = Sheet(length_x=0.188, length_y=0.25, thickness=0.003)
 

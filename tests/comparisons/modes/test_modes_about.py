@@ -12,8 +12,8 @@ import fem_reference
 import lumped
 from comparisons.cli import main
 from comparisons.modes.spectra import spectra
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.scenes import Clamped, Gravity, Material, Pressure, Scene, Sheet, load
-from sheetbench.scenes.errors import BadInput, NoEquilibrium
 
 
 def hanging() -> Scene:

@@ -12,8 +12,8 @@ from comparisons.cli import main
 from comparisons.motion.measures import difference, extrema, measured_alike
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import read
+from sheetbench.errors import BadInput
 from sheetbench.scenes import History, Status
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.history import ENERGIES
 
 SMALL = {"grid": 5, "elements": 2}

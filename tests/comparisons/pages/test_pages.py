@@ -21,11 +21,11 @@ from comparisons.pages.findings import _percent, findings, notes
 from comparisons.pages.page import page
 from comparisons.pages.studies import Study, read
 from comparisons.pages.tables import tables
-from comparisons.report.report import Report
-from comparisons.report.table import Column, Table, unit
 from comparisons.runs.folder import Folder
 from comparisons.tradeoff.motion import DynamicTradeoff
 from comparisons.tradeoff.motion_row import MotionRow
+from sheetbench.answers.report import Report
+from sheetbench.answers.table import Column, Table, unit
 from sheetbench.scenes import load
 
 EVIL = "<script>alert(1)</script>"

@@ -18,8 +18,8 @@ from pylatexenc.latexwalker import (
     LatexWalker,
 )
 
-from comparisons.report.latex import latex
-from comparisons.report.table import Column, Table
+from sheetbench.answers.latex import latex
+from sheetbench.answers.table import Column, Table
 from studies.stability import STUDIES
 from studies.stability.texts import table as study_table
 

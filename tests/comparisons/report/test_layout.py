@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.cells import cell_len
 
-from comparisons.report import escape
-from comparisons.report.layout import blocks
-from comparisons.report.table import Column, Table
+from sheetbench.answers import escape
+from sheetbench.answers.layout import blocks
+from sheetbench.answers.table import Column, Table
 
 WIDE = Table(
     "Wide",

@@ -23,8 +23,6 @@ from comparisons.linearisation.linearisation import linearise
 from comparisons.modes import figure as swinging
 from comparisons.modes.spectra import spectra
 from comparisons.motion import figure as moving
-from comparisons.report.look import PLAIN, WIDTHS, Look, parse_figure
-from comparisons.report.style import STYLE, save
 from comparisons.tradeoff import figure as trading
 from comparisons.tradeoff.row import TradeoffRow
 from comparisons.tradeoff.statics import Tradeoff
@@ -32,8 +30,10 @@ from comparisons.verification import locking
 from fem_reference.uncertainty import Uncertainty
 from fem_reference.verification.rows import relatively
 from sheetbench import scenes
+from sheetbench.answers.figure_style import PLAIN, WIDTHS, Look, parse_figure
+from sheetbench.answers.style import STYLE, save
+from sheetbench.errors import BadInput
 from sheetbench.scenes import History, Scene, Status
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.history import ENERGIES
 
 Compose = Callable[[Look], Figure]

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from comparisons.motion import figure as motion
 from comparisons.report.labels import place_labels
-from comparisons.report.style import MOST, STYLE, plain, save
+from sheetbench.answers.style import MOST, STYLE, plain, save
 from sheetbench.scenes import History, Status
 from sheetbench.scenes.history import ENERGIES
 

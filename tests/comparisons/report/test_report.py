@@ -15,12 +15,12 @@ from scene_files import written
 
 from comparisons.cli.finish import finish
 from comparisons.cli.warned import in_a_line
-from comparisons.report import escape
-from comparisons.report.report import Report
-from comparisons.report.table import Column, Table, Unit, quantity, unit
 from comparisons.runs.folder import MANIFEST, Folder
 from sheetbench import scenes
-from sheetbench.scenes.errors import BadInput, Implausible
+from sheetbench.answers import escape
+from sheetbench.answers.report import Report
+from sheetbench.answers.table import Column, Table, Unit, quantity, unit
+from sheetbench.errors import BadInput, Implausible
 
 pytestmark = pytest.mark.smoke
 

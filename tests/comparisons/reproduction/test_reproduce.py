@@ -9,11 +9,11 @@ import pytest
 from commands import one_line, run
 
 from comparisons.pages.findings import SAID
-from comparisons.report.report import Report
 from comparisons.reproduction.answers import Answer, answer
 from comparisons.reproduction.findings import all_of
 from comparisons.reproduction.published import published, scene
 from comparisons.reproduction.reproduction import Reproduction
+from sheetbench.answers.report import Report
 from sheetbench.scenes import Status
 from sheetbench.scenes.seed import seed_inputs
 

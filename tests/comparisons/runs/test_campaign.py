@@ -21,7 +21,7 @@ from comparisons.runs.campaign import Progress, Run, campaign, carry_out, execut
 from comparisons.runs.manifest import digest, source
 from comparisons.runs.store import FILE, Finished, Store
 from comparisons.runs.tasks import TASKS, function
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 from studies.stability import STUDIES
 
 pytestmark = pytest.mark.smoke

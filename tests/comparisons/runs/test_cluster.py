@@ -18,7 +18,7 @@ from comparisons.runs import executors
 from comparisons.runs.campaign import carry_out
 from comparisons.runs.executors import Cluster, pool_of
 from comparisons.runs.store import Store
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 HERE = Path(campaign_tasks.__file__).parent
 

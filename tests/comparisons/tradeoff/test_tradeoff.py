@@ -19,9 +19,6 @@ import lumped
 from comparisons.models import candidate as candidates
 from comparisons.models.candidate import Candidate, lattices, parse_model, series
 from comparisons.models.springs import LatticeSpec
-from comparisons.report import table as tables
-from comparisons.report.files import to_json
-from comparisons.report.look import PLAIN, parse_figure
 from comparisons.runs import load
 from comparisons.runs.campaign import campaign
 from comparisons.runs.store import FILE
@@ -33,8 +30,11 @@ from comparisons.tradeoff.pareto import front, grouped, order
 from comparisons.tradeoff.row import TradeoffRow
 from comparisons.tradeoff.statics import Tradeoff
 from sheetbench import scenes
+from sheetbench.answers import table as tables
+from sheetbench.answers.figure_style import PLAIN, parse_figure
+from sheetbench.answers.files import to_json
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
-from sheetbench.scenes.errors import BadInput
 
 SMALL = [
     *("tradeoff", "two-edges-clamped", "--lumped", "3,5", "--calibration", "consistent,uniform"),

@@ -7,7 +7,7 @@ import fem_reference
 from fem_reference.motion.energy_momentum import EnergyMomentum
 from fem_reference.motion.shell import MovingShell
 from fem_reference.verification import settling_strip
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 
 STRIP = settling_strip.scene()
 SPIN, DRIFT = np.array([3.0, -20.0, 5.0]), np.array([1.0, 0.5, -2.0])

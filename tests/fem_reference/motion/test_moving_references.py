@@ -7,8 +7,8 @@ import pytest
 
 import fem_reference
 from fem_reference.verification import settling_strip
+from sheetbench.errors import BadInput
 from sheetbench.scenes import EdgeMotion, Gravity, Pressure, Scene
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.supports import Clamped, Curved, Motion
 from sheetbench.scenes.tables import FactorTable
 

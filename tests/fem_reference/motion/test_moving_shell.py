@@ -9,8 +9,8 @@ import fem_reference
 from fem_reference.motion.generalised_alpha import GeneralisedAlpha
 from fem_reference.motion.shell import MovingShell
 from fem_reference.verification import settling_strip
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Gravity, History, Scene, load
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.supports import Clamped, Motion
 from sheetbench.scenes.tables import FactorTable
 

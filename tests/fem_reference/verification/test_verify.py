@@ -12,7 +12,6 @@ import pytest
 from scipy.integrate import solve_bvp
 
 from comparisons.cli import main
-from comparisons.report.layout import blocks
 from comparisons.verification import tables as verification
 from fem_reference.verification import (
     CASES,
@@ -26,6 +25,7 @@ from fem_reference.verification import (
     slit_annulus,
 )
 from fem_reference.verification.rows import absolutely, relatively
+from sheetbench.answers.layout import blocks
 
 ELSEWHERE = ("locking-plate", "locking-shell", "strain-laws")  # test_locking, test_strain_laws
 QUICK = [name for name, case in CASES.items() if case.quick and name not in ELSEWHERE]

@@ -15,8 +15,8 @@ import lumped
 from lumped.calibration.central import coefficients
 from lumped.calibration.central_table import ROWS
 from sheetbench import scenes
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.toml import to_toml
 from studies.central.training import POINTS, bent_scenes
 

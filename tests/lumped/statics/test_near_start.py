@@ -5,7 +5,7 @@ import pytest
 
 import lumped
 import sheetbench as sb
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 from sheetbench.scenes.parameters import put
 
 

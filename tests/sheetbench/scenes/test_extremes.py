@@ -14,8 +14,8 @@ from scene_files import GOOD, written
 import lumped
 from comparisons.models import registry
 from sheetbench import scenes
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Status
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.quantities import LARGEST, SMALLEST
 
 SEED, SETTLING = "two-edges-clamped", "two-edges-settling"

@@ -3,8 +3,8 @@
 import pytest
 
 from sheetbench import scenes
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Clamped, Curved, Scene, SceneError, Symmetric
-from sheetbench.scenes.errors import BadInput
 from sheetbench.scenes.parameters import parameter, put
 
 SCENE = scenes.load("one-edge-clamped")

@@ -15,8 +15,8 @@ from itertools import chain
 
 from rich.cells import cell_len
 
-from comparisons.report.escape import terminal
-from comparisons.report.table import Column, Table
+from sheetbench.answers.escape import terminal
+from sheetbench.answers.table import Column, Table
 
 GAP = 2  # blanks between columns
 PROSE = 24  # a narrower column of prose is no pleasure to read

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from sheetbench.errors import BadInput
 from sheetbench.files import whole
-from sheetbench.scenes.errors import BadInput
 
 
 def write_text(path: Path, text: str) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sheetbench.scenes.errors import BadInput, require_choice
+from sheetbench.errors import BadInput, require_choice
 
 FORMATS = ("pdf", "svg", "png")
 INCH = 25.4  # mm

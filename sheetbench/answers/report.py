@@ -12,12 +12,11 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from comparisons.report.escape import html, markdown, terminal
-from comparisons.report.files import digest, to_json, write_text
-from comparisons.report.files import folder as made
-from comparisons.report.look import FORMATS, PLAIN, Look, parse_figure
-from comparisons.report.table import Table
-from sheetbench.scenes import Scene
+from sheetbench.answers.escape import html, markdown, terminal
+from sheetbench.answers.figure_style import FORMATS, PLAIN, Look, parse_figure
+from sheetbench.answers.files import digest, to_json, write_text
+from sheetbench.answers.files import folder as made
+from sheetbench.answers.table import Table
 
 Write = Callable[[Path], None]
 
@@ -68,7 +67,7 @@ class Report:
     complaints: tuple[str, ...] = ()
     pictures: tuple[Picture, ...] = ()
     attachments: Mapping[str, Write] = field(default_factory=dict)
-    scene: Scene | None = None
+    scene: Any = None
     settings: Mapping[str, Any] = field(default_factory=dict)
     met: bool = True
 

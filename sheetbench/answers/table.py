@@ -12,9 +12,9 @@ import io
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from comparisons.report.escape import cell, csv_cell, html, markdown, terminal
-from comparisons.report.latex import latex
-from sheetbench.scenes.errors import BadInput
+from sheetbench.answers.escape import cell, csv_cell, html, markdown, terminal
+from sheetbench.answers.latex import latex
+from sheetbench.errors import BadInput
 
 if TYPE_CHECKING:
     import pandas

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import unicodedata
 
-from comparisons.report.escape import terminal
+from sheetbench.answers.escape import terminal
 
 _MATHS = {
     "−": "-", "×": r"\times", "·": r"\cdot", "±": r"\pm", "≥": r"\ge", "≤": r"\le", "≈": r"\approx",

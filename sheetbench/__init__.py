@@ -50,7 +50,7 @@ if _TYPE_CHECKING:
         catalogue,
         load,
     )
-    from sheetbench.studies import crosscheck, export, report, schema, score, stability, verify
+    from sheetbench.verbs import crosscheck, export, report, schema, score, stability, verify
 
 _ELSEWHERE = {  # name: module and what it is called there; all else is of sheetbench.scenes
     "Displacements": ("comparisons.identification.measurements", "Displacements"),
@@ -58,22 +58,22 @@ _ELSEWHERE = {  # name: module and what it is called there; all else is of sheet
     "calibrate": ("sheetbench.face", "calibrate"),
     "check": ("comparisons.check.check", "check"),
     "compare": ("sheetbench.face", "compare"),
-    "crosscheck": ("sheetbench.studies", "crosscheck"),
+    "crosscheck": ("sheetbench.verbs", "crosscheck"),
     "error": ("comparisons.comparison.comparison", "error"),
-    "export": ("sheetbench.studies", "export"),
+    "export": ("sheetbench.verbs", "export"),
     "identify": ("comparisons.identification.identification", "identify"),
     "linearise": ("comparisons.linearisation.linearisation", "linearise"),
     "modes": ("comparisons.modes.spectra", "spectra"),
-    "report": ("sheetbench.studies", "report"),
+    "report": ("sheetbench.verbs", "report"),
     "reproduce": ("comparisons.reproduction.reproduction", "reproduce"),
-    "schema": ("sheetbench.studies", "schema"),
-    "score": ("sheetbench.studies", "score"),
+    "schema": ("sheetbench.verbs", "schema"),
+    "score": ("sheetbench.verbs", "score"),
     "simulate": ("sheetbench.face", "simulate"),
     "solve": ("sheetbench.face", "solve"),
-    "stability": ("sheetbench.studies", "stability"),
+    "stability": ("sheetbench.verbs", "stability"),
     "suite": ("comparisons.suite.tables", "report"),
     "tradeoff": ("sheetbench.face", "tradeoff"),
-    "verify": ("sheetbench.studies", "verify"),
+    "verify": ("sheetbench.verbs", "verify"),
 }
 
 __all__ = [

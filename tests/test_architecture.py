@@ -84,7 +84,7 @@ def test_imports_run_one_way(package):
 
 
 # of comparisons; questions: 2
-FLOORS = {"models": 0, "judges": 0, "report": 0, "browser": 0, "runs": 1, "cli": 3}
+FLOORS = {"models": 0, "external": 0, "report": 0, "browser": 0, "runs": 1, "cli": 3}
 
 
 def test_rooms_of_the_comparisons_import_from_their_own_floor_and_those_below():
@@ -155,7 +155,7 @@ DRAWS = (
     "vtk",
     "toml",
 )
-AT_ONCE = ("comparisons/cli/", *(f"sheetbench/{n}.py" for n in ("face", "studies", "__init__", "__main__")))
+AT_ONCE = ("comparisons/cli/", *(f"sheetbench/{n}.py" for n in ("face", "verbs", "__init__", "__main__")))
 
 
 def test_imports_within_functions_are_for_a_quick_start_alone():

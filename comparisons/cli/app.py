@@ -88,7 +88,7 @@ def _help_where_nothing_is_asked(
 
         from comparisons.cli import installed
 
-        print(installed.said() if verbose else f"sheetbench {version_of('sheetbench')}")
+        print(installed.installed_parts() if verbose else f"sheetbench {version_of('sheetbench')}")
         raise typer.Exit
     if context.invoked_subcommand is None:
         print(context.get_help(), end="")

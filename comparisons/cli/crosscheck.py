@@ -1,4 +1,4 @@
-"""`sheetbench crosscheck SCENE…`: lattice, references and other people's programs side by side."""
+"""`sheetbench crosscheck SCENE…`: lattice, references and external codes side by side."""
 
 from __future__ import annotations
 
@@ -39,14 +39,16 @@ def command(
         str | None,
         typer.Option(
             metavar="NAMES",
-            help="Other people's programs, with commas, or FILE.py:OBJECT; all that are here unless given.",
+            help="External codes, with commas, or FILE.py:OBJECT; all that are installed unless given.",
             show_default=False,
         ),
     ] = None,
     meshes: Annotated[
         str | None,
         typer.Option(
-            metavar="N,N,N", help="Elements of the judges; each one's own unless given.", show_default=False
+            metavar="N,N,N",
+            help="Elements of external codes; each one's own unless given.",
+            show_default=False,
         ),
     ] = None,
     workers: Workers = None,
@@ -56,22 +58,22 @@ def command(
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> None:
-    """Hold every model against other people's programs, each with its own mesh convergence and error bar.
+    """Compare models with external finite-element codes, each with its mesh convergence.
 
-    Give an empty list to leave a model or all judges out (--solid ""). An interrupted run can be resumed.
+    Give an empty list to leave a model or all external codes out (--solid ""). Interrupted runs resume.
     """
     import os
 
     from comparisons.cli.finish import finish
-    from comparisons.crosscheck import asked
-    from comparisons.crosscheck.study import crosscheck
-    from comparisons.judges.found import look
+    from comparisons.crosscheck.candidates import candidates, load_scenes
+    from comparisons.crosscheck.crosscheck import crosscheck
+    from comparisons.external.installed import find_codes
     from comparisons.models.candidate import items
 
-    chosen = asked.scenes(scenes)
-    found = look(None if judges is None else items(judges))
+    chosen = load_scenes(scenes)
+    codes = find_codes(None if judges is None else items(judges))
     references = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
-    models = asked.models(lumped, calibration, grading, references, found, meshes)
+    models = candidates(lumped, calibration, grading, references, codes, meshes)
     about = {"scenes": [scene.document() for scene in chosen]}
     with finish("crosscheck", json, out, overwrite, about=about) as end:
         with end.campaign() as (store, pool, progress):
@@ -79,7 +81,7 @@ def command(
                 chosen,
                 store,
                 models=models,
-                judges=found,
+                codes=codes,
                 workers=workers or os.cpu_count() or 1,
                 pool=pool,
                 retry=retry,

@@ -6,13 +6,13 @@ import os
 from pathlib import Path
 
 
-def said() -> str:
+def installed_parts() -> str:
     """Return a line each: versions, processor, memory, solvers, other codes, pictures, folders."""
-    import numpy  # noqa: F401  # brings the BLAS that is told of
+    import numpy  # noqa: F401  # loads the BLAS that is listed
     from llvmlite import binding
     from threadpoolctl import threadpool_info
 
-    from comparisons.judges.found import look
+    from comparisons.external.installed import find_codes
     from comparisons.models import memory, plugins
     from comparisons.report import amounts, offscreen
     from comparisons.runs import load, manifest
@@ -20,7 +20,7 @@ def said() -> str:
 
     machine, busy, free = manifest.machine(), load.average(), memory.available()
     blas = {f"{one['internal_api']} for {one.get('architecture', '?')}" for one in threadpool_info()}
-    judges = [f"{one.judge.called} {one.version or 'not here'}" for one in look()]
+    codes = [f"{one.code.called} {one.version or 'not here'}" for one in find_codes()]
     mkl = "MKL PARDISO" if pardiso.library() else "no MKL PARDISO"
     lines = {
         "sheetbench": f"{manifest.version()}, source {manifest.source()}, in {Path(__file__).parents[2]}",
@@ -30,7 +30,7 @@ def said() -> str:
         "memory": "unknown" if free is None else f"{amounts.memory(free)} free",
         "BLAS": ", ".join(sorted(blas)) or "none found",
         "solvers": f"own multifrontal, SciPy's SuperLU, {mkl}",
-        "other codes": ", ".join(judges),
+        "other codes": ", ".join(codes),
         "plug-ins": ", ".join(plugins.names()) or "none",
         "pictures": offscreen.why_not() or "can be drawn",
         "kernels": os.environ["NUMBA_CACHE_DIR"],

@@ -1,1 +1,1 @@
-"""Models and other people's judges side by side, each with its own mesh convergence: who is told apart?"""
+"""Models and external codes side by side, each with its own mesh convergence: which of them differ?"""

@@ -1,4 +1,4 @@
-"""What a crosscheck shows: every model's limit and bar, how far from the shell, and told apart from whom."""
+"""Tables of a cross-check: every model's limit and bar, how far from the shell, and where they differ."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from comparisons.crosscheck.standing import Standing
+from comparisons.crosscheck.convergence import Convergence
 from sheetbench.answers.report import Report
 from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import Scene, Status
 
 if TYPE_CHECKING:
-    from comparisons.crosscheck.study import Crosscheck
+    from comparisons.crosscheck.crosscheck import Crosscheck
 
 _PER_CENT = ("", "%", 100.0)
 EXPLANATION = (
@@ -24,32 +24,34 @@ EXPLANATION = (
 
 
 def report(found: Crosscheck) -> Report:
-    """What `sheetbench crosscheck` shows."""
+    """Return the report of `sheetbench crosscheck`."""
     single = found.scenes[0] if len(found.scenes) == 1 else None
-    standings, moved = answers(found), displacements(found)
-    who = (judges(found),) if found.judges else ()
+    limits, moved = answers(found), displacements(found)
+    codes = (external_codes(found),) if found.codes else ()
     return Report(
         name="crosscheck",
         title=single.name if single else "crosscheck",
         subtitle=single.title if single else f"{len(found.scenes)} scenes, every model on meshes of its own",
         document=found.as_dict(),
-        tables=(standings, moved, pairs(found), *who),
-        printed=(standings, moved, *who) if single else (standings, *who),
+        tables=(limits, moved, pairs(found), *codes),
+        printed=(limits, moved, *codes) if single else (limits, *codes),
         notes=(*refusals(found), EXPLANATION),
         complaints=tuple(found.failures),
         scene=single,
         settings={
             "scenes": [scene.name for scene in found.scenes],
-            "judges": {judge.judge.name: judge.version for judge in found.judges},
+            "judges": {one.code.name: one.version for one in found.codes},
         },
         met=not found.failures
-        and all(one.refused or one.uncertainty is not None for of in found.standings.values() for one in of),
+        and all(
+            one.refused or one.uncertainty is not None for of in found.convergences.values() for one in of
+        ),
     )
 
 
 def answers(found: Crosscheck) -> Table:
     """A row per scene and model: its limit where the sheet moves most, how far off it is, and from whom."""
-    rows = [_answer(found, scene, one) for scene in found.scenes for one in found.standings[scene.name]]
+    rows = [_answer(found, scene, one) for scene in found.scenes for one in found.convergences[scene.name]]
     columns = (
         Column("scene", detail=len(found.scenes) == 1),
         Column("model"),
@@ -64,11 +66,11 @@ def answers(found: Crosscheck) -> Table:
     return Table("Extrapolated answers", columns, tuple(rows), "crosscheck", grouped=len(found.scenes) > 1)
 
 
-def _answer(found: Crosscheck, scene: Scene, one: Standing) -> tuple[Any, ...]:
+def _answer(found: Crosscheck, scene: Scene, one: Convergence) -> tuple[Any, ...]:
     truth = found.against(scene.name)
     if truth is None or truth.uncertainty is None or one.uncertainty is None:
-        said = str(Status.REFUSED) if one.refused else "no answer"
-        return scene.name, one.name, one.meshes or None, None, None, None, None, None, said
+        reason = str(Status.REFUSED) if one.refused else "no answer"
+        return scene.name, one.name, one.meshes or None, None, None, None, None, None, reason
     bar, limit = one.uncertainty, truth.uncertainty.extrapolated
     probe, axis = np.unravel_index(np.argmax(np.abs(limit)), limit.shape)
     between = next((p for p in found.pairs(scene) if {p.a, p.b} == {truth.name, one.name}), None)
@@ -81,13 +83,13 @@ def _answer(found: Crosscheck, scene: Scene, one: Standing) -> tuple[Any, ...]:
         float(bar.bar[probe, axis]),
         None if between is None else between.difference,
         None if between is None else between.bars,
-        ", ".join(_told_apart(found, scene, one)) or "none",
+        ", ".join(_distinguishable(found, scene, one)) or "none",
     )
 
 
-def _told_apart(found: Crosscheck, scene: Scene, one: Standing) -> list[str]:
+def _distinguishable(found: Crosscheck, scene: Scene, one: Convergence) -> list[str]:
     """The models that differ from one by more than the bars."""
-    some = [p for p in found.pairs(scene) if p.apart and one.name in (p.a, p.b)]
+    some = [p for p in found.pairs(scene) if p.distinguishable_at and one.name in (p.a, p.b)]
     return [p.b if p.a == one.name else p.a for p in some]
 
 
@@ -97,7 +99,7 @@ def displacements(found: Crosscheck) -> Table:
         (scene.name, probe, one.name, *map(float, bar.extrapolated[i]), *map(float, bar.bar[i]))
         for scene in found.scenes
         for i, probe in enumerate(scene.probes)
-        for one in found.standings[scene.name]
+        for one in found.convergences[scene.name]
         if (bar := one.uncertainty) is not None
     ]
     lengths = [Column(name, "m", "mm", 1e3, "z.4f") for name in ("ux", "uy", "uz")]
@@ -115,7 +117,7 @@ def displacements(found: Crosscheck) -> Table:
 def pairs(found: Crosscheck) -> Table:
     """A row per scene and two models: their largest difference, both bars there."""
     rows = [
-        (scene.name, p.a, p.b, p.difference, p.bars, ", ".join(p.apart) or "nowhere")
+        (scene.name, p.a, p.b, p.difference, p.bars, ", ".join(p.distinguishable_at) or "nowhere")
         for scene in found.scenes
         for p in found.pairs(scene)
     ]
@@ -130,20 +132,21 @@ def pairs(found: Crosscheck) -> Table:
     return Table("Every two models", columns, tuple(rows), "pairs")
 
 
-def judges(found: Crosscheck) -> Table:
-    """A row per judge: its version, or what it needs to be here."""
+def external_codes(found: Crosscheck) -> Table:
+    """A row per external code: its version, or what it needs to be installed."""
     rows = [
-        (j.judge.name, j.judge.called, j.version or f"absent: needs {j.judge.needs}") for j in found.judges
+        (one.code.name, one.code.called, one.version or f"absent: needs {one.code.needs}")
+        for one in found.codes
     ]
-    columns = (Column("judge"), Column("what it is", prose=True), Column("version", prose=True))
-    return Table("Judges", columns, tuple(rows), "judges")
+    columns = (Column("code"), Column("what it is", prose=True), Column("version", prose=True))
+    return Table("External codes", columns, tuple(rows), "judges")
 
 
 def refusals(found: Crosscheck) -> list[str]:
     """A sentence for every reason for which a model leaves scenes out."""
     reasons: dict[tuple[str, str], list[str]] = {}
     for scene in found.scenes:
-        for one in found.standings[scene.name]:
+        for one in found.convergences[scene.name]:
             if one.refused:
                 reasons.setdefault((one.name, one.finest["message"]), []).append(scene.name)
-    return [f"{name} leaves out {', '.join(scenes)}: {said}." for (name, said), scenes in reasons.items()]
+    return [f"{name} leaves out {', '.join(scenes)}: {reason}." for (name, reason), scenes in reasons.items()]

@@ -21,11 +21,11 @@ def answer(
 ) -> dict[str, Any]:
     """A model's answer at the probes, and the mean size [m] of its cells.
 
-    version, digest: of somebody else's program and of its plug-in, under which the row is kept.
+    version, digest: of an external code and of its plug-in, under which the row is kept.
     """
-    asked, candidate = Scene.model_validate(scene), Candidate(model, settings)
-    check(asked, candidate, large=True)
-    solution = solve(asked, candidate)
+    question, candidate = Scene.model_validate(scene), Candidate(model, settings)
+    check(question, candidate, large=True)
+    solution = solve(question, candidate)
     counts = solution.settings.get("elements") or [n - 1 for n in solution.settings["grid"]]
     return {
         "model": solution.model,
@@ -39,7 +39,7 @@ def answer(
         "iterations": solution.iterations,
         "solve_seconds": solution.solve_seconds,
         "setup_seconds": solution.setup_seconds,
-        "displacement": solution.displacement(asked.probe_points()),
+        "displacement": solution.displacement(question.probe_points()),
         "reactions": solution.reactions,
-        "size": float(np.sqrt(np.prod(asked.sheet.lengths) / np.prod(counts[:2]))),
+        "size": float(np.sqrt(np.prod(question.sheet.lengths) / np.prod(counts[:2]))),
     }

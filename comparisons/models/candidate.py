@@ -12,9 +12,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
+from comparisons.external.program import PREFIX
 from comparisons.models import plugins
 from comparisons.models.grids import GridLike, parse_elements, scene_grid
-from comparisons.models.programs import PREFIX
 from sheetbench.choices import AUTO, EXTRAPOLATED
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene

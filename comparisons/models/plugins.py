@@ -7,7 +7,7 @@ a package offers under the entry-point group `sheetbench.models`:
     [project.entry-points."sheetbench.models"]
     mine = "my_package.my_module:MODEL"
 
-or as a program, `exec:PATH` (`comparisons.models.programs`).
+or as a program, `exec:PATH` (`comparisons.external.program`).
 
 `settings` holds the defaults overridden by what the user asks (plain JSON data), and nothing that the
 defaults do not name, unless the model `takes_any`. What `solve` raises as ValueError is bad input; a solve
@@ -26,12 +26,17 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Protocol, runtime_checkable
 
+from comparisons.external.program import PREFIX, Program
 from comparisons.models import plugin_sources
-from comparisons.models.programs import PREFIX, Program
-from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Solution
 
 GROUP = "sheetbench.models"
+OURS = {  # external codes that come with this package
+    "calculix": "comparisons.external.calculix.model:MODEL",
+    "felupe": "comparisons.external.felupe:MODEL",
+    "kratos": "comparisons.external.kratos.model:MODEL",
+    "mujoco": "comparisons.external.mujoco:MODEL",
+}
 OBJECT = "MODEL"  # what of a file is the model, unless said
 OWN = (
     "A model of your own is named as FILE.py:CLASS, see docs/plugin.py, as exec:PROGRAM, see docs/strip.sh, "
@@ -160,4 +165,5 @@ def settings_of(model: Model, asked: Mapping[str, Any]) -> dict[str, Any]:
 
 @cache
 def _found() -> dict[str, EntryPoint]:
-    return {entry.name: entry for entry in entry_points(group=GROUP)}
+    ours = {name: EntryPoint(name, value, GROUP) for name, value in OURS.items()}
+    return {entry.name: entry for entry in entry_points(group=GROUP)} | ours

@@ -23,18 +23,9 @@ from multiprocessing.resource_tracker import ensure_running
 from typing import Any, Protocol, runtime_checkable
 from urllib.parse import urlsplit
 
+from comparisons.external.process import ONE_THREAD
 from sheetbench.errors import BadInput
 
-ONE_THREAD = dict.fromkeys(
-    (
-        "OMP_NUM_THREADS",
-        "OPENBLAS_NUM_THREADS",
-        "MKL_NUM_THREADS",
-        "NUMBA_NUM_THREADS",
-        "RAYON_NUM_THREADS",
-    ),
-    "1",
-)
 PATIENCE = 15.0  # s without anybody to carry out a run
 ANSWER = 5.0  # s that a scheduler may take to answer
 FAREWELL = 1.0  # s, where nobody waits for the answer

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from comparisons.comparison.comparison import error
-from comparisons.judges.found import installed
+from comparisons.external.installed import known_codes
 from comparisons.models.candidate import Candidate
 from comparisons.models.registry import MODELS, answer, solve_reference
 from sheetbench.errors import BadInput
@@ -45,19 +45,19 @@ LADDERS = (
 
 def rows(say: Callable[[str], None]) -> Iterator[PeerRow]:
     """A row per model and size; say: told of each."""
-    scene, judges = load(SCENE), installed()
+    scene, codes = load(SCENE), known_codes()
     points = scene.probe_points()
     say(f"shell {TRUTH}, the reference")
     truth = solve_reference(scene, model="shell", elements=TRUTH).displacement(points)
     for model, code, setting, sizes, calibration in LADDERS:
-        absent = model in judges and judges[model].version() is None
+        absent = model in codes and codes[model].version() is None
         for size in sizes:
             springs = {} if calibration is None else {"calibration": calibration}
             asked = Candidate(model, {setting: size, **springs})
             shown = f"{size} × {size}"
             say(f"{code}, {shown}")
             if absent:
-                yield PeerRow("statics", code, shown, False, None, (), f"absent: needs {judges[model].needs}")
+                yield PeerRow("statics", code, shown, False, None, (), f"absent: needs {codes[model].needs}")
                 break
             last: list[Solution] = []
 

@@ -1,13 +1,10 @@
-"""An exported lattice in MuJoCo: loaded, put somewhere, brought to rest."""
+"""Load an exported lattice in MuJoCo, set and read its displacements."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
-
-AT_REST = 1e-9  # displacement, in sides of the sheet, that one more step would add
-STEPS = 30_000
 
 
 def loaded(mujoco: Any, text: str) -> tuple[Any, Any]:
@@ -31,22 +28,3 @@ def displacement(data: Any, rest: np.ndarray) -> np.ndarray:
     """Displacements (n, 3) [m] of the masses."""
     found: np.ndarray = data.site_xpos - rest
     return found
-
-
-def at_rest(mujoco: Any, model: Any, data: Any, size: float) -> int:
-    """Steps, velocities put to nothing whenever the motion has passed a peak, until one more would move
-    nothing; how many, 0 where STEPS did not do."""
-    before, step = 0.0, model.opt.timestep
-    for count in range(1, STEPS + 1):
-        mujoco.mj_step(model, data)
-        energy = float(data.qvel @ data.qvel)
-        if not np.isfinite(energy):
-            return 0
-        if energy < before:
-            data.qvel[:] = 0.0
-            energy = 0.0
-        before = energy
-        moved = step**2 * np.abs(data.qacc).max() + step * np.abs(data.qvel).max()
-        if count > 10 and moved < AT_REST * size:
-            return count
-    return 0

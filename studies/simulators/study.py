@@ -19,18 +19,19 @@ from typing import Any
 import numpy as np
 
 from comparisons.export.mujoco import to_mjcf
-from comparisons.models.mujoco import MODEL
+from comparisons.external.mujoco import MODEL, relax
 from comparisons.report.work import Progress, Work
 from sheetbench.answers.report import Report
 from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import Scene
-from studies.simulators.mujoco import at_rest, displacement, loaded, put
+from studies.simulators.mujoco import displacement, loaded, put
 from studies.transfer.scenes import transfer_scenes
 
 SCENES = ("one-edge-clamped", "two-edges-clamped", "opposite-edges-clamped", "curved-edge")
 GRID = 9
 ELEMENTS = 16
 EVALUATIONS = 120
+AT_REST = 1e-9  # displacement, in sides of the sheet, that one more step would add
 TWISTS = np.linspace(0.2, 0.6, 9)  # D66/D of the rods
 
 
@@ -114,18 +115,18 @@ def _lattice(scene: Scene, method: str) -> np.ndarray:
 
 def _tendons(mujoco: Any, scene: Scene) -> np.ndarray | None:
     """The exported lattice at rest in MuJoCo, let go flat, or, where that does not come to rest in
-    `studies.simulators.mujoco.STEPS`, from where ours rests; the mean of the layers at 5 × 5 masses."""
+    `comparisons.external.mujoco.STEPS`, from where ours rests; the mean of the layers at 5 × 5 masses."""
     import lumped
 
     springs = lumped.calibrate(scene.sheet, scene.material, grid=GRID, method="central")
     lattice = lumped.describe(scene, springs)
     text = to_mjcf(lattice, scene)
     model, data = loaded(mujoco, text)
-    size = max(scene.sheet.lengths)
-    if not at_rest(mujoco, model, data, size):
+    tolerance = AT_REST * max(scene.sheet.lengths)
+    if not relax(mujoco, model, data, tolerance)[1]:
         model, data = loaded(mujoco, text)
         put(model, data, lattice.states[-1].displacement, lattice.positions)
-        if not at_rest(mujoco, model, data, size):
+        if not relax(mujoco, model, data, tolerance)[1]:
             return None
     u = np.zeros((GRID, GRID, 3))
     np.add.at(u, (lattice.index[:, 1], lattice.index[:, 0]), 0.5 * displacement(data, lattice.positions))

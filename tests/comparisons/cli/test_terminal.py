@@ -143,9 +143,7 @@ def numbers(text: str) -> list[str]:
 
 
 def test_every_verb_is_tried() -> None:
-    assert set(SMALL) == set(VERBS) - {
-        "live"
-    }  # which ends by Ctrl-C alone: test_live.py
+    assert set(SMALL) == set(VERBS) - {"live"}  # which ends by Ctrl-C alone: test_live.py
 
 
 @pytest.mark.parametrize("width", [50, 80, 160])

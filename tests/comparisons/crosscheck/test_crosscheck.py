@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from commands import one_line, run
 
-from comparisons.crosscheck.standing import Standing, pair
-from comparisons.crosscheck.study import Crosscheck
+from comparisons.crosscheck.convergence import Convergence, pair
+from comparisons.crosscheck.crosscheck import Crosscheck
 from sheetbench.scenes import load
 
 SEED = load("two-edges-clamped")
@@ -83,7 +83,7 @@ def fakes(tmp_path: Path, in_process: None) -> Any:
     return lambda *names: ("--judges", ",".join(f"{file}:{name}" for name in names))
 
 
-def standing(name: str, limit: float, error: float, meshes: tuple[int, ...] = (4, 6, 8)) -> Standing:
+def standing(name: str, limit: float, error: float, meshes: tuple[int, ...] = (4, 6, 8)) -> Convergence:
     """A model whose every displacement is limit + error h² [m], its cells of size h = 1/n."""
     rows = [
         {
@@ -95,7 +95,7 @@ def standing(name: str, limit: float, error: float, meshes: tuple[int, ...] = (4
         }
         for n in meshes
     ]
-    return Standing.of(SEED, name, None, rows, False)
+    return Convergence.of(SEED, name, None, rows, False)
 
 
 def test_a_standing_has_the_limit_and_a_bar_that_holds_it() -> None:
@@ -112,7 +112,7 @@ def test_models_are_told_apart_by_more_than_both_bars_alone() -> None:
     here = standing("here", -0.01, error)
     for share, apart in ((0.9, ()), (1.1, ("P1", "P2", "P3", "P4"))):
         there = pair(here, standing("there", -0.01 - share * bars, error), list(SEED.probes))
-        assert there is not None and there.apart == apart
+        assert there is not None and there.distinguishable_at == apart
         assert there.difference == pytest.approx(share * bars / 0.01, rel=1e-6)
         assert there.bars == pytest.approx(bars / 0.01, rel=1e-6)
 
@@ -122,7 +122,7 @@ def test_rounding_tells_nothing_apart() -> None:
     here = standing("here", -0.01, 0.0)
     near, far = (standing("there", -0.01 * (1 + off), 0.0) for off in (4e-6, 4e-5))
     told = [pair(here, there, list(SEED.probes)) for there in (near, far)]
-    assert [bool(one and one.apart) for one in told] == [False, True]
+    assert [bool(one and one.distinguishable_at) for one in told] == [False, True]
 
 
 def test_one_mesh_has_no_bar_and_two_have_a_cautious_one() -> None:

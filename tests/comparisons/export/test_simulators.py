@@ -15,10 +15,11 @@ from commands import one_line, run
 import lumped
 from comparisons.export.mujoco import to_mjcf
 from comparisons.export.sofa import to_sofa
+from comparisons.external.mujoco import relax
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Hinged, PointLoad, Scene
-from studies.simulators.mujoco import at_rest, displacement, loaded, put
+from studies.simulators.mujoco import displacement, loaded, put
 
 READER = runpy.run_path(str(Path(__file__).parents[3] / "examples" / "other-codes" / "read_lattice.py"))
 CORNER = scenes.load("two-edges-clamped").replace(
@@ -76,7 +77,7 @@ def test_mujocos_hinged_edge_holds_the_mean_of_its_layers() -> None:
     fast = np.abs(data.qacc) / pull
     assert held and fast[[not along[joint] for joint in joints]].max() < 1e-9
     assert 0.0 < fast.max() < 1e-4
-    assert at_rest(mujoco, model, data, 0.2) > 0
+    assert relax(mujoco, model, data, 0.2e-9)[1]
     found = displacement(data, lattice.positions)
     assert np.abs(found - truth).max() < 1e-3 * np.abs(truth).max()
     for hold in held:
@@ -88,7 +89,7 @@ def test_mujoco_comes_to_rest_there_by_itself() -> None:
     scene = scenes.load("two-edges-clamped")
     lattice = described(scene)
     model, data = loaded(mujoco, to_mjcf(lattice, scene))
-    assert at_rest(mujoco, model, data, 0.188) > 0
+    assert relax(mujoco, model, data, 0.188e-9)[1]
     truth = lattice.states[-1].displacement
     assert np.abs(displacement(data, lattice.positions) - truth).max() < 5e-3 * np.abs(truth).max()
 

@@ -13,6 +13,7 @@ from cases import POINTS, with_material
 
 import fem_reference
 import lumped
+from comparisons.external.calculix.model import CalculiX
 from comparisons.identification import starts
 from comparisons.identification.figure import compose
 from comparisons.identification.identification import identify
@@ -22,7 +23,6 @@ from comparisons.identification.prediction import Prediction
 from comparisons.identification.residual_test import UNLIKELY, explained, runs
 from comparisons.identification.starts import Fit, nearest
 from comparisons.identification.unknowns import Unknown, unknown
-from comparisons.judges.calculix.model import CalculiX
 from sheetbench import scenes
 
 SEED = scenes.load("two-edges-clamped")

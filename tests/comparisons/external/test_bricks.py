@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_matrix
 
-from comparisons.judges import felupe
-from comparisons.judges.bricks import Bricks, Held, forces, held
-from comparisons.judges.calculix.deck import deck
-from comparisons.judges.kratos.problem import Triangles, problem
+from comparisons.external import felupe
+from comparisons.external.bricks import Bricks, Held, forces, held
+from comparisons.external.calculix.deck import deck
+from comparisons.external.kratos.problem import Triangles, problem
 from sheetbench.scenes import Clamped, Curved, EdgeLoad, Hinged, PointLoad, Pressure, Scene, load
 
 SEED = load("two-edges-clamped")

@@ -1,4 +1,4 @@
-"""Running a program within limits of time, memory and output.
+"""Run a program within limits of time, memory and output; its failure is one line.
 
 The program leads a process group of its own, which is killed at the end. What has left that group lives on,
 and may hold the ends of the pipes: so pipes are read until the program has ended, and not to their own end.
@@ -11,14 +11,24 @@ import selectors
 import signal
 import subprocess
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
-MOST = 2**24  # bytes of what it says on standard output
-TAIL = 2000  # of what is kept of standard error
+ONE_THREAD = dict.fromkeys(
+    (
+        "OMP_NUM_THREADS",
+        "OPENBLAS_NUM_THREADS",
+        "MKL_NUM_THREADS",
+        "NUMBA_NUM_THREADS",
+        "RAYON_NUM_THREADS",
+    ),
+    "1",
+)
+MOST = 2**24  # bytes of standard output
+TAIL = 2000  # bytes of standard error that are kept
 LATE = "late"
 DRAIN = 1.0  # s for reading what is in the pipes at its end; others may go on to fill them
 LOOK = 0.05  # s between looks whether it has ended, where nothing is said
@@ -38,10 +48,14 @@ class Ended:
     @property
     def fault(self) -> str:
         """What went wrong in a phrase, with its last words; nothing where nothing did."""
-        said = self.stopped or (f"exit status {self.code}" if self.code else "")
+        reason = self.stopped or (f"exit status {self.code}" if self.code else "")
         if self.code < 0 and not self.stopped:
-            said = f"ended by {signal.Signals(-self.code).name}"
-        return f"{said}: {self.complaint}" if said and self.complaint else said
+            reason = f"ended by {signal.Signals(-self.code).name}"
+        return f"{reason}: {self.complaint}" if reason and self.complaint else reason
+
+
+class Failed(Exception):
+    """The program has no answer; the message says in a clause what happened."""
 
 
 def run(
@@ -122,3 +136,25 @@ def _end(group: int) -> None:
         os.killpg(group, signal.SIGKILL)
     except (ProcessLookupError, PermissionError):  # all gone; macOS says the latter of what is dying
         return
+
+
+def output_of(command: Sequence[str], folder: Path, limit: float, fine: Collection[int] = (0,)) -> str:
+    """Return what a program prints, run in a folder on one thread.
+
+    Raises Failed where it takes longer than `limit` [s], cannot be started, or ends with an exit status that
+    is not `fine`, with the last line that speaks of an error.
+    """
+    try:
+        ended = run(command, b"", limit, folder=folder, variables=ONE_THREAD)
+    except OSError as error:
+        raise Failed(f"cannot be started: {error.strerror}") from None
+    output = f"{ended.answer.decode('utf-8', errors='replace')}\n{ended.complaint}"
+    if not ended.stopped and ended.code in fine:
+        return output
+    reason = f"left with exit status {ended.code}"
+    if ended.stopped:
+        reason = f"stopped: {ended.stopped}"
+    elif ended.code < 0:
+        reason = f"ended by signal {-ended.code}"
+    lines = [" ".join(line.split()) for line in output.splitlines() if "error" in line.lower()]
+    raise Failed(f"{reason}: {lines[-1][:200]}" if lines else reason)

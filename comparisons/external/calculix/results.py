@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 
-from comparisons.judges.program import Failed
+from comparisons.external.process import Failed
 
 _HEADING = re.compile(r"^ *displacements .* and time +(\S+) *$", re.MULTILINE)
 

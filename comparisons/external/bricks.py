@@ -19,7 +19,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from comparisons.judges.point_loads import point_loads
+from comparisons.external.point_loads import point_loads
 from sheetbench.scenes import EDGES, EdgeLoad, Scene, Symmetric, held_axes, holds_director
 from sheetbench.scenes.grid import near_square
 from sheetbench.scenes.kinematics import DrivenEdge, MovedEdge, bent_or_tilted

@@ -20,11 +20,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from comparisons.judges.answer import moving_supports
-from comparisons.judges.kratos.problem import Triangles, problem
-from comparisons.judges.program import Failed, run
+from comparisons.external.answer import refusal
+from comparisons.external.kratos.problem import Triangles, problem
+from comparisons.external.process import Failed, output_of
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Chain, EdgeLoad, FieldMesh, Scene, Solution, Status
+from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 
 STEPS = (1, 4, 16)
 PACKAGES = (
@@ -32,6 +32,9 @@ PACKAGES = (
     "KratosStructuralMechanicsApplication",
     "KratosLinearSolversApplication",
 )
+
+CHAINS = "Kratos is given no chains: its shell has no joint between rigid edges with an angle at rest"
+MOMENTS = "moments on Kratos' nodes do not follow the edge"
 
 
 @dataclass(frozen=True)
@@ -64,7 +67,8 @@ class Kratos:
         if self.version() is None:
             raise BadInput(f"model = 'kratos': needs {self.needs}")
         mesh = Triangles.of(scene.sheet, elements)
-        displacement, load_factor, iterations, note = np.zeros_like(mesh.positions), 0.0, 0, refusal(scene)
+        note = refusal(scene, CHAINS, MOMENTS)
+        displacement, load_factor, iterations = np.zeros_like(mesh.positions), 0.0, 0
         began, seconds, status = perf_counter(), 0.0, Status.REFUSED
         for steps in () if note else STEPS:
             given = problem(scene, mesh, np.arange(1, steps + 1) / steps)
@@ -105,22 +109,13 @@ def _solved(given: Mapping[str, Any], limit: float) -> dict[str, np.ndarray]:
     with TemporaryDirectory(prefix="sheetbench-kratos-") as kept:
         question, answer = Path(kept) / "problem.npz", Path(kept) / "answer.npz"
         np.savez(question, **given)
-        module = "comparisons.judges.kratos.process"
-        run([sys.executable, "-m", module, str(question), str(answer)], Path(kept), limit)
+        module = "comparisons.external.kratos.process"
+        output_of([sys.executable, "-m", module, str(question), str(answer)], Path(kept), limit)
         try:
             with np.load(answer) as found:
                 return dict(found)
         except (OSError, ValueError) as error:
             raise Failed(f"left no answer that can be read ({error})") from None
-
-
-def refusal(scene: Scene) -> str:
-    """What it cannot take of a scene, in a sentence, if anything."""
-    if any(isinstance(actuator, Chain) for actuator in scene.actuators):
-        return "Kratos is given no chains: its shell has no joint between rigid edges with an angle at rest"
-    if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):
-        return "moments on Kratos' nodes do not follow the edge"
-    return moving_supports(scene)
 
 
 MODEL = Kratos()

@@ -26,7 +26,8 @@ from sheetbench.scenes import EDGES, Clamped, FieldMesh, Hinged, PointLoad, Scen
 from sheetbench.scenes.grid import near_square
 
 AT_REST = 1e-8  # displacement, in sides of the sheet, that one more step would add
-STEPS = 20_000
+STEPS = 30_000
+FIRST_STEPS = 10  # of which none counts as rest
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,7 @@ class MuJoCo:
         mujoco.mj_setConst(model, data)
         data.xfrc_applied[bodies[free], :3] = grid.forces(rest)[free]
         ready = perf_counter()
-        steps, settled = _to_rest(mujoco, model, data, max(scene.sheet.lengths))
+        steps, settled = relax(mujoco, model, data, AT_REST * max(scene.sheet.lengths))
         done = perf_counter()
         displacement = np.zeros((ny, nx, 3))
         displacement.reshape(-1, 3)[inside[inside >= 0]] = (data.flexvert_xpos - rest)[inside >= 0]
@@ -158,21 +159,25 @@ class _Grid:
         return force
 
 
-def _to_rest(mujoco: Any, model: Any, data: Any, size: float) -> tuple[int, bool]:
-    """Steps until one more would move nothing; how many, and whether that was reached."""
-    before = 0.0
-    for step in range(1, STEPS + 1):
+def relax(mujoco: Any, model: Any, data: Any, tolerance: float) -> tuple[int, bool]:
+    """Step until one more step would move nothing by more than the tolerance [m].
+
+    Velocities are set to zero whenever the kinetic energy has passed a peak. Returns the number of steps, and
+    whether the sheet came to rest within `STEPS` of them.
+    """
+    before, step = 0.0, model.opt.timestep
+    for count in range(1, STEPS + 1):
         mujoco.mj_step(model, data)
         energy = float(data.qvel @ data.qvel)
         if not np.isfinite(energy):
-            return step, False
+            return count, False
         if energy < before:
             data.qvel[:] = 0.0
             energy = 0.0
         before = energy
-        moved = model.opt.timestep**2 * np.abs(data.qacc).max() + model.opt.timestep * np.abs(data.qvel).max()
-        if moved < AT_REST * size:
-            return step, True
+        move = step**2 * np.abs(data.qacc).max() + step * np.abs(data.qvel).max()
+        if count > FIRST_STEPS and move < tolerance:
+            return count, True
     return STEPS, False
 
 

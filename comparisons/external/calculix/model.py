@@ -18,16 +18,18 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from comparisons.judges.answer import answered, moving_supports, require
-from comparisons.judges.bricks import GRADINGS, Bricks
-from comparisons.judges.calculix import results
-from comparisons.judges.calculix.deck import deck
-from comparisons.judges.program import Failed, run
+from comparisons.external.answer import BRICK_MOMENTS, refusal, require, solution_on_bricks
+from comparisons.external.bricks import GRADINGS, Bricks
+from comparisons.external.calculix import results
+from comparisons.external.calculix.deck import deck
+from comparisons.external.process import Failed, output_of
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Chain, EdgeLoad, Scene, Solution, Status
+from sheetbench.scenes import Scene, Solution, Status
 
 PROGRAM, JOB = "ccx", "sheet"
 SAYS_ITS_VERSION = 201  # its exit status after `ccx -v`
+
+CHAINS = "the deck has no chains: it could have rigid bodies, but no joint between them with an angle"
 
 
 @dataclass(frozen=True)
@@ -63,7 +65,8 @@ class CalculiX:
             raise BadInput(f"model = 'calculix': needs {self.needs}")
         bricks = Bricks.of(scene.sheet, settings["elements"], settings["layers"], settings["grading"])
         began = perf_counter()
-        displacement, load_factor, iterations, note = np.zeros_like(bricks.positions), 0.0, 0, refusal(scene)
+        note = refusal(scene, CHAINS, BRICK_MOMENTS)
+        displacement, load_factor, iterations = np.zeros_like(bricks.positions), 0.0, 0
         ready, status = began, Status.REFUSED
         if not note:
             with TemporaryDirectory(prefix="sheetbench-ccx-") as kept:
@@ -72,7 +75,7 @@ class CalculiX:
                 (folder / f"{JOB}.inp").write_text(text, encoding="ascii")
                 ready = perf_counter()
                 try:
-                    run([program, JOB], folder, settings["time_limit"])
+                    output_of([program, JOB], folder, settings["time_limit"])
                     load_factor, displacement = results.displacements(_read(folder, "dat"), len(displacement))
                     status = Status.CONVERGED if load_factor == 1.0 else Status.DIVERGED
                     if not np.isfinite(displacement).all():
@@ -81,7 +84,7 @@ class CalculiX:
                     status, note = Status.DIVERGED, f"CalculiX: {error}"
                 iterations = results.iterations(_read(folder, "sta"))
         seconds = (ready - began, perf_counter() - ready)
-        return answered(
+        return solution_on_bricks(
             self, scene, settings, bricks, displacement, status, load_factor, note, iterations, seconds
         )
 
@@ -98,20 +101,11 @@ def _version(program: str | None) -> str | None:
     if program is None:
         return None
     try:
-        said = run([program, "-v"], Path.cwd(), 10.0, fine=(0, SAYS_ITS_VERSION))
+        printed = output_of([program, "-v"], Path.cwd(), 10.0, fine=(0, SAYS_ITS_VERSION))
     except Failed:
         return None
-    found = re.search(r"Version +(\S+)", said, re.IGNORECASE)
+    found = re.search(r"Version +(\S+)", printed, re.IGNORECASE)
     return found.group(1) if found else "of unknown version"
-
-
-def refusal(scene: Scene) -> str:
-    """What it cannot take of a scene, in a sentence, if anything."""
-    if any(isinstance(actuator, Chain) for actuator in scene.actuators):
-        return "the deck has no chains: it could have rigid bodies, but no joint between them with an angle"
-    if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):
-        return "loads on bricks do not follow the edge as a moment does"
-    return moving_supports(scene)
 
 
 MODEL = CalculiX()

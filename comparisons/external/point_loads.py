@@ -1,4 +1,4 @@
-"""Point loads on the nodes of a judge's mesh, by the shape functions at their places."""
+"""Point loads on the nodes of an external code's mesh, by its shape functions."""
 
 from __future__ import annotations
 

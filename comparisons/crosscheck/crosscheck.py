@@ -1,15 +1,15 @@
-"""Scenes × models and judges × meshes, through a campaign's store: one standing a scene and model."""
+"""Scenes × models × meshes, through a campaign's store: one convergence a scene and model."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
 from comparisons.crosscheck import tables
-from comparisons.crosscheck.standing import Pair, Standing, pair
-from comparisons.judges.found import Found
+from comparisons.crosscheck.convergence import Convergence, Pair, pair
+from comparisons.external.installed import InstalledCode
 from comparisons.models import plugins
 from comparisons.models.candidate import Candidate
 from comparisons.models.registry import check
@@ -23,41 +23,49 @@ from sheetbench.scenes import Scene, Status
 
 @dataclass(frozen=True)
 class Crosscheck:
-    """The standings of every scene by its name, the models in one order; judges: that were looked for."""
+    """The convergence of every model, by scene; codes: the external ones, absent too."""
 
     scenes: tuple[Scene, ...]
-    standings: dict[str, tuple[Standing, ...]]
-    judges: tuple[Found, ...]
+    convergences: dict[str, tuple[Convergence, ...]]
+    codes: tuple[InstalledCode, ...]
 
-    def against(self, scene: str) -> Standing | None:
-        """The standing that the others of a scene are held against: the shell's, else the first with a
-        bar."""
-        with_bar = [one for one in self.standings[scene] if one.uncertainty is not None]
+    def against(self, scene: str) -> Convergence | None:
+        """Return what the other models of a scene are compared with: the shell, else the first with a bar."""
+        with_bar = [one for one in self.convergences[scene] if one.uncertainty is not None]
         return next((one for one in with_bar if one.name == REFERENCE), with_bar[0] if with_bar else None)
 
     def pairs(self, scene: Scene) -> list[Pair]:
         """Every two models of a scene that have bars."""
-        both = combinations(self.standings[scene.name], 2)
-        found = (pair(a, b, list(scene.probes)) for a, b in both)
-        return [one for one in found if one is not None]
+        both = combinations(self.convergences[scene.name], 2)
+        every = (pair(a, b, list(scene.probes)) for a, b in both)
+        return [one for one in every if one is not None]
 
     def as_dict(self) -> dict[str, Any]:
         """The JSON document of `sheetbench crosscheck`: metres, seconds, fractions."""
         return {
             "solutions": [
-                _document(scene, one) for scene in self.scenes for one in self.standings[scene.name]
+                _document(scene, one) for scene in self.scenes for one in self.convergences[scene.name]
             ],
             "pairs": [
-                {"scene": scene.name, **asdict(one)} for scene in self.scenes for one in self.pairs(scene)
+                {
+                    "scene": scene.name,
+                    "a": one.a,
+                    "b": one.b,
+                    "difference": one.difference,
+                    "bars": one.bars,
+                    "apart": one.distinguishable_at,
+                }
+                for scene in self.scenes
+                for one in self.pairs(scene)
             ],
             "judges": [
                 {
-                    "name": found.judge.name,
-                    "version": found.version,
-                    "status": "absent" if found.version is None else "found",
-                    "needs": found.judge.needs,
+                    "name": one.code.name,
+                    "version": one.version,
+                    "status": "absent" if one.version is None else "found",
+                    "needs": one.code.needs,
                 }
-                for found in self.judges
+                for one in self.codes
             ],
             "failed": self.failures,
         }
@@ -65,15 +73,15 @@ class Crosscheck:
     @property
     def failures(self) -> list[str]:
         """A sentence for every mesh that has no answer without having been refused."""
-        every = (one for of in self.standings.values() for one in of)
-        return [f"{one.scene}, {one.name}: {said}" for one in every for said in one.failures]
+        every = (one for of in self.convergences.values() for one in of)
+        return [f"{one.scene}, {one.name}: {failure}" for one in every for failure in one.failures]
 
     def report(self) -> Report:
-        """What is shown of it."""
+        """Return the tables and notes of the cross-check."""
         return tables.report(self)
 
 
-def _document(scene: Scene, one: Standing) -> dict[str, Any]:
+def _document(scene: Scene, one: Convergence) -> dict[str, Any]:
     """A model's finest answer as `compare` has it, with its bars."""
     row = {
         key: value for key, value in one.finest.items() if key not in ("displacement", "size", "traceback")
@@ -94,23 +102,23 @@ def crosscheck(
     store: Store,
     *,
     models: Mapping[str, Sequence[Candidate]],
-    judges: Sequence[Found] = (),
+    codes: Sequence[InstalledCode] = (),
     workers: int = 1,
     pool: Pool = processes,
     retry: bool = False,
     large: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> Crosscheck:
-    """Carry out what the store does not have, and put the standings together.
+    """Carry out what the store does not have, and return every model's convergence.
 
-    models: candidates by what tables call them, coarsest mesh first, those of the judges among them; judges:
-    that were looked for, absent ones too. Raises BadInput, before the first run, for candidates that cannot
+    models: candidates by what tables call them, coarsest mesh first, those of external codes among them;
+    codes: the external ones, absent too. Raises BadInput, before the first run, for candidates that cannot
     be and unless `large` for those that take more memory than there is.
     """
     for scene in scenes:
         for candidate in (c for of in models.values() for c in of):
             check(scene, candidate, large)
-    versions = {found.asked: found.version for found in judges}
+    versions = {one.model: one.version for one in codes}
     runs = {
         (scene.name, name): [_run(scene, name, candidate, versions.get(candidate.model)) for candidate in of]
         for scene in scenes
@@ -119,31 +127,39 @@ def crosscheck(
     every = [run for of in runs.values() for run in of]
     done = carry_out(every, store, workers=workers, pool=pool, retry=retry, progress=progress)
     rows = {run.key: _row(run, outcome) for run, outcome in zip(every, done, strict=True)}
-    called = {name: versions.get(of[0].model) for name, of in models.items()}
-    layered = {*REFERENCES, *(found.judge.name for found in judges if found.judge.layered)}
-    standings = {
+    version_of = {name: versions.get(of[0].model) for name, of in models.items()}
+    layered = {*REFERENCES, *(one.code.name for one in codes if one.code.layered)}
+    convergences = {
         scene.name: tuple(
-            Standing.of(
-                scene, name, called[name], [rows[run.key] for run in runs[scene.name, name]], name in layered
+            Convergence.of(
+                scene,
+                name,
+                version_of[name],
+                [rows[run.key] for run in runs[scene.name, name]],
+                name in layered,
             )
             for name in models
         )
         for scene in scenes
     }
-    return Crosscheck(tuple(scenes), standings, tuple(judges))
+    return Crosscheck(tuple(scenes), convergences, tuple(codes))
 
 
 def _run(scene: Scene, name: str, candidate: Candidate, version: str | None) -> Run:
     arguments = {"scene": scene.document(), "model": candidate.model, "settings": candidate.settings}
     digest = plugins.digest(candidate.model)
-    arguments |= {key: said for key, said in (("version", version), ("digest", digest)) if said is not None}
+    arguments |= {key: text for key, text in (("version", version), ("digest", digest)) if text is not None}
     size = candidate.settings.get("elements") or candidate.settings["grid"]
     counts = "×".join(map(str, size)) if isinstance(size, list | tuple) else str(size)
     return Run("crosscheck", arguments, f"{scene.name}, {name} {counts}")
 
 
 def _row(run: Run, outcome: Finished) -> dict[str, Any]:
-    """What a run found; what one without an answer leaves."""
-    said = {"status": outcome.status, "message": outcome.message}
+    """Return a run's row; of a run without an answer its label, settings and status."""
+    status = {"status": outcome.status, "message": outcome.message}
     refused = {"label": run.label, "settings": run.arguments["settings"], "advice": Status.REFUSED.advice}
-    return {**(refused if outcome.status == Status.REFUSED else {"label": run.label}), **outcome.row, **said}
+    return {
+        **(refused if outcome.status == Status.REFUSED else {"label": run.label}),
+        **outcome.row,
+        **status,
+    }

@@ -1,10 +1,10 @@
-"""What is to be checked, from lists as people write them."""
+"""Scenes and candidates of a cross-check, from lists as people write them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from comparisons.judges.found import Found
+from comparisons.external.installed import InstalledCode
 from comparisons.models.candidate import Candidate, items
 from comparisons.models.grading import Grading
 from comparisons.models.grids import parse_elements
@@ -15,9 +15,11 @@ from sheetbench.scenes.rigid_motions import require_static
 ALL = "all"
 
 
-def scenes(names: Sequence[str]) -> list[Scene]:
-    """The scenes of names and files, `all` for the catalogue. Raises BadInput for one that is not, that has
-    no static answer, or that shares its name with another."""
+def load_scenes(names: Sequence[str]) -> list[Scene]:
+    """Return the scenes of names and files, `all` for the catalogue.
+
+    Raises BadInput for one that does not exist, has no static answer, or shares its name with another.
+    """
     found: dict[str, Scene] = {}
     for name in names:
         for each in catalogue() if name == ALL else [name]:
@@ -31,17 +33,17 @@ def scenes(names: Sequence[str]) -> list[Scene]:
     return list(found.values())
 
 
-def models(
+def candidates(
     grids: str,
     calibration: str | None,
     grading: Grading,
     meshes: Mapping[str, str],
-    judges: Sequence[Found],
-    judges_meshes: str | None,
+    codes: Sequence[InstalledCode],
+    code_meshes: str | None,
 ) -> dict[str, list[Candidate]]:
-    """Lattice, references and judges that are here, each on its meshes, coarsest first.
+    """Return lattice, references and installed external codes, each on its meshes, coarsest first.
 
-    judges_meshes: instead of each one's own. Raises BadInput for what cannot be read and for nothing at all.
+    code_meshes: in place of each code's own. Raises BadInput for what cannot be read and for nothing at all.
     """
     found: dict[str, list[Candidate]] = {}
     own = {"calibration": calibration, "grading": grading}
@@ -51,12 +53,10 @@ def models(
     for name, text in meshes.items():
         if sizes := _numbers(f"--{name}", text, 1):
             found[name] = [Candidate(name, {"elements": n}) for n in sizes]
-    for judge in judges:
-        if judge.version is not None:
-            sizes = (
-                list(judge.judge.meshes) if judges_meshes is None else _numbers("--meshes", judges_meshes, 1)
-            )
-            found[judge.judge.name] = [Candidate(judge.asked, {"elements": n}) for n in sizes]
+    for one in codes:
+        if one.version is not None:
+            sizes = list(one.code.meshes) if code_meshes is None else _numbers("--meshes", code_meshes, 1)
+            found[one.code.name] = [Candidate(one.model, {"elements": n}) for n in sizes]
     if not found:
         raise BadInput("no model left to check")
     return found

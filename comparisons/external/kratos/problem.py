@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from comparisons.judges.point_loads import point_loads
+from comparisons.external.point_loads import point_loads
 from sheetbench.scenes import (
     EDGES,
     EdgeLoad,
@@ -89,7 +89,7 @@ class Triangles:
 
 
 def problem(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> dict[str, np.ndarray]:
-    """The arrays that `comparisons.judges.kratos.process` reads."""
+    """The arrays that `comparisons.external.kratos.process` reads."""
     held, value = _held(scene, mesh, load_factors)
     material, none = scene.material, np.zeros(3)
     return {

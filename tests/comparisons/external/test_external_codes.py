@@ -12,14 +12,13 @@ import pytest
 
 import fem_reference
 from comparisons.comparison.comparison import error
-from comparisons.judges import found, program
-from comparisons.judges.answer import Judge
-from comparisons.judges.calculix import results
-from comparisons.judges.calculix.model import MODEL as CALCULIX
-from comparisons.judges.felupe import MODEL as FELUPE
-from comparisons.judges.kratos.model import MODEL as KRATOS
-from comparisons.judges.program import Failed
-from sheetbench.errors import BadInput
+from comparisons.external import installed
+from comparisons.external.answer import ExternalCode
+from comparisons.external.calculix import results
+from comparisons.external.calculix.model import MODEL as CALCULIX
+from comparisons.external.felupe import MODEL as FELUPE
+from comparisons.external.kratos.model import MODEL as KRATOS
+from comparisons.external.process import Failed, output_of
 from sheetbench.scenes import (
     Chain,
     Clamped,
@@ -36,7 +35,7 @@ from sheetbench.scenes import (
     load,
 )
 
-JUDGES: tuple[Judge, ...] = (CALCULIX, KRATOS, FELUPE)
+JUDGES: tuple[ExternalCode, ...] = (CALCULIX, KRATOS, FELUPE)
 SEED = load("two-edges-clamped")
 
 
@@ -44,7 +43,7 @@ def changed(**changes: Any) -> Scene:
     return SEED.model_copy(update=changes)
 
 
-def needed(judge: Judge) -> None:
+def needed(judge: ExternalCode) -> None:
     if judge.version() is None:
         pytest.skip(f"needs {judge.needs}")
 
@@ -89,13 +88,13 @@ def test_results_that_cannot_be_read_are_one_line(damage: str) -> None:
 )
 def test_a_program_that_fails_says_so_in_a_line(tmp_path: Path, code: str, said: str) -> None:
     with pytest.raises(Failed, match=said) as caught:
-        program.run([sys.executable, "-c", code], tmp_path, 0.5 if "sleep" in code else 20.0)
+        output_of([sys.executable, "-c", code], tmp_path, 0.5 if "sleep" in code else 20.0)
     assert "\n" not in str(caught.value)
 
 
 def test_a_program_that_is_not_there_cannot_be_started(tmp_path: Path) -> None:
     with pytest.raises(Failed, match="cannot be started: No such file"):
-        program.run([str(tmp_path / "none")], tmp_path, 1.0)
+        output_of([str(tmp_path / "none")], tmp_path, 1.0)
 
 
 def fake_program(folder: Path, monkeypatch: pytest.MonkeyPatch, script: str) -> None:
@@ -136,7 +135,7 @@ def test_a_judge_that_is_not_here_says_what_it_needs(monkeypatch: pytest.MonkeyP
 
 
 @pytest.mark.parametrize("judge", JUDGES, ids=lambda judge: judge.name)
-def test_a_judge_refuses_what_it_cannot_take_in_a_sentence(judge: Judge) -> None:
+def test_a_judge_refuses_what_it_cannot_take_in_a_sentence(judge: ExternalCode) -> None:
     needed(judge)
     chain = Chain(edge="x1", segments=2, bending_stiffness=1.0, line_density=1.0, radius=1e-3)
     for scene in (
@@ -148,7 +147,7 @@ def test_a_judge_refuses_what_it_cannot_take_in_a_sentence(judge: Judge) -> None
 
 
 @pytest.mark.parametrize("judge", JUDGES, ids=lambda judge: judge.name)
-def test_settings_that_make_no_mesh_are_refused(judge: Judge) -> None:
+def test_settings_that_make_no_mesh_are_refused(judge: ExternalCode) -> None:
     for wrong in (0, 2.5, "many"):
         with pytest.raises(BadInput, match="elements = "):
             judge.solve(SEED, {**judge.settings, "elements": wrong})
@@ -157,13 +156,13 @@ def test_settings_that_make_no_mesh_are_refused(judge: Judge) -> None:
 
 
 def test_judges_are_found_among_the_plug_ins() -> None:
-    assert all(isinstance(judge, Judge) for judge in JUDGES)
-    looked = {one.judge.name: one.version for one in found.look()}
+    assert all(isinstance(judge, ExternalCode) for judge in JUDGES)
+    looked = {one.code.name: one.version for one in installed.find_codes()}
     assert "mujoco" not in looked
     for name, version in looked.items():
-        assert version == found.installed()[name].version()
+        assert version == installed.known_codes()[name].version()
     with pytest.raises(BadInput, match="--judges"):
-        found.look(["mujoco"])
+        installed.find_codes(["mujoco"])
 
 
 PROBES = {"A": (0.094, 0.094), "B": (0.15, 0.05), "C": (0.05, 0.15), "D": (0.188, 0.188)}

@@ -1,8 +1,8 @@
 """FElupe as a model: 20-node bricks with reduced integration and St Venant–Kirchhoff's law.
 
-FElupe interpolates, integrates and assembles; law and supports (`comparisons.judges.bricks`) are given to it,
-as its boundary conditions know no turned axes: u = T q + u₀ with the free components q, and Newton's method
-on Tᵀ r(u) = 0, the load in steps that are halved where it does not converge. 2 × 2 × 2 points a brick,
+FElupe interpolates, integrates and assembles; law and supports (`comparisons.external.bricks`) are given to
+it, as its boundary conditions know no turned axes: u = T q + u₀ with the free components q, and Newton's
+method on Tᵀ r(u) = 0, the load in steps that are halved where it does not converge. 2 × 2 × 2 points a brick,
 without which thin sheets lock.
 
 Everything of a scene but chains and edge moments. Needs the extra [felupe].
@@ -20,13 +20,15 @@ import numpy as np
 from scipy.sparse import csr_matrix, lil_matrix
 from scipy.sparse.linalg import splu
 
-from comparisons.judges.answer import answered, moving_supports, require
-from comparisons.judges.bricks import GRADINGS, Bricks, Held, forces, held
+from comparisons.external.answer import BRICK_MOMENTS, refusal, require, solution_on_bricks
+from comparisons.external.bricks import GRADINGS, Bricks, Held, forces, held
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Chain, EdgeLoad, Material, Pressure, Scene, Solution, Status
+from sheetbench.scenes import Material, Pressure, Scene, Solution, Status
 
 CORRECTION = 1e-9  # of the displacement: where a step ends
 ITERATIONS, LEAST = 15, 1.0 / 64.0  # of a step, and the smallest step
+
+CHAINS = "FElupe is given no chains: its points do not turn, so that no joint could want an angle"
 
 
 @dataclass(frozen=True)
@@ -57,7 +59,7 @@ class FElupe:
         if self.version() is None:
             raise BadInput(f"model = 'felupe': needs {self.needs}")
         bricks = Bricks.of(scene.sheet, settings["elements"], settings["layers"], settings["grading"])
-        began, note = perf_counter(), refusal(scene)
+        began, note = perf_counter(), refusal(scene, CHAINS, BRICK_MOMENTS)
         path = _Path(np.zeros_like(bricks.positions), 0.0, 0)
         ready, status = began, Status.REFUSED
         if not note:
@@ -65,7 +67,7 @@ class FElupe:
             ready = perf_counter()
             path = _traced(equilibrium, supports)
             status = Status.CONVERGED if path.load_factor == 1.0 else Status.DIVERGED
-        return answered(
+        return solution_on_bricks(
             self,
             scene,
             settings,
@@ -204,15 +206,6 @@ def _newton(
         if np.max(np.abs(step)) <= CORRECTION * np.max(np.abs(u), initial=0.0):
             return u, iteration
     return None, ITERATIONS
-
-
-def refusal(scene: Scene) -> str:
-    """What it cannot take of a scene, in a sentence, if anything."""
-    if any(isinstance(actuator, Chain) for actuator in scene.actuators):
-        return "FElupe is given no chains: its points do not turn, so that no joint could want an angle"
-    if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):
-        return "loads on bricks do not follow the edge as a moment does"
-    return moving_supports(scene)
 
 
 MODEL = FElupe()

@@ -1,4 +1,4 @@
-"""A judge, as the crosscheck knows it, and the Solution of one that answers on bricks."""
+"""An external finite-element code as cross-checks use it, and the Solution of one that solves on bricks."""
 
 from __future__ import annotations
 
@@ -7,16 +7,18 @@ from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
-from comparisons.judges.bricks import Bricks
+from comparisons.external.bricks import Bricks
 from comparisons.models.plugins import Model
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import FieldMesh, Scene, Solution, Status
+from sheetbench.scenes import Chain, EdgeLoad, FieldMesh, Scene, Solution, Status
+
+BRICK_MOMENTS = "loads on bricks do not follow the edge as a moment does"
 
 
 @runtime_checkable
-class Judge(Model, Protocol):
-    """A plug-in that is somebody else's program: how people call it, what it needs to be here, and numbers of
-    elements along the shorter side, coarsest first, on which its convergence is looked at."""
+class ExternalCode(Model, Protocol):
+    """A plug-in around another program: its full name (`called`), what it needs to be installed, and the
+    numbers of elements along the shorter side, coarsest first, on which its convergence is measured."""
 
     @property
     def called(self) -> str: ...
@@ -29,11 +31,11 @@ class Judge(Model, Protocol):
 
     @property
     def layered(self) -> bool:
-        """Whether its elements are quadratic and shear, so that their edges let twist go."""
+        """Whether its elements are quadratic and have transverse shear, and so a layer at the edges."""
         ...
 
     def version(self) -> str | None:
-        """Its version, None where it is not installed."""
+        """Return its version, None where it is not installed."""
         ...
 
 
@@ -46,8 +48,15 @@ def require(elements: Any, layers: Any, grading: str, gradings: Collection[str])
     require_choice("grading", grading, gradings)
 
 
-def moving_supports(scene: Scene) -> str:
-    """A sentence where supports move, which bricks and other programs' meshes are not told."""
+def refusal(scene: Scene, chains: str, moments: str) -> str:
+    """Return why an external code cannot solve a scene, "" if it can.
+
+    chains, moments: the reasons of this code against actuator chains and edge moments.
+    """
+    if any(isinstance(actuator, Chain) for actuator in scene.actuators):
+        return chains
+    if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):
+        return moments
     if any(support.motion is not None for support in scene.supports):
         return (
             'supports that move are not handed over: a clamp may be written as an actuator, kind = "motion"'
@@ -55,8 +64,8 @@ def moving_supports(scene: Scene) -> str:
     return ""
 
 
-def answered(
-    judge: Judge,
+def solution_on_bricks(
+    code: ExternalCode,
     scene: Scene,
     settings: Mapping[str, Any],
     bricks: Bricks,
@@ -67,11 +76,11 @@ def answered(
     iterations: int,
     seconds: tuple[float, float],
 ) -> Solution:
-    """The answer of nodal displacements (n, 3) [m]; seconds: set-up and solve."""
+    """Return the Solution of nodal displacements (n, 3) [m]; seconds: set-up and solve."""
     counts = " × ".join(map(str, bricks.shape))
     return Solution(
-        model=judge.name,
-        label=f"{judge.called} {counts} bricks",
+        model=code.name,
+        label=f"{code.called} {counts} bricks",
         settings={**settings, "elements": list(bricks.shape[:2])},
         status=status,
         unknowns=displacement.size,

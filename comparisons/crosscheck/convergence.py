@@ -1,12 +1,12 @@
-"""What a model says of a scene with its own error bar, and whether two models can be told apart.
+"""A model's convergence on a scene, with its error bar, and whether two models can be distinguished.
 
 A model answers on three meshes. With f its Richardson limit at the probes and U the bar of its grid
-convergence index (`fem_reference.uncertainty`), two models a and b are told apart where at some probe
+convergence index (`fem_reference.uncertainty`), two models a and b are distinguishable where at some probe
 
     |f_a − f_b| > |U_a| + |U_b|
 
 and more than `DIGITS` of the largest displacement, which is what programs print and where iterations end.
-What is not told apart may be the same or may not: finer meshes would say.
+Models that are not distinguishable may be equal or not: finer meshes would decide.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ DIGITS = 1e-5  # of the largest displacement
 
 
 @dataclass(frozen=True)
-class Standing:
+class Convergence:
     """A model on its meshes, coarsest first: `rows` as `comparisons.crosscheck.task.answer` has them, with a
     status and a message where there is no more. uncertainty: of the finest answers, None below two of
     them."""
@@ -39,8 +39,8 @@ class Standing:
     @classmethod
     def of(
         cls, scene: Scene, name: str, version: str | None, rows: Sequence[dict[str, Any]], layered: bool
-    ) -> Standing:
-        """The standing of a model's rows; layered: its elements are quadratic and have the layer of
+    ) -> Convergence:
+        """Return the convergence of a model's rows; layered: its elements are quadratic and have the layer of
         `fem_reference.edge_layer`; of others an order of 2 at most counts."""
         usable = sorted((row for row in rows if _answered(row)), key=lambda row: float(row["size"]))
         bar = None
@@ -84,16 +84,17 @@ def _answered(row: dict[str, Any]) -> bool:
 @dataclass(frozen=True)
 class Pair:
     """How far b is from a: the largest component of their difference, as a fraction of a's largest
-    displacement; bars: both bars of that component, likewise; apart: the probes where they are told apart."""
+    displacement; bars: both bars of that component, likewise; distinguishable_at: where
+    they differ by more."""
 
     a: str
     b: str
     difference: float
     bars: float
-    apart: tuple[str, ...]
+    distinguishable_at: tuple[str, ...]
 
 
-def pair(a: Standing, b: Standing, probes: Sequence[str]) -> Pair | None:
+def pair(a: Convergence, b: Convergence, probes: Sequence[str]) -> Pair | None:
     """Two models of a scene beside each other, where both have bars."""
     if a.uncertainty is None or b.uncertainty is None:
         return None
@@ -102,8 +103,8 @@ def pair(a: Standing, b: Standing, probes: Sequence[str]) -> Pair | None:
         return None
     off = b.uncertainty.extrapolated - a.uncertainty.extrapolated
     both = [np.linalg.norm(of.bar, axis=1) for of in (a.uncertainty, b.uncertainty)]
-    apart = np.linalg.norm(off, axis=1) > np.maximum(both[0] + both[1], DIGITS * size)
+    differ = np.linalg.norm(off, axis=1) > np.maximum(both[0] + both[1], DIGITS * size)
     at = np.unravel_index(np.argmax(np.abs(off)), off.shape)
     bars = a.uncertainty.bar[at] + b.uncertainty.bar[at]
-    names = tuple(name for name, told in zip(probes, apart, strict=True) if told)
+    names = tuple(name for name, differs in zip(probes, differ, strict=True) if differs)
     return Pair(a.name, b.name, float(np.abs(off[at])) / size, float(bars) / size, names)

@@ -22,7 +22,7 @@ from sheetbench.scenes import AnyScene, Scene, scene_of
 from sheetbench.scenes.schema import for_editors
 
 if TYPE_CHECKING:
-    from comparisons.crosscheck.study import Crosscheck
+    from comparisons.crosscheck.crosscheck import Crosscheck
     from comparisons.runs.store import Store
     from comparisons.scoring.score import Score
     from comparisons.stability.extremes import Stability
@@ -78,21 +78,21 @@ def crosscheck(
     programs: names of other programs, all that are found unless given; meshes: their elements. out: a folder
     that keeps the rows, so that the same call goes on where an earlier one was stopped.
     """
-    from comparisons.crosscheck import asked
-    from comparisons.crosscheck.study import crosscheck as check
-    from comparisons.judges.found import look
+    from comparisons.crosscheck.candidates import candidates
+    from comparisons.crosscheck.crosscheck import crosscheck as check
+    from comparisons.external.installed import find_codes
 
     def listed(numbers: Sequence[int] | None) -> str:
         return ",".join(map(str, numbers or ()))
 
     many = [scenes] if isinstance(scenes, Scene | str | Path) else list(scenes)
-    found = look(programs)
+    codes = find_codes(programs)
     counts = dict(zip(REFERENCES, map(listed, (plate, shell, solid)), strict=True))
     of_programs = None if meshes is None else listed(meshes)
-    models = asked.models(listed(lumped), calibration, grading, counts, found, of_programs)
+    models = candidates(listed(lumped), calibration, grading, counts, codes, of_programs)
     with _store(out) as store:
         return check(
-            [scene_of(one) for one in many], store, models=models, judges=found, workers=workers, large=large
+            [scene_of(one) for one in many], store, models=models, codes=codes, workers=workers, large=large
         )
 
 

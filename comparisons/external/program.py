@@ -26,9 +26,8 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.external.process import run
 from comparisons.models import memory
-from comparisons.models.running import run
-from sheetbench.errors import BadInput
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 from sheetbench.scenes.quantities import LARGEST
 

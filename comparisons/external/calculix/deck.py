@@ -14,7 +14,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from comparisons.judges.bricks import Bricks, forces, held
+from comparisons.external.bricks import Bricks, forces, held
 from sheetbench.scenes import Pressure, Scene
 
 RESIDUAL, CORRECTION = 1e-7, 1e-7  # of the mean force, of the displacement: where an increment ends

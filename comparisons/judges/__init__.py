@@ -1,1 +1,0 @@
-"""Other people's programs as models: CalculiX, Kratos, FElupe; none is needed for anything else."""

@@ -28,6 +28,7 @@ import numpy as np
 
 from comparisons.external.process import run
 from comparisons.models import memory
+from sheetbench.errors import BadInput
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 from sheetbench.scenes.quantities import LARGEST
 

@@ -28,6 +28,7 @@ from typing import Any, Protocol, runtime_checkable
 
 from comparisons.external.program import PREFIX, Program
 from comparisons.models import plugin_sources
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Solution
 
 GROUP = "sheetbench.models"

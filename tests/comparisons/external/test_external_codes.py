@@ -19,6 +19,7 @@ from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.felupe import MODEL as FELUPE
 from comparisons.external.kratos.model import MODEL as KRATOS
 from comparisons.external.process import Failed, output_of
+from sheetbench.errors import BadInput
 from sheetbench.scenes import (
     Chain,
     Clamped,

@@ -6,9 +6,10 @@ from sheetbench.scenes.balance import Balance, dead_force
 from sheetbench.scenes.files import AnyScene, catalogue, load, scene_of
 from sheetbench.scenes.history import History
 from sheetbench.scenes.loads import EdgeLoad, Load, PointLoad, Pressure
+from sheetbench.scenes.material import Material
 from sheetbench.scenes.rigid_motions import free_rigid_motions, require_static
 from sheetbench.scenes.scene import Scene
-from sheetbench.scenes.sheet import EDGES, Edge, Gravity, Material, Sheet
+from sheetbench.scenes.sheet import EDGES, Edge, Gravity, Sheet
 from sheetbench.scenes.solution import About, FieldMesh, Iteration, Solution, Status, comparable
 from sheetbench.scenes.springs import DamperSet, PerDirection, SpringSet, SpringTable
 from sheetbench.scenes.strains import outside_model, weight_strain

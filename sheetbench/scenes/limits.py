@@ -12,9 +12,9 @@ _FULL = "a sheet is a full rectangle: holes and cut-outs are not modelled"
 _UNIFORM = "a sheet has one material and one thickness all over: patches and inclusions are not modelled"
 _RECTANGLE = "a sheet is a flat rectangle of one thickness: other outlines are not modelled"
 _ISOTROPIC = "a material is isotropic, with one young and one poisson: orthotropy is not modelled"
-_LINEAR = (
-    "a scene's material is linearly elastic; a shell or solid of another law of strain is `compare --law`, a "
-    "lattice of rubber `--calibration neo-hookean`"
+_RUBBER = (
+    "of rubber there are the laws neo-hookean, mooney-rivlin, yeoh and gent: `law` in [material], each with "
+    "its own constants"
 )
 _VISCOUS = "of viscosity there is linear damping alone, damping_time and damping_rate"
 _CONTACT = "contact is not modelled, neither with other bodies nor of the sheet with itself"
@@ -36,7 +36,7 @@ _WORDS = {
     _ISOTROPIC: "young_x young_y young_z young_1 young_2 young_3 poisson_xy poisson_yx poisson_12 poisson_21 "
     "shear_xy shear_12 shear_13 shear_23 orthotropic orthotropy anisotropic fibre fibres fiber fibers "
     "fibre_angle fiber_angle angle",
-    _LINEAR: "law laws hyperelastic neo_hookean mooney_rivlin ogden yeoh gent c1 c2 c3 c10 c01",
+    _RUBBER: "laws hyperelastic neo_hookean mooney_rivlin ogden yeoh gent c10 c01 c20 c30",
     _VISCOUS: "relaxation prony viscoelastic viscoelasticity viscosity creep loss_factor",
     _CONTACT: "contact contacts friction obstacle obstacles floor ground table wall",
     _STRESS_FREE: "prestretch pre_stretch prestrain pre_strain prestress pre_stress pretension "

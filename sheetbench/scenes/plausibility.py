@@ -13,7 +13,8 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from sheetbench.scenes.loads import EdgeLoad, PointLoad, Pressure
-from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
+from sheetbench.scenes.material import Material
+from sheetbench.scenes.sheet import EDGES, Gravity, Sheet
 from sheetbench.scenes.strains import STRETCH_LIMIT, WEIGHT_LIMIT, weight_strain
 from sheetbench.scenes.summary import few
 

@@ -19,9 +19,10 @@ from sheetbench.scenes import corners, summary
 from sheetbench.scenes.actuators import Actuator, Chain, EdgeMotion, disagreement
 from sheetbench.scenes.anchors import held_twice
 from sheetbench.scenes.loads import Load, PointLoad
+from sheetbench.scenes.material import Material
 from sheetbench.scenes.plausibility import slips
 from sheetbench.scenes.quantities import Frozen, PlanPoint, Unit
-from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
+from sheetbench.scenes.sheet import EDGES, Gravity, Sheet
 from sheetbench.scenes.springs import DamperSet, SpringTable
 from sheetbench.scenes.supports import Support, contradiction, lets_twist_go
 from sheetbench.scenes.words import in_words
@@ -98,6 +99,10 @@ class Scene(Frozen):
         for number, load in enumerate(self.loads, start=1):
             if isinstance(load, PointLoad) and not self._on_sheet(load.at):
                 raise ValueError(f"load {number}.at = {list(load.at)} is off the sheet, {self._extent()}")
+        if self.material.law is not None and self.springs is not None:
+            raise ValueError(
+                f"springs: of a material with law = '{self.material.law}' they are calibrated; leave one out"
+            )
         if said := contradiction(self.supports):
             raise ValueError(f"support: {said}")
         if said := disagreement(self.actuators, {support.edge for support in self.supports}):

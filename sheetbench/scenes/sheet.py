@@ -1,4 +1,4 @@
-"""The sheet, its material and its edges.
+"""The sheet, its edges and its weight.
 
 The flat sheet's mid-surface is z = 0 with x in [0, length_x] and y in [0, length_y].
 An edge is named by the axis it is normal to and the end of that axis: x0, x1, y0, y1.
@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, NamedTuple
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
-from sheetbench.scenes.quantities import Finite, Frozen, NonNegative, PlanPoint, Positive, Unit, Vector3
+from sheetbench.scenes.quantities import Frozen, PlanPoint, Positive, Unit, Vector3
 from sheetbench.scenes.tables import Loading
 
 EdgeName = Literal["x0", "x1", "y0", "y1"]
@@ -71,25 +71,6 @@ class Sheet(Frozen):
             point[edge.normal_axis] = self.lengths[edge.normal_axis] if edge.far_end else 0.0
         end[edge.along_axis] = self.lengths[edge.along_axis]
         return (start[0], start[1]), (end[0], end[1])
-
-
-class Material(Frozen):
-    """Linear isotropic elasticity, density and viscous damping.
-
-    young [Pa], poisson [-], density [kg/m³]; damping_time [s] gives every spring a damper
-    c = damping_time · k; damping_rate [1/s] gives every mass a damping force rate · m · velocity.
-    """
-
-    young: Annotated[Positive, Unit("Pa")]
-    """Young's modulus E: 1 MPa is 1.0e6."""
-    poisson: Annotated[Finite, Field(gt=-1, lt=0.5)]
-    """Poisson's ratio ν, below 0.5: rubber and silicone are about 0.48 to 0.499."""
-    density: Annotated[Positive, Unit("kg/m³")]
-    """Density ρ: water's is 1000."""
-    damping_time: Annotated[NonNegative, Unit("s")] = 0.0
-    """Stiffness-proportional damping: every spring has a damper of damping_time times its stiffness."""
-    damping_rate: Annotated[NonNegative, Unit("1/s")] = 0.0
-    """Mass-proportional damping: a force damping_rate · mass · velocity on every mass, against its motion."""
 
 
 class Gravity(Loading):

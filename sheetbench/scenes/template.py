@@ -11,9 +11,10 @@ from textwrap import wrap
 from typing import Any
 
 from sheetbench.scenes.loads import Pressure
+from sheetbench.scenes.material import Material
 from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.schema import branches, json_schema, kind
-from sheetbench.scenes.sheet import EDGES, Gravity, Material, Sheet
+from sheetbench.scenes.sheet import EDGES, Gravity, Sheet
 from sheetbench.scenes.supports import Clamped
 from sheetbench.scenes.toml import keys, line
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable
 from sheetbench.scenes.loads import EdgeLoad, PointLoad, Pressure
+from sheetbench.scenes.material import CONSTANTS, Material
 from sheetbench.scenes.quantities import PlanPoint
 from sheetbench.scenes.rigid_motions import free_rigid_motions
 from sheetbench.scenes.sheet import EDGES, Sheet
@@ -34,6 +35,11 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
         (
             "material",
             f"E = {_pascals(material.young)}, ν = {material.poisson:g}, ρ = {material.density:g} kg/m³"
+            + (
+                f" at small strains, rubber by the law {material.law}{_constants(material)}"
+                if material.law
+                else ""
+            )
             + (f", dampers of {1e3 * material.damping_time:g} ms · k" if material.damping_time else "")
             + (f", drag of {material.damping_rate:g} 1/s · mass" if material.damping_rate else ""),
         ),
@@ -51,6 +57,13 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
         ("at rest", f"not solved: nothing stops {', '.join(free)}" if free else "held: it has an answer")
     )
     return said
+
+
+def _constants(material: Material) -> str:
+    """The constants of its law."""
+    given = {key: value for key in CONSTANTS if (value := getattr(material, key)) is not None}
+    said = [f"{key} = {v:g}" if key == "limit" else f"{key} = {_pascals(v)}" for key, v in given.items()]
+    return f" ({', '.join(said)})" if said else ""
 
 
 def _weight(scene: Scene, mass: float) -> str:

@@ -1,0 +1,195 @@
+"""The material: linear at small strains, and of rubber a law for large ones.
+
+With the principal stretches λ_i, J = λ₁ λ₂ λ₃, I₁ = Σ λ_i², I₂ = Σ_{i<j} λ_i² λ_j² and x = I₁ − 3, a law of
+rubber stores per volume
+
+    W = f(x) + c₀₁ (I₂ − 3) − (2 f′(0) + 4 c₀₁) ln J + ½ Λ ln² J,   Λ = λ − 4 c₀₁ − 4 f″(0),
+
+λ Lamé's constant: free of stress at rest, of the shear modulus μ = 2 f′(0) + 2 c₀₁ and of the Poisson's ratio
+given at small strains. By `law`:
+
+    neo-hookean     f = ½ μ x
+    mooney-rivlin   f = c1 x, c₀₁ = c2
+    yeoh            f = c1 x + c2 x² + c3 x³
+    gent            f = −½ shear · limit · ln(1 − x/limit)
+
+Sources: Mooney (1940), Rivlin (1948), Yeoh (1990), Gent (1996); ln J as in Bonet and Wood, Nonlinear
+Continuum Mechanics (2008), 6.4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal, NamedTuple, Self
+
+from pydantic import Field, model_validator
+
+from sheetbench.scenes.errors import BadInput
+from sheetbench.scenes.quantities import Finite, Frozen, NonNegative, Number, Positive, Unit
+from sheetbench.scenes.units import converted
+
+RubberLaw = Literal["neo-hookean", "mooney-rivlin", "yeoh", "gent"]
+
+
+class Energy(NamedTuple):
+    """A law's f(x) = c10 x + c20 x² + c30 x³ [Pa] or, with a limit [-], Gent's of f′(0) = c10; c01 [Pa]."""
+
+    c10: float
+    c01: float = 0.0
+    c20: float = 0.0
+    c30: float = 0.0
+    limit: float = 0.0
+
+    @property
+    def shear(self) -> float:
+        """μ of small strains [Pa]."""
+        return 2.0 * (self.c10 + self.c01)
+
+    @property
+    def stiffening(self) -> float:
+        """f″(0) [Pa]."""
+        return 2.0 * self.c20 + (self.c10 / self.limit if self.limit else 0.0)
+
+    def volume(self, poisson: float) -> float:
+        """Λ [Pa]."""
+        return 2.0 * self.shear * poisson / (1.0 - 2.0 * poisson) - 4.0 * (self.c01 + self.stiffening)
+
+
+@dataclass(frozen=True)
+class Words:
+    """A law's keys in [material] and the energy that they mean."""
+
+    keys: tuple[str, ...]
+    energy: Callable[..., Energy]
+
+
+WORDS: Mapping[str, Words] = {
+    "mooney-rivlin": Words(("c1", "c2"), lambda c1, c2: Energy(c1, c01=c2)),
+    "yeoh": Words(("c1", "c2", "c3"), lambda c1, c2, c3: Energy(c1, c20=c2, c30=c3)),
+    "gent": Words(("shear", "limit"), lambda shear, limit: Energy(shear / 2.0, limit=limit)),
+}
+STRESSES = ("c1", "c2", "c3", "shear")
+CONSTANTS = (*STRESSES, "limit")
+
+
+class Material(Frozen):
+    """Isotropic elasticity, density and viscous damping; of rubber a law with its constants.
+
+    young [Pa], poisson [-], density [kg/m³]; damping_time [s] gives every spring a damper
+    c = damping_time · k; damping_rate [1/s] gives every mass a damping force rate · m · velocity.
+    """
+
+    young: Annotated[Positive, Unit("Pa")]
+    """Young's modulus E: 1 MPa is 1.0e6. Of a law with constants it follows from them and is left out."""
+    poisson: Annotated[Finite, Field(gt=-1, lt=0.5)]
+    """Poisson's ratio ν, below 0.5: rubber and silicone are about 0.48 to 0.499."""
+    density: Annotated[Positive, Unit("kg/m³")]
+    """Density ρ: water's is 1000."""
+    damping_time: Annotated[NonNegative, Unit("s")] = 0.0
+    """Stiffness-proportional damping: every spring has a damper of damping_time times its stiffness."""
+    damping_rate: Annotated[NonNegative, Unit("1/s")] = 0.0
+    """Mass-proportional damping: a force damping_rate · mass · velocity on every mass, against its motion."""
+    law: RubberLaw | None = Field(default=None, kw_only=True)
+    """Of rubber at large strains: neo-hookean (young, poisson), mooney-rivlin (c1, c2), yeoh (c1, c2, c3) or
+    gent (shear, limit), each with poisson."""
+    c1: Annotated[Number, Unit("Pa")] | None = Field(default=None, kw_only=True)
+    """Of I1 - 3 in the energy: mooney-rivlin, yeoh."""
+    c2: Annotated[Number, Unit("Pa")] | None = Field(default=None, kw_only=True)
+    """Of I2 - 3: mooney-rivlin; of (I1 - 3)²: yeoh."""
+    c3: Annotated[Number, Unit("Pa")] | None = Field(default=None, kw_only=True)
+    """Of (I1 - 3)³: yeoh."""
+    shear: Annotated[Positive, Unit("Pa")] | None = Field(default=None, kw_only=True)
+    """Shear modulus at small strains: gent."""
+    limit: Positive | None = Field(default=None, kw_only=True)
+    """I1 - 3 that no load reaches: gent."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _young_of_constants(cls, data: Any) -> Any:
+        """Young's modulus of small strains from a law's constants, where it is not given."""
+        words = WORDS.get(data.get("law", "")) if isinstance(data, dict) else None
+        if words is None or "young" in data:
+            return data
+        try:
+            constants = [float(converted(data[key], "Pa" if key in STRESSES else "")) for key in words.keys]
+            young = 2.0 * (1.0 + float(data["poisson"])) * words.energy(*constants).shear
+        except (KeyError, TypeError, ValueError, ZeroDivisionError, BadInput):
+            young = 0.0
+        return {
+            **data,
+            "young": young if young > 0.0 else 1.0,
+        }  # `_law_with_its_constants` says what is wrong
+
+    @model_validator(mode="after")
+    def _law_with_its_constants(self) -> Self:
+        words = WORDS.get(self.law or "", Words((), Energy))
+        for key in CONSTANTS:
+            value = getattr(self, key)
+            if value is not None and key not in words.keys:
+                of = (
+                    f"law = '{self.law}' takes {' and '.join(words.keys) or 'young'}"
+                    if self.law
+                    else "law is missing"
+                )
+                raise ValueError(f"{key} = {value:g}: {of}; leave {key} out, or choose law: {_choices(key)}")
+            if value is None and key in words.keys:
+                raise ValueError(f"law = '{self.law}': {key} is missing; it takes {', '.join(words.keys)}")
+        if self.law is not None:
+            self._require_a_rubber()
+        return self
+
+    def _require_a_rubber(self) -> None:
+        """Raise ValueError for constants of which a material would not be stable at rest, or pull on."""
+        energy = self.energy
+        given = ", ".join(
+            f"{key} = {getattr(self, key):g}" for key in CONSTANTS if getattr(self, key) is not None
+        )
+        if energy.shear <= 0.0:
+            raise ValueError(
+                f"{given}: the shear modulus at small strains is {energy.shear:g} Pa; it must be > 0"
+            )
+        young = 2.0 * (1.0 + self.poisson) * energy.shear
+        if abs(self.young - young) > 1e-9 * young:
+            raise ValueError(
+                f"young = {self.young:g}: {given} and poisson = {self.poisson:g} make it {young:g} Pa "
+                "at small strains; leave young out"
+            )
+        if energy.volume(self.poisson) < 0.0:
+            ratio = 2.0 * (energy.c01 + energy.stiffening) / energy.shear
+            raise ValueError(
+                f"poisson = {self.poisson:g}: with law = '{self.law}' {given} it must "
+                f"be {ratio / (1.0 + 2.0 * ratio):.3g} or more"
+            )
+        least = energy.c20**2 / (3.0 * energy.c10) if energy.c20 < 0.0 < energy.c10 else 0.0
+        if energy.c10 < 0.0 or energy.c30 < least or (least and energy.c30 == least):
+            above = f" and c3 above {least:g} Pa" if self.law == "yeoh" else ""
+            raise ValueError(
+                f"{given}: pulled far enough this rubber would push; c1 must be 0 or more{above}"
+            )
+
+    @property
+    def energy(self) -> Energy:
+        """The energy of its law; of none neo-Hooke's, which has the same small strains."""
+        words = WORDS.get(self.law or "")
+        if words is None:
+            return Energy(self.young / (4.0 * (1.0 + self.poisson)))
+        return words.energy(*(getattr(self, key) for key in words.keys))
+
+    def replace(self, **values: Any) -> Self:
+        """Return a copy with other values for some keys; of a law with constants these follow another young,
+        and young follows other constants. Raises SceneError for what makes no sense."""
+        if WORDS.get(self.law or "") is None or ("law" in values and values["law"] != self.law):
+            dropped = {} if "law" not in values else {key: None for key in CONSTANTS if key not in values}
+            return super().replace(**dropped, **values)
+        young = values.pop("young", None)
+        if young is not None:
+            scale = young / (2.0 * (1.0 + values.get("poisson", self.poisson)) * self.energy.shear)
+            of_young = {k: scale * v for k in STRESSES if (v := getattr(self, k)) is not None}
+            values = {**of_young, **values}
+        kept = {name: getattr(self, name) for name in type(self).model_fields if name != "young"}
+        return type(self)(**{**kept, **values})
+
+
+def _choices(key: str) -> str:
+    return ", ".join(law for law, words in WORDS.items() if key in words.keys)

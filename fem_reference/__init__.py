@@ -37,7 +37,7 @@ def solve(
 
     near: of the shell, the displacement (n, 3) [m] of what lies at (n, 3) [m] in the flat sheet, in an
     equilibrium to be sought from first. progress: called once an iteration; the plate, which is linear, has
-    none.
+    none. The law of strain is the material's own, where it has one, unless `law` is asked for.
     Raises BadInput for an unknown model or option, scenes.SceneError for a scene that no support holds.
 
     >>> import fem_reference
@@ -45,6 +45,9 @@ def solve(
     >>> solution.status, solution.displacement([[0.188, 0.188]]).round(4)
     (<Status.CONVERGED: 'converged'>, array([[-0.0004, -0.0004, -0.0135]]))
     """
+    scene = scene_of(scene)
+    if scene.material.law is not None and "law" in options(model):
+        asked.setdefault("law", scene.material.law)
     check(model, asked)
     solver = _solver(model)
     if "progress" in signature(solver).parameters:
@@ -53,7 +56,7 @@ def solve(
         if model != "shell":
             raise BadInput(f"{model}: is not begun near a shape; the shell is")
         asked["near"] = near
-    return solver(scene_of(scene), **asked)
+    return solver(scene, **asked)
 
 
 def check(model: str, asked: Mapping[str, Any]) -> None:

@@ -8,6 +8,7 @@ their error allows; samples lie within them, cubic in time between their ends.
 from __future__ import annotations
 
 from collections.abc import Callable
+from inspect import signature
 from typing import Any
 
 import numpy as np
@@ -75,6 +76,8 @@ def simulate(
     began = now()
     asked = scene_of(scene)
     require_choice("integrator", integrator, INTEGRATORS)
+    if asked.material.law is not None and "law" in signature(MODELS[model]).parameters:
+        options.setdefault("law", asked.material.law)
     moving = MODELS[model](asked, **options)
     times = _sample_times(asked, duration, every)
     if integrator == "energy-momentum":

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import tomllib
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 from warnings import warn
 
 import typer
@@ -114,7 +114,7 @@ def _asked() -> tuple[dict[str, float], str, float]:
     values: dict[str, float] = {}
     for keys, kind in ((SHEET, scenes.Sheet), (MATERIAL, scenes.Material)):
         while True:
-            answers = {key: _quantity(key, usual) for key, usual in keys.items()}
+            answers: dict[str, Any] = {key: _quantity(key, usual) for key, usual in keys.items()}
             try:
                 kind(**answers)
             except BadInput as error:

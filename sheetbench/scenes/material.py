@@ -112,8 +112,8 @@ class Material(Frozen):
         if words is None or "young" in data:
             return data
         try:
-            constants = [float(converted(data[key], "Pa" if key in STRESSES else "")) for key in words.keys]
-            young = 2.0 * (1.0 + float(data["poisson"])) * words.energy(*constants).shear
+            given: list[Any] = [converted(data[k], "Pa" if k in STRESSES else "") for k in words.keys]
+            young = 2.0 * (1.0 + float(data["poisson"])) * words.energy(*map(float, given)).shear
         except (KeyError, TypeError, ValueError, ZeroDivisionError, BadInput):
             young = 0.0
         return {

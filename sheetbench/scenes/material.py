@@ -25,7 +25,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 
 from pydantic import Field, model_validator
 
-from sheetbench.scenes.errors import BadInput
+from sheetbench.errors import BadInput
 from sheetbench.scenes.quantities import Finite, Frozen, NonNegative, Number, Positive, Unit
 from sheetbench.scenes.units import converted
 

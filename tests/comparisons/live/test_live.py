@@ -24,7 +24,7 @@ from websockets.asyncio.connection import Connection
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 import sheetbench as sb
-from comparisons.cli.interruption import heeded
+from comparisons.cli import interruption
 from comparisons.live import server
 from comparisons.live.newest import Newest
 from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
@@ -274,8 +274,9 @@ def test_an_interrupt_in_the_midst_of_a_send_is_no_fault(panel, monkeypatch, cap
             hear(page, lambda message: False)
 
     say, send = Session._say, Connection.send_data
+    monkeypatch.setattr(interruption, "PATIENCE", 600.0)  # on a busy machine too, this process goes on
     monkeypatch.setattr(Session, "_say", interrupted)
-    with heeded(), pytest.raises(KeyboardInterrupt):
+    with interruption.heeded(), pytest.raises(KeyboardInterrupt):
         server.run(panel, 0, lambda address: threading.Thread(target=visit, args=(address,)).start())
     gc.collect()  # a task whose exception nobody took says so when it goes
     assert not caplog.records

@@ -20,7 +20,7 @@ from lumped.springs.families import Cells, Links, table_dampers
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, solve
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene, Status, free_rigid_motions
+from sheetbench.scenes import Scene, Status, free_rigid_motions, require_no_branches
 
 STRETCH, WARP, TURN = 0.02, 0.05, 2.0  # of the imposed states: strain, height over length, rad in all
 
@@ -111,6 +111,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     """
     if scene.actuators:
         raise BadInput("export: actuators are not springs between masses; export a scene without them")
+    require_no_branches(scene.material, "an exported lattice")
     problem = build_problem(scene, calibration)
     assembly, lattice = problem.assembly, problem.assembly.lattice
     if not assembly.conservative:
@@ -143,7 +144,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
 def _links(scene: Scene, assembly: Assembly) -> LinkTable:
     """The links, also those that have only a damper of the scene's own table."""
     springs = assembly.links
-    table = _table(springs, springs.stiffness, scene.material.damping_time * springs.stiffness)
+    table = _table(springs, springs.stiffness, scene.material.dashpot_time * springs.stiffness)
     if scene.dampers is None:
         return table
     own = table_dampers(assembly.lattice, assembly.pattern, scene.dampers).family
@@ -164,7 +165,7 @@ def _table(links: Links, stiffness: np.ndarray, damping: np.ndarray) -> LinkTabl
 
 def _cells(scene: Scene, assembly: Assembly) -> Iterator[CellTable]:
     """Yield the area springs of the layers and of the mid-surface, then the springs against strain."""
-    time = 0.0 if scene.dampers is not None else scene.material.damping_time
+    time = 0.0 if scene.dampers is not None else scene.material.dashpot_time
     for kind, columns in (("area", slice(0, 1)), ("strain", slice(1, 4))):
         for family in assembly.springs:
             if isinstance(family, Cells) and (on := (family.stiffness[:, columns] != 0.0).any(axis=1)).any():

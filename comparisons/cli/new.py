@@ -111,7 +111,7 @@ def _asked() -> tuple[dict[str, float], str, float]:
     from sheetbench import scenes
     from sheetbench.errors import BadInput
 
-    values: dict[str, float] = {}
+    values: dict[str, Any] = {}
     for keys, kind in ((SHEET, scenes.Sheet), (MATERIAL, scenes.Material)):
         while True:
             answers: dict[str, Any] = {key: _quantity(key, usual) for key, usual in keys.items()}

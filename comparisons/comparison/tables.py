@@ -176,7 +176,7 @@ def complaints(comparison: Comparison) -> list[str]:
 def sheet(sheet: Sheet, material: Material) -> str:
     """The sheet and its material in a line."""
     sides = " × ".join(f"{1e3 * length:g}" for length in (*sheet.lengths, sheet.thickness))
-    young = f"{material.young / 1e6:g} MPa"
+    young = f"{material.young / 1e6:g} MPa" + (" (long-time)" if material.branches.times else "")
     return f"{sides} mm, E = {young}, ν = {material.poisson:g}, ρ = {material.density:g} kg/m³"
 
 

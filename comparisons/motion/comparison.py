@@ -199,5 +199,5 @@ def _expected_steps(scene: Scene, duration: float) -> int:
     import fem_reference
 
     lowest = float(fem_reference.modes(scene, "plate", 2, count=1).frequencies[0])
-    each = STEPS_PER_PERIOD[scene.material.damping_time == 0.0]
+    each = STEPS_PER_PERIOD[scene.material.dashpot_time == 0.0]
     return int(np.ceil(each * max(duration * lowest, 0.5)))

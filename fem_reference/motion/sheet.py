@@ -1,7 +1,7 @@
 """What all references in motion have in common: loads, supports that move, energies, the work of a step.
 
 Viscous forces are those of the rate of strain under the elastic moduli, s = D (e + τ ė) with ė = B u̇ and τ
-the material's `damping_time`, as every spring of a lattice has the damper τ k; `damping_rate` α adds α M u̇.
+the material's `dashpot_time`, as every spring of a lattice has the damper τ k; `damping_rate` α adds α M u̇.
 Their tangent leaves out how B changes with the shape, which is of the order of the turn in a step.
 """
 
@@ -16,7 +16,7 @@ from scipy.sparse import csr_matrix
 from fem_reference.motion.loads import Factor, factor_at, single_loads
 from fem_reference.motion.moving import Energies, Motion
 from fem_reference.surface.loads import Follower
-from sheetbench.scenes import Scene
+from sheetbench.scenes import Scene, require_no_branches
 from sheetbench.scenes.supports import held_axes
 from sheetbench.scenes.tables import PiecewiseLinear
 
@@ -30,9 +30,10 @@ class Sheet(ABC):
     unknowns: int
 
     def __init__(self, scene: Scene):
+        require_no_branches(scene.material, "a moving reference")
         supports = tuple(support.replace(motion=None) for support in scene.supports)
         self.still = scene.replace(loads=(), gravity=None, supports=supports)
-        self.tau, self.alpha = scene.material.damping_time, scene.material.damping_rate
+        self.tau, self.alpha = scene.material.dashpot_time, scene.material.damping_rate
         self.dead: list[tuple[np.ndarray, Factor]] = []
         self.followers: list[tuple[Follower, Factor]] = []
         self._motions = [

@@ -12,7 +12,7 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.springs.families import table_dampers
-from sheetbench.scenes import Scene
+from sheetbench.scenes import Scene, require_no_branches
 
 
 class Damping:
@@ -24,6 +24,7 @@ class Damping:
     """
 
     def __init__(self, scene: Scene, assembly: Assembly, mass: np.ndarray):
+        require_no_branches(scene.material, "the lattice's motion")
         self._coupling = assembly.coupling
         self._coupling_slots = assembly.coupling_slots if assembly.coupling is not None else np.empty(0, int)
         self.rate = scene.material.damping_rate * mass
@@ -31,7 +32,7 @@ class Damping:
         if scene.dampers is not None:
             self.dampers = [table_dampers(assembly.lattice, assembly.pattern, scene.dampers)]
         else:
-            time = scene.material.damping_time
+            time = scene.material.dashpot_time
             self.dampers = [family.damped(time) for family in assembly.springs] if time else []
             self.time = time if assembly.conservative else 0.0
         self._diagonal = assembly.pattern.slots(np.arange(len(mass)), np.arange(len(mass)))

@@ -6,7 +6,8 @@ from sheetbench.scenes.balance import Balance, dead_force
 from sheetbench.scenes.files import AnyScene, catalogue, load, scene_of
 from sheetbench.scenes.history import History
 from sheetbench.scenes.loads import EdgeLoad, Load, PointLoad, Pressure
-from sheetbench.scenes.material import Material
+from sheetbench.scenes.material import Material, require_no_branches
+from sheetbench.scenes.relaxation import Branches, Relaxation
 from sheetbench.scenes.rigid_motions import free_rigid_motions, require_static
 from sheetbench.scenes.scene import Scene
 from sheetbench.scenes.sheet import EDGES, Edge, Gravity, Sheet
@@ -35,6 +36,7 @@ __all__ = [
     "AnyScene",
     "BadInput",
     "Balance",
+    "Branches",
     "Chain",
     "Clamped",
     "CurvatureTable",
@@ -58,6 +60,7 @@ __all__ = [
     "PiecewiseLinear",
     "PointLoad",
     "Pressure",
+    "Relaxation",
     "Scene",
     "SceneError",
     "Sheet",
@@ -77,6 +80,7 @@ __all__ = [
     "holds_tilt",
     "load",
     "outside_model",
+    "require_no_branches",
     "require_static",
     "scene_of",
     "weight_strain",

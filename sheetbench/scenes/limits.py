@@ -16,7 +16,10 @@ _RUBBER = (
     "of rubber there are the laws neo-hookean, mooney-rivlin, yeoh and gent: `law` in [material], each with "
     "its own constants"
 )
-_VISCOUS = "of viscosity there is linear damping alone, damping_time and damping_rate"
+_VISCOUS = (
+    "viscosity is linear and of the whole [material]: damping_time, damping_rate, loss_factor with a "
+    "frequency or a band, or [[material.relaxation]]"
+)
 _CONTACT = "contact is not modelled, neither with other bodies nor of the sheet with itself"
 _STRESS_FREE = "the flat sheet is free of stress: pre-stretch and residual stress are not modelled"
 _FLAT = "the sheet is flat where nothing acts on it: a curved rest shape is not modelled"
@@ -37,7 +40,7 @@ _WORDS = {
     "shear_xy shear_12 shear_13 shear_23 orthotropic orthotropy anisotropic fibre fibres fiber fibers "
     "fibre_angle fiber_angle angle",
     _RUBBER: "laws hyperelastic neo_hookean mooney_rivlin ogden yeoh gent c10 c01 c20 c30",
-    _VISCOUS: "relaxation prony viscoelastic viscoelasticity viscosity creep loss_factor",
+    _VISCOUS: "prony viscoelastic viscoelasticity viscosity creep tan_delta damping_ratio quality",
     _CONTACT: "contact contacts friction obstacle obstacles floor ground table wall",
     _STRESS_FREE: "prestretch pre_stretch prestrain pre_strain prestress pre_stress pretension "
     "residual_stress initial_stress initial_strain",

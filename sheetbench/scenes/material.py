@@ -13,6 +13,9 @@ given at small strains. By `law`:
     yeoh            f = c1 x + c2 x² + c3 x³
     gent            f = −½ shear · limit · ln(1 − x/limit)
 
+`young` is the long-time modulus, which everything at rest has; in motion Maxwell branches add to it
+(`sheetbench.scenes.relaxation`). All moduli relax alike, Poisson's ratio stays.
+
 Sources: Mooney (1940), Rivlin (1948), Yeoh (1990), Gent (1996); ln J as in Bonet and Wood, Nonlinear
 Continuum Mechanics (2008), 6.4.
 """
@@ -21,12 +24,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import pairwise
+from math import pi
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
 from pydantic import Field, model_validator
 
 from sheetbench.errors import BadInput
 from sheetbench.scenes.quantities import Finite, Frozen, NonNegative, Number, Positive, Unit
+from sheetbench.scenes.relaxation import Branches, Relaxation, constant_loss
 from sheetbench.scenes.units import converted
 
 RubberLaw = Literal["neo-hookean", "mooney-rivlin", "yeoh", "gent"]
@@ -71,17 +77,19 @@ WORDS: Mapping[str, Words] = {
 }
 STRESSES = ("c1", "c2", "c3", "shear")
 CONSTANTS = (*STRESSES, "limit")
+LARGEST_LOSS = 2.0  # of a loss factor: rubber in its transition
 
 
 class Material(Frozen):
-    """Isotropic elasticity, density and viscous damping; of rubber a law with its constants.
+    """Isotropic elasticity, density, viscous damping and relaxation; of rubber a law with its constants.
 
     young [Pa], poisson [-], density [kg/m³]; damping_time [s] gives every spring a damper
     c = damping_time · k; damping_rate [1/s] gives every mass a damping force rate · m · velocity.
     """
 
     young: Annotated[Positive, Unit("Pa")]
-    """Young's modulus E: 1 MPa is 1.0e6. Of a law with constants it follows from them and is left out."""
+    """Young's modulus E: 1 MPa is 1.0e6. Of a material that relaxes, the long-time modulus; of a law with
+    constants it follows from them and is left out."""
     poisson: Annotated[Finite, Field(gt=-1, lt=0.5)]
     """Poisson's ratio ν, below 0.5: rubber and silicone are about 0.48 to 0.499."""
     density: Annotated[Positive, Unit("kg/m³")]
@@ -103,6 +111,16 @@ class Material(Frozen):
     """Shear modulus at small strains: gent."""
     limit: Positive | None = Field(default=None, kw_only=True)
     """I1 - 3 that no load reaches: gent."""
+
+    loss_factor: Annotated[Finite, Field(gt=0, le=LARGEST_LOSS)] | None = Field(default=None, kw_only=True)
+    """η = 2ζ = tan δ = 1/Q, in place of damping_time: with `frequency` one damper a spring, right at that
+    frequency alone; with `band` Maxwell branches that keep it over the band."""
+    frequency: Annotated[Positive, Unit("Hz")] | None = Field(default=None, kw_only=True)
+    """Where one damper a spring has the loss factor: damping_time = loss_factor/(2π frequency)."""
+    band: Annotated[tuple[Positive, Positive], Unit("Hz")] | None = Field(default=None, kw_only=True)
+    """[low, high]: where two Maxwell branches a decade keep the loss factor."""
+    relaxation: tuple[Relaxation, ...] = Field(default=(), kw_only=True)
+    """Maxwell branches, in the order of their times: a Prony series."""
 
     @model_validator(mode="before")
     @classmethod
@@ -168,6 +186,51 @@ class Material(Frozen):
                 f"{given}: pulled far enough this rubber would push; c1 must be 0 or more{above}"
             )
 
+    @model_validator(mode="after")
+    def _damped_in_one_way(self) -> Self:
+        if self.loss_factor is None:
+            for key in ("frequency", "band"):
+                if getattr(self, key) is not None:
+                    raise ValueError(f"{key}: is of a loss_factor; give one")
+        else:
+            for key in ("damping_time", "relaxation"):
+                if getattr(self, key):
+                    raise ValueError(f"loss_factor and {key}: each says how the material damps; give one")
+            if (self.frequency is None) == (self.band is None):
+                raise ValueError(
+                    f"loss_factor = {self.loss_factor:g}: give frequency, where one damper a spring has it, "
+                    "or band = [low, high], over which Maxwell branches keep it"
+                )
+        if self.loss_factor and self.band:
+            try:
+                constant_loss(self.loss_factor, *self.band)
+            except BadInput as error:
+                raise ValueError(str(error)) from None
+        times = [branch.time for branch in self.relaxation]
+        if any(b <= a for a, b in pairwise(times)):
+            raise ValueError(f"relaxation: times must increase, not {', '.join(f'{t:g}' for t in times)} s")
+        if (total := sum(branch.share for branch in self.relaxation)) >= 1.0:
+            raise ValueError(f"relaxation: shares add up to {total:g}; the rest, below 1, is young's")
+        return self
+
+    @property
+    def dashpot_time(self) -> float:
+        """Coefficient over stiffness [s] of the one damper that every spring has, 0 where it has none."""
+        if self.loss_factor is not None and self.frequency is not None:
+            return self.loss_factor / (2.0 * pi * self.frequency)
+        return self.damping_time
+
+    @property
+    def branches(self) -> Branches:
+        """The Maxwell branches, as stiffnesses over the long-time one and times; none for most materials."""
+        if self.loss_factor is not None and self.band is not None:
+            return constant_loss(self.loss_factor, *self.band)
+        rest = 1.0 - sum(branch.share for branch in self.relaxation)
+        return Branches(
+            tuple(branch.share / rest for branch in self.relaxation),
+            tuple(branch.time for branch in self.relaxation),
+        )
+
     @property
     def energy(self) -> Energy:
         """The energy of its law; of none neo-Hooke's, which has the same small strains."""
@@ -193,3 +256,11 @@ class Material(Frozen):
 
 def _choices(key: str) -> str:
     return ", ".join(law for law, words in WORDS.items() if key in words.keys)
+
+
+def require_no_branches(material: Material, who: str) -> None:
+    """Raise BadInput for a material with Maxwell branches, which `who`, a model or a file, does not have."""
+    if material.branches.times:
+        key = "band" if material.band else "relaxation"
+        remedy = "give a frequency in place of the band" if material.band else "give a damping_time"
+        raise BadInput(f"material.{key}: {who} has no Maxwell branches: {remedy}")

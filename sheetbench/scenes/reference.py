@@ -54,9 +54,14 @@ def markdown() -> str:
                 parts.append(f'### kind = "{kind(table)}"\n')
                 parts.append(f"{table['properties']['kind']['description']}{optional}\n")
             parts.append(_keys_table(table, schema, leave_out={"kind"} if len(below) > 1 else ()))
+            for inner, items in table["properties"].items():
+                if "$ref" in (entries := items.get("items", {})):
+                    inside = resolved(schema, entries)
+                    parts += [f"### [[{key}.{inner}]]\n", f"{inside['description']}\n"]
+                    parts.append(_keys_table(inside, schema))
     parts.append(OVER_TIME)
     for name, table in sorted(schema["$defs"].items()):
-        if "time" in table["properties"] and kind(table) is None:
+        if table["properties"].get("time", {}).get("type") == "array" and kind(table) is None:
             users = ", ".join(f"`{user}`" for user in _users(name, schema))
             parts += [f"### For {users}\n", _keys_table(table, schema)]
     return "\n".join(parts)

@@ -141,6 +141,8 @@ def _allowed(fault: str, facts: dict[str, Any]) -> str:
             return f"must be greater than {facts['gt']:g}"
         case "greater_than_equal":
             return f"must be {facts['ge']:g} or more"
+        case "less_than_equal":
+            return f"must be {facts['le']:g} or less"
         case "too_large":
             return f"must be {facts['largest']:g} or less in magnitude"
         case "too_small":

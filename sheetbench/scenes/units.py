@@ -56,6 +56,7 @@ NAMES: dict[str, tuple[str, str]] = {  # by the SI unit: the quantity, and how o
     "kg": ("mass", "20 g"),
     "1/m": ("curvature", "0.4 1/cm"),
     "1/s": ("rate", "0.5 1/s"),
+    "Hz": ("frequency", "5 Hz"),
     "rad": ("angle", "2 deg"),
     "": ("pure number", "0.45"),
 }

@@ -40,7 +40,8 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
                 if material.law
                 else ""
             )
-            + (f", dampers of {1e3 * material.damping_time:g} ms · k" if material.damping_time else "")
+            + _relaxation(material)
+            + (f", dampers of {1e3 * material.dashpot_time:.4g} ms · k" if material.dashpot_time else "")
             + (f", drag of {material.damping_rate:g} 1/s · mass" if material.damping_rate else ""),
         ),
         ("weight", _weight(scene, mass)),
@@ -64,6 +65,15 @@ def _constants(material: Material) -> str:
     given = {key: value for key in CONSTANTS if (value := getattr(material, key)) is not None}
     said = [f"{key} = {v:g}" if key == "limit" else f"{key} = {_pascals(v)}" for key, v in given.items()]
     return f" ({', '.join(said)})" if said else ""
+
+
+def _relaxation(material: Material) -> str:
+    if not (branches := material.branches).times:
+        return ""
+    parts = zip(branches.shares, branches.times, strict=True)
+    listed = ", ".join(f"{share:.3g} in {1e3 * time:.3g} ms" for share, time in parts)
+    at_once = material.young * (1.0 + sum(branches.stiffness))
+    return f" at rest, {_pascals(float(f'{at_once:.4g}'))} at once, of which relax {listed}"
 
 
 def _weight(scene: Scene, mass: float) -> str:

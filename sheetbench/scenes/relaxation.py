@@ -1,0 +1,102 @@
+"""Maxwell branches beside a spring: storage and loss over frequency, and a loss factor kept over a band.
+
+    E(t) = E∞ + Σ E_i exp(−t/τ_i),    E_i = g_i E₀,    E₀ = E∞ + Σ E_i = E∞/(1 − Σ g_i)
+
+with shares g_i of the instantaneous modulus E₀, as in the Prony series of Abaqus and CalculiX, and
+
+    E'/E∞ = 1 + Σ a_i x²/(1 + x²),    E''/E∞ = Σ a_i x/(1 + x²),    x = ω τ_i,    η = E''/E'
+
+a_i = E_i/E∞. That η is constant, Σ a_i (x − η x²)/(1 + x²) = η, is linear in a_i: nonnegative least squares
+over the band, each equation over E' of the solution before, so that errors of η are relative. Times lie
+evenly on a logarithmic scale, two a decade and at least two, from just below 1/ω_high to just above 1/ω_low.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from math import ceil, log10, pi
+from typing import Annotated, NamedTuple
+
+import numpy as np
+from pydantic import Field
+
+from sheetbench.errors import BadInput
+from sheetbench.scenes.quantities import Finite, Frozen, Positive, Unit
+
+A_DECADE = 2  # branches
+HELD_WITHIN = 0.1  # of the loss factor, over the band
+WIDEST = 6  # decades
+BEYOND = np.linspace(0.2, 1.2, 6)  # how far times reach beyond the band, in ln τ; the best is taken
+SAMPLES, SWEEPS = 100, 6
+
+
+class Relaxation(Frozen):
+    """A Maxwell branch of every spring and every modulus: a share of the stiffness that fades."""
+
+    share: Annotated[Finite, Field(gt=0, lt=1)]
+    """The branch's part of the instantaneous modulus; all of them add up to less than 1, and `young` is what
+    is left in the end."""
+    time: Annotated[Positive, Unit("s")]
+    """Relaxation time τ: what the branch resists fades as exp(−t/τ)."""
+
+
+class Branches(NamedTuple):
+    """Maxwell branches: their stiffnesses over the long-time one, and their relaxation times [s]."""
+
+    stiffness: tuple[float, ...]
+    times: tuple[float, ...]
+
+    @property
+    def shares(self) -> np.ndarray:
+        """Shares of the instantaneous modulus (n,)."""
+        return np.array(self.stiffness) / (1.0 + sum(self.stiffness))
+
+    def storage_and_loss(self, frequency: np.ndarray | float) -> tuple[np.ndarray, np.ndarray]:
+        """E'/E∞ and E''/E∞ at frequencies [Hz]."""
+        x = 2.0 * pi * np.asarray(frequency, dtype=float)[..., None] * np.array(self.times)
+        k = np.array(self.stiffness)
+        return 1.0 + (x * x / (1.0 + x * x)) @ k, (x / (1.0 + x * x)) @ k
+
+    def modulus(self, time: np.ndarray) -> np.ndarray:
+        """E(t)/E∞ at times [s] after a strain is imposed and held."""
+        fading = np.exp(-np.asarray(time, dtype=float)[..., None] / np.array(self.times))
+        return np.asarray(1.0 + fading @ np.array(self.stiffness))
+
+
+@cache
+def constant_loss(loss_factor: float, low: float, high: float) -> Branches:
+    """Branches that keep a loss factor from a low to a high frequency [Hz]. Raises BadInput for a band that
+    is none, and where they miss the loss factor by more than HELD_WITHIN."""
+    band = f"band = [{low:g}, {high:g}] Hz"
+    if not low < high:
+        raise BadInput(f"{band}: the second frequency must be the higher one")
+    decades = log10(high / low)
+    if decades > WIDEST:
+        raise BadInput(f"{band}: {decades:.3g} decades; {WIDEST} at most")
+    count = max(2, ceil(A_DECADE * decades - 1e-9))
+    frequency = np.geomspace(low, high, SAMPLES)
+    fits = (_fit(loss_factor, frequency, count, beyond) for beyond in BEYOND)
+    error, best = min(fits, key=lambda fit: fit[0])
+    if error > HELD_WITHIN:
+        raise BadInput(
+            f"{band}, loss_factor = {loss_factor:g}: {count} branches miss it by {100 * error:.0f} % within "
+            f"the band, more than {100 * HELD_WITHIN:.0f} %: give a smaller loss_factor or "
+            "[[material.relaxation]]"
+        )
+    return best
+
+
+def _fit(loss_factor: float, frequency: np.ndarray, count: int, beyond: float) -> tuple[float, Branches]:
+    """The largest relative error of the loss factor within the band, and the branches."""
+    from scipy.optimize import nnls
+
+    factor = np.exp(beyond)
+    times = np.geomspace(1.0 / (factor * frequency[-1]), factor / frequency[0], count) / (2.0 * pi)
+    x = 2.0 * pi * frequency[:, None] * times
+    rows, weight = (x - loss_factor * x * x) / (1.0 + x * x), np.ones(len(frequency))
+    for _ in range(SWEEPS):
+        found, _ = nnls(rows * weight[:, None], loss_factor * weight)
+        branches = Branches(tuple(map(float, found)), tuple(map(float, times)))
+        storage, loss = branches.storage_and_loss(frequency)
+        weight = 1.0 / storage
+    return float(np.abs(loss / storage / loss_factor - 1.0).max()), branches

@@ -6,8 +6,9 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Large, Out, Overwrite, Scene
+from comparisons.cli.options import Large, Scene
 from comparisons.cli.quantity import quantity_in
+from comparisons.cli.verb import OutputOptions
 
 
 def command(
@@ -39,16 +40,14 @@ def command(
         ),
     ] = None,
     large: Large = False,
-    json: Json = False,
-    out: Out = None,
-    overwrite: Overwrite = False,
+    *,
+    output: OutputOptions,
 ) -> None:
     """Name the cheapest model that meets a tolerance, or the most accurate one within a budget.
 
     A few quick solves measure this machine and this scene. Exit status 3 where what is asked cannot be had.
     """
     from comparisons.advice.advisor import advise, checked_tolerance
-    from comparisons.cli.finish import finish
     from comparisons.comparison.comparison import load_static
     from sheetbench.errors import BadInput
 
@@ -59,7 +58,7 @@ def command(
         tolerance = 0.01
     if tolerance is not None:
         checked_tolerance(tolerance)
-    with finish("advise", json, out, overwrite, scene=asked) as end:
+    with output.open(scene=asked) as out:
         found = advise(
             asked,
             tolerance,
@@ -67,6 +66,6 @@ def command(
             grading=grading,
             calibration=calibration,
             large=large,
-            progress=end.progress,
+            progress=out.progress,
         )
-        end(found.report(scene))
+        out.show(found.report(scene))

@@ -25,7 +25,7 @@ import typer
 from typer.main import get_command
 
 from comparisons.cli import announced, characters, defaults, interruption, removed, warned
-from comparisons.cli.everywhere import with_everywhere, with_promise
+from comparisons.cli.verb import as_verb
 from comparisons.runs import interrupts
 
 VERBS = (
@@ -71,8 +71,7 @@ app = typer.Typer(
 
 for _verb in VERBS:
     _module = import_module(f"comparisons.cli.{_verb}")
-    _command = with_promise(_verb, with_everywhere(_module.command))
-    app.command(_verb, context_settings=getattr(_module, "CONTEXT", None))(_command)
+    app.command(_verb, context_settings=getattr(_module, "CONTEXT", None))(as_verb(_verb, _module.command))
 
 
 @app.callback()

@@ -11,17 +11,15 @@ from comparisons.cli.options import (
     Export,
     Grading,
     Grid,
-    Json,
     K,
     Large,
     LayerDistance,
-    Out,
-    Overwrite,
     Poisson,
     Side,
     Thickness,
     Young,
 )
+from comparisons.cli.verb import OutputOptions
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 
 
@@ -63,9 +61,8 @@ def command(
         ),
     ] = None,
     large: Large = False,
-    json: Json = False,
-    out: Out = None,
-    overwrite: Overwrite = False,
+    *,
+    output: OutputOptions,
 ) -> None:
     """Find the spring constants of a lattice, and report which of the sheet's moduli they meet.
 
@@ -75,28 +72,27 @@ def command(
     """
     from comparisons.calibration import tables
     from comparisons.calibration.calibrate import calibrate, expected, subject
-    from comparisons.cli.finish import finish
     from comparisons.models.candidate import Candidate
     from comparisons.models.quantities import sides
     from comparisons.models.sizes import require_room
     from comparisons.models.springs import LatticeSpec
     from sheetbench.errors import BadInput
 
-    if toml and json:
+    if toml and output.json:
         raise BadInput("--toml and --json: choose one")
     if simulators and export is None:
         raise BadInput("--for: goes with --export DIR")
     values = {"young": young, "poisson": poisson, "thickness": thickness, "density": density, **sides(side)}
     of = subject(scene, values, "--")
     about = {"sheet": of.sheet.model_dump(mode="json"), "material": of.material.model_dump(mode="json")}
-    with finish("calibrate", json, out, overwrite, about=about) as end:
+    with output.open(about=about) as out:
         if export is not None and not large:
             require_room(of, Candidate("lumped", {"grid": grid}), "--grid")
         lattice = LatticeSpec(grid, method, k, layer_distance, grading)
-        found = calibrate(of, lattice, scene is not None, large, end.progress)
+        found = calibrate(of, lattice, scene is not None, large, out.progress)
         foretold = scene is not None and k is None and layer_distance is None
-        off = expected(of, found, end.progress) if foretold else None
+        off = expected(of, found, out.progress) if foretold else None
         report = tables.report(found, of.sheet, of.material, off)
         if export is not None:
-            report = end.export(export, of, found, report, overwrite, simulators or ())
-        end(report, instead=tables.to_toml(found.as_dict()) if toml else None)
+            report = out.export(export, of, found, report, simulators or ())
+        out.show(report, instead=tables.to_toml(found.as_dict()) if toml else None)

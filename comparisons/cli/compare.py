@@ -7,20 +7,9 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.lattice_options import Lattice, with_lattice
-from comparisons.cli.options import (
-    Export,
-    Figure,
-    Json,
-    Large,
-    Law,
-    Models,
-    NoPictures,
-    Out,
-    Overwrite,
-    Scene,
-    Symmetry,
-)
+from comparisons.cli.options import Export, Large, Law, Models, Scene, Symmetry
 from comparisons.cli.quantity import quantity_in
+from comparisons.cli.verb import PictureOptions
 from sheetbench.choices import BRANCHES, ELEMENTS, REFERENCE, REFERENCES, listed
 
 FRAMES = 100  # of a motion
@@ -65,17 +54,13 @@ def command(
     ] = None,
     export: Export = None,
     large: Large = False,
-    json: Json = False,
-    out: Out = None,
-    figure: Figure = None,
-    no_pictures: NoPictures = False,
-    overwrite: Overwrite = False,
+    *,
+    output: PictureOptions,
 ) -> None:
     """Solve a scene with the lattice and with a reference, and show what differs and what it cost.
 
     Where no calibration is named, uniform springs are shown alongside.
     """
-    from comparisons.cli.finish import finish
     from comparisons.comparison.comparison import compare, load_static
     from comparisons.models.candidate import parse_model
     from comparisons.models.grids import parse_elements
@@ -94,11 +79,9 @@ def command(
         moving = scenes.load(scene)
         chosen = None if elements is None else parse_elements(elements)
         run = {"--duration": duration, "--reference": reference}
-        with finish(
-            "compare", json, out, overwrite, scene=moving, apart=run, figure=figure, pictures=not no_pictures
-        ) as end:
-            for name in ("lumped", reference, "difference") if out is not None else ():
-                end.place(f"{name}/")
+        with output.open(scene=moving, variant=run) as out:
+            for name in ("lumped", reference, "difference") if output.out is not None else ():
+                out.reserve(f"{name}/")
             both = compare_motion(
                 moving,
                 duration,
@@ -107,20 +90,18 @@ def command(
                 elements=chosen,
                 law=law,
                 uncertainty=uncertainty is not False,
-                frames=FRAMES if out is not None else 0,
+                frames=FRAMES if output.out is not None else 0,
                 large=large,
-                progress=end.progress,
+                progress=out.progress,
             )
-            end(both.report())
+            out.show(both.report())
         return
     asked = load_static(scene)
     size, others = parse_elements(elements or str(ELEMENTS)), [parse_model(text) for text in model or ()]
     named = lattice["calibration"] is not None or lattice["k"] is not None
     models = {"--reference": reference, "--calibration": "named" if named else "open"}
     models |= {"--model": " ".join(model)} if model else {}
-    with finish(
-        "compare", json, out, overwrite, scene=asked, apart=models, figure=figure, pictures=not no_pictures
-    ) as end:
+    with output.open(scene=asked, variant=models) as out:
         found = compare(
             asked,
             **lattice,
@@ -132,11 +113,11 @@ def command(
             branch=branch,
             others=others,
             large=large,
-            progress=end.progress,
-            finished=lambda s: end.keep(f"{s.model}.vtu", lambda path: write_solution(path, s)),
+            progress=out.progress,
+            finished=lambda s: out.keep(f"{s.model}.vtu", lambda path: write_solution(path, s)),
         )
         report = found.report()
         if export is not None:
             springs, _ = LatticeSpec(**lattice).springs(asked)
-            report = end.export(export, asked, springs, report, overwrite)
-        end(report)
+            report = out.export(export, asked, springs, report)
+        out.show(report)

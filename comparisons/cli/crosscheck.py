@@ -6,7 +6,8 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Calibration, Grading, Json, Large, Out, Overwrite, Retry, Workers
+from comparisons.cli.options import Calibration, Grading, Large
+from comparisons.cli.verb import CampaignOptions, OutputOptions
 from sheetbench.choices import REFERENCES
 
 
@@ -51,20 +52,15 @@ def command(
             show_default=False,
         ),
     ] = None,
-    workers: Workers = None,
-    retry: Retry = False,
     large: Large = False,
-    json: Json = False,
-    out: Out = None,
-    overwrite: Overwrite = False,
+    *,
+    campaign: CampaignOptions,
+    output: OutputOptions,
 ) -> None:
     """Compare models with external finite-element codes, each with its mesh convergence.
 
     Give an empty list to leave a model or all external codes out (--solid ""). Interrupted runs resume.
     """
-    import os
-
-    from comparisons.cli.finish import finish
     from comparisons.crosscheck.candidates import candidates, load_scenes
     from comparisons.crosscheck.crosscheck import crosscheck
     from comparisons.external.installed import find_codes
@@ -75,17 +71,13 @@ def command(
     references = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
     models = candidates(lumped, calibration, grading, references, codes, meshes)
     about = {"scenes": [scene.document() for scene in chosen]}
-    with finish("crosscheck", json, out, overwrite, about=about) as end:
-        with end.campaign() as (store, pool, progress):
+    with output.open(about=about) as out:
+        with out.campaign(campaign) as run:
             checked = crosscheck(
                 chosen,
-                store,
+                **run,
                 models=models,
                 codes=codes,
-                workers=workers or os.cpu_count() or 1,
-                pool=pool,
-                retry=retry,
                 large=large,
-                progress=progress,
             )
-        end(checked.report())
+        out.show(checked.report())

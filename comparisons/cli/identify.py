@@ -8,17 +8,8 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.lattice_options import Lattice, with_lattice
-from comparisons.cli.options import (
-    Elements,
-    Figure,
-    Json,
-    Large,
-    Law,
-    NoPictures,
-    Out,
-    Overwrite,
-    Scene,
-)
+from comparisons.cli.options import Elements, Large, Law, Scene
+from comparisons.cli.verb import PictureOptions
 from sheetbench.choices import ELEMENTS
 
 
@@ -53,11 +44,8 @@ def command(
         ),
     ] = 0.0,
     large: Large = False,
-    json: Json = False,
-    out: Out = None,
-    figure: Figure = None,
-    no_pictures: NoPictures = False,
-    overwrite: Overwrite = False,
+    *,
+    output: PictureOptions,
 ) -> None:
     """Find the values with which a model comes nearest to what was measured, with 95 % intervals.
 
@@ -65,7 +53,6 @@ def command(
     is given, the fit makes the lattice's cells smaller until they move the values less than the noise does.
     Lengths are in metres unless a column's header says otherwise (uz [mm]), in the scene's axes.
     """
-    from comparisons.cli.finish import finish
     from comparisons.comparison.comparison import load_static
     from comparisons.identification.identification import identify
     from comparisons.identification.measurements import read
@@ -75,9 +62,7 @@ def command(
 
     asked = load_static(scene)
     data = read(measured, asked)
-    with finish(
-        "identify", json, out, overwrite, scene=asked, figure=figure, pictures=not no_pictures
-    ) as end:
+    with output.open(scene=asked) as out:
         try:
             found = identify(
                 asked,
@@ -89,8 +74,8 @@ def command(
                 law=law,
                 offset=offset,
                 large=large,
-                progress=end.progress,
+                progress=out.progress,
             )
         except NotReached as error:
-            end.stop(f"no answer with the scene's own values: {error}")
-        end(found.report(str(measured)))
+            out.stop(f"no answer with the scene's own values: {error}")
+        out.show(found.report(str(measured)))

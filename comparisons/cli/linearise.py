@@ -7,7 +7,8 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.lattice_options import Lattice, with_lattice
-from comparisons.cli.options import Figure, Json, Large, NoPictures, Out, Overwrite, Scene
+from comparisons.cli.options import Large, Scene
+from comparisons.cli.verb import PictureOptions
 
 MODES = 20
 
@@ -32,26 +33,20 @@ def command(
         str, typer.Option(metavar="WHAT", help="deformed: under the scene's loads; flat: without them.")
     ] = "deformed",
     large: Large = False,
-    json: Json = False,
-    out: Out = None,
-    figure: Figure = None,
-    no_pictures: NoPictures = False,
-    overwrite: Overwrite = False,
+    *,
+    output: PictureOptions,
 ) -> None:
     """Make the lattice linear about its equilibrium: poles, what commands do, matrices for control.
 
     Inputs are the loads, forces at the probes, the commands of chains and the places of held edges; outputs
     the probes' displacements. --out writes M, C, K and the state space for NumPy and MATLAB.
     """
-    from comparisons.cli.finish import finish
     from comparisons.linearisation.linearisation import linearise
     from sheetbench import scenes
     from sheetbench.errors import NoEquilibrium
 
     asked = scenes.load(scene)
-    with finish(
-        "linearise", json, out, overwrite, scene=asked, figure=figure, pictures=not no_pictures
-    ) as end:
+    with output.open(scene=asked) as out:
         try:
             found = linearise(
                 asked,
@@ -60,8 +55,8 @@ def command(
                 reduce=reduce,
                 about=about,
                 large=large,
-                progress=end.progress,
+                progress=out.progress,
             )
         except NoEquilibrium as error:
-            end.stop(f"no linear form about the equilibrium: {error}; --about flat has one")
-        end(found.report())
+            out.stop(f"no linear form about the equilibrium: {error}; --about flat has one")
+        out.show(found.report())

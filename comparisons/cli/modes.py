@@ -7,16 +7,8 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.lattice_options import Lattice, with_lattice
-from comparisons.cli.options import (
-    Elements,
-    Figure,
-    Json,
-    Large,
-    NoPictures,
-    Out,
-    Overwrite,
-    Scene,
-)
+from comparisons.cli.options import Elements, Large, Scene
+from comparisons.cli.verb import PictureOptions
 from sheetbench.choices import ELEMENTS, MASSES, REFERENCE, REFERENCES, listed
 
 
@@ -48,21 +40,17 @@ def command(
         ),
     ] = "flat",
     large: Large = False,
-    json: Json = False,
-    out: Out = None,
-    figure: Figure = None,
-    no_pictures: NoPictures = False,
-    overwrite: Overwrite = False,
+    *,
+    output: PictureOptions,
 ) -> None:
     """List the natural frequencies of the lattice and a reference, about the flat sheet or the deformed."""
-    from comparisons.cli.finish import finish
     from comparisons.models.grids import parse_elements
     from comparisons.modes.spectra import spectra
     from sheetbench.errors import NoEquilibrium
     from sheetbench.scenes import load
 
     asked = load(scene)
-    with finish("modes", json, out, overwrite, scene=asked, figure=figure, pictures=not no_pictures) as end:
+    with output.open(scene=asked) as out:
         try:
             found = spectra(
                 asked,
@@ -73,8 +61,8 @@ def command(
                 elements=parse_elements(elements),
                 about=about,
                 large=large,
-                progress=end.progress,
+                progress=out.progress,
             )
         except NoEquilibrium as error:
-            end.stop(f"no modes about the deformed sheet: {error}")
-        end(found.report())
+            out.stop(f"no modes about the deformed sheet: {error}")
+        out.show(found.report())

@@ -192,10 +192,3 @@ Models = Annotated[
         show_default=False,
     ),
 ]
-
-
-def command_line() -> list[str]:
-    """The command as it was given, to be kept beside its results."""
-    import sys
-
-    return ["sheetbench", *sys.argv[1:]]

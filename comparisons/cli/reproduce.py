@@ -6,7 +6,8 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Elements, Figure, Json, NoPictures, Out, Overwrite
+from comparisons.cli.options import Elements
+from comparisons.cli.verb import PictureOptions
 from sheetbench.choices import ELEMENTS
 
 
@@ -21,14 +22,10 @@ def command(
         ),
     ] = None,
     elements: Elements = str(ELEMENTS),
-    json: Json = False,
-    out: Out = None,
-    figure: Figure = None,
-    no_pictures: NoPictures = False,
-    overwrite: Overwrite = False,
+    *,
+    output: PictureOptions,
 ) -> None:
     """Reproduce Habibi et al.'s study from its published inputs: both tests, and the settling run."""
-    from comparisons.cli.finish import finish
     from comparisons.models.grids import parse_elements
     from comparisons.reproduction.reproduction import PARTS, reproduce
     from sheetbench.errors import BadInput, require_choice
@@ -38,10 +35,8 @@ def command(
             raise BadInput(f"--part {name}: removed; run 'sheetbench study reproduction' in a checkout")
         require_choice("--part", name, PARTS)
     parts = [name for name in PARTS if name in (part or PARTS)]
-    with finish(
-        "reproduce", json, out, overwrite, apart={"--part": parts}, figure=figure, pictures=not no_pictures
-    ) as end:
-        found = reproduce(parts, elements=parse_elements(elements), progress=end.progress)
+    with output.open(variant={"--part": parts}) as out:
+        found = reproduce(parts, elements=parse_elements(elements), progress=out.progress)
         for name in found.folders:
-            end.place(name)
-        end(found.report())
+            out.reserve(name)
+        out.show(found.report())

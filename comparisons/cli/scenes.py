@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from comparisons.cli.options import Json, Out
+from comparisons.cli.verb import OutputOptions
 
 
-def command(json: Json = False, out: Out = None) -> None:
+def command(*, output: OutputOptions) -> None:
     """List the scenes that come with sheetbench; --out copies their files, to start from."""
     from comparisons.check.catalogue import report
-    from comparisons.cli.finish import finish
 
-    with finish("scenes", json, out) as end:
-        end(report())
+    with output.open() as out:
+        out.show(report())

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Figure, Json, NoPictures, Out, Overwrite
+from comparisons.cli.verb import PictureOptions
 
 
 def command(
@@ -24,30 +24,18 @@ def command(
         list[str] | None,
         typer.Option("--case", metavar="NAME", help="Only this case; may be repeated.", show_default=False),
     ] = None,
-    json: Json = False,
-    out: Out = None,
-    figure: Figure = None,
-    no_pictures: NoPictures = False,
-    overwrite: Overwrite = False,
+    *,
+    output: PictureOptions,
 ) -> None:
     """Score answers to the reference set: errors, what is wrong with them, the place beside other models.
 
     `sheetbench suite --out DIR` writes the scenes and a form to fill in; cases left empty are left out. Exit
     status 3 where units, signs or probes are mistaken.
     """
-    from comparisons.cli.finish import finish
     from comparisons.scoring.score import score
     from comparisons.suite.cases import SUITES
     from sheetbench.errors import require_choice
 
     require_choice("--suite", suite, SUITES)
-    with finish(
-        "score",
-        json,
-        out,
-        overwrite,
-        apart={"--suite": suite, "--case": sorted(case) if case else None},
-        figure=figure,
-        pictures=not no_pictures,
-    ) as end:
-        end(score(answers, suite, case or ()).report())
+    with output.open(variant={"--suite": suite, "--case": sorted(case) if case else None}) as out:
+        out.show(score(answers, suite, case or ()).report())

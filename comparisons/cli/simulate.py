@@ -8,17 +8,9 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.lattice_options import Lattice, given, with_lattice
-from comparisons.cli.options import (
-    Export,
-    Figure,
-    Json,
-    Large,
-    NoPictures,
-    Out,
-    Overwrite,
-    Scene,
-)
+from comparisons.cli.options import Export, Large, Scene
 from comparisons.cli.quantity import quantity_in
+from comparisons.cli.verb import PictureOptions
 from sheetbench.choices import INTEGRATOR, INTEGRATORS
 
 FRAMES = 100
@@ -62,14 +54,10 @@ def command(
     animate: Annotated[bool, typer.Option("--animate", help="Also draw an animation (with --out).")] = False,
     export: Export = None,
     large: Large = False,
-    json: Json = False,
-    out: Out = None,
-    figure: Figure = None,
-    no_pictures: NoPictures = False,
-    overwrite: Overwrite = False,
+    *,
+    output: PictureOptions,
 ) -> None:
     """Simulate the lattice from rest. With --out the run streams to a folder; the same command resumes it."""
-    from comparisons.cli.finish import finish
     from comparisons.models.candidate import Candidate
     from comparisons.models.registry import check, simulate
     from comparisons.models.sizes import size
@@ -82,9 +70,9 @@ def command(
     from sheetbench.errors import BadInput
 
     asked = scenes.load(scene)
-    if animate and out is None:
+    if animate and output.out is None:
         raise BadInput("--animate: needs --out, a folder to draw into")
-    if animate and no_pictures:
+    if animate and output.no_pictures:
         raise BadInput("--animate: draws, and --no-pictures says to draw nothing; leave one of them out")
     truth = {}
     if measured is not None:
@@ -93,25 +81,15 @@ def command(
     model = Candidate("lumped", lattice)
     check(asked, model, large)
     run = {"--integrator": integrator, **given(lattice), "--step": step, "--every": every}
-    with finish(
-        "simulate",
-        json,
-        out,
-        overwrite,
-        scene=asked,
-        apart=run,
-        alone=True,
-        figure=figure,
-        pictures=not no_pictures,
-    ) as end:
+    with output.open(scene=asked, variant=run, alone=True) as out:
         pace = Pace(duration)
 
         def reached(time: float) -> None:
             left = pace.left(time)
             soon = "" if left is None else f", {amounts.duration(left)} left"
-            end.progress(f"simulated {time:.3g} of {duration:g} s ({100 * time / duration:.0f} %{soon})")
+            out.progress(f"simulated {time:.3g} of {duration:g} s ({100 * time / duration:.0f} %{soon})")
 
-        end.progress(Work("setting up", size(asked, model)))
+        out.progress(Work("setting up", size(asked, model)))
         history = simulate(
             asked,
             duration,
@@ -120,13 +98,13 @@ def command(
             step=step,
             integrator=integrator,
             every=every,
-            store=end.place("run/"),
-            frames=FRAMES if out is not None else 0,
+            store=out.reserve("run/"),
+            frames=FRAMES if output.out is not None else 0,
             progress=reached,
         )
-        end.place("frames/")
+        out.reserve("frames/")
         shown = report(history, asked, truth, animate)
         if export is not None:
             springs, _ = LatticeSpec(**lattice).springs(asked)
-            shown = end.export(export, asked, springs, shown, overwrite)
-        end(shown)
+            shown = out.export(export, asked, springs, shown)
+        out.show(shown)

@@ -7,19 +7,8 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.lattice_options import Lattice, with_lattice
-from comparisons.cli.options import (
-    Figure,
-    Json,
-    Large,
-    NoPictures,
-    Out,
-    Overwrite,
-    Retry,
-    Scene,
-    Scheduler,
-    Wait,
-    Workers,
-)
+from comparisons.cli.options import Large, Scene
+from comparisons.cli.verb import ClusterOptions, PictureOptions
 from sheetbench.choices import REFERENCE, REFERENCES, listed
 
 
@@ -43,49 +32,34 @@ def command(
     elements: Annotated[
         int, typer.Option(min=1, metavar="N", help="Elements of the references along the shorter side.")
     ] = 12,
-    workers: Workers = None,
-    scheduler: Scheduler = None,
-    wait: Wait = False,
-    retry: Retry = False,
     large: Large = False,
-    json: Json = False,
-    out: Out = None,
-    figure: Figure = None,
-    no_pictures: NoPictures = False,
-    overwrite: Overwrite = False,
+    *,
+    campaign: ClusterOptions,
+    output: PictureOptions,
 ) -> None:
     """Map the extremes of a scene's sheet: where each model holds, degrades, refuses or fails.
 
     Its load, thickness, Young's modulus, grid, damping and time step are varied over decades; of the explicit
     integrators the largest stable step is measured. With --out an interrupted run is resumed.
     """
-    import os
-
-    from comparisons.cli.finish import finish
     from comparisons.models.springs import LatticeSpec
     from comparisons.stability.extremes import VARIED, stability
     from sheetbench.answers.figure_style import parse_figure
     from sheetbench.errors import BadInput
     from sheetbench.scenes import load
 
-    if parse_figure(figure).narrow:
+    if parse_figure(output.figure).narrow:
         raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")
     asked = load(scene)
-    with finish(
-        "stability", json, out, overwrite, scene=asked, figure=figure, pictures=not no_pictures
-    ) as end:
-        with end.campaign(scheduler, wait) as (store, pool, progress):
+    with output.open(scene=asked) as out:
+        with out.campaign(campaign) as run:
             found = stability(
                 asked,
-                store,
+                **run,
                 varied=vary or VARIED,
                 lattice=LatticeSpec(**lattice),
                 reference=reference,
                 elements=elements,
-                workers=workers or os.cpu_count() or 1,
-                pool=pool,
-                retry=retry,
                 large=large,
-                progress=progress,
             )
-        end(found.report())
+        out.show(found.report())

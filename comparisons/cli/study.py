@@ -35,7 +35,7 @@ def command(
         return
     from typer.main import get_command
 
-    from comparisons.cli.everywhere import with_everywhere, with_promise
+    from comparisons.cli.verb import as_verb
     from sheetbench.errors import BadInput, require_choice
 
     if not studies:
@@ -44,7 +44,7 @@ def command(
     module = import_module(f"{LABORATORY}.{str(name).replace('-', '_')}.command")
     markup = getattr(context.find_root().command, "rich_markup_mode", None)  # as wide as the terminal is
     app = typer.Typer(rich_markup_mode=markup, context_settings={"help_option_names": list(HELP)})
-    app.command(name)(with_promise(str(name), with_everywhere(module.command)))
+    app.command(name)(as_verb(str(name), module.command))
     given = [*(options or ()), *(["--no-pictures"] if no_pictures else ())]
     main: Any = get_command(app)
     status = main(args=given, prog_name=f"sheetbench study {name}", standalone_mode=False)

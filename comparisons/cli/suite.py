@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Json, Out, Overwrite
+from comparisons.cli.verb import OutputOptions
 
 
 def command(
@@ -14,20 +14,18 @@ def command(
         str | None,
         typer.Option("--suite", metavar="NAME", help="Only statics, settling or modes.", show_default=False),
     ] = None,
-    json: Json = False,
-    out: Out = None,
-    overwrite: Overwrite = False,
+    *,
+    output: OutputOptions,
 ) -> None:
     """List the reference set: scenes with converged values, error bars, and why each is in the set.
 
     --out writes its scenes, its values as CSV and JSON (CC-BY-4.0), and a form for answers.
     """
-    from comparisons.cli.finish import finish
     from comparisons.suite.cases import SUITES
     from comparisons.suite.tables import report
     from sheetbench.errors import require_choice
 
     if suite is not None:
         require_choice("--suite", suite, SUITES)
-    with finish("suite", json, out, overwrite, apart={"--suite": suite}) as end:
-        end(report(suite))
+    with output.open(variant={"--suite": suite}) as out:
+        out.show(report(suite))

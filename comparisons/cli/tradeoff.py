@@ -8,22 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from comparisons.cli import options
-from comparisons.cli.options import (
-    Figure,
-    Grading,
-    Json,
-    Large,
-    Models,
-    NoPictures,
-    Out,
-    Overwrite,
-    Retry,
-    Scheduler,
-    Symmetry,
-    Wait,
-    Workers,
-)
+from comparisons.cli.options import Grading, Large, Models, Symmetry
 from comparisons.cli.quantity import quantity_in
+from comparisons.cli.verb import ClusterOptions, PictureOptions
 from sheetbench.choices import AUTO, CALIBRATION, CALIBRATIONS, INTEGRATORS, REFERENCES, listed
 
 if TYPE_CHECKING:
@@ -101,9 +88,6 @@ def command(
     repeats: Annotated[
         int, typer.Option(min=1, metavar="N", help="Timed solves of every row, at least.")
     ] = 5,
-    workers: Workers = None,
-    scheduler: Scheduler = None,
-    wait: Wait = False,
     duration: Annotated[
         float | None,
         typer.Option(
@@ -120,21 +104,15 @@ def command(
             show_default=", ".join(sorted(INTEGRATORS)),  # a line of help breaks at blanks alone
         ),
     ] = ",".join(sorted(INTEGRATORS)),
-    retry: Retry = False,
     large: Large = False,
-    json: Json = False,
-    out: Out = None,
-    figure: Figure = None,
-    no_pictures: NoPictures = False,
-    overwrite: Overwrite = False,
+    *,
+    campaign: ClusterOptions,
+    output: PictureOptions,
 ) -> None:
     """Measure what each model of a scene gets wrong and what it costs; an interrupted run can be resumed.
 
     Give an empty list to leave a model out (--solid "").
     """
-    import os
-
-    from comparisons.cli.finish import finish
     from comparisons.comparison.comparison import load_static
     from comparisons.models.candidate import items
     from comparisons.models.springs import LatticeSpec
@@ -160,16 +138,10 @@ def command(
         measure = of_statics(
             asked, grids, calibration, meshes, model or (), symmetry, elements, repeats, grading, lumped_pair
         )
-    with finish(
-        "tradeoff", json, out, overwrite, scene=asked, figure=figure, pictures=not no_pictures
-    ) as end:
-        with end.campaign(scheduler, wait) as (store, pool, progress):
+    with output.open(scene=asked) as out:
+        with out.campaign(campaign) as run:
             found = measure(
-                store=store,
-                workers=workers or os.cpu_count() or 1,
-                pool=pool,
-                retry=retry,
+                **run,
                 large=large,
-                progress=progress,
             )
-        end(found.report())
+        out.show(found.report())

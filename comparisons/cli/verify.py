@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Figure, Json, NoPictures, Out, Overwrite
+from comparisons.cli.verb import PictureOptions
 
 
 def command(
@@ -25,14 +25,10 @@ def command(
     laws: Annotated[
         bool, typer.Option("--laws", help="Only the laws of strain, with a table of what they change.")
     ] = False,
-    json: Json = False,
-    out: Out = None,
-    figure: Figure = None,
-    no_pictures: NoPictures = False,
-    overwrite: Overwrite = False,
+    *,
+    output: PictureOptions,
 ) -> None:
     """Check the references against published values, one row each: exit status 3 unless all pass."""
-    from comparisons.cli.finish import finish
     from comparisons.verification import tables
     from fem_reference.verification import CASES, run
     from fem_reference.verification.locking import MODELS
@@ -44,14 +40,6 @@ def command(
     if len(both := [option for option, given in parts.items() if given]) > 1:
         raise BadInput(f"{' and '.join(both)}: choose one")
     chosen = list(MODELS) if locking else ["strain-laws"] if laws else case
-    with finish(
-        "verify",
-        json,
-        out,
-        overwrite,
-        apart={key: parts[key] for key in list(parts)[:2]},
-        figure=figure,
-        pictures=not no_pictures,
-    ) as end:
-        rows = list(run(chosen, starting=lambda name: end.progress(f"verifying {name} …")))
-        end(tables.report(rows, locking, laws))
+    with output.open(variant={key: parts[key] for key in list(parts)[:2]}) as out:
+        rows = list(run(chosen, starting=lambda name: out.progress(f"verifying {name} …")))
+        out.show(tables.report(rows, locking, laws))

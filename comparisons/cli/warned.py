@@ -7,13 +7,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
-said: list[str] = []  # by the command that runs
+shown: list[str] = []  # of the command that runs
 
 
 @contextmanager
 def in_a_line() -> Iterator[None]:
-    """Show the packages' own warnings so; others as usual."""
-    said.clear()
+    """Show the packages' own warnings in a line each; others as usual."""
+    shown.clear()
     usual = warnings.showwarning
 
     def show(
@@ -26,10 +26,10 @@ def in_a_line() -> Iterator[None]:
     ) -> None:
         if category.__module__.split(".")[0] != "sheetbench":
             usual(message, category, filename, lineno, file, line)
-        elif str(message) not in said:
+        elif str(message) not in shown:
             from comparisons.cli import console  # with rich: help must not wait for it
 
-            said.append(str(message))
+            shown.append(str(message))
             console.warn(str(message))
 
     with warnings.catch_warnings():

@@ -66,7 +66,7 @@ def export(
         "export",
         command,
         about={"scene": scene.document()},
-        apart={"lattice": calibration.title},
+        variant={"lattice": calibration.title},
         overwrite=overwrite,
         option="--export",
     )

@@ -30,7 +30,7 @@ NAMED = 3  # differences that a refusal names
 class Folder:
     """A folder for the files of one run of a verb.
 
-    about: what the run is about, as {"scene": …}, the same for all runs in a folder. apart: options that
+    about: what the run is about, as {"scene": …}, the same for all runs in a folder. variant: options that
     decide which files there are, the same for all runs of a verb. Raises BadInput for a folder that cannot
     be made, or that holds something else, unless `overwrite`, naming the option.
     """
@@ -42,7 +42,7 @@ class Folder:
         command: Sequence[str],
         *,
         about: Mapping[str, Any] | None = None,
-        apart: Mapping[str, Any] | None = None,
+        variant: Mapping[str, Any] | None = None,
         overwrite: bool = False,
         option: str = "--out",
     ) -> None:
@@ -50,7 +50,7 @@ class Folder:
         self.written: list[str] = []
         self._verb = verb
         self._record = record(list(command))
-        self._about, self._apart = plain(dict(about or {})), plain(dict(apart or {}))
+        self._about, self._variant = plain(dict(about or {})), plain(dict(variant or {}))
         self._runs = _runs(self.path, option)
         mixed = {name: said for name, run in self._runs.items() if (said := self._differences(name, run))}
         if mixed and not overwrite:
@@ -63,11 +63,11 @@ class Folder:
 
     def write(self, name: str, write: Write) -> None:
         """Write a file of the run; its name is in the manifest first."""
-        self.own(name)
+        self.reserve(name)
         write(self.path / name)
 
-    def own(self, name: str) -> Path:
-        """The place of a file, or of a folder of files if its name ends in "/", as one of this run's."""
+    def reserve(self, name: str) -> Path:
+        """Return the path of a file, or of a folder if its name ends in "/", and list it as this run's."""
         self._clear()
         if name not in self.written:
             self.written.append(name)
@@ -117,7 +117,7 @@ class Folder:
             "command": self._record["command"],
             "date": self._record["date"],
             "finished": finished,
-            "asked": self._apart,
+            "asked": self._variant,
             "files": [*self.written, *(name for name in earlier if (self.path / name).exists())],
             **self._about,
             **({} if words is None else {"words": words, "settings": settings}),
@@ -137,7 +137,7 @@ class Folder:
             return "about something else"
         said = _differing({key: there[key] for key in shared}, {key: here[key] for key in shared})
         if verb == self._verb:
-            said += _differing(run.get("asked", {}), self._apart)
+            said += _differing(run.get("asked", {}), self._variant)
         more = f" and {len(said) - NAMED} more" if len(said) > NAMED else ""
         return "; ".join(said[:NAMED]) + more
 

@@ -22,7 +22,7 @@ from comparisons.comparison.comparison import error
 from comparisons.models.candidate import Candidate, lattices, references
 from comparisons.models.registry import solve
 from comparisons.runs.campaign import Progress, Run, carry_out
-from comparisons.runs.executors import processes
+from comparisons.runs.executors import Pool, processes
 from comparisons.runs.manifest import record
 from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff import timing
@@ -192,6 +192,8 @@ def study(
     compared: int = 20,
     tolerances: tuple[float, ...] = TOLERANCES,
     workers: int = 1,
+    pool: Pool = processes,
+    retry: bool = False,
     seed: int = SEED,
     elements: int = TRUTH,
     progress: Callable[[Progress], None] = lambda progress: None,
@@ -208,7 +210,7 @@ def study(
             )
             for scene, rest in asked
         ]
-        return carry_out(wanted, store, workers=workers, pool=processes, progress=progress)
+        return carry_out(wanted, store, workers=workers, pool=pool, retry=retry, progress=progress)
 
     endless, inside, skipped = scenes_at_random(seed), list[tuple[Scene, Finished]](), dict[str, str]()
     while len(inside) < count:

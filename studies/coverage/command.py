@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from typing import Annotated
 
 import typer
 
-from comparisons.cli.finish import finish
-from comparisons.cli.options import Json, Out, Overwrite, Retry, Workers
+from comparisons.cli.verb import CampaignOptions, OutputOptions
 from sheetbench.choices import REFERENCES
 from sheetbench.errors import require_choice
 from studies.coverage import study
@@ -30,11 +28,9 @@ def command(
             "--model", metavar="NAME", help="Only plate, shell or solid; may be repeated.", show_default=False
         ),
     ] = None,
-    workers: Workers = None,
-    retry: Retry = False,
-    json: Json = False,
-    out: Out = None,
-    overwrite: Overwrite = False,
+    *,
+    campaign: CampaignOptions,
+    output: OutputOptions,
 ) -> None:
     """Measure how often the references' error bars hold the error, on drawn scenes.
 
@@ -43,16 +39,12 @@ def command(
     """
     for name in model or ():
         require_choice("model", name, REFERENCES)
-    with finish("coverage", json, out, overwrite) as end:
-        with end.campaign() as (store, pool, progress):
+    with output.open() as out:
+        with out.campaign(campaign) as run:
             found = study.coverage(
-                store,
+                **run,
                 count=scenes,
                 seed=seed,
                 models=[name for name in study.MODELS if name in (model or study.MODELS)],
-                workers=workers or os.cpu_count() or 1,
-                pool=pool,
-                retry=retry,
-                progress=progress,
             )
-        end(found.report())
+        out.show(found.report())

@@ -6,8 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.finish import finish
-from comparisons.cli.options import Json, Out
+from comparisons.cli.verb import OutputOptions
 from sheetbench.errors import require_choice
 from studies.peers.study import QUESTIONS, study
 
@@ -17,8 +16,8 @@ def command(
         list[str] | None,
         typer.Option(metavar="NAME", help="Only statics or settling; may be repeated. Both unless given."),
     ] = None,
-    json: Json = False,
-    out: Out = None,
+    *,
+    output: OutputOptions,
 ) -> None:
     """Measure our models and other people's codes on the same sheet: error and time, at rest and in motion.
 
@@ -27,5 +26,5 @@ def command(
 
     for name in question or ():
         require_choice("question", name, QUESTIONS)
-    with finish("peers", json, out) as end:
-        end(study(question or list(QUESTIONS), end.progress))
+    with output.open() as out:
+        out.show(study(question or list(QUESTIONS), out.progress))

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 import typer
 
-from comparisons.cli.finish import finish
-from comparisons.cli.options import Elements, Figure, Json, NoPictures, Out, Overwrite
+from comparisons.cli.options import Elements
+from comparisons.cli.verb import PictureOptions
 from comparisons.models.grids import parse_elements
 from sheetbench.choices import ELEMENTS
 from sheetbench.errors import require_choice
@@ -25,11 +26,8 @@ def command(
         ),
     ] = None,
     elements: Elements = str(ELEMENTS),
-    json: Json = False,
-    out: Out = None,
-    figure: Figure = None,
-    no_pictures: NoPictures = False,
-    overwrite: Overwrite = False,
+    *,
+    output: PictureOptions,
 ) -> None:
     """Study what Habibi et al. published: tables beside our models, errors, the settling run, what fits best.
 
@@ -39,10 +37,9 @@ def command(
     for name in part or ():
         require_choice("--part", name, PARTS)
     parts = [name for name in PARTS if name in (part or PARTS)]
-    with finish(
-        "reproduce", json, out, overwrite, apart={"--part": parts}, figure=figure, pictures=not no_pictures
-    ) as end:
-        found = study(parts, elements=parse_elements(elements), progress=end.progress)
+    # pages and folders know it as the verb whose tables it extends
+    with replace(output, verb="reproduce").open(variant={"--part": parts}) as out:
+        found = study(parts, elements=parse_elements(elements), progress=out.progress)
         for name in found.models.folders:
-            end.place(name)
-        end(found.report())
+            out.reserve(name)
+        out.show(found.report())

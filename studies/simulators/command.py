@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from comparisons.cli.finish import finish
-from comparisons.cli.options import Json, Out
+from comparisons.cli.verb import OutputOptions
 from studies.simulators.study import study
 
 
-def command(json: Json = False, out: Out = None) -> None:
+def command(*, output: OutputOptions) -> None:
     """Run MuJoCo on exported lattices, and compare its rest with ours."""
 
-    with finish("simulators", json, out) as end:
-        end(study(end.progress))
+    with output.open() as out:
+        out.show(study(out.progress))

@@ -2,25 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from typing import Annotated
 
 import typer
 
-from comparisons.cli.finish import finish
-from comparisons.cli.options import (
-    Figure,
-    Grading,
-    Json,
-    Large,
-    NoPictures,
-    Out,
-    Overwrite,
-    Retry,
-    Scheduler,
-    Wait,
-    Workers,
-)
+from comparisons.cli.options import Grading, Large
+from comparisons.cli.verb import ClusterOptions, PictureOptions
 from sheetbench.answers.figure_style import parse_figure
 from sheetbench.errors import BadInput, require_choice
 from studies.stability import STUDIES, survey
@@ -40,39 +27,29 @@ def command(
     ] = None,
     full: Annotated[bool, typer.Option("--full", help="Every cell: finer maps, grids to 257 × 257.")] = False,
     grading: Grading = None,
-    workers: Workers = None,
-    scheduler: Scheduler = None,
-    wait: Wait = False,
-    retry: Retry = False,
     large: Large = False,
-    json: Json = False,
-    out: Out = None,
-    figure: Figure = None,
-    no_pictures: NoPictures = False,
-    overwrite: Overwrite = False,
+    *,
+    campaign: ClusterOptions,
+    output: PictureOptions,
 ) -> None:
     """Map where each solver is accurate, degrades, refuses or fails; an interrupted run can be resumed.
 
     Every cell ends in a status. With --out the maps, tables and texts are written there. --grading is of the
     studies curved-edge, load and slenderness; the others have cells of one size.
     """
-    if parse_figure(figure).narrow:
+    if parse_figure(output.figure).narrow:
         raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")
     names = [name.strip().replace(" ", "-") for name in study or STUDIES]
     for name in names:
         require_choice("study", name, STUDIES)
     chosen = [STUDIES[name] for name in dict.fromkeys(names)]
-    with finish("stability", json, out, overwrite, figure=figure, pictures=not no_pictures) as end:
-        with end.campaign(scheduler, wait) as (store, pool, progress):
+    with output.open() as out:
+        with out.campaign(campaign) as run:
             rows = survey(
                 chosen,
-                store,
+                **run,
                 full=full,
                 grading=grading,
-                workers=workers or os.cpu_count() or 1,
-                pool=pool,
-                retry=retry,
                 large=large,
-                progress=progress,
             )
-        end(report(chosen, rows))
+        out.show(report(chosen, rows))

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from typing import Annotated
 
 import typer
 
-from comparisons.cli.finish import finish
-from comparisons.cli.options import Grading, Json, Large, Out, Overwrite, Retry, Workers
+from comparisons.cli.options import Grading, Large
+from comparisons.cli.verb import CampaignOptions, OutputOptions
 from studies.transfer import asked
 from studies.transfer.study import transfer
 
@@ -46,12 +45,10 @@ def command(
     elements: Annotated[
         int, typer.Option(min=1, metavar="N", help="Elements of the shell along a side.")
     ] = 24,
-    workers: Workers = None,
-    retry: Retry = False,
     large: Large = False,
-    json: Json = False,
-    out: Out = None,
-    overwrite: Overwrite = False,
+    *,
+    campaign: CampaignOptions,
+    output: OutputOptions,
 ) -> None:
     """Measure every calibration on many scenes, statics and frequencies, as the grid is refined.
 
@@ -59,20 +56,16 @@ def command(
     """
     calibrations, named = asked.methods(methods), asked.scenes(scenes)
     parts, sizes = asked.parts(part), asked.grids(grids)
-    with finish("transfer", json, out, overwrite) as end:
-        with end.campaign() as (store, pool, progress):
+    with output.open() as out:
+        with out.campaign(campaign) as run:
             found = transfer(
-                store,
+                **run,
                 methods=calibrations,
                 grids=sizes,
                 grading=grading,
                 scenes=named,
                 parts=parts,
                 elements=elements,
-                workers=workers or os.cpu_count() or 1,
-                pool=pool,
-                retry=retry,
                 large=large,
-                progress=progress,
             )
-        end(found.report())
+        out.show(found.report())

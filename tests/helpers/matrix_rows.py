@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 from commands import run
 
-from comparisons.cli.finish import End
+from comparisons.cli.output import Output
 from sheetbench.answers.report import Report
 
 Row = tuple[tuple[str, ...], ...]
@@ -82,13 +82,13 @@ def check(
 ) -> int:
     """Run a command line: no traceback, exit status 0, 2 or 3, and each converged answer in balance."""
     reports: list[Report] = []
-    show = End.__call__
+    show = Output.show
 
-    def shown(self: End, report: Report, instead: str | None = None) -> None:
+    def shown(self: Output, report: Report, instead: str | None = None) -> None:
         reports.append(report)
         show(self, report, instead)
 
-    monkeypatch.setattr(End, "__call__", shown)
+    monkeypatch.setattr(Output, "show", shown)
     status = run(*arguments)
     said = capsys.readouterr()
     counted.ended[status] = counted.ended.get(status, 0) + 1

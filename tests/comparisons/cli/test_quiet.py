@@ -9,9 +9,10 @@ import pytest
 from commands import one_line, run
 from typer.main import get_command
 
-from comparisons.cli import console, everywhere
+from comparisons.cli import console
 from comparisons.cli import lines as cli_lines
 from comparisons.cli.app import VERBS, app
+from comparisons.cli.verb import as_verb
 from comparisons.report import work
 from comparisons.runs.campaign import Progress
 from sheetbench.errors import BadInput
@@ -50,7 +51,7 @@ def chatty(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
         console.note("the result")
         console.warn("a warning")
 
-    return everywhere.with_everywhere(command)
+    return as_verb("any", command)
 
 
 @pytest.mark.parametrize("quiet", [False, True])

@@ -13,7 +13,7 @@ import pytest
 from commands import one_line, run
 from scene_files import written
 
-from comparisons.cli.finish import finish
+from comparisons.cli.verb import OutputOptions
 from comparisons.cli.warned import in_a_line
 from comparisons.runs.folder import MANIFEST, Folder
 from sheetbench import scenes
@@ -172,12 +172,12 @@ def test_springs_of_another_sheet_are_refused_beside_a_scene(tmp_path: Path) -> 
 
 
 def test_other_options_of_a_verb_are_refused_where_they_leave_other_files(tmp_path: Path) -> None:
-    Folder(tmp_path, "compare", ["c"], about=about(), apart={"--reference": "shell"}).report(
+    Folder(tmp_path, "compare", ["c"], about=about(), variant={"--reference": "shell"}).report(
         report("shell.vtu")
     )
     with pytest.raises(BadInput, match="--reference is shell there, plate here"):
-        Folder(tmp_path, "compare", ["c"], about=about(), apart={"--reference": "plate"})
-    Folder(tmp_path, "modes", ["m"], about=about(), apart={"--reference": "plate"})
+        Folder(tmp_path, "compare", ["c"], about=about(), variant={"--reference": "plate"})
+    Folder(tmp_path, "modes", ["m"], about=about(), variant={"--reference": "plate"})
 
 
 def test_a_verb_does_not_write_among_files_of_another_that_is_about_something_else(tmp_path: Path) -> None:
@@ -193,7 +193,7 @@ def test_a_verb_does_not_write_among_files_of_another_that_is_about_something_el
 
 def test_overwrite_removes_what_the_manifest_lists_and_nothing_else(tmp_path: Path) -> None:
     first = Folder(tmp_path, "simulate", ["s"], about=about())
-    run_folder = first.own("run/")
+    run_folder = first.reserve("run/")
     run_folder.mkdir()
     (run_folder / "samples.bin").write_text("x")
     first.report(report("old.txt"))
@@ -269,17 +269,17 @@ def test_a_questions_own_warnings_stand_before_those_about_its_scene(
 ) -> None:
     with in_a_line():
         warnings.warn(Implausible("young = 54.5 Pa"), stacklevel=1)
-        with finish("identify", json=True, out=None) as end:
-            end(Report("identification", "t", {"warnings": ["a poor fit"]}))
+        with OutputOptions("identify", json=True).open() as out:
+            out.show(Report("identification", "t", {"warnings": ["a poor fit"]}))
     assert json.loads(capsys.readouterr().out)["warnings"] == ["a poor fit", "young = 54.5 Pa"]
 
 
 def test_what_compiling_took_is_said_before_the_remarks_which_may_end_in_a_command(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("comparisons.cli.finish.clock.compiled", lambda: 23.2)
-    with finish("advise", json=False, out=None) as end:
-        end(Report("advice", "t", {}, notes=("Solve it with:", "sheetbench compare x")))
+    monkeypatch.setattr("comparisons.cli.output.clock.compiled", lambda: 23.2)
+    with OutputOptions("advise").open() as out:
+        out.show(Report("advice", "t", {}, notes=("Solve it with:", "sheetbench compare x")))
     *_, compiled, before, command = capsys.readouterr().out.splitlines()
     assert compiled.startswith("Kernels were compiled, once on this machine: 23.2 s")
     assert (before, command) == ("Solve it with:", "sheetbench compare x")

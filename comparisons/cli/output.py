@@ -1,0 +1,198 @@
+"""The output of a verb: terminal or JSON document, files in a folder, exit status.
+
+This module alone reads `--json`, `--out`, `--overwrite` and knows the manifest, warnings and exit status 3.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, closing, contextmanager
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from comparisons.cli import console, warned
+from sheetbench import clock
+
+if TYPE_CHECKING:
+    from comparisons.cli.verb import CampaignOptions, OutputOptions
+    from comparisons.report.work import Work
+    from comparisons.runs.folder import Folder
+    from lumped import Calibration
+    from sheetbench.answers.figure_style import Look
+    from sheetbench.answers.report import Report, Write
+    from sheetbench.scenes import Scene
+
+NOT_CONVERGED = 3
+COMPILED = 5.0  # s from which on it is said: loading takes less
+
+
+def command_line() -> list[str]:
+    """Return the command as it was given, to be kept beside its results."""
+    return ["sheetbench", *sys.argv[1:]]
+
+
+class Output:
+    """The terminal, the JSON document and the folder of a verb that runs."""
+
+    def __init__(self, options: OutputOptions, folder: Folder | None, style: Look) -> None:
+        self._options = options
+        self._folder = folder
+        self._style = style
+        self._store_files: list[str] = []
+        self._spinner = ExitStack()
+        self._progress: Callable[[Work | str], None] | None = None
+
+    def progress(self, what: Work | str) -> None:
+        """Show on standard error what is being done."""
+        if self._progress is None:
+            self._progress = self._spinner.enter_context(console.progress())
+        self._progress(what)
+
+    def keep(self, name: str, write: Write) -> None:
+        """Write a file of the answer at once, if there is a folder."""
+        if self._folder is not None:
+            self._folder.write(name, write)
+
+    def export(
+        self,
+        folder: str | None,
+        scene: Scene,
+        springs: Calibration,
+        report: Report,
+        simulators: Sequence[str] = (),
+    ) -> Report:
+        """Return the report, with a note of what was written for other simulators if there is a folder."""
+        if folder is None:
+            return report
+        from comparisons.export.export import export
+
+        note = export(folder, scene, springs, command_line(), self._options.overwrite, simulators)
+        return replace(report, notes=(*report.notes, note))
+
+    def reserve(self, name: str) -> Path | None:
+        """Return the path of a file, or of a folder if the name ends in "/", that a run fills by itself."""
+        return None if self._folder is None else self._folder.reserve(name)
+
+    @contextmanager
+    def campaign(self, options: CampaignOptions) -> Iterator[dict[str, Any]]:
+        """Yield the keywords of a campaign: its store, in the folder or passing, workers, pool, progress."""
+        from comparisons.runs.campaign import campaign
+        from comparisons.runs.executors import pool_of
+        from comparisons.runs.store import FILE
+
+        with ExitStack() as stack:
+            if self._folder is None:
+                path = Path(stack.enter_context(TemporaryDirectory()))
+            else:
+                path, self._store_files = self._folder.path, [FILE]
+            yield {
+                "store": stack.enter_context(campaign(path)),
+                "pool": stack.enter_context(pool_of(options.scheduler, options.wait, console.warn)),
+                "progress": stack.enter_context(console.campaign_progress()),
+                "workers": options.workers or os.cpu_count() or 1,
+                "retry": options.retry,
+            }
+
+    def stop(self, complaint: str) -> None:
+        """End the command without an answer, with the reason and exit status 3."""
+        self.close()
+        console.warn(complaint)
+        raise typer.Exit(NOT_CONVERGED)
+
+    def show(self, report: Report, instead: str | None = None) -> None:
+        """Write the files, print the document, the tables or the text `instead` of them, and warn.
+
+        Exits with status 3 where the report says that the answer is incomplete.
+        """
+        own = report.document.get("warnings", ())  # before those about the scene
+        document = {**report.document, "warnings": [*own, *warned.shown]}
+        pictures = () if self._options.no_pictures else report.pictures
+        report = replace(report, document=document, pictures=pictures).dressed(self._style)
+        missing: list[str] = []
+        if self._folder is not None:
+            missing = [f"No picture: {reason}" for reason in self._folder.report(report, self.progress)]
+        self.close()
+        if instead is not None:
+            print(instead, end="")
+        elif self._options.json:
+            console.document(report.document)
+        else:
+            self._print(report)
+        for warning in [*missing, *report.complaints]:
+            console.warn(warning)
+        if not report.met:
+            raise typer.Exit(NOT_CONVERGED)
+
+    def close(self) -> None:
+        """End the spinner."""
+        self._spinner.close()
+        self._progress = None
+
+    def _print(self, report: Report) -> None:
+        console.heading(report.title, report.subtitle)
+        if report.lead:
+            console.note(report.lead)
+        for table in report.shown:
+            console.show(table)
+            if table.text:
+                console.note(table.text)
+        if (spent := clock.compiled()) > COMPILED:
+            console.note(
+                f"Kernels were compiled, once on this machine: {spent:.3g} s, in none of the times shown."
+            )
+        for note in report.notes:  # last: they may end in a command to copy
+            console.note(note)
+        if self._folder is not None:
+            written = [*self._folder.written, "manifest.json", *self._store_files]
+            console.note(f"Files in {self._folder.path}: {', '.join(written)}")
+
+
+@contextmanager
+def opened(
+    options: OutputOptions,
+    *,
+    scene: Scene | None = None,
+    about: Mapping[str, Any] | None = None,
+    variant: Mapping[str, Any] | None = None,
+    alone: bool = False,
+) -> Iterator[Output]:
+    """Open the output of a verb, to be shown its report.
+
+    scene, or about: what the answer is about; variant: options that decide which files it leaves; alone: no
+    other process may write to the folder meanwhile (campaigns see to that themselves). Raises BadInput for a
+    folder that cannot be made, or that holds files of something else.
+    """
+    from sheetbench.answers.figure_style import parse_figure
+    from sheetbench.errors import BadInput
+
+    style = parse_figure(options.figure)
+    if options.figure is not None and options.out is None:
+        raise BadInput("--figure: needs --out, a folder to draw into")
+    if options.figure is not None and options.no_pictures:
+        raise BadInput("--figure: names pictures, and --no-pictures says to draw none; leave one of them out")
+    with ExitStack() as stack:
+        folder = None
+        if options.out is not None:
+            from comparisons.runs.folder import Folder
+            from sheetbench.answers import files
+            from sheetbench.files import only_writer
+
+            if scene is not None:
+                about = {"scene": scene.document()}
+            if alone:
+                stack.enter_context(only_writer(files.folder(options.out)))
+            folder = Folder(
+                options.out,
+                options.verb,
+                command_line(),
+                about=about,
+                variant=variant,
+                overwrite=options.overwrite,
+            )
+        yield stack.enter_context(closing(Output(options, folder, style)))

@@ -20,6 +20,7 @@ from lumped.springs.all_families import Stresses, all_families, copy_above
 from lumped.springs.families import Links, NeoHookeanCells, families
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
+from sheetbench.scenes.springs import Distribution
 
 Precision = Literal["double", "single"]
 
@@ -27,7 +28,8 @@ Precision = Literal["double", "single"]
 class Assembly:
     """Energy, force and tangent of a calibrated lattice. Displacements and forces are (n, 3) [m], [N].
 
-    springs: the families (`lumped.springs.family`), the central `links` first. couple: makes the actuators
+    springs: the families (`lumped.springs.family`), the central `links` first. inertia: how masses that move
+    are shared out. couple: makes the actuators
     bound to the lattice; their rows follow those of the masses in every array. precision: of the internal
     force. twisting: edges along which nothing holds the director (`Scene.twisting_edges`).
     """
@@ -50,7 +52,8 @@ class Assembly:
             calibration.grading,
             calibration.half,
         )
-        self.distribution = calibration.masses
+        # the seed's lattice has equal masses; any other one is as inert at its edges as the sheet
+        self.inertia: Distribution = "tributary" if weights == "full" else "gregory"
         self.coupling = couple(self.lattice) if couple is not None else None
         if self.coupling is None:
             self.pattern = of_grid(self.lattice.grid)

@@ -8,7 +8,7 @@ changes of what acts:
     EDGE curvature      of a chain's command or of a bent support [1/m]
     EDGE x, y, z        of a held edge's place [m]; it reaches the sheet by springs and dampers, F and F′
 
-M holds the masses that move in `lumped.simulate`, which `lumped.modes` has as "tributary" or "gregory".
+M holds the masses that move in `lumped.simulate`, which `lumped.modes` has as "gregory".
 y are the displacements of the probes [m]. With K symmetric the modes φ of K φ = ω² M φ, φᵀ M φ = 1, give the
 state space of the states (ω η, η̇), which is as well scaled as the sheet is:
 

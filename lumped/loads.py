@@ -1,6 +1,6 @@
 """Loads on the masses: dead forces, follower pressure and follower edge moment, with their tangents.
 
-gravity        mass × acceleration, tributary masses
+gravity        mass × acceleration, tributary masses; those that move of a sheet that nothing holds
 point          shared bilinearly among the columns of its cell, equally among the layers
 edge force     per undeformed length, by tributary lengths, equally among the layers
 edge moment    per undeformed length: a couple F = ±M (t × D)/|D|² on the outer layers of each column, D the
@@ -69,7 +69,9 @@ class Loads:
         if scene.gravity is not None:
             acceleration = np.array(scene.gravity.acceleration)
             dead = self._part(scene.gravity.history).dead
-            dead[: lattice.mass_count] += masses(scene, lattice)[:, None] * acceleration
+            held = scene.supports or any(getattr(a, "base", "held") != "free" for a in scene.actuators)
+            weighed = masses(scene, lattice, "tributary" if held else assembly.inertia)
+            dead[: lattice.mass_count] += weighed[:, None] * acceleration
             if assembly.coupling is not None:
                 dead[lattice.mass_count :] += assembly.coupling.weight(acceleration)
         for load in scene.loads:

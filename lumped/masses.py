@@ -3,8 +3,13 @@
 tributary     each mass takes the sheet around it: ½ on edges, ¼ at corners. The trapezoidal rule for the
               inertia ∫ ρh f g of two motions, whose error is l²/12 [(f g)′] from end to end: nothing at a
               clamped edge, but too much inertia at one that moves, and frequencies come out too low.
-gregory       Gregory's end-corrected weights 5/12, 13/12, 1, … along each side: the same total, that error
-              gone where f g changes little over the first two cells. For cells of one size.
+gregory       Gregory's end-corrected weights, of equal cells 5/12, 13/12, 1, … along each side: the same
+              total, that error gone where f g changes little over the first two cells. Of other cells
+
+                  Σ_j m_j (f g)_j − Σ_j c_j (f g)′_j
+
+              with the c below and the slope (f g)′ over the wider of both cells, so that no mass is light.
+              No neighbours share mass: explicit steps take these masses too.
 higher-order  that error gone whatever f and g are, for which neighbours along an edge share mass: with the
               slopes s_j of lines j, difference quotients over the cells beside it, b_left and b_right wide,
 
@@ -28,9 +33,10 @@ higher-order  that error gone whatever f and g are, for which neighbours along a
 
               of two layers ½ (1 ± h²/(3 lz²))/2 on and beside the diagonal.
 
-Loads stay tributary: static deflections were calibrated with them. With other masses weight and inertia would
-be shared out differently, and a sheet that falls freely would bend a little: what moves in time therefore has
-tributary masses, or those its springs were fitted with, and higher-order ones are for `lumped.modes`.
+What moves in time has Gregory's masses (`lumped.dynamics.system`): tributary ones make a free swing of the
+one-edge sheet 3.2 % wrong on 9 × 9 masses, Gregory's 0.5 % (docs/theory.md). `lumped.modes` has higher-order
+ones. Loads stay tributary: static deflections were calibrated with them. Only a sheet that nothing holds, and
+that has no statics, weighs at every mass what it is inert there (`lumped.loads`), or it would bend as it falls.
 Source: Gregory's and the corrected trapezoidal rule: Hildebrand, Introduction to Numerical Analysis, 5.9;
 the form for two motions derived for this project (docs/theory.md).
 """
@@ -55,20 +61,17 @@ Inertia = Distribution | Literal["higher-order"]
 def masses(scene: Scene, lattice: Lattice, distribution: Distribution = "tributary") -> np.ndarray:
     """Mass of every lumped mass, (n,) [kg]; they add up to the sheet's.
 
-    Raises BadInput for an unknown distribution or, with "gregory", fewer than four masses a side or unequal
-    cells.
+    Raises BadInput for an unknown distribution.
     """
     lx, ly, _ = lattice.spacing
-    nx, ny, layers = lattice.grid
-    per_cell = scene.material.density * scene.sheet.thickness * lx * ly / layers
+    layers = lattice.grid[2]
+    per_area = scene.material.density * scene.sheet.thickness / layers
     if distribution == "tributary":
-        return per_cell * lattice.share
+        return per_area * lx * ly * lattice.share
     if distribution != "gregory":
         raise BadInput(f"masses = {distribution!r}: choose from tributary, gregory")
-    if any(np.ptp(side.widths) for side in lattice.lines):
-        raise BadInput("masses = 'gregory' is for cells of one size: take tributary masses on a graded grid")
-    plan = np.outer(_gregory(ny), _gregory(nx)).ravel()
-    return per_cell * np.repeat(plan, layers)
+    x, y = (_gregory(lines) for lines in lattice.lines)
+    return per_area * np.repeat(np.outer(y, x).ravel(), layers)
 
 
 def mass_matrix(scene: Scene, lattice: Lattice, distribution: Inertia) -> sp.coo_array:
@@ -103,19 +106,32 @@ def _free(scene: Scene, lattice: Lattice) -> frozenset[str]:
 
 def _corrected(lines: Lines, axis: str, twisting: frozenset[str], free: frozenset[str]) -> sp.csr_array:
     """The corrected trapezoidal rule over the lines across an axis, (n, n) [m]."""
-    left, right = np.concatenate([[0.0], lines.widths]), np.concatenate([lines.widths, [0.0]])
-    correction = (left**2 - right**2) / 12.0
+    left, right, correction = _corrections(lines)
     correction[[0, -1]] *= [f"{axis}0" in twisting, f"{axis}1" in twisting]
-    before, after = np.arange(len(left)) - (left > 0.0), np.arange(len(left)) + (right > 0.0)
-    slopes = np.zeros((len(left), len(left)))
-    row = np.arange(len(left))
-    slopes[row, after] += correction / (left + right)
-    slopes[row, before] -= correction / (left + right)
+    row, slopes = np.arange(len(left)), np.zeros((len(left), len(left)))
+    slopes[row, row + (right > 0.0)] += correction / (left + right)
+    slopes[row, row - (left > 0.0)] -= correction / (left + right)
     if len(left) > 2:
         for end, inner in ((0, 1), (-1, -2)):
             if f"{axis}{-end}" in free:
                 slopes[inner] -= _curl(lines, end)
     return sp.csr_array(np.diag(lines.tributary) - slopes - slopes.T)
+
+
+def _gregory(lines: Lines) -> np.ndarray:
+    """Gregory's weights of the lines across an axis, (n,) [m]."""
+    left, right, corrections = _corrections(lines)
+    row, wider = np.arange(len(left)), np.where(right >= left, 1, -1)
+    moved = corrections * wider / np.maximum(left, right)
+    weights = lines.tributary + moved
+    np.subtract.at(weights, row + wider, moved)
+    return weights
+
+
+def _corrections(lines: Lines) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Widths [m] of the cells before and after every line, 0 beyond the ends, and c [m²], (n,) each."""
+    left, right = np.concatenate([[0.0], lines.widths]), np.concatenate([lines.widths, [0.0]])
+    return left, right, (left**2 - right**2) / 12.0
 
 
 def _curl(lines: Lines, end: int) -> np.ndarray:
@@ -125,11 +141,3 @@ def _curl(lines: Lines, end: int) -> np.ndarray:
     row = np.zeros(len(lines.at))
     row[:3] = first**3 / 12.0 / (first + second) * quotient
     return row if end == 0 else row[::-1]
-
-
-def _gregory(n: int) -> np.ndarray:
-    if n < 4:
-        raise BadInput(f"masses = 'gregory' needs at least 4 masses a side, not {n}")
-    weights = np.ones(n)
-    weights[[0, -1]], weights[[1, -2]] = 5.0 / 12.0, 13.0 / 12.0
-    return weights

@@ -56,8 +56,8 @@ EXTRAPOLATED = (
 
 MASSES = {
     "higher-order": "the inertia of edges corrected, shared by neighbours",
-    "tributary": "the sheet around each mass, as in statics and in motion",
-    "gregory": "end-corrected weights along each side, cells of one size",
+    "tributary": "the sheet around each mass, as its weight is",
+    "gregory": "end-corrected weights along each side, as in motion",
 }
 
 BRANCHES = {

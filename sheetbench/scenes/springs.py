@@ -146,7 +146,7 @@ class SpringTable(SpringSet):
     graded_edges: tuple[EdgeName, ...] | None = None
     """The edges towards which they are smaller, where that is not all four."""
     masses: Distribution = "tributary"
-    """How its mass is shared out: tributary, or as the fit to frequencies found it best (gregory)."""
+    """How its mass is shared out for frequencies: as usual (tributary), or as a fit to them found it best (gregory)."""
 
     @model_validator(mode="before")
     @classmethod

@@ -35,7 +35,7 @@ def flat() -> lumped.Linear:
 
 
 def test_poles_are_those_of_the_modes_with_their_damping(flat: lumped.Linear) -> None:
-    omega = 2.0 * np.pi * lumped.modes(DAMPED, springs_of(DAMPED), 10, "tributary").frequencies
+    omega = 2.0 * np.pi * lumped.modes(DAMPED, springs_of(DAMPED), 10, "gregory").frequencies
     drag = TAU * omega**2 + RATE
     wanted = -drag / 2.0 + 1j * np.sqrt(omega**2 - drag**2 / 4.0 + 0j)
     for modes in (None, 12):

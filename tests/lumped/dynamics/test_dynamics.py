@@ -45,7 +45,7 @@ def test_the_conserving_integrator_holds_the_energy():
 @pytest.mark.parametrize("base", ["one-edge-clamped", "two-edges-clamped"])
 def test_small_oscillations_have_the_lattices_own_frequencies(base):
     asked = scene(base, gravity=False)
-    modes = lumped.modes(asked, springs(asked), 3, "tributary")
+    modes = lumped.modes(asked, springs(asked), 3, "gregory")
     equations, rest = system(asked)
     for frequency, shape in zip(modes.frequencies, modes.shapes, strict=True):
         u = 1e-6 * shape
@@ -114,9 +114,9 @@ def test_observed_order_is_the_declared_one(name, damping):
     ends = []
     for h in (step / 2, step / 4, step / 8):
         history = lumped.simulate(
-            asked, springs(asked, masses), duration, integrator=name, step=h, every=duration
+            asked, springs(asked, masses), duration, integrator=name, step=h, every=step
         )
-        ends.append(history.probes["P4"][-1])
+        ends.append(history.probes["P4"])
     changes = [largest(a - b) for a, b in pairwise(ends)]
     slope = np.log2(changes[0] / changes[1])
     assert slope == pytest.approx(INTEGRATORS[name].order, abs=0.15)

@@ -146,7 +146,7 @@ class SpringTable(SpringSet):
     graded_edges: tuple[EdgeName, ...] | None = None
     """The edges towards which they are smaller, where that is not all four."""
     masses: Distribution = "tributary"
-    """How its mass is shared out for frequencies: as usual (tributary), or as a fit to them found it best (gregory)."""
+    """How frequencies share out its mass: as usual (tributary), or as a fit to them has it (gregory)."""
 
     @model_validator(mode="before")
     @classmethod

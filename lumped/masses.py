@@ -34,9 +34,10 @@ higher-order  that error gone whatever f and g are, for which neighbours along a
               of two layers ½ (1 ± h²/(3 lz²))/2 on and beside the diagonal.
 
 What moves in time has Gregory's masses (`lumped.dynamics.system`): tributary ones make a free swing of the
-one-edge sheet 3.2 % wrong on 9 × 9 masses, Gregory's 0.5 % (docs/theory.md). `lumped.modes` has higher-order
-ones. Loads stay tributary: static deflections were calibrated with them. Only a sheet that nothing holds, which
-has no statics, weighs at every mass what it is inert there (`lumped.loads`), or it would bend as it falls.
+one-edge sheet 3.2 % wrong on 9 × 9 masses, Gregory's 0.5 % (docs/theory.md). `lumped.modes` has others, the
+higher-order ones. Loads stay tributary: static deflections were calibrated with them. Only a sheet that
+nothing holds, which has no statics, weighs at every mass what it is inert there (`lumped.loads`), or it
+would bend in its fall.
 Source: Gregory's and the corrected trapezoidal rule: Hildebrand, Introduction to Numerical Analysis, 5.9;
 the form for two motions derived for this project (docs/theory.md).
 """

@@ -27,7 +27,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.sparse import bsr_matrix, csr_matrix
+from scipy.sparse import csr_matrix
 
 from fem_reference.plate import statics as plate
 from fem_reference.shell import statics as shell
@@ -222,8 +222,7 @@ def _solid_at_rest(
     columns = structure.columns
     supports = column_supports.of_scene(scene, columns, clamp)
     bases = supports.bases(0.0)
-    blocks = np.arange(len(bases) + 1)
-    basis = bsr_matrix((bases, blocks[:-1], blocks)).tocsr()  # u = Z q over all columns
+    basis = supports.basis(0.0).tocsr()
     arms = columns.positions - columns.positions.mean(axis=(0, 1))
     moves = [np.broadcast_to(axis, arms.shape) for axis in np.eye(3)]
     turns = [np.cross(axis, arms) for axis in np.eye(3)]

@@ -5,18 +5,32 @@
 q are the nodes' vectors: displacements and, of a shell, directors, which are as many coordinates as a vector
 has. |d| = 1 and what supports hold are constraints, and x the unknowns of the tangent space that they leave.
 Since M does not depend on q there are no gyroscopic forces: they come from the constraint.
+
+Viscous forces are those of the rate of strain under the elastic moduli, s = D (e + τ ė) with ė = B u̇ and τ
+the material's `dashpot_time`, as every spring of a lattice has the damper τ k; `damping_rate` α adds α M u̇.
+Their tangent leaves out how B changes with the shape, which is of the order of the turn in a step.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 
+from fem_reference.motion.loads import Factor, factor_at, single_loads
+from fem_reference.shell.element import Element, weighed
+from fem_reference.solid.element import Bricks
+from fem_reference.surface.loads import Follower
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import FieldMesh
+from sheetbench.scenes import FieldMesh, Scene, require_no_branches
+from sheetbench.scenes.supports import held_axes
+from sheetbench.scenes.tables import PiecewiseLinear
+
+Loaded = tuple[np.ndarray, list[Follower]]  # dead nodal forces (n, 3) and follower loads
 
 
 @dataclass(frozen=True)
@@ -39,79 +53,198 @@ class Energies(NamedTuple):
     potential: float
 
 
-class Moving(Protocol):
-    """A reference in motion: N coordinates q [m, -] of n nodes, unknowns x; times in s, forces in N."""
+class Moving(ABC):
+    """A reference in motion: N coordinates q [m, -] of n plan nodes, unknowns x; times in s, forces in N.
+
+    conservative: whether the law of strain is linear in Green's strain.
+    """
 
     label: str
     model: str
     settings: dict[str, Any]
-    conservative: bool  # whether the law of strain is linear in Green's strain
+    conservative: bool
     mass: csr_matrix
+    nodes: int
     unknowns: int
 
+    def __init__(self, scene: Scene):
+        require_no_branches(scene.material, "a moving reference")
+        supports = tuple(support.replace(motion=None) for support in scene.supports)
+        self.still = scene.replace(loads=(), gravity=None, supports=supports)
+        self.tau, self.alpha = scene.material.dashpot_time, scene.material.damping_rate
+        self.dead: list[tuple[np.ndarray, Factor]] = []
+        self.followers: list[tuple[Follower, Factor]] = []
+        self._motions = [
+            (str(s.edge), held_axes(s), PiecewiseLinear(s.motion.time, s.motion.displacement))
+            for s in scene.supports
+            if s.motion is not None
+        ]
+
+    def load(self, scene: Scene, loaded: Callable[[Scene], Loaded]) -> None:
+        """Take up a scene's loads; loaded: what a scene with one of them has."""
+        for alone, factor in single_loads(scene):
+            dead, followers = loaded(alone)
+            self.dead += [(self.on_coordinates(dead), factor)] if dead.any() else []
+            self.followers += [(follower, factor) for follower in followers]
+
+    def shift(self, edges: dict[str, tuple[np.ndarray, np.ndarray]], time: float, rate: bool) -> np.ndarray:
+        """Displacement (n, 3) [m] of supports that move, or its rate; edges: nodes and axes of each."""
+        out = np.zeros((self.nodes, 3))
+        for edge, axes, over_time in self._motions:
+            value = over_time.slope(time) if rate else over_time.at(time)
+            out[np.ix_(edges[edge][0], np.array(axes))] = value[list(axes)]
+        return out
+
+    @abstractmethod
     def start(self) -> np.ndarray:
         """q (N,) at t = 0: flat, or as supports alone bend the sheet."""
-        ...
 
+    @abstractmethod
     def placed(self, q: np.ndarray, time: float) -> np.ndarray:
         """q (N,) with what is prescribed at a time, on the constraints."""
-        ...
 
+    @abstractmethod
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         """u̇ (N,) with what is prescribed from a time on, tangential to the constraints."""
-        ...
 
-    def centripetal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """The part (N,) of ü that the constraints demand at these velocities."""
-        ...
-
+    @abstractmethod
     def basis(self, q: np.ndarray) -> csc_matrix:
         """Z (N, unknowns)."""
-        ...
 
-    def forces(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
-        """g (N,): internal and viscous less external forces."""
-        ...
-
-    def mean_forces(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
-        """g (N,) of the means of a step from one q to another: their strains' mean, not that of the mean."""
-        ...
-
+    @abstractmethod
     def tangent(
         self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
     ) -> csr_matrix:
         """Zᵀ (by_a M + by_v C + K) Z, and what the constraints add under a residual (N,)."""
-        ...
+
+    @abstractmethod
+    def solver(self) -> DirectSolver:
+        """What factorises tangents."""
+
+    @abstractmethod
+    def displacement(self, q: np.ndarray) -> np.ndarray:
+        """Displacements (n, 3) [m] of the nodes."""
+
+    @abstractmethod
+    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m], of nodal ones (n, 3)."""
+
+    @abstractmethod
+    def reactions(self, exerted: np.ndarray) -> dict[str, np.ndarray]:
+        """Forces (3,) [N] of what holds the sheet, of M ü + g (N,)."""
+
+    @abstractmethod
+    def mesh(self, displacement: np.ndarray) -> FieldMesh:
+        """The sheet for drawing, of nodal displacements (n, 3)."""
+
+    @abstractmethod
+    def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
+        """Forces (N,) of dead ones on the mid-surface (n, 3)."""
+
+    @abstractmethod
+    def internal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Elastic and viscous forces (N,)."""
+
+    @abstractmethod
+    def following(self, q: np.ndarray, load: Follower) -> np.ndarray:
+        """Forces (N,) of a follower load."""
+
+    @abstractmethod
+    def elastic(self, q: np.ndarray) -> float:
+        """Strain energy [J]."""
+
+    @abstractmethod
+    def stiffness_of(self, q: np.ndarray, step: np.ndarray) -> float:
+        """Δeᵀ D Δe [J] of the strains of a step (N,) from q."""
+
+    def of_supports(self, exerted: np.ndarray) -> np.ndarray:
+        """What supports and motions exert (N,) of M ü + g, which has no part along what is free."""
+        return exerted
+
+    def centripetal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """The part (N,) of ü that the constraints demand at these velocities: none of coordinates held."""
+        return np.zeros_like(q)
 
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
         """q after a step Z x (N,), on the constraints."""
-        ...
+        return q + step
 
-    def solver(self) -> DirectSolver:
-        """What factorises tangents."""
-        ...
+    def mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
+        """Elastic and viscous forces (N,) of the mean strains of a step and their mean rate."""
+        return self.internal(0.5 * (start + end), (end - start) / h)
 
-    def displacement(self, q: np.ndarray) -> np.ndarray:
-        """Displacements (n, 3) [m] of the nodes."""
-        ...
+    def forces(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
+        """g (N,): internal and viscous less external forces."""
+        return self._loaded(self.internal(q, v), q, v, time)
 
-    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m], of nodal ones (n, 3)."""
-        ...
+    def mean_forces(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
+        """g (N,) of the means of a step from one q to another: their strains' mean, not that of the mean."""
+        q, v = 0.5 * (start + end), (end - start) / h
+        return self._loaded(self.mean_internal(start, end, h), q, v, time)
+
+    def _loaded(self, out: np.ndarray, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
+        """Internal forces (N,) less loads, and the drag."""
+        for force, factor in self.dead:
+            out = out - factor_at(factor, time) * force
+        for follower, factor in self.followers:
+            out = out - factor_at(factor, time) * self.following(q, follower)
+        return out + self.alpha * (self.mass @ v) if self.alpha else out
 
     def energies(self, q: np.ndarray, v: np.ndarray) -> Energies:
         """Energies of a state."""
-        ...
+        potential = -sum(float(force @ q) for force, factor in self.dead if factor is None)
+        return Energies(0.5 * float(v @ (self.mass @ v)), self.elastic(q), potential)
 
     def spent(self, start: Motion, end: Motion) -> np.ndarray:
         """Energy [J] that dampers dissipate in a step, and work [J] of what moves or acts over time, (2,):
         mean forces times changes, which a rate that jumps at its start does not swell."""
-        ...
+        h, step, middle = end.time - start.time, end.q - start.q, 0.5 * (start.q + end.q)
+        damped = self.tau * self.stiffness_of(middle, step) + self.alpha * float(step @ (self.mass @ step))
+        exerted, half_way = 0.5 * (start.exerted + end.exerted), 0.5 * (start.time + end.time)
+        work = float(self.of_supports(exerted) @ step)
+        for force, factor in self.dead:
+            if factor is not None:
+                work += factor_at(factor, half_way) * float(force @ step)
+        for follower, factor in self.followers:
+            work += factor_at(factor, half_way) * float(self.following(middle, follower) @ step)
+        return np.array([damped / h, work])
 
-    def reactions(self, exerted: np.ndarray) -> dict[str, np.ndarray]:
-        """Forces (3,) [N] of what holds the sheet, of M ü + g (N,)."""
-        ...
 
-    def mesh(self, displacement: np.ndarray) -> FieldMesh:
-        """The sheet for drawing, of nodal displacements (n, 3)."""
-        ...
+class MovingElements(Moving):
+    """A reference whose elements' strains are quadratic in the coordinates."""
+
+    element: Element | Bricks
+
+    @abstractmethod
+    def gather(self, q: np.ndarray) -> np.ndarray:
+        """Changes of the elements' vectors (m, a, 3) of coordinates (N,)."""
+
+    @abstractmethod
+    def scatter(self, pull: np.ndarray) -> np.ndarray:
+        """Sums (N,) of what pulls at the elements' vectors (m, a, 3)."""
+
+    def internal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        change = self.gather(q)
+        return self.scatter(self.element.forces(change, self.stress(*self.strained(change, v))))
+
+    def mean_internal(self, start: np.ndarray, end: np.ndarray, h: float) -> np.ndarray:
+        before, after = self.gather(start), self.gather(end)
+        first, last = self.element.strain(before), self.element.strain(after)
+        stress = self.stress(0.5 * (first + last), (last - first) / h)
+        return self.scatter(self.element.forces(0.5 * (before + after), stress))
+
+    def elastic(self, q: np.ndarray) -> float:
+        return sum(self.element.energies(self.element.strain(self.gather(q))).values())
+
+    def stiffness_of(self, q: np.ndarray, step: np.ndarray) -> float:
+        strain, change = self.strained(self.gather(q), step)
+        return float(np.sum(change * weighed(self.element.moduli(strain), change)))
+
+    def strained(self, change: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Strains (m, k) at changes (m, a, 3) of the elements' vectors, and their rates at rates (N,)."""
+        return self.element.strain(change), self.element.step(change, self.gather(v))
+
+    def stress(self, strain: np.ndarray, rate: np.ndarray) -> np.ndarray:
+        """s + τ D ė (m, k)."""
+        elastic = self.element.stress(strain)
+        return elastic + self.tau * weighed(self.element.moduli(strain), rate) if self.tau else elastic

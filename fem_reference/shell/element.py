@@ -122,6 +122,14 @@ class Element:
         their derivatives half way, which keeps the digits of a small one."""
         return strain_of(self.reference + 0.5 * change, change)
 
+    def step(self, change: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """B δq (m, 54) of a step (m, 18, 3) from a change q (m, 18, 3)."""
+        return strain_of(self.reference + change, step)
+
+    def forces(self, change: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Bᵀ s (m, 18, 3) of stresses (m, 54) at a change q (m, 18, 3)."""
+        return forces_of(self.reference + change, stress)
+
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """s = D e (m, 54), conjugate to the sampled strains."""
         return weighed(self.stiffness, strain)

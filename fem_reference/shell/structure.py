@@ -157,7 +157,7 @@ class ShellStructure:
         change, n = self.gather(state.change), self.count
         vectors, strain = self.element.reference + change, self.element.strain(change)
         stress = self.element.stress(strain)
-        residuals = self._scatter(forces_of(vectors, stress))
+        residuals = self.scatter(forces_of(vectors, stress))
         external = load_factor * self._external(vectors)
         size = np.abs(external[:n]).sum() + np.abs(residuals.ravel()[self._held_components]).sum()
         size += np.abs(external[n:]).sum() / self.lever
@@ -195,7 +195,7 @@ class ShellStructure:
         pressing, stress, rod_stress = residuals, forces.stress, forces.rods.stress
         if mixed and state.stress is not None and state.rod_stress is not None:
             stress, rod_stress = state.stress, state.rod_stress
-            pressing = pressing + self._scatter(forces_of(vectors, stress - forces.stress))
+            pressing = pressing + self.scatter(forces_of(vectors, stress - forces.stress))
             if self.rods.rods:
                 more = self.rods.elements.force(forces.rods.gradient, rod_stress - forces.rods.stress)
                 pressing += self.rods.scatter(more, self._vectors)
@@ -210,7 +210,7 @@ class ShellStructure:
             tangent = -load_factor * load.tangent(vectors[on])
             pull[on] += np.einsum("eicjd,ejd->eic", tangent, of_step[on])
             add_blocks(data, self.pattern.slots[0][on], projected(tangent, frames[nodes[on]]))
-        total = residuals + self._scatter(pull)
+        total = residuals + self.scatter(pull)
         if self.rods.rods:
             full = self.rods.elements.tangent(forces.rods.gradient, rod_stress)
             onto = self._onto_rods(frames)
@@ -279,7 +279,7 @@ class ShellStructure:
         """d of the nodes, then m of the rods, (n + q, 3)."""
         return np.concatenate([state.change[1] + UP, state.aside + self.rods.own])
 
-    def _scatter(self, elementwise: np.ndarray) -> np.ndarray:
+    def scatter(self, elementwise: np.ndarray) -> np.ndarray:
         """Sums (m, 18, 3) of elements into all vectors (2n + q, 3)."""
         return np.bincount(self._components, elementwise.ravel(), 3 * self._vectors).reshape(-1, 3)
 
@@ -292,10 +292,14 @@ class ShellStructure:
         """Loads (2n + q, 3) in full on elements with vectors (m, 18, 3), but for the rods' weight."""
         external = self._dead if not self.followers else self._dead.copy()
         for load in self.followers:
-            force = np.zeros_like(vectors)
-            force[load.elements] = load.force(vectors[load.elements])
-            external += self._scatter(force)
+            external += self.of_follower(vectors, load)
         return external
+
+    def of_follower(self, vectors: np.ndarray, load: Follower) -> np.ndarray:
+        """Forces (2n + q, 3) of a follower load in full on elements with vectors (m, 18, 3)."""
+        force = np.zeros_like(vectors)
+        force[load.elements] = load.force(vectors[load.elements])
+        return self.scatter(force)
 
     @cached_property
     def _dead(self) -> np.ndarray:

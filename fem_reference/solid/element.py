@@ -135,6 +135,14 @@ class Bricks:
         product = forms.reshape(-1, NODES) @ (self.positions + change)
         return product.reshape(len(change), len(forms), NODES, 3)
 
+    def step(self, change: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """B δu (m, k) of a step (m, 27, 3) from displacements (m, 27, 3)."""
+        return np.einsum("ekic,eic->ek", self.gradient(change), step)
+
+    def forces(self, change: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Bᵀ s (m, 27, 3) [N] of stresses (m, k) at displacements (m, 27, 3)."""
+        return np.einsum("ekic,ek->eic", self.gradient(change), stress)
+
     def products(self) -> np.ndarray:
         """∫ N_i N_j dV (m, 27, 27) [m³]."""
         values, _ = shape(reference().points)
@@ -149,13 +157,13 @@ class Bricks:
         )
         return now / then
 
-    def energies(self, samples: np.ndarray) -> tuple[float, float]:
-        """Distortional ∫ W₀ dV and volumetric ∫ ½ λ (π ϑ)² dV [J] of sampled strains (m, k)."""
+    def energies(self, samples: np.ndarray) -> dict[str, float]:
+        """Distortional ∫ W₀ dV and volumetric ∫ ½ λ (π ϑ)² dV [J] of sampled strains (m, k), by part."""
         strain = self._at_points(samples)
         distortion = self.lame[1] * np.sum(self.volumes * self.law.distortion(strain).value)
         pressure = self._pressure(self.law.volume(strain).value)
         stretch = np.einsum("eq,eq,eq->", self.volumes, pressure, self.law.volume(strain).value)
-        return float(distortion), 0.5 * float(stretch)
+        return {"distortion": float(distortion), "volumetric": 0.5 * float(stretch)}
 
     def stress(self, samples: np.ndarray) -> np.ndarray:
         """∂W/∂e (m, k) [J] of sampled strains (m, k)."""
@@ -172,7 +180,7 @@ class Bricks:
         volume = self.law.volume(self._at_points(samples))
         return self._pressure(volume.value + np.einsum("eqi,eqi->eq", volume.first, self._at_points(step)))
 
-    def stiffness(self, samples: np.ndarray, pressure: np.ndarray | None = None) -> np.ndarray:
+    def moduli(self, samples: np.ndarray, pressure: np.ndarray | None = None) -> np.ndarray:
         """∂²W/∂e² (m, k, k) [J] of sampled strains (m, k), at their own pressure (m, q) if none is given."""
         return self._constant_stiffness if self.law.quadratic else self._stiffness(samples, pressure)
 
@@ -209,10 +217,14 @@ class Bricks:
         return np.linalg.solve(np.linalg.cholesky(gram), (modes * self.volumes[..., None]).swapaxes(1, 2))
 
 
-def geometric(stress: np.ndarray) -> np.ndarray:
-    """Σ_k s_k H_k (m, 27, 27) [J/m²] of sampled stresses (m, k)."""
-    forms = reference().forms
-    return (stress @ forms.reshape(len(forms), -1)).reshape(-1, NODES, NODES)
+def tangent(gradient: np.ndarray, moduli: np.ndarray, stress: np.ndarray) -> np.ndarray:
+    """Bᵀ D B + Σ s_k H_k ⊗ I (m, 27, 3, 27, 3) [N/m] of B (m, k, 27, 3), D (m, k, k) and stresses (m, k)."""
+    flat, forms = gradient.reshape(*stress.shape, 3 * NODES), reference().forms
+    out = (flat.swapaxes(1, 2) @ (moduli @ flat)).reshape(-1, NODES, 3, NODES, 3)
+    geometric = (stress @ forms.reshape(len(forms), -1)).reshape(-1, NODES, NODES)
+    for axis in range(3):
+        out[:, :, axis, :, axis] += geometric
+    return out
 
 
 def _kept(jacobian: np.ndarray) -> np.ndarray:

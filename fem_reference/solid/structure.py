@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from fem_reference.solid.element import NODES, Bricks, geometric
+from fem_reference.solid.element import Bricks, tangent
 from fem_reference.solid.mesh import Columns
 from fem_reference.solid.rods import DIRECTORS
 from fem_reference.solid.supports import ColumnSupports, components, into_forces, vectors
@@ -100,8 +100,7 @@ class SolidStructure:
 
     def energies(self, state: State) -> dict[str, float]:
         """Strain energy [J] of the sheet by part of the law."""
-        distortion, volumetric = self.bricks.energies(self.bricks.strain(self.of_bricks(state.displacement)))
-        return {"distortion": distortion, "volumetric": volumetric}
+        return self.bricks.energies(self.bricks.strain(self.of_bricks(state.displacement)))
 
     def rod_energy(self, state: State) -> float:
         """That of the rods [J], from their intrinsic shape."""
@@ -112,7 +111,7 @@ class SolidStructure:
         change = self.of_bricks(state.displacement)
         gradient, strain = self.bricks.gradient(change), self.bricks.strain(change)
         stress = self.bricks.stress(strain)
-        internal = self.scatter(_forces_of(gradient, stress))
+        internal = self.scatter(np.einsum("ekic,ek->eic", gradient, stress))
         external = load_factor * self._external(state.displacement)
         bases = self.supports.bases(load_factor)
         size = np.linalg.norm(external) + np.linalg.norm(internal[self.supports.held])
@@ -142,7 +141,9 @@ class SolidStructure:
     ) -> tuple[csr_matrix, np.ndarray]:
         """Tangent (unknowns, unknowns) and right-hand side of the step to equilibrium and supports."""
         last = state if mixed else State(state.displacement)
-        stiffness = self.stack(self._brick_stiffness(forces, last))
+        stress = forces.stress if last.stress is None else last.stress
+        moduli = self.bricks.moduli(forces.strain, last.pressure)
+        stiffness = self.stack(tangent(forces.gradient, moduli, stress))
         if self.followers:
             vectors = self.surface(self.columns.positions + state.displacement)
             for load in self.followers:
@@ -170,7 +171,7 @@ class SolidStructure:
         change = self._to_supports(state.displacement, load_factor, forces.bases)
         change = change + vectors(forces.bases, free)
         strain = np.einsum("ekic,eic->ek", forces.gradient, self.of_bricks(change))
-        of_step = np.einsum("ekl,el->ek", self.bricks.stiffness(forces.strain, state.pressure), strain)
+        of_step = np.einsum("ekl,el->ek", self.bricks.moduli(forces.strain, state.pressure), strain)
         pressure = self.bricks.pressure(forces.strain, strain)
         on_rods = self.rods.gather(np.concatenate([change.reshape(-1, 3), aside]))
         rod_stress = self.rods.elements.extrapolated(forces.rods, on_rods)
@@ -206,17 +207,6 @@ class SolidStructure:
         nodes = self.rods.sites[:, : -DIRECTORS : self.columns.levels] // self.columns.levels
         directors = np.tile(np.eye(3 * DIRECTORS), (len(nodes), 1, 1))
         return block_diagonal([*(bases[nodes[:, i]] for i in range(3)), directors])
-
-    def _brick_stiffness(self, forces: Forces, last: State) -> np.ndarray:
-        """Bᵀ D B + Σ s_k H_k ⊗ I, (…, 27, 3, 27, 3)."""
-        stress = forces.stress if last.stress is None else last.stress
-        flat = forces.gradient.reshape(*forces.gradient.shape[:2], 3 * NODES)
-        stiffness = flat.swapaxes(1, 2) @ (self.bricks.stiffness(forces.strain, last.pressure) @ flat)
-        stiffness = stiffness.reshape(-1, NODES, 3, NODES, 3)
-        form = geometric(stress)
-        for axis in range(3):
-            stiffness[:, :, axis, :, axis] += form
-        return stiffness
 
     def stack(self, of_bricks: np.ndarray) -> np.ndarray:
         """Matrices (layers · m, 27, 3, 27, 3) of bricks summed over their stacks, (m, 3 s, 3 s)."""
@@ -293,8 +283,3 @@ class SolidStructure:
     def _scatter_stacks(self, stacks: np.ndarray) -> np.ndarray:
         where = (3 * self.columns.stacks[:, :, None] + np.arange(3)).ravel()
         return np.bincount(where, stacks.ravel(), self.dead.size).reshape(self.dead.shape)
-
-
-def _forces_of(gradient: np.ndarray, stress: np.ndarray) -> np.ndarray:
-    """Bᵀ s, (m, 27, 3)."""
-    return np.einsum("ekic,ek->eic", gradient, stress)

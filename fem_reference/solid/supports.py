@@ -24,6 +24,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import bsr_matrix
 
 from fem_reference.solid.mesh import Columns
 from fem_reference.surface import supports
@@ -61,6 +62,11 @@ class ColumnSupports:
         spread = np.where(self.hinged[:, None, None], np.linalg.inv(with_mean), np.eye(levels))
         size = 3 * levels
         return np.einsum("nlm,nck->nlcmk", spread, axes).reshape(-1, size, size)
+
+    def basis(self, load_factor: float) -> bsr_matrix:
+        """Z over all columns, (3 n levels, 3 n levels)."""
+        blocks = np.arange(len(self.held) + 1)
+        return bsr_matrix((self.bases(load_factor), blocks[:-1], blocks))
 
     @property
     def turned(self) -> np.ndarray:

@@ -9,6 +9,7 @@ from typing import Any
 from warnings import warn
 
 import lumped
+from comparisons.calibration.damping import UNDAMPED
 from comparisons.models.candidate import Candidate
 from comparisons.models.expected_error import MOST, ExpectedError, expected_error
 from comparisons.models.grading import told
@@ -43,6 +44,8 @@ def subject(scene: AnyScene | None, values: Mapping[str, Any], option: str = "")
         parts = {Sheet: loaded.sheet.model_dump(), Material: loaded.material.model_dump()}
     elif missing := [option + name for key, name in NEEDED.items() if key not in given]:
         raise BadInput(f"missing {', '.join(missing)}; give them, or a SCENE to take them from")
+    if {"loss_factor", "relaxation"} & given.keys():
+        parts[Material] |= UNDAMPED  # what is given takes the place of the scene's own
     for kind, data in parts.items():
         data |= {key: value for key, value in given.items() if key in kind.model_fields}
     sheet, material = checked(Sheet, parts[Sheet], option), checked(Material, parts[Material], option)

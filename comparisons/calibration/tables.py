@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from comparisons.calibration import damping
 from comparisons.comparison import tables as summary
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Report
@@ -17,6 +18,7 @@ from sheetbench.scenes.grading import of_settings
 from sheetbench.scenes.summary import few
 
 if TYPE_CHECKING:
+    from comparisons.calibration.damping import ModeDamping
     from comparisons.models.expected_error import ExpectedError
     from lumped import Calibration
     from sheetbench.scenes import Material, Sheet
@@ -46,10 +48,16 @@ _MEANINGS = {
 
 
 def report(
-    calibration: Calibration, sheet: Sheet, material: Material, expected: ExpectedError | None = None
+    calibration: Calibration,
+    sheet: Sheet,
+    material: Material,
+    expected: ExpectedError | None = None,
+    damped: tuple[ModeDamping, ...] = (),
 ) -> Report:
-    """What `sheetbench calibrate` shows of the springs for a sheet; expected: their error in a scene."""
+    """What `sheetbench calibrate` shows of the springs for a sheet; expected: their error in a scene; damped:
+    its lowest modes."""
     found = document(calibration) | ({"expected_error": expected.as_dict()} if expected else {})
+    found |= damping.document(material, damped)
     nx, ny, layers = found.get("grid", ("?", "?", "?"))
     graded = f", grading {of_settings(found):g}" if found.get("grading") else ""
     fitted = [f"the targets are met within {few(100 * found['fit']['residual'])} %"] if "fit" in found else []
@@ -60,7 +68,12 @@ def report(
         subtitle=f"of {nx} × {ny} × {layers} masses{graded}",
         lead=summary.sheet(sheet, material),
         document=found,
-        tables=(springs(found), moduli(found), *([fit(found)] if "fit" in found else [])),
+        tables=(
+            springs(found),
+            moduli(found),
+            *([fit(found)] if "fit" in found else []),
+            *damping.tables(material, damped),
+        ),
         notes=(*fitted, *found.get("notes", ()), *([f"in this scene: {expected}"] if expected else [])),
         attachments={"springs.toml": partial(write_text, text=to_toml(found))},
         settings={"method": found["method"], "grid": found.get("grid")},

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -19,6 +20,7 @@ from comparisons.cli.options import (
     Thickness,
     Young,
 )
+from comparisons.cli.quantity import quantity_in
 from comparisons.cli.verb import OutputOptions
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 
@@ -60,6 +62,53 @@ def command(
             show_default=False,
         ),
     ] = None,
+    loss_factor: Annotated[
+        float | None,
+        typer.Option(
+            metavar="ETA",
+            help="Damping of the material, η = 2ζ = tan δ = 1/Q, with --at or --band.",
+            show_default=False,
+        ),
+    ] = None,
+    damping_ratio: Annotated[
+        float | None,
+        typer.Option(metavar="ZETA", help="The same by ζ, of critical damping.", show_default=False),
+    ] = None,
+    log_decrement: Annotated[
+        float | None,
+        typer.Option(
+            metavar="DELTA", help="The same by a decay: ln of a peak over the next.", show_default=False
+        ),
+    ] = None,
+    quality: Annotated[
+        float | None, typer.Option(metavar="Q", help="The same by a resonance.", show_default=False)
+    ] = None,
+    at: Annotated[
+        float | None,
+        typer.Option(
+            metavar="HZ",
+            parser=quantity_in("Hz"),
+            help="One damper a spring, right at this frequency alone.",
+            show_default=False,
+        ),
+    ] = None,
+    band: Annotated[
+        tuple[float, float] | None,
+        typer.Option(
+            metavar="LOW HIGH",
+            help="Two Maxwell branches a decade, which keep the loss factor from LOW to HIGH Hz.",
+            show_default=False,
+        ),
+    ] = None,
+    prony: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Young's modulus and branches from a CSV of frequency [Hz], storage, loss (or tan_delta), "
+            "or of time [s], modulus; moduli in Pa or as the header has it, storage [MPa].",
+            show_default=False,
+        ),
+    ] = None,
     large: Large = False,
     *,
     output: OutputOptions,
@@ -70,7 +119,7 @@ def command(
     The fitted methods train on the SCENE; without one, on the sheet under its own weight with one edge and
     with two adjacent edges clamped. --export is of the SCENE, or of the sheet with one edge clamped.
     """
-    from comparisons.calibration import tables
+    from comparisons.calibration import damping, tables
     from comparisons.calibration.calibrate import calibrate, expected, subject
     from comparisons.models.candidate import Candidate
     from comparisons.models.quantities import sides
@@ -83,7 +132,10 @@ def command(
     if simulators and export is None:
         raise BadInput("--for: goes with --export DIR")
     values = {"young": young, "poisson": poisson, "thickness": thickness, "density": density, **sides(side)}
-    of = subject(scene, values, "--")
+    damped = damping.keys(loss_factor, damping_ratio, log_decrement, quality, at, band, prony)
+    if young is not None and "young" in damped:
+        raise BadInput("--young and --prony: the measured moduli give the long-time one; leave --young out")
+    of = subject(scene, values | damped, "--")
     about = {"sheet": of.sheet.model_dump(mode="json"), "material": of.material.model_dump(mode="json")}
     with output.open(about=about) as out:
         if export is not None and not large:
@@ -92,7 +144,10 @@ def command(
         found = calibrate(of, lattice, scene is not None, large, out.progress)
         foretold = scene is not None and k is None and layer_distance is None
         off = expected(of, found, out.progress) if foretold else None
-        report = tables.report(found, of.sheet, of.material, off)
+        swinging = damping.ratios(of, found)
+        report = tables.report(found, of.sheet, of.material, off, swinging)
         if export is not None:
             report = out.export(export, of, found, report, simulators or ())
-        out.show(report, instead=tables.to_toml(found.as_dict()) if toml else None)
+        out.show(
+            report, instead=tables.to_toml(found.as_dict()) + damping.to_toml(of.material) if toml else None
+        )

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import isfinite, nan
 from pathlib import Path
@@ -19,6 +19,7 @@ from pathlib import Path
 from sheetbench.errors import BadInput
 from sheetbench.scenes.quantities import LARGEST
 from sheetbench.scenes.reading import read_text
+from sheetbench.scenes.units import quantity
 
 LARGEST_FILE = 2**28  # bytes
 SEPARATORS = ";\t,"
@@ -75,8 +76,13 @@ class Columns:
     rows: tuple[Row, ...]
 
 
-def read_columns(path: Path) -> Columns:
-    """The columns of a file. Raises BadInput naming the file, the line and what is wrong there."""
+def read_columns(path: Path, units: Mapping[str, str] | None = None) -> Columns:
+    """The columns of a file; units: the names of those that are looked for, and their SI units, if they are
+    not metres and seconds. Then what stands above the header is passed over, as testing machines write it,
+    units may stand in round brackets and names in several words.
+
+    Raises BadInput naming the file, the line and what is wrong there.
+    """
     try:
         lines = read_text(path, LARGEST_FILE).splitlines()
     except OSError as error:
@@ -89,8 +95,10 @@ def read_columns(path: Path) -> Columns:
     if not kept:
         return Columns((), ())
     separator = next((mark for mark in SEPARATORS if mark in kept[0][1]), ",")
-    (_, header), *parsed = _parsed(path, kept, separator)
-    named = [_name(path, cell) for cell in header]
+    lines_of_cells = list(_parsed(path, kept, separator))
+    at = 0 if units is None else _header(lines_of_cells, units)
+    (_, header), *parsed = lines_of_cells[at:]
+    named = [_name(path, cell) if units is None else _quantity(path, cell, units) for cell in header]
     names, scales = tuple(name for name, _ in named), dict(named)
     repeated = [name for name in names if name and names.count(name) > 1]
     if repeated:
@@ -124,6 +132,34 @@ def _name(path: Path, cell: str) -> tuple[str, float]:
     if bracket and unit not in UNITS:
         raise BadInput(f"{path}: column {cell.strip()}: unknown unit; write one of {', '.join(UNITS)}")
     return name.strip(), UNITS[unit] if bracket else 1.0
+
+
+_HEADED = re.compile(r"(.*?)\s*(?:[\[(]([^\])]*)[\])])?")
+
+
+def _header(lines: list[tuple[int, list[str]]], units: Mapping[str, str]) -> int:
+    """The number of the first line with two of the columns, 0 where there is none."""
+    for at, (_, cells) in enumerate(lines):
+        if len({name for name, _ in map(_headed, cells)} & units.keys()) > 1:
+            return at
+    return 0
+
+
+def _headed(cell: str) -> tuple[str, str]:
+    found = _HEADED.fullmatch(cell.strip())
+    name, unit = (found[1], found[2] or "") if found else (cell.strip(), "")
+    return "_".join(name.lower().split()), unit.strip()
+
+
+def _quantity(path: Path, cell: str, units: Mapping[str, str]) -> tuple[str, float]:
+    """A column's name, and the SI units per unit of its numbers."""
+    name, unit = _headed(cell)
+    if not unit or name not in units:
+        return name, 1.0
+    try:
+        return name, quantity(f"1 {unit}", units[name])
+    except BadInput as error:
+        raise BadInput(f"{path}: column {cell.strip()}: {error}") from None
 
 
 def _decimal_comma(path: Path, parsed: list[tuple[int, list[str]]]) -> bool:

@@ -28,6 +28,7 @@ HELD_WITHIN = 0.1  # of the loss factor, over the band
 WIDEST = 6  # decades
 BEYOND = np.linspace(0.2, 1.2, 6)  # how far times reach beyond the band, in ln τ; the best is taken
 SAMPLES, SWEEPS = 100, 6
+FIXED_POINT_STEPS = 60  # each gains about a factor η
 
 
 class Relaxation(Frozen):
@@ -56,6 +57,13 @@ class Branches(NamedTuple):
         x = 2.0 * pi * np.asarray(frequency, dtype=float)[..., None] * np.array(self.times)
         k = np.array(self.stiffness)
         return 1.0 + (x * x / (1.0 + x * x)) @ k, (x / (1.0 + x * x)) @ k
+
+    def pole(self, omega: float) -> complex:
+        """s [1/s] of a mode of the long-time stiffness at ω [rad/s]: s² + ω² E(s)/E∞ = 0."""
+        s, k, times = 1j * omega, np.array(self.stiffness), np.array(self.times)
+        for _ in range(FIXED_POINT_STEPS):
+            s = 1j * omega * complex(np.sqrt(1.0 + (s * times / (1.0 + s * times)) @ k))
+        return s
 
     def modulus(self, time: np.ndarray) -> np.ndarray:
         """E(t)/E∞ at times [s] after a strain is imposed and held."""

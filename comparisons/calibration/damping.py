@@ -1,0 +1,249 @@
+"""How a material damps, from what is known of it: a loss factor, a decay, or measured moduli.
+
+    η = 2ζ = tan δ = 1/Q,    ζ = δ/√(4π² + δ²)
+
+with ζ of critical damping, tan δ of a dynamic test, Q of a resonance and δ the logarithmic decrement of a
+decay. Of measured moduli the branches' times lie two a decade over what was measured; their stiffnesses and
+E∞ are nonnegative least squares of the relative misfit (a Prony series). Source: Koruk and Rajagopal 2024,
+Sensors 24, 6137.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from itertools import pairwise
+from math import ceil, hypot, log10, pi, prod
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import lumped
+from comparisons.measured.columns import Columns, read_columns
+from sheetbench.answers.table import Column, Table
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Material, Relaxation, Scene
+from sheetbench.scenes.relaxation import A_DECADE
+
+MODES = 10
+LEAST_SHARE = 1e-4  # of a branch that is kept
+FEWEST = 4  # rows of measured moduli
+RELATION = "loss factor η = 2ζ = tan δ = 1/Q; a decay's logarithmic decrement is πη where η is small"
+
+
+@dataclass(frozen=True)
+class ModeDamping:
+    """A mode's frequency [Hz] as it swings, damping ratio asked for (None: nothing) and got."""
+
+    number: int
+    frequency_hz: float
+    asked: float | None
+    got: float
+
+
+def keys(
+    loss_factor: float | None = None,
+    damping_ratio: float | None = None,
+    log_decrement: float | None = None,
+    quality: float | None = None,
+    at: float | None = None,
+    band: tuple[float, float] | None = None,
+    prony: Path | None = None,
+    option: str = "--",
+) -> dict[str, Any]:
+    """Return the keys of [material] that say this; none of nothing. Raises BadInput by the options' names."""
+    given = {
+        "loss-factor": loss_factor,
+        "damping-ratio": damping_ratio,
+        "log-decrement": log_decrement,
+        "quality": quality,
+        "prony": prony,
+    }
+    named = [name for name, value in given.items() if value is not None]
+    where = " and ".join(option + name for name, value in (("at", at), ("band", band)) if value is not None)
+    if len(named) > 1:
+        raise BadInput(f"{' and '.join(option + name for name in named)}: give one of them")
+    if not named:
+        if where:
+            raise BadInput(f"{where}: needs a loss factor: {option}loss-factor, damping-ratio or the like")
+        return {}
+    if prony is not None:
+        if where:
+            raise BadInput(f"{option}prony and {where}: measured moduli have a band of their own")
+        return _series(prony)
+    value = given[named[0]]
+    assert isinstance(value, float | int)
+    if not value > 0.0:
+        raise BadInput(f"{option}{named[0]} = {value:g}: must be greater than 0")
+    factor = {
+        "loss-factor": value,
+        "damping-ratio": 2.0 * value,
+        "log-decrement": 2.0 * value / hypot(2.0 * pi, value),
+        "quality": 1.0 / value,
+    }[named[0]]
+    if (at is None) == (band is None):
+        raise BadInput(
+            f"{option}{named[0]}: give {option}at HZ, for one damper a spring, or {option}band LOW HIGH"
+        )
+    return {"loss_factor": factor, "frequency": at, "band": band}
+
+
+def ratios(scene: Scene, springs: lumped.Calibration) -> tuple[ModeDamping, ...]:
+    """Return the damping of a lattice's lowest modes about the flat state; none of a material that does not
+    damp.
+
+    All springs have the dampers in proportion to their stiffness, so that a mode of K at ω swings as
+    s² + ω² E(s)/E∞ = 0, with (1 + τ s) of a damper and Σ a_i s τ_i/(1 + s τ_i) of branches.
+    """
+    material = scene.material
+    if not (material.dashpot_time or material.branches.times):
+        return ()
+    at_rest = scene.replace(material=Material.model_validate({**material.model_dump(), **UNDAMPED}))
+    count = min(MODES, prod(springs.grid) // 2)
+    found = []
+    for number, frequency in enumerate(lumped.modes(at_rest, springs, count=count).frequencies, start=1):
+        omega = 2.0 * pi * float(frequency)
+        swings, got = float(frequency), 0.5 * material.dashpot_time * omega
+        if material.branches.times:
+            s = material.branches.pole(omega)
+            swings, got = s.imag / (2.0 * pi), -s.real / abs(s)
+        low, high = material.band or (0.0, float("inf"))
+        asked = 0.5 * material.loss_factor if material.loss_factor and low <= swings <= high else None
+        found.append(ModeDamping(number, swings, asked, got))
+    return tuple(found)
+
+
+SERIES = {"frequency": "Hz", "storage": "Pa", "loss": "Pa", "tan_delta": "", "time": "s", "modulus": "Pa"}
+UNDAMPED: dict[str, Any] = {
+    "damping_time": 0.0,
+    "loss_factor": None,
+    "frequency": None,
+    "band": None,
+    "relaxation": (),
+}
+
+
+def tables(material: Material, modes: tuple[ModeDamping, ...]) -> tuple[Table, ...]:
+    """What the modes get, and the branches."""
+    if not modes:
+        return ()
+    columns = (
+        Column("mode", form="d"),
+        Column("frequency", "Hz", "Hz", 1.0, ".4g"),
+        Column("ζ asked", "", "%", 100.0, ".2f"),
+        Column("ζ got", "", "%", 100.0, ".2f"),
+        Column("off by", "", "%", 100.0, "z.1f"),
+    )
+    rows = tuple(
+        (m.number, m.frequency_hz, m.asked, m.got, m.got / m.asked - 1.0 if m.asked else None) for m in modes
+    )
+    said = f"{RELATION}. {_how(material)}"
+    shown = [Table("Damping of the lowest modes", columns, rows, "damping", text=said)]
+    if material.branches.times:
+        branches = tuple(zip(material.branches.shares, material.branches.times, strict=True))
+        of = (Column("share", form=".5g"), Column("time", "s", "ms", 1e3, ".5g"))
+        shown.append(Table("Maxwell branches, as [[material.relaxation]]", of, branches, "branches"))
+    return tuple(shown)
+
+
+def _how(material: Material) -> str:
+    if not material.branches.times:
+        return (
+            f"One damper a spring, {1e3 * material.dashpot_time:.4g} ms · k, has η in proportion to the "
+            "frequency: right at one frequency only"
+        )
+    ends = material.band or tuple(
+        1.0 / (2.0 * pi * t) for t in (material.branches.times[-1], material.branches.times[0])
+    )
+    storage, _ = material.branches.storage_and_loss(np.array(ends))
+    return (
+        f"The branches stiffen what moves: times {storage[0]:.3g} at {ends[0]:.3g} Hz and {storage[1]:.3g} "
+        f"at {ends[1]:.3g} Hz of the long-time modulus, which statics take"
+    )
+
+
+def document(material: Material, modes: tuple[ModeDamping, ...]) -> dict[str, Any]:
+    """The key `damping` of the JSON document, if the material damps."""
+    if not modes:
+        return {}
+    parts = zip(material.branches.shares.tolist(), material.branches.times, strict=True)
+    return {
+        "damping": {
+            "loss_factor": material.loss_factor,
+            "damping_time": material.dashpot_time,
+            "relaxation": [{"share": share, "time": time} for share, time in parts],
+            "modes": [asdict(mode) for mode in modes],
+        }
+    }
+
+
+def to_toml(material: Material) -> str:
+    """What to paste into a scene beside its [springs]: the branches, or a comment with the one damper."""
+    parts = zip(material.branches.shares, material.branches.times, strict=True)
+    text = "".join(
+        f"\n[[material.relaxation]]\nshare = {s!r}\ntime = {t!r}\n"
+        for s, t in ((float(s), t) for s, t in parts)
+    )
+    if text:
+        return f"\n# in [material]: young = {material.young!r}{text}"
+    return f"\n# in [material]: damping_time = {material.dashpot_time!r}\n" if material.dashpot_time else ""
+
+
+def _series(path: Path) -> dict[str, Any]:
+    """young and relaxation of a file of frequency, storage, loss (or tan_delta), or of time, modulus."""
+    columns = read_columns(path, SERIES)
+    names = set(columns.names)
+    if {"frequency", "storage"} <= names and names & {"loss", "tan_delta"}:
+        at, storage = _column(path, columns, "frequency"), _values(columns, "storage")
+        loss = _values(columns, "loss") if "loss" in names else storage * _values(columns, "tan_delta")
+        decades = log10(at[-1] / at[0])
+        times = 1.0 / (2.0 * pi * np.geomspace(at[-1], at[0], max(2, ceil(A_DECADE * decades) + 1)))
+        x = 2.0 * pi * at[:, None] * times
+        one = np.ones((len(at), 1))
+        rows = np.vstack([np.hstack([one, x * x / (1.0 + x * x)]), np.hstack([0.0 * one, x / (1.0 + x * x)])])
+        measured = np.concatenate([storage, loss])
+    elif {"time", "modulus"} <= names:
+        at, measured = _column(path, columns, "time"), _values(columns, "modulus")
+        times = np.geomspace(at[0], at[-1], max(2, ceil(A_DECADE * log10(at[-1] / at[0])) + 1))
+        rows = np.hstack([np.ones((len(at), 1)), np.exp(-at[:, None] / times)])
+    else:
+        raise BadInput(
+            f"{path}: columns {', '.join(columns.names) or 'missing'}; needed are frequency, storage and "
+            "loss (or tan_delta) of a dynamic test, or time and modulus of a relaxation"
+        )
+    if not (measured > 0.0).all():
+        raise BadInput(f"{path}: moduli must be greater than 0")
+    from scipy.optimize import nnls
+
+    found, _ = nnls(rows / measured[:, None], np.ones(len(measured)))
+    if not found[0] > 0.0:
+        raise BadInput(
+            f"{path}: no long-time modulus is left: the sheet would flow; measure slower or longer"
+        )
+    at_once = float(found.sum())
+    kept = [
+        (float(e) / at_once, float(t))
+        for e, t in zip(found[1:], times, strict=True)
+        if e > LEAST_SHARE * at_once
+    ]
+    miss = float(np.sqrt(np.mean((rows @ found / measured - 1.0) ** 2)))
+    if miss > 0.1 or not kept:
+        raise BadInput(
+            f"{path}: {len(kept)} branches miss the moduli by {100 * miss:.0f} % (root mean square)"
+        )
+    left = 1.0 - sum(share for share, _ in kept)
+    return {"young": at_once * left, "relaxation": tuple(Relaxation(*branch) for branch in kept)}
+
+
+def _column(path: Path, columns: Columns, name: str) -> np.ndarray:
+    values = _values(columns, name)
+    if len(values) < FEWEST:
+        raise BadInput(f"{path}: {len(values)} rows; at least {FEWEST}")
+    for row, (before, after) in zip(columns.rows[1:], pairwise(values), strict=True):
+        if not 0.0 < before < after:
+            raise row.refused(name, "must be greater than 0 and increase")
+    return values
+
+
+def _values(columns: Columns, name: str) -> np.ndarray:
+    return np.array([row.number(name) for row in columns.rows])

@@ -1,0 +1,107 @@
+"""Damping from what is known of a material: the relation, the modes that have it, measured moduli."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lumped
+from comparisons.calibration.calibrate import subject
+from comparisons.calibration.damping import keys, ratios
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Branches, load
+
+FOUR = (
+    {"loss_factor": 0.12},
+    {"damping_ratio": 0.06},
+    {"quality": 1.0 / 0.12},
+    {"log_decrement": 0.12 * np.pi / np.sqrt(1.0 - 0.06**2)},
+)
+
+
+@pytest.mark.parametrize("known", FOUR)
+def test_four_ways_to_say_the_same(known: dict[str, float]) -> None:
+    """δ = 2πζ/√(1 − ζ²) at ζ = 0.06."""
+    assert keys(**known, at=5.0)["loss_factor"] == pytest.approx(0.12, rel=1e-6)
+
+
+def test_modes_get_the_damping_that_their_kind_of_damper_has() -> None:
+    scene = load("one-edge-clamped")
+    springs = lumped.calibrate(scene.sheet, scene.material, (4, 4))
+    omega = 2.0 * np.pi * lumped.modes(scene, springs, count=6).frequencies
+    one = ratios(subject(scene, keys(loss_factor=0.12, at=5.0)), springs)
+    assert [mode.got for mode in one][:6] == pytest.approx(0.12 / (2.0 * np.pi * 5.0) * omega / 2.0, rel=1e-6)
+    band = ratios(subject(scene, keys(loss_factor=0.12, band=(2.0, 200.0))), springs)
+    assert sum(mode.asked is not None for mode in band) > 5
+    for mode in band:
+        if mode.asked is not None:
+            assert mode.got == pytest.approx(mode.asked, rel=0.1)
+    assert band[0].frequency_hz > omega[0] / (2.0 * np.pi)  # branches stiffen
+
+
+def test_a_pole_is_that_of_the_equation_of_motion() -> None:
+    """One branch is a third-order system: its characteristic polynomial, in closed form."""
+    a, tau, omega = 0.4, 0.03, 40.0
+    roots = np.roots([tau, 1.0, omega**2 * tau * (1.0 + a), omega**2])
+    swinging = roots[np.argmax(roots.imag)]
+    assert Branches((a,), (tau,)).pole(omega) == pytest.approx(swinging, rel=1e-9)
+
+
+TRUE = Branches((0.3, 0.2), (0.01, 0.5))
+
+
+def test_moduli_of_a_dynamic_test_and_of_a_relaxation_become_branches(tmp_path: Path) -> None:
+    """Within 2 %: two branches a decade cannot sit on the true times."""
+    at = np.geomspace(0.05, 100.0, 40)
+    storage, loss = TRUE.storage_and_loss(at)
+    lines = [f"{f},{0.3 * s},{0.3 * v}" for f, s, v in zip(at, storage, loss, strict=True)]
+    dma, relaxed = tmp_path / "dma.csv", tmp_path / "relaxed.csv"
+    dma.write_text("\n".join(["Frequency [Hz],Storage (MPa),Loss (MPa)", *lines]), encoding="utf-8")
+    time = np.geomspace(1e-3, 10.0, 60)
+    moduli = 0.3 * TRUE.modulus(time)
+    lines = [f"{t},{e}" for t, e in zip(time, moduli, strict=True)]
+    relaxed.write_text("\n".join(["time [s],modulus [MPa]", *lines]), encoding="utf-8")
+    for file in (dma, relaxed):
+        material = subject("one-edge-clamped", keys(prony=file)).material
+        assert material.young == pytest.approx(0.3e6, rel=0.02)
+        found, lost = material.branches.storage_and_loss(at)
+        assert material.young * found == pytest.approx(0.3e6 * storage, rel=0.03)
+        peak = loss > 0.3 * loss.max()
+        assert lost[peak] == pytest.approx(loss[peak], rel=0.12)
+
+
+@pytest.mark.parametrize(
+    ("known", "named"),
+    [
+        ({"loss_factor": 0.1}, "--at HZ"),
+        ({"loss_factor": 0.1, "quality": 10.0, "at": 1.0}, "--loss-factor and --quality"),
+        ({"at": 5.0}, "--at: needs a loss factor"),
+        ({"quality": -1.0, "at": 5.0}, "--quality = -1: must be greater than 0"),
+    ],
+)
+def test_what_does_not_go_together_is_refused(known: dict[str, float], named: str) -> None:
+    with pytest.raises(BadInput, match=named):
+        keys(**known)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("frequency,storage,loss\n1,1e6,1e5\n2,1e6,1e5\n2,1e6,1e5\n4,1e6,1e5\n", "line 4: frequency = '2'"),
+        ("time,modulus\n1,1e6\n2,1e6\n3,-1e6\n4,1e6\n", "greater than 0"),
+        ("time,force\n1,1\n", "needed are frequency, storage"),
+        ("time,modulus [mm]\n1,1e6\n", "is a length"),
+    ],
+)
+def test_tables_of_moduli_that_are_none_are_refused(tmp_path: Path, text: str, named: str) -> None:
+    file = tmp_path / "moduli.csv"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(BadInput, match=named):
+        keys(prony=file)
+
+
+def test_the_scenes_own_damping_gives_way() -> None:
+    damped = load("one-edge-clamped").replace(damping_time=1e-3)
+    assert subject(damped, keys(quality=10.0, at=5.0)).material.damping_time == 0.0

@@ -13,7 +13,7 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 import sheetbench as sb
-from comparisons.motion.tables import report
+from comparisons.motion.answer import Simulation
 from sheetbench.answers import style
 from sheetbench.answers.report import Report
 
@@ -29,7 +29,8 @@ def main() -> None:
         for name in COMPARED:
             keep(sb.compare(name).report(), "comparison.png", Path(folder), name)
         settling = sb.load("two-edges-settling")
-        keep(report(sb.simulate(settling, 1.0), settling), "history.png", Path(folder), "settling")
+        run = Simulation(sb.simulate(settling, 1.0), settling)
+        keep(run.report(), "history.png", Path(folder), "settling")
 
 
 def keep(answer: Report, drawn: str, folder: Path, name: str) -> None:

@@ -20,7 +20,7 @@ from sheetbench.choices import CALIBRATION, REFERENCE, REFERENCES
 from sheetbench.scenes import AnyScene, History, Solution, scene_of
 
 if TYPE_CHECKING:
-    from comparisons.comparison.comparison import Comparison
+    from comparisons.comparison.answer import Comparison
     from comparisons.motion.comparison import MotionComparison
     from comparisons.runs.campaign import Progress
     from comparisons.tradeoff.statics import Tradeoff

@@ -146,6 +146,7 @@ SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "pypardiso", "
 SLOW += ("numba.core.extending", "numba.np")  # what compiles, where nothing is compiled
 DRAWS = (
     "figure",
+    "style",
     "probes_figure",
     "motion_figure",
     "comparison_figure",

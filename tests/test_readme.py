@@ -11,7 +11,6 @@ from PIL import Image
 
 from comparisons.cli.app import VERBS
 from comparisons.comparison.comparison import compare
-from comparisons.comparison.figure import described
 from sheetbench import scenes
 
 ROOT = Path(__file__).parent.parent
@@ -71,7 +70,7 @@ def test_numbers_in_the_pictures_are_those_of_the_text_and_of_a_solve() -> None:
     for name in ("two-edges-clamped", "one-edge-clamped", "curved-edge", "curved-edge-down", "actuated-edge"):
         with Image.open(ROOT / "docs/images" / f"{name}.png") as image:
             kept = image.info["Description"]
-        assert kept == described(compare(name, uncertainty=False)), f"{name}.png: make pictures"
+        assert kept == compare(name, uncertainty=False).figures()[0].description, f"{name}.png: make pictures"
     with Image.open(ROOT / "docs/images/two-edges-clamped.png") as image:
         shown = float(re.search(r"error at the probes ([\d.]+) %", image.info["Description"])[1])  # type: ignore[index]
     caption = re.search(r"lattice is ([\d.]+) % off the converged shell", TEXT)

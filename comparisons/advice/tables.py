@@ -27,7 +27,6 @@ def report(advice: Advice, named: str = "") -> Report:
         tables=(tried(advice),),
         notes=(*sentences(advice), *([] if line is None else ["Solve it with:", line])),
         complaints=() if advice.met else (advice.reason,),
-        scene=advice.scene,
         met=advice.met,
     )
 

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from comparisons.calibration import damping
-from comparisons.comparison import tables as summary
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Report
 from sheetbench.answers.table import Column, Table
 from sheetbench.scenes.grading import of_settings
 from sheetbench.scenes.summary import few
+from sheetbench.scenes.words import sheet_in_words
 
 if TYPE_CHECKING:
     from comparisons.calibration.damping import ModeDamping
@@ -66,7 +66,7 @@ def report(
         page="table",
         title=f"{found['method']} calibration",
         subtitle=f"of {nx} × {ny} × {layers} masses{graded}",
-        lead=summary.sheet(sheet, material),
+        lead=sheet_in_words(sheet, material),
         document=found,
         tables=(
             springs(found),

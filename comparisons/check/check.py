@@ -48,7 +48,6 @@ def check(scene: AnyScene, called: str | None = None) -> Report:
             "foretold": foretold,
             "warnings": warnings,
         },
-        scene=scene,
     )
 
 

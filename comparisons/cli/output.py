@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from comparisons.report.work import Work
     from comparisons.runs.folder import Folder
     from lumped import Calibration
-    from sheetbench.answers.figure_style import Look
+    from sheetbench.answers.figure_style import FigureStyle
     from sheetbench.answers.report import Report, Write
     from sheetbench.scenes import Scene
 
@@ -40,7 +40,7 @@ def command_line() -> list[str]:
 class Output:
     """The terminal, the JSON document and the folder of a verb that runs."""
 
-    def __init__(self, options: OutputOptions, folder: Folder | None, style: Look) -> None:
+    def __init__(self, options: OutputOptions, folder: Folder | None, style: FigureStyle) -> None:
         self._options = options
         self._folder = folder
         self._style = style
@@ -113,7 +113,7 @@ class Output:
         own = report.document.get("warnings", ())  # before those about the scene
         document = {**report.document, "warnings": [*own, *warned.shown]}
         pictures = () if self._options.no_pictures else report.pictures
-        report = replace(report, document=document, pictures=pictures).dressed(self._style)
+        report = replace(report, document=document, pictures=pictures).with_style(self._style)
         missing: list[str] = []
         if self._folder is not None:
             missing = [f"No picture: {reason}" for reason in self._folder.report(report, self.progress)]

@@ -62,8 +62,8 @@ def command(
     from comparisons.models.registry import check, simulate
     from comparisons.models.sizes import size
     from comparisons.models.springs import LatticeSpec
+    from comparisons.motion.answer import Simulation
     from comparisons.motion.history import read_measured, require_within
-    from comparisons.motion.tables import report
     from comparisons.report import amounts
     from comparisons.report.work import Pace, Work
     from sheetbench import scenes
@@ -103,7 +103,7 @@ def command(
             progress=reached,
         )
         out.reserve("frames/")
-        shown = report(history, asked, truth, animate)
+        shown = Simulation(history, asked, truth, animate).report()
         if export is not None:
             springs, _ = LatticeSpec(**lattice).springs(asked)
             shown = out.export(export, asked, springs, shown)

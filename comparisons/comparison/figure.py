@@ -6,28 +6,24 @@ and loads are drawn on both (`comparisons.report.acting`).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from comparisons.report import acting
+from comparisons.comparison.answer import Comparison
+from comparisons.report import acting, offscreen
 from comparisons.report.labels import place_labels
 from comparisons.report.stage import Stage
 from comparisons.report.vtk import plan_mesh
-from sheetbench.answers import style
-from sheetbench.answers.figure_style import PLAIN, Look
-from sheetbench.answers.style import GREY, STYLE, plain, save
+from sheetbench.answers import style as plots
+from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.report import NoPicture
+from sheetbench.answers.style import GREY, plain
 from sheetbench.scenes import Scene, Solution
-
-if TYPE_CHECKING:
-    from comparisons.comparison.comparison import Comparison
 
 LINE = 105  # characters of a title in full size
 VISIBLE, DRAWN = 0.02, 0.08  # of the longer side: what moves less than the first is drawn as the second
@@ -40,24 +36,14 @@ MODEL_NAMES = {
 }
 
 
-def picture(paths: Sequence[Path], comparison: Comparison, look: Look = PLAIN) -> None:
-    """Write the picture. Needs off-screen drawing: ask `report.offscreen.why_not` first."""
-    with matplotlib.rc_context(STYLE):
-        save(compose(comparison, look), paths, described(comparison))
-
-
-def described(comparison: Comparison) -> str:
-    """What the picture shows, with its number, for the file's metadata."""
-    lattice, reference = comparison.solutions[:2]
-    error = comparison.error(lattice)
-    off = "" if error is None else f": error at the probes {100 * error:.2f} %"
-    return f"{comparison.scene.name}: {lattice.label} against {reference.label}{off}"
-
-
-def compose(comparison: Comparison, look: Look = PLAIN) -> Figure:
-    """The figure with its three panels."""
+def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
+    """The figure with its three panels. Raises NoPicture."""
     scene = comparison.scene
     lattice, reference = comparison.solutions[:2]
+    if not all(np.all(np.isfinite(s.mesh.point_data["displacement"])) for s in (lattice, reference)):
+        raise NoPicture("a displacement is not a finite number")
+    if impossible := offscreen.why_not():
+        raise NoPicture(impossible)
     plan = plan_mesh(scene.sheet).points[:, :2]
     truth = reference.displacement(plan)
     difference = 1e3 * np.linalg.norm(lattice.displacement(plan) - truth, axis=1)
@@ -67,7 +53,7 @@ def compose(comparison: Comparison, look: Look = PLAIN) -> Figure:
     difference_limits = (0.0, float(difference.max()) or 1.0)
     scale = exaggeration(scene, [lattice, reference])
 
-    left, middle, right = (Stage(scene, reference, scale, style.PIXELS) for _ in range(3))
+    left, middle, right = (Stage(scene, reference, scale, plots.PIXELS) for _ in range(3))
     if any(kind == "line" for kind, _ in lattice.mesh.cells):
         left.lattice(lattice.mesh, masses, height_limits, HEIGHTS)
     else:
@@ -83,8 +69,8 @@ def compose(comparison: Comparison, look: Look = PLAIN) -> Figure:
     shots = [stage.take(seen, stage.deformed(solution, probes)) for stage, solution in shown]
 
     aspect = shots[0][0].shape[0] / shots[0][0].shape[1]
-    head = 0.2 if look.titled or scale != 1.0 else 0.0
-    figure, axes, bars = (_stacked if look.narrow else _in_a_row)(look.width, aspect, head)
+    head = 0.2 if style.titled or scale != 1.0 else 0.0
+    figure, axes, bars = (_stacked if style.narrow else _in_a_row)(style.width, aspect, head)
     titles = [
         MODEL_NAMES.get(lattice.model.removesuffix("-advised"), lattice.model),
         MODEL_NAMES.get(reference.model, reference.model),
@@ -101,7 +87,7 @@ def compose(comparison: Comparison, look: Look = PLAIN) -> Figure:
     colour_bar(figure, bars[1], DIFFERENCES, difference_limits, "|$u$ − $u_{ref}$|  [mm]")
     drawn = "drawn at true scale" if scale == 1.0 else f"displacements drawn {scale:g} times as large"
     if head:
-        title = plain(f"{scene.title or scene.name}  ({drawn})" if look.titled else drawn, longest=2 * LINE)
+        title = plain(f"{scene.title or scene.name}  ({drawn})" if style.titled else drawn, longest=2 * LINE)
         size = 8.0 * min(1.0, LINE / len(title))
         figure.text(0.5, 0.975, title, ha="center", va="top", fontsize=max(size, 5.0))
     return figure

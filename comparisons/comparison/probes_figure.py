@@ -8,30 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import cycle
-from pathlib import Path
-from typing import TYPE_CHECKING
 
-import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
-from sheetbench.answers.figure_style import PLAIN, Look
-from sheetbench.answers.style import GREY, MOST, SERIES, STYLE, plain, save
-
-if TYPE_CHECKING:
-    from comparisons.comparison.comparison import Comparison
+from comparisons.comparison.answer import Comparison
+from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.report import NoPicture
+from sheetbench.answers.style import GREY, MOST, SERIES, plain
 
 HEIGHT = 2.4  # inches
 MARKERS = "osD^vP"
 LEAST = 1e-3  # percent, where an error of nothing is drawn
 HALF = 0.42  # of a probe's place on the axis
-
-
-def picture(paths: Sequence[Path], comparison: Comparison, look: Look = PLAIN) -> None:
-    """Write the picture."""
-    with matplotlib.rc_context(STYLE):
-        save(compose(comparison, look), paths)
 
 
 def shown(comparison: Comparison) -> list[str]:
@@ -40,10 +30,12 @@ def shown(comparison: Comparison) -> list[str]:
     return [probe for probe in comparison.scene.probes if probe in moving][:MOST]
 
 
-def compose(comparison: Comparison, look: Look = PLAIN) -> Figure:
-    """The figure: a place a probe, a marker a model, the band below the reference's bar."""
+def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
+    """The figure: a place a probe, a marker a model, the band below the reference's bar. Raises NoPicture."""
     probes, reference = shown(comparison), comparison.reference
-    figure = Figure(figsize=(look.width, HEIGHT), layout="constrained")
+    if not probes:
+        raise NoPicture("no probe has a displacement to be off from")
+    figure = Figure(figsize=(style.width, HEIGHT), layout="constrained")
     axis = figure.add_subplot()
     found = {(d.probe, d.of): 100.0 * d.relative for d in comparison.differences if d.relative is not None}
     drawn = [max(LEAST, value) for value in found.values()]
@@ -71,8 +63,8 @@ def compose(comparison: Comparison, look: Look = PLAIN) -> Figure:
     axis.grid(axis="y", which="major", color="#e4e4e4", lw=0.5)
     axis.set_axisbelow(True)
     axis.spines[["top", "right"]].set_visible(False)
-    figure.legend(loc="outside lower center", ncols=2 if look.narrow else 4, frameon=False, fontsize=6.5)
-    if look.titled:
+    figure.legend(loc="outside lower center", ncols=2 if style.narrow else 4, frameon=False, fontsize=6.5)
+    if style.titled:
         figure.suptitle(plain(comparison.scene.title or comparison.scene.name, longest=105), fontsize=8)
     return figure
 

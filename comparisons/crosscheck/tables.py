@@ -37,7 +37,6 @@ def report(found: Crosscheck) -> Report:
         printed=(limits, moved, *codes) if single else (limits, *codes),
         notes=(*refusals(found), EXPLANATION),
         complaints=tuple(found.failures),
-        scene=single,
         settings={
             "scenes": [scene.name for scene in found.scenes],
             "judges": {one.code.name: one.version for one in found.codes},

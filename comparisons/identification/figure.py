@@ -2,39 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING
-
-import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from comparisons.identification.found import Identification
 from comparisons.identification.measurements import Displacements
-from sheetbench.answers.figure_style import PLAIN, Look
-from sheetbench.answers.style import COMPONENTS, DARK, GREY, STYLE, plain, save
+from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.style import COMPONENTS, DARK, GREY, plain
 from sheetbench.answers.table import quantity
 
 HEIGHT = 3.0  # of a panel [inches]
 SHADES = "magma_r"
 
 
-if TYPE_CHECKING:
-    from comparisons.identification.found import Identification
-
-
-def picture(paths: Sequence[Path], found: Identification, look: Look = PLAIN) -> None:
-    """Write the picture."""
-    with matplotlib.rc_context(STYLE):
-        save(compose(found, look), paths)
-
-
-def compose(found: Identification, look: Look = PLAIN) -> Figure:
+def compose(found: Identification, style: FigureStyle = PLAIN) -> Figure:
     """Model over measurement at the left (of a point cloud, how the distances are spread), residuals at the
     right: over the plan, or of a motion over time. Lengths in millimetres."""
-    rows, columns = look.panels(2)
-    figure = Figure(figsize=(look.width, rows * HEIGHT), layout="constrained")
+    rows, columns = style.panels(2)
+    figure = Figure(figsize=(style.width, rows * HEIGHT), layout="constrained")
     left, right = figure.subplots(rows, columns)
     measured = found.measured
     if isinstance(measured, Displacements):
@@ -57,7 +43,7 @@ def compose(found: Identification, look: Look = PLAIN) -> Figure:
     for axis, title in ((left, "\n".join(["Fit", *values])), (right, "Residuals")):
         axis.set_title(title, loc="left", fontsize=7.5, fontweight="bold")
         axis.spines[["top", "right"]].set_visible(False)
-    if look.titled:
+    if style.titled:
         figure.suptitle(plain(found.scene.title or found.scene.name, longest=105), fontsize=8)
     return figure
 

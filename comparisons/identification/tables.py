@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from comparisons.identification.measurements import Displacements
 from comparisons.models.grading import told
-from sheetbench.answers.figure_style import Look
 from sheetbench.answers.report import Picture, Report
 from sheetbench.answers.table import Column, Table, unit
 
@@ -36,17 +32,10 @@ def report(found: Identification, file: str) -> Report:
         printed=(unknowns(found), worst(found)),
         notes=(*told(found.settings), explanation(found)),
         complaints=(*found.warnings, *unended),
-        pictures=(Picture(("identification.png", "identification.pdf"), partial(_picture, found)),),
-        scene=found.scene,
+        pictures=(Picture("identification", "comparisons.identification.figure:compose", (found,)),),
         settings={**found.settings, "measured": file},
         met=found.converged,
     )
-
-
-def _picture(found: Identification, paths: Sequence[Path], look: Look) -> None:
-    from comparisons.identification.figure import picture
-
-    picture(paths, found, look)
 
 
 def unknowns(found: Identification) -> Table:

@@ -3,33 +3,21 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING
 
-import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from comparisons.linearisation.linearisation import Linearisation
 from comparisons.linearisation.units import unit_of
-from sheetbench.answers.figure_style import PLAIN, Look
-from sheetbench.answers.style import GREY, STYLE, plain, save
-
-if TYPE_CHECKING:
-    from comparisons.linearisation.linearisation import Linearisation
+from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.style import GREY, plain
 
 POINTS = 600
 SHOWN = 6  # inputs: a line each
 PAST = 2.0  # times the highest frequency of the state space
 
 
-def picture(paths: Sequence[Path], found: Linearisation, look: Look = PLAIN) -> None:
-    """Write the picture."""
-    with matplotlib.rc_context(STYLE):
-        save(compose(found, look), paths)
-
-
-def compose(found: Linearisation, look: Look = PLAIN) -> Figure:
+def compose(found: Linearisation, style: FigureStyle = PLAIN) -> Figure:
     """Amplitude above, phase below."""
     space, matrices = found.space, found.matrices
     probe = moved_most(found)
@@ -37,7 +25,7 @@ def compose(found: Linearisation, look: Look = PLAIN) -> Figure:
     shown = [i for i, name in enumerate(matrices.inputs) if _worth(name, probe)][:SHOWN]
     at = np.geomspace(0.2 * space.frequencies[0], PAST * space.frequencies[-1], POINTS)
     response = space.response(at)[:, output][:, shown]
-    figure = Figure(figsize=(look.width, 4.4), layout="constrained")
+    figure = Figure(figsize=(style.width, 4.4), layout="constrained")
     size, phase = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
     for column, number in enumerate(shown):
         name = matrices.inputs[number]
@@ -51,8 +39,8 @@ def compose(found: Linearisation, look: Look = PLAIN) -> Figure:
     phase.set_ylabel("phase [°]")
     phase.set_yticks([-180, -90, 0, 90, 180])
     phase.set_xlabel("frequency [Hz]")
-    size.legend(frameon=False, fontsize=6.5, ncols=1 if look.narrow else 2)
-    if look.titled:
+    size.legend(frameon=False, fontsize=6.5, ncols=1 if style.narrow else 2)
+    if style.titled:
         named = plain(found.scene.title or found.scene.name, longest=80)
         probed = f"{plain(probe, longest=20)} along z, the probe that moves most at rest"
         size.set_title(f"{named}\n{probed}", fontsize=8.5, loc="left")

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from comparisons.linearisation.units import unit_of
-from sheetbench.answers.figure_style import Look
 from sheetbench.answers.report import Picture, Report
 from sheetbench.answers.table import Column, Table
 
@@ -39,9 +35,8 @@ def report(found: Linearisation) -> Report:
             "or of gravity as the scene has it",
             "files: M, C, K, F, F_rate, G, H and ss_A to ss_D in linear.npz and linear.mat",
         ),
-        pictures=(Picture(("responses.png", "responses.pdf"), partial(_draw, found)),),
+        pictures=(Picture("responses", "comparisons.linearisation.figure:compose", (found,)),),
         attachments={"linear.npz": found.write_npz, "linear.mat": found.write_mat},
-        scene=found.scene,
         settings={"label": found.label, "about": found.about, "states": states},
     )
 
@@ -96,10 +91,3 @@ def heights(found: Linearisation) -> Table:
             rows.append((name, shown, *(scale * values[kept]).tolist()))
     columns = (Column("input"), Column("unit"), *(Column(outputs[n], "m", "mm", 1e3, "z.3g") for n in kept))
     return Table("Height at rest per unit of input", columns, tuple(rows))
-
-
-def _draw(found: Linearisation, paths: Sequence[Path], look: Look) -> str | None:
-    from comparisons.linearisation.figure import picture
-
-    picture(paths, found, look)
-    return None

@@ -3,46 +3,32 @@ modes of the same shape of the references."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING
-
-import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 from scipy.ndimage import maximum_filter
 
+from comparisons.modes.answer import Spectra
 from comparisons.report.vtk import plan_mesh
-from sheetbench.answers.figure_style import PLAIN, Look
-from sheetbench.answers.style import DARK, GREY, STYLE, plain, save
+from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.style import DARK, GREY, plain
 
 MOST, CELLS = 6, 24  # modes; cells along the shorter side
 SHADES = "RdBu_r"
 STILL = 0.02  # of the largest displacement: where less moves, as along a clamp, there is no nodal line
 
 
-if TYPE_CHECKING:
-    from comparisons.modes.spectra import Spectra
-
-
-def picture(paths: Sequence[Path], found: Spectra, look: Look = PLAIN) -> None:
-    """Write the picture of the first modes of every model."""
-    with matplotlib.rc_context(STYLE):
-        save(compose(found, look), paths)
-
-
-def compose(found: Spectra, look: Look = PLAIN) -> Figure:
+def compose(found: Spectra, style: FigureStyle = PLAIN) -> Figure:
     """The figure. Heights of every shape are in units of its largest displacement; where a mode moves in the
     plane, the length of its displacement stands for them."""
     scene = found.scene
     plan = plan_mesh(scene.sheet, CELLS).points[:, :2]
     x, y = (np.unique(1e3 * values) for values in plan.T)
     count = min(len(found[0].frequencies), MOST)
-    across = MOST // 2 if look.narrow else MOST
+    across = MOST // 2 if style.narrow else MOST
     rows = -(-count // across)  # of one model
     aspect = scene.sheet.length_y / scene.sheet.length_x
-    panel = look.width / across * min(max(aspect, 0.3), 2.0) + 0.2
-    size = (look.width, len(found) * rows * panel + (0.3 if look.titled else 0.05))
+    panel = style.width / across * min(max(aspect, 0.3), 2.0) + 0.2
+    size = (style.width, len(found) * rows * panel + (0.3 if style.titled else 0.05))
     figure = Figure(figsize=size, layout="constrained")
     panels = figure.subplots(len(found) * rows, across, squeeze=False).reshape(len(found), rows * across)
     shapes = [spectrum.shapes(plan) for spectrum in found]
@@ -71,6 +57,6 @@ def compose(found: Spectra, look: Look = PLAIN) -> Figure:
             -0.06, 0.5, spectrum.model, rotation=90, ha="right", va="center", fontsize=7.5,
             transform=panels[row, 0].transAxes,
         )  # fmt: skip
-    if look.titled:
+    if style.titled:
         figure.suptitle(plain(scene.title or scene.name, longest=105), fontsize=8)
     return figure

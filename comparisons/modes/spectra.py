@@ -8,12 +8,11 @@ Modes are listed lowest first; those of two models are paired by shape (`compari
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Sequence
+from dataclasses import replace
 from math import prod
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast, get_args, overload
+from typing import TYPE_CHECKING, cast, get_args
 
 import numpy as np
 
@@ -24,131 +23,18 @@ from comparisons.models.grids import Elements, GridLike
 from comparisons.models.registry import check, check_reference
 from comparisons.models.sizes import size
 from comparisons.models.springs import LatticeSpec
-from comparisons.modes import tables
+from comparisons.modes.answer import Spectra, Spectrum
 from comparisons.modes.expected import expected_errors
-from comparisons.modes.kinds import kinds
-from comparisons.modes.pairing import CELLS, Pair, assurance, cell_centres, matched
+from comparisons.modes.pairing import cell_centres
 from comparisons.report.work import Progress, Work, silent
-from sheetbench.answers.report import Report
 from sheetbench.choices import ELEMENTS, MASSES, REFERENCE
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, NoEquilibrium, require_choice
-from sheetbench.scenes import About, Scene, free_rigid_motions, load, summary
+from sheetbench.scenes import About, Scene, free_rigid_motions, load
 from sheetbench.scenes.grading import as_settings
 
 if TYPE_CHECKING:
     from lumped import Calibration
-
-
-@dataclass(frozen=True)
-class Spectrum:
-    """A model's lowest natural frequencies (count,) [Hz]; rigid: rigid motions left out; shapes: plan points
-    (n, 2) [m] → displacement of the mid-surface in every mode, (count, n, 3), of any scale; expected: the
-    relative error to expect of each, where that is estimated."""
-
-    model: str
-    label: str
-    settings: dict[str, Any]
-    frequencies: np.ndarray
-    rigid: int
-    unknowns: int
-    seconds: float
-    shapes: Callable[[np.ndarray], np.ndarray]
-    expected: tuple[float | None, ...] = ()
-
-    def as_dict(self) -> dict[str, Any]:
-        """For JSON."""
-        return {
-            "model": self.model,
-            "label": self.label,
-            "settings": self.settings,
-            "frequencies_hz": self.frequencies,
-            "rigid_modes": self.rigid,
-            "unknowns": self.unknowns,
-            "solve_seconds": self.seconds,
-            **({"expected_errors": list(self.expected)} if self.expected else {}),
-        }
-
-
-@dataclass(frozen=True, repr=False)
-class Spectra(summary.Summarised, Sequence[Spectrum]):
-    """The spectra of a scene, the lattice's first, then that of each reference.
-
-    about: "flat" or "deformed"; sag [m]: the largest displacement that the lattice's flat tangent gives under
-    the scene's loads, None where there are none, or nothing that stops a rigid motion.
-    """
-
-    scene: Scene
-    found: tuple[Spectrum, ...]
-    about: About = "flat"
-    sag: float | None = None
-
-    @overload
-    def __getitem__(self, index: int) -> Spectrum: ...
-
-    @overload
-    def __getitem__(self, index: slice) -> Sequence[Spectrum]: ...
-
-    def __getitem__(self, index: int | slice) -> Spectrum | Sequence[Spectrum]:
-        return self.found[index]
-
-    def __len__(self) -> int:
-        return len(self.found)
-
-    @property
-    def frequencies(self) -> np.ndarray:
-        """The lattice's (count,) [Hz]; the first reference's are `self[1].frequencies`."""
-        return self[0].frequencies
-
-    @cached_property
-    def _sampled(self) -> tuple[np.ndarray, ...]:
-        """Shapes (count, n, 3) of every model on equal plan cells."""
-        plan = cell_centres(self.scene.sheet)
-        return tuple(spectrum.shapes(plan) for spectrum in self)
-
-    @cached_property
-    def kinds(self) -> tuple[str | None, ...]:
-        """What kind of mode every one of the lattice is; None about a deformed sheet."""
-        if self.about == "deformed":
-            return (None,) * len(self[0].frequencies)
-        return tuple(kinds(self.scene, self._sampled[0], CELLS))
-
-    @cached_property
-    def pairs(self) -> tuple[Pair, ...]:
-        """Every mode of the lattice with the mode of the same shape of each reference."""
-        of, found = self[0], []
-        for spectrum, shapes in zip(self[1:], self._sampled[1:], strict=True):
-            mac = assurance(self._sampled[0], shapes, spectrum.frequencies)
-            for i, match in enumerate(matched(mac)):
-                at = int(np.argmax(mac[i])) if match is None else match
-                off = None if match is None else float(of.frequencies[i] / spectrum.frequencies[at] - 1.0)
-                is_ = None if match is None else match + 1
-                found.append(
-                    Pair(of.model, i + 1, spectrum.model, is_, float(mac[i, at]), off, self.kinds[i])
-                )
-        return tuple(found)
-
-    def against(self, model: str) -> tuple[Pair, ...]:
-        """The pairs with one reference, in the order of the lattice's modes."""
-        return tuple(pair for pair in self.pairs if pair.against == model)
-
-    def as_dict(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench modes`."""
-        return {
-            "scene": self.scene.document(),
-            "about": self.about,
-            "sag": self.sag,
-            "solutions": [spectrum.as_dict() for spectrum in self],
-            "pairs": [pair.as_dict() for pair in self.pairs],
-        }
-
-    def _summary(self) -> tuple[str, summary.Facts]:
-        found = [(one.label, summary.numbers(one.frequencies.tolist(), "Hz")) for one in self]
-        return f"Natural frequencies of {self.scene.name}; .report() has the table", found
-
-    def report(self) -> Report:
-        """What is shown of it."""
-        return tables.report(self)
 
 
 def spectra(

@@ -18,21 +18,26 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from comparisons.comparison.figure import HEIGHTS, colour_bar
-from comparisons.motion.frames import Frame
+from comparisons.motion.frames import Frame, frames
+from comparisons.report import offscreen
 from comparisons.report.stage import Stage
 from comparisons.report.vtk import plan_mesh
+from sheetbench.answers.report import NoPicture
 from sheetbench.answers.style import STYLE, plain
 from sheetbench.files import whole
-from sheetbench.scenes import Scene
+from sheetbench.scenes import History, Scene
 
 WIDTH, PER_INCH = 4.0, 160  # inches, pixels an inch
 COLOURS, PIXELS = 64, 480  # of a GIF: its palette, its width
 PER_SECOND, MOST = 8, 34  # frames a second, and at most
 
 
-def animate(paths: Sequence[Path], scene: Scene, shown: list[tuple[float, Frame]]) -> None:
-    """Write the frames to every path, as GIF or MP4 by its suffix. Needs off-screen drawing
-    (`comparisons.report.offscreen`), an MP4 also ffmpeg."""
+def animate(scene: Scene, history: History, paths: Sequence[Path]) -> None:
+    """Write the frames to every path, as GIF or MP4 by its suffix; an MP4 needs ffmpeg. Raises NoPicture
+    without off-screen drawing."""
+    if impossible := offscreen.why_not():
+        raise NoPicture(impossible)
+    shown = frames(history)
     shown = shown[:: -(-len(shown) // MOST)]
     images = _images(scene, shown)
     for path in paths:

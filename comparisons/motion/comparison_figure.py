@@ -2,37 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from sheetbench.answers.figure_style import PLAIN, Look
-from sheetbench.answers.style import DARK, SERIES, STYLE, plain, save
-
-if TYPE_CHECKING:
-    from comparisons.motion.comparison import MotionComparison
+from comparisons.motion.comparison import MotionComparison
+from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.style import DARK, SERIES, plain
 
 MOST = 3  # probes
 ABOVE: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "frameon": False}
 
 
-def plot(paths: Sequence[Path], found: MotionComparison, look: Look = PLAIN) -> None:
-    """Write the picture."""
-    with matplotlib.rc_context(STYLE):
-        save(compose(found, look), paths)
-
-
-def compose(found: MotionComparison, look: Look = PLAIN) -> Figure:
+def compose(found: MotionComparison, style: FigureStyle = PLAIN) -> Figure:
     """A panel a probe, of its component that moves farthest, a panel of differences, one of energies."""
     truth = found.histories[found.reference]
     farthest = {name: float(np.abs(u).max()) for name, u in truth.probes.items()}
     kept = set(sorted(farthest, key=lambda name: farthest[name], reverse=True)[:MOST])
     shown = [name for name in truth.probes if name in kept]
-    figure = Figure(figsize=(look.width, 1.3 * len(shown) + 3.0), layout="constrained")
+    figure = Figure(figsize=(style.width, 1.3 * len(shown) + 3.0), layout="constrained")
     panels = figure.subplots(len(shown) + 2, 1, sharex=True, squeeze=False)[:, 0]
     scale = max(farthest.values()) or 1.0
     for number, (axis, probe) in enumerate(zip(panels, shown, strict=False)):
@@ -78,6 +67,6 @@ def compose(found: MotionComparison, look: Look = PLAIN) -> Figure:
         axis.spines[["top", "right"]].set_visible(False)
         axis.axhline(0.0, color=DARK, lw=0.3)
         axis.margins(x=0)
-    if look.titled:
+    if style.titled:
         figure.suptitle(plain(found.scene.title or found.scene.name, width=95), fontsize=8)
     return figure

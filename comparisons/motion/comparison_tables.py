@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,14 +10,12 @@ import numpy as np
 
 from comparisons.motion import frames
 from comparisons.motion.frames import Frame
-from comparisons.motion.history import COMPONENTS, series
 from comparisons.motion.measures import leading, measured_alike
-from comparisons.motion.tables import balance
-from sheetbench.answers.figure_style import Look
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Picture, Report
 from sheetbench.answers.table import Column, Table, number
 from sheetbench.scenes import FieldMesh, Status
+from sheetbench.scenes.measured_history import COMPONENTS
 
 if TYPE_CHECKING:
     from comparisons.motion.comparison import MotionComparison
@@ -38,15 +35,14 @@ def report(found: MotionComparison) -> Report:
         lead=f"moving for {histories[reference].time[-1]:g} s; differences from the {reference}",
         document=found.as_dict(),
         tables=(_measures(found), _differences(found), _runs(found)),
-        notes=(*_bars(found), *(f"{name}: {balance(history)}" for name, history in histories.items())),
+        notes=(*_bars(found), *(f"{name}: {history.balance_note}" for name, history in histories.items())),
         complaints=tuple(
             f"{name}: {history.status}: {history.message}"
             for name, history in histories.items()
             if history.status is not Status.CONVERGED
         ),
-        pictures=(Picture(("motion.png", "motion.pdf"), partial(_plot, found)),),
+        pictures=(Picture("motion", "comparisons.motion.comparison_figure:compose", (found,)),),
         attachments=attachments,
-        scene=found.scene,
         settings={name: history.settings for name, history in histories.items()},
         met=found.converged,
     )
@@ -135,7 +131,7 @@ def _bars(found: MotionComparison) -> list[str]:
 
 
 def _write_samples(path: Path, found: MotionComparison, name: str) -> None:
-    write_text(path, series(found.histories[name]).to_csv())
+    write_text(path, found.histories[name].series().to_csv())
 
 
 def _write_frames(path: Path, found: MotionComparison, name: str) -> None:
@@ -162,9 +158,3 @@ def _write_difference(path: Path, found: MotionComparison) -> None:
         fields = {"displacement": u, "difference": frame.displacement(plan) - u}
         shown.append((time, FieldMesh(mesh.points, mesh.cells, fields)))
     frames.write_series(path, shown)
-
-
-def _plot(found: MotionComparison, paths: Sequence[Path], look: Look) -> None:
-    from comparisons.motion.comparison_figure import plot
-
-    plot(paths, found, look)

@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 from math import sqrt
 
 import lumped
-from comparisons.comparison.comparison import Comparison, compare
+from comparisons.comparison.answer import Comparison
+from comparisons.comparison.comparison import compare
 from comparisons.models.grids import Elements
 from comparisons.report.work import Progress, Work, silent
 from comparisons.reproduction.published import scene

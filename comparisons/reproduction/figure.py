@@ -2,36 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from comparisons.reproduction.answers import Answer
 from comparisons.reproduction.published import COMPONENTS, SOURCES, published
-from comparisons.reproduction.settling import PROBE
-from sheetbench.answers.figure_style import Look
-from sheetbench.answers.style import DARK, GREY, SERIES, STYLE, save
+from comparisons.reproduction.settling import PROBE, Settling
+from sheetbench.answers.figure_style import FigureStyle
+from sheetbench.answers.style import DARK, GREY, SERIES
 from sheetbench.scenes.seed import PROBES
-
-if TYPE_CHECKING:
-    from comparisons.reproduction.answers import Answer
-    from comparisons.reproduction.settling import Settling
 
 PUBLISHED = {"published model": ("s", DARK), "published experiment": ("D", GREY)}
 OURS = tuple(zip("oXvP", (SERIES[0], SERIES[5], SERIES[1], SERIES[2]), strict=True))
 FARTHEST = 3.0  # times the largest published displacement: what moves more is not drawn
 
 
-def picture(paths: Sequence[Path], compose: Callable[[Any, Look], Figure], of: Any, look: Look) -> None:
-    """Write a picture, one of PICTURES."""
-    with matplotlib.rc_context(STYLE):
-        save(compose(of, look), paths)
-
-
-def test(one: Answer, look: Look) -> Figure:
+def test(one: Answer, style: FigureStyle) -> Figure:
     """A panel a component: every source's displacement at every probe."""
     comparison = one.comparison
     moved = {f"published {source}": published(one.test, source) for source in SOURCES}
@@ -42,8 +30,8 @@ def test(one: Answer, look: Look) -> Figure:
     limit = FARTHEST * float(np.nanmax(np.abs(moved["published model"])))
     drawn = {name: table for name, table in moved.items() if np.nanmax(np.abs(table)) <= limit}
     aside = dict(zip(drawn, np.linspace(-0.28, 0.28, len(drawn)), strict=True))
-    figure = Figure(figsize=(look.width, 6.6 if look.narrow else 2.9), layout="constrained")
-    panels = figure.subplots(*look.panels(3), squeeze=False).ravel()
+    figure = Figure(figsize=(style.width, 6.6 if style.narrow else 2.9), layout="constrained")
+    panels = figure.subplots(*style.panels(3), squeeze=False).ravel()
     for axis, panel in enumerate(panels):
         for name, table in drawn.items():
             symbol, colour = marks[name]
@@ -61,30 +49,30 @@ def test(one: Answer, look: Look) -> Figure:
     for name in sorted(moved.keys() - drawn):
         most = 1e3 * np.nanmax(np.abs(moved[name]))
         panels[-1].plot([], [], " ", label=f"not drawn: {name}, up to {most:.0f} mm")
-    legend(figure, panels[-1], 2 if look.narrow else 6)
-    if look.titled:
+    legend(figure, panels[-1], 2 if style.narrow else 6)
+    if style.titled:
         figure.suptitle(one.title, fontsize=8)
     return figure
 
 
-def motion(settling: Settling, look: Look) -> Figure:
+def motion(settling: Settling, style: FigureStyle) -> Figure:
     """ux, uy, uz of P4 over time, dotted its static values, and the published ones."""
-    figure = Figure(figsize=(look.width, 4.6), layout="constrained")
+    figure = Figure(figsize=(style.width, 4.6), layout="constrained")
     panels = figure.subplots(3, 1, sharex=True)
     for axis, panel in enumerate(panels):
         for (model, run), colour in zip(settling.runs.items(), SERIES, strict=False):
             panel.plot(run.time, 1e3 * run.probes[PROBE][:, axis], color=colour, linewidth=0.9, label=model)
             panel.axhline(1e3 * settling.rest[model][axis], color=colour, linewidth=0.7, linestyle=":")
-        for source, style in zip(SOURCES, ("--", "-."), strict=True):
+        for source, dashes in zip(SOURCES, ("--", "-."), strict=True):
             value = 1e3 * published(1, source)[PROBES.index(PROBE), axis]
             if np.isfinite(value):
-                panel.axhline(value, color=DARK, linewidth=0.7, linestyle=style, label=f"published {source}")
+                panel.axhline(value, color=DARK, linewidth=0.7, linestyle=dashes, label=f"published {source}")
         panel.set_ylabel(f"$u_{COMPONENTS[axis][1]}$ of {PROBE} [mm]")
         panel.spines[["top", "right"]].set_visible(False)
         panel.margins(x=0, y=0.08)
     panels[-1].set_xlabel("time [s]")
-    legend(figure, panels[-1], 2 if look.narrow else 4)
-    if look.titled:
+    legend(figure, panels[-1], 2 if style.narrow else 4)
+    if style.titled:
         figure.suptitle(f"Test 1 from rest: {PROBE}; dotted: the static answers", fontsize=8)
     return figure
 
@@ -93,6 +81,3 @@ def legend(figure: Figure, panel: Any, columns: int) -> None:
     """Put a panel's labels beneath the figure."""
     labels = panel.get_legend_handles_labels()
     figure.legend(*labels, loc="outside lower center", ncols=columns, frameon=False, fontsize=6.5)
-
-
-PICTURES: dict[str, Callable[[Any, Look], Figure]] = {"test": test, "motion": motion}

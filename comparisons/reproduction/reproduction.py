@@ -58,7 +58,7 @@ class Reproduction:
         }
         if self.answers:
             document["tests"] = [
-                {"test": one.test, "sense": one.sense, "name": one.name, **one.comparison.as_dict()}
+                {"test": one.test, "sense": one.sense, "name": one.name, **one.comparison.document()}
                 for one in self.answers
             ]
         if self.settling is not None:

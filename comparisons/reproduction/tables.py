@@ -4,26 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from comparisons.comparison.tables import sheet, write_plan
 from comparisons.motion.frames import frames, write_series
-from comparisons.motion.history import series
 from comparisons.report.vtk import write_solution
 from comparisons.reproduction import findings
 from comparisons.reproduction.answers import Answer
 from comparisons.reproduction.published import SOURCES, published, scene
 from comparisons.reproduction.settling import PROBE, SETTLED
 from comparisons.reproduction.words import percent
-from sheetbench.answers.figure_style import Look
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Picture, Report, Write
 from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import Status
 from sheetbench.scenes.seed import PROBES, seed_inputs
+from sheetbench.scenes.words import sheet_in_words
 
 if TYPE_CHECKING:
     from comparisons.reproduction.reproduction import Reproduction
@@ -35,24 +32,26 @@ SEED = (
 PERCENT = ("", "%", 100.0)
 
 
-def length(name: str, form: str = "z.2f", **kind: bool) -> Column:
-    return Column(name, "m", "mm", 1e3, form, **kind)
+def length(name: str, form: str = "z.2f", detail: bool = False) -> Column:
+    return Column(name, "m", "mm", 1e3, form, detail=detail)
 
 
 def report(found: Reproduction) -> Report:
     """What `sheetbench reproduce` shows."""
-    drawn = [(displacements(one), partial(_draw, "test", one)) for one in found.answers]
+    drawn: list[tuple[Table, str, Any]] = [(displacements(one), "test", one) for one in found.answers]
     if found.settling is not None:
-        drawn.append((runs(found), partial(_draw, "motion", found.settling)))
+        drawn.append((runs(found), "motion", found.settling))
     return Report(
         name="reproduction",
         title="The study of Habibi et al., reproduced",
         subtitle="what was published, and what the same inputs give",
         lead=_asked(),
         document=found.as_dict(),
-        tables=(findings_table(findings.all_of(found)), *(table for table, _ in drawn)),
+        tables=(findings_table(findings.all_of(found)), *(table for table, *_ in drawn)),
         complaints=tuple(_complaints(found)),
-        pictures=tuple(Picture((f"{table.name}.png", f"{table.name}.pdf"), draw) for table, draw in drawn),
+        pictures=tuple(
+            Picture(table.name, f"comparisons.reproduction.figure:{kind}", (of,)) for table, kind, of in drawn
+        ),
         attachments=_attachments(found),
         settings={"parts": list(found.parts), "elements": found.elements},
         met=found.converged,
@@ -65,7 +64,7 @@ def _asked() -> str:
     points = (
         "P1 is the centre, P2 and P3 the middles of two free sides, P4 the corner farthest from the support."
     )
-    return f"{SEED}. {first.title}. {second.title}. {sheet(first.sheet, first.material)}. {points}"
+    return f"{SEED}. {first.title}. {second.title}. {sheet_in_words(first.sheet, first.material)}. {points}"
 
 
 def findings_table(found: Sequence[findings.Finding]) -> Table:
@@ -153,17 +152,11 @@ def _attachments(found: Reproduction) -> dict[str, Write]:
     """The sheets of every test as VTU, and the histories."""
     files: dict[str, Write] = {}
     for one in found.answers:
-        files[f"{one.name}.vtu"] = partial(write_plan, comparison=one.comparison)
+        files[f"{one.name}.vtu"] = one.comparison.write_plan
         for solution in one.comparison.solutions:
             files[f"{one.name}-{solution.model}.vtu"] = partial(write_solution, solution=solution)
     if found.settling is not None:
         for model, run in found.settling.runs.items():
-            files[f"settling-{model}.csv"] = partial(write_text, text=series(run).to_csv())
+            files[f"settling-{model}.csv"] = partial(write_text, text=run.series().to_csv())
             files[f"settling-{model}.pvd"] = partial(write_series, shown=frames(run))
     return files
-
-
-def _draw(kind: str, of: Any, paths: Sequence[Path], look: Look) -> None:
-    from comparisons.reproduction.figure import PICTURES, picture
-
-    picture(paths, PICTURES[kind], of, look)

@@ -4,40 +4,29 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING
 
-import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.report.labels import spread
-from sheetbench.answers.figure_style import PLAIN, Look
-from sheetbench.answers.style import DARK, GREY, STYLE, plain, save
-
-if TYPE_CHECKING:
-    from comparisons.scoring.score import Score, Standing
+from comparisons.scoring.score import Score, Standing
+from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.style import DARK, GREY, plain
 
 OWN = "#c1272d"
 NAME = 5.5  # points, of a model's name
 LEAST = 1e-3  # percent, where an error of nothing is drawn
 
 
-def picture(paths: Sequence[Path], found: Score, look: Look = PLAIN) -> None:
-    """Write the picture."""
-    with matplotlib.rc_context(STYLE):
-        save(compose(found, look), paths)
-
-
-def compose(found: Score, look: Look = PLAIN) -> Figure:
+def compose(found: Score, style: FigureStyle = PLAIN) -> Figure:
     """The figure: cases on the left; on the right time and score, where other models were measured."""
     beside = len(found.standing) > 1
     cases = 1.2 + 0.17 * max(8, len(found.answers))
-    below = 2.8 if beside and look.narrow else 0.0
-    figure = Figure(figsize=(look.width, cases + below), layout="constrained")
+    below = 2.8 if beside and style.narrow else 0.0
+    figure = Figure(figsize=(style.width, cases + below), layout="constrained")
     heights = (cases, below) if below else None
-    axes = figure.subplots(*look.panels(1 + beside), squeeze=False, height_ratios=heights).ravel()
+    axes = figure.subplots(*style.panels(1 + beside), squeeze=False, height_ratios=heights).ravel()
     _cases(axes[0], found)
     if beside:
         _place(axes[1], found)

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.scoring.verdict import verdict
 from comparisons.suite.reference import document
-from sheetbench.answers.figure_style import Look
 from sheetbench.answers.report import Picture, Report
 from sheetbench.answers.table import Column, Table, number
 
@@ -36,7 +32,7 @@ def report(found: Score) -> Report:
             *_left(found),
         ),
         complaints=tuple(found.faults),
-        pictures=(Picture(("score.png", "score.pdf"), partial(_draw, found)),),
+        pictures=(Picture("score", "comparisons.scoring.figure:compose", (found,)),),
         settings={"suite": found.suite},
         met=not found.faults,
     )
@@ -111,10 +107,3 @@ def _where(found: Score) -> list[str]:
         f"measured on {made}"
     )
     return [said]
-
-
-def _draw(found: Score, paths: Sequence[Path], look: Look) -> str | None:
-    from comparisons.scoring.figure import picture
-
-    picture(paths, found, look)
-    return None

@@ -2,30 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING
-
 import matplotlib
 from matplotlib.figure import Figure
 
 from comparisons.stability import tiles as maps
+from comparisons.stability.extremes import Stability
 from comparisons.stability.rows import VARIED, Row, place, who
-from sheetbench.answers.figure_style import Look
-from sheetbench.answers.style import save
-
-if TYPE_CHECKING:
-    from comparisons.stability.extremes import Stability
+from sheetbench.answers.figure_style import FigureStyle
 
 
-def draw(found: Stability, paths: Sequence[Path], look: Look) -> None:
-    """Write the picture to every path."""
+def compose(found: Stability, style: FigureStyle) -> Figure:
+    """The figure."""
     by_study = {name: [r for r in found.rows if r["study"] == name] for name in VARIED if name != "damping"}
     panels = {name: rows for name, rows in by_study.items() if rows}
     models = {name: list(dict.fromkeys(map(who, rows)))[::-1] for name, rows in panels.items()}
     heights = [1.0 + len(of) for of in models.values()]
     with matplotlib.rc_context(maps.MAP_STYLE):
-        figure = Figure(figsize=(look.width, 0.8 + 0.24 * sum(heights)), layout="constrained")
+        figure = Figure(figsize=(style.width, 0.8 + 0.24 * sum(heights)), layout="constrained")
         axes = figure.subplots(len(panels), 1, height_ratios=heights, squeeze=False)[:, 0]
         for axis, (name, rows) in zip(axes, panels.items(), strict=True):
             of = models[name]
@@ -43,8 +36,8 @@ def draw(found: Stability, paths: Sequence[Path], look: Look) -> None:
                 at = sorted(set(map(place, rows)))
                 axis.set_xticks(at, [f"{x:g}" for x in at])
                 axis.set_xticks([], minor=True)
-        if look.titled:
+        if style.titled:
             title = f"Where each model of {found.scene.name} holds; errors in %"
             figure.suptitle(title, x=0.01, ha="left", fontsize=9, fontweight="bold")
         maps.key(figure, [maps.outcome(row) for rows in panels.values() for row in rows])
-        save(figure, paths)
+    return figure

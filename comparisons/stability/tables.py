@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from functools import partial
+from collections.abc import Iterable
 from itertools import groupby
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.stability.rows import LARGE, VARIED, Row, place, verdict, who
-from sheetbench.answers.figure_style import Look
 from sheetbench.answers.report import Picture, Report
 from sheetbench.answers.table import Column, Table, number
 
@@ -36,17 +33,10 @@ def report(found: Stability) -> Report:
             "motion of a run with a fine step.",
         ),
         complaints=tuple(f"{r['study']} {r['cell']}: {r['status']}: {r['message']}" for r in broken),
-        pictures=(Picture(("stability.png", "stability.pdf"), partial(_draw, found)),) if drawn else (),
-        scene=found.scene,
+        pictures=(Picture("stability", "comparisons.stability.figure:compose", (found,)),) if drawn else (),
         settings={"studies": list(dict.fromkeys(row["study"] for row in found.rows))},
         met=not broken,
     )
-
-
-def _draw(found: Stability, paths: Sequence[Path], look: Look) -> None:
-    from comparisons.stability.figure import draw
-
-    draw(found, paths, look)
 
 
 def summary(found: Stability) -> Table:

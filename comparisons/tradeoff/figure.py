@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import cycle
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -16,11 +14,9 @@ from matplotlib.text import Annotation, Text
 from comparisons.tradeoff.axes import logarithmic
 from comparisons.tradeoff.pareto import grouped
 from comparisons.tradeoff.row import TradeoffRow
-from sheetbench.answers.figure_style import PLAIN, Look
-from sheetbench.answers.style import GREY, SERIES, STYLE, plain, save
-
-if TYPE_CHECKING:
-    from comparisons.tradeoff.statics import Tradeoff
+from comparisons.tradeoff.statics import Tradeoff
+from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.style import GREY, SERIES, plain
 
 # Heights [inches]: of a panel, of its label and title, of a row of names, of the title over all.
 PANEL, LABEL, TITLE, NAMES, OVER = 2.5, 0.49, 0.3, 0.195, 0.25
@@ -33,17 +29,11 @@ PLACES = tuple(  # of a label beside its point [points]: at the lower left, uppe
 REFERENCE_COLOURS = {"plate": "#8a8a8a", "shell": "#222222", "solid": "#a0522d"}
 
 
-def draw(tradeoff: Tradeoff, paths: Sequence[Path], look: Look = PLAIN) -> None:
-    """Write the picture to every path, in the format of its suffix (.png, .pdf, .svg)."""
-    with matplotlib.rc_context(STYLE):
-        save(compose(tradeoff, look), paths)
-
-
-def compose(tradeoff: Tradeoff, look: Look = PLAIN) -> Figure:
+def compose(tradeoff: Tradeoff, style: FigureStyle = PLAIN) -> Figure:
     """The figure: error against time at the left, against the size of a cell at the right."""
     figure = Figure()
-    ratios = None if look.narrow else (1.35, 1.0)
-    left, right = figure.subplots(*look.panels(2), sharey=True, width_ratios=ratios)
+    ratios = None if style.narrow else (1.35, 1.0)
+    left, right = figure.subplots(*style.panels(2), sharey=True, width_ratios=ratios)
     families = grouped([row.series for row in tradeoff.rows])
     colours = cycle(SERIES)  # lattices take the first ones
     orders = {family.series: family.error_order for family in tradeoff.orders}
@@ -55,15 +45,15 @@ def compose(tradeoff: Tradeoff, look: Look = PLAIN) -> Figure:
         rows = [tradeoff.rows[i] for i in known]
         model = rows[0].model
         colour = REFERENCE_COLOURS.get(model) or next(colours)
-        style: dict[str, Any] = {"color": colour, "marker": MARKERS.get(model, "P"), "lw": 0.9, "ms": 3.6}
+        line: dict[str, Any] = {"color": colour, "marker": MARKERS.get(model, "P"), "lw": 0.9, "ms": 3.6}
         if model in REFERENCE_COLOURS:
-            style["ls"] = (0, (4, 1.5))
+            line["ls"] = (0, (4, 1.5))
         label = plain(name)
         if orders[name] is not None:
             label = f"{label}  (order {orders[name]:z.1f})"
-        _against_time(left, rows, [i in on_front for i in known], style, label)
+        _against_time(left, rows, [i in on_front for i in known], line, label)
         sized = [(1e3 * row.cell_size, 100 * (row.error or 0.0)) for row in rows if row.cell_size]
-        right.plot([h for h, _ in sized], [e for _, e in sized], **style)
+        right.plot([h for h, _ in sized], [e for _, e in sized], **line)
     _front(left, tradeoff)
     for axis, said in ((left, "uncertainty of the reference"), (right, "")):
         logarithmic(axis)
@@ -71,12 +61,12 @@ def compose(tradeoff: Tradeoff, look: Look = PLAIN) -> Figure:
     left.set_xlabel("solve time [ms], one thread")
     left.set_ylabel("error at the probes [%]")
     right.set_xlabel("size of a cell or element [mm]")
-    if look.narrow:
+    if style.narrow:
         right.set_ylabel("error at the probes [%]")
     left.set_title("Error against time, and the front", fontsize=8, fontweight="bold", loc="left")
     right.set_title("Observed convergence", fontsize=8, fontweight="bold", loc="left")
     handles, labels = left.get_legend_handles_labels()
-    names = 2 if look.narrow else 4
+    names = 2 if style.narrow else 4
     figure.legend(
         handles,
         labels,
@@ -84,25 +74,25 @@ def compose(tradeoff: Tradeoff, look: Look = PLAIN) -> Figure:
         ncols=names,
         frameon=False,
         fontsize=7,
-        handlelength=1.9 if look.narrow else 2.6,
-        columnspacing=0.8 if look.narrow else 1.4,
+        handlelength=1.9 if style.narrow else 2.6,
+        columnspacing=0.8 if style.narrow else 1.4,
     )
-    title = plain(tradeoff.scene.title or tradeoff.scene.name, longest=110) if look.titled else ""
-    _set(figure, look, rows_of_names=-(-len(labels) // names), title=title)
+    title = plain(tradeoff.scene.title or tradeoff.scene.name, longest=110) if style.titled else ""
+    _set(figure, style, rows_of_names=-(-len(labels) // names), title=title)
     _spread(figure, left.texts)
     return figure
 
 
-def _set(figure: Figure, look: Look, rows_of_names: int, title: str) -> None:
+def _set(figure: Figure, style: FigureStyle, rows_of_names: int, title: str) -> None:
     """The page's size and margins, and the title over all if there is one."""
-    above, _ = look.panels(2)
+    above, _ = style.panels(2)
     head, foot = TITLE + (OVER if title else 0.0), LABEL + NAMES * rows_of_names
     height = head + above * PANEL + (above - 1) * (LABEL + TITLE) + foot
-    figure.set_size_inches(look.width, height)
-    edge = 0.61 / look.width
+    figure.set_size_inches(style.width, height)
+    edge = 0.61 / style.width
     figure.subplots_adjust(
         left=edge,
-        right=0.955 if look.narrow else 0.985,
+        right=0.955 if style.narrow else 0.985,
         bottom=foot / height,
         top=1.0 - head / height,
         wspace=0.06,
@@ -126,20 +116,20 @@ def _spread(figure: Figure, texts: Sequence[Text]) -> None:
 
 
 def _against_time(
-    axis: Axes, rows: list[TradeoffRow], on_front: list[bool], style: dict[str, Any], label: str
+    axis: Axes, rows: list[TradeoffRow], on_front: list[bool], line: dict[str, Any], label: str
 ) -> None:
     """A family: its medians as markers (filled on the front), its spread as bars, sizes written beside."""
     median = np.array([1e3 * (row.seconds or 0.0) for row in rows])
     error = [100 * (row.error or 0.0) for row in rows]
-    axis.plot(median, error, label=label, markerfacecolor="white", **style)
+    axis.plot(median, error, label=label, markerfacecolor="white", **line)
     for row, t, e, kept in zip(rows, median, error, on_front, strict=True):
         samples = [1e3 * s for s in row.solve_seconds]
-        axis.plot([min(samples), max(samples)], [e, e], color=style["color"], lw=0.6, alpha=0.6, zorder=1)
+        axis.plot([min(samples), max(samples)], [e, e], color=line["color"], lw=0.6, alpha=0.6, zorder=1)
         if kept:
-            axis.plot([t], [e], color=style["color"], marker=style["marker"], ms=4.6, zorder=4)
+            axis.plot([t], [e], color=line["color"], marker=line["marker"], ms=4.6, zorder=4)
             axis.annotate(
                 _size(row), (t, e), (-3, -3), textcoords="offset points", ha="right", va="top", fontsize=6,
-                color=style["color"],
+                color=line["color"],
             )  # fmt: skip
 
 

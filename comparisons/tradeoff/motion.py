@@ -22,7 +22,6 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from math import inf
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -35,7 +34,6 @@ from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff.motion_row import MotionRow, measured_row
 from comparisons.tradeoff.pareto import error_order, front, grouped
-from sheetbench.answers.figure_style import Look
 from sheetbench.answers.report import Picture, Report
 from sheetbench.answers.table import Column, Table
 from sheetbench.choices import INTEGRATORS
@@ -116,18 +114,12 @@ class DynamicTradeoff:
                 *self.reasons,
                 *self.warnings,
             ),
-            pictures=(Picture(("motion.png", "motion.pdf"), self._draw),)
+            pictures=(Picture("motion", "comparisons.tradeoff.motion_figure:compose", (self,)),)
             if any(r.error for r in self.rows)
             else (),
             complaints=folded([*self.rows, self.reference]),
-            scene=self.scene,
             settings={"duration": self.duration},
         )
-
-    def _draw(self, paths: Sequence[Path], look: Look) -> None:
-        from comparisons.tradeoff.motion_figure import draw
-
-        draw(self, paths, look)
 
     def table(self) -> Table:
         """A row per integrator and step."""

@@ -2,34 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-import matplotlib
 from matplotlib.figure import Figure
 
 from comparisons.tradeoff.axes import logarithmic
+from comparisons.tradeoff.motion import DynamicTradeoff
 from comparisons.tradeoff.pareto import grouped
-from sheetbench.answers.figure_style import PLAIN, Look
-from sheetbench.answers.style import GREY, SERIES, STYLE, plain, save
-
-if TYPE_CHECKING:
-    from comparisons.tradeoff.motion import DynamicTradeoff
+from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.style import GREY, SERIES, plain
 
 MARKERS = "osvD^P*"
 
 
-def draw(found: DynamicTradeoff, paths: Sequence[Path], look: Look = PLAIN) -> None:
-    """Write the picture to every path, in the format of its suffix."""
-    with matplotlib.rc_context(STYLE):
-        save(compose(found, look), paths)
-
-
-def compose(found: DynamicTradeoff, look: Look = PLAIN) -> Figure:
+def compose(found: DynamicTradeoff, style: FigureStyle = PLAIN) -> Figure:
     """The figure. Rows on the front are filled; the band is the uncertainty of the reference."""
-    above, beside = look.panels(2)
-    figure = Figure(figsize=(look.width, 3.0 * above + 0.5), layout="constrained")
+    above, beside = style.panels(2)
+    figure = Figure(figsize=(style.width, 3.0 * above + 0.5), layout="constrained")
     left, right = figure.subplots(above, beside, sharey=True)
     on_front = set(found.front)
     for n, (name, numbers) in enumerate(grouped([row.integrator for row in found.rows]).items()):
@@ -38,16 +27,16 @@ def compose(found: DynamicTradeoff, look: Look = PLAIN) -> Figure:
             continue
         rows = [found.rows[i] for i in known]
         errors = [100 * (row.error or 0.0) for row in rows]
-        style: dict[str, Any] = {"color": SERIES[n % len(SERIES)], "marker": MARKERS[n % len(MARKERS)]}
+        line: dict[str, Any] = {"color": SERIES[n % len(SERIES)], "marker": MARKERS[n % len(MARKERS)]}
         order = found.orders[name]
         label = plain(name) if order is None else f"{plain(name)}  (order {order:z.1f})"
         for axis, across in (
             (left, [row.seconds_per_second or 0.0 for row in rows]),
             (right, [1e3 * row.step for row in rows]),
         ):
-            axis.plot(across, errors, label=label, markerfacecolor="white", lw=0.9, ms=3.6, **style)
+            axis.plot(across, errors, label=label, markerfacecolor="white", lw=0.9, ms=3.6, **line)
             filled = [(x, e) for x, e, i in zip(across, errors, known, strict=True) if i in on_front]
-            axis.plot([x for x, _ in filled], [e for _, e in filled], ls="", ms=4.6, **style)
+            axis.plot([x for x, _ in filled], [e for _, e in filled], ls="", ms=4.6, **line)
     for axis in (left, right):
         logarithmic(axis)
     bottom = left.get_ylim()[0]
@@ -65,8 +54,8 @@ def compose(found: DynamicTradeoff, look: Look = PLAIN) -> Figure:
     right.set_xlabel("step [ms]")
     left.set_title("Error against time; filled: on the front", loc="left")
     right.set_title("Error against step", loc="left")
-    names, ncols = left.get_legend_handles_labels(), 2 if look.narrow else 4
+    names, ncols = left.get_legend_handles_labels(), 2 if style.narrow else 4
     figure.legend(*names, loc="outside lower center", ncols=ncols, frameon=False)
-    if look.titled:
+    if style.titled:
         figure.suptitle(plain(found.scene.title or found.scene.name, longest=105))
     return figure

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import astuple
-from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sheetbench.answers.figure_style import Look
 from sheetbench.answers.report import Picture, Report
 from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import Status
@@ -27,7 +23,7 @@ def report(found: Tradeoff) -> Report:
     if not judged:
         said = f"the reference, {found.reference.label}: {found.reference.status}"
         complaints.append(f"no errors: {said}")
-    pictures = [Picture(("tradeoff.png", "tradeoff.pdf"), partial(_draw, found))]
+    pictures = [Picture("tradeoff", "comparisons.tradeoff.figure:compose", (found,))]
     return Report(
         name="tradeoff",
         title=found.scene.name,
@@ -37,16 +33,9 @@ def report(found: Tradeoff) -> Report:
         notes=(*found.reasons, explanation(found), *found.warnings),
         complaints=tuple(complaints),
         pictures=tuple(pictures if any(row.error for row in found.rows) else ()),
-        scene=found.scene,
         settings={"reference": found.reference.settings},
         met=judged,
     )
-
-
-def _draw(found: Tradeoff, paths: Sequence[Path], look: Look) -> None:
-    from comparisons.tradeoff.figure import draw
-
-    draw(found, paths, look)
 
 
 def rows(tradeoff: Tradeoff) -> Table:

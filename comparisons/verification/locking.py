@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import groupby
-from pathlib import Path
 
-import matplotlib
 from matplotlib.figure import Figure
 
 from fem_reference.verification import Row
 from fem_reference.verification.locking import MODELS
-from sheetbench.answers.figure_style import PLAIN, Look
-from sheetbench.answers.style import STYLE, save
+from sheetbench.answers.figure_style import PLAIN, FigureStyle
 
 WIDEST, HEIGHT = 4.6, 2.9  # inches
 MARKERS = {"plate": "s", "shell": "o", "solid": "^"}
@@ -20,15 +17,9 @@ COLOURS = {"plate": "#7d848c", "shell": "#20252b"}
 SOLID_COLOURS = ("#fbb061", "#ee6a5a", "#b8327a", "#5c187f")  # from compressible to incompressible
 
 
-def picture(paths: Sequence[Path], rows: Sequence[Row], look: Look = PLAIN) -> None:
-    """Write the picture of rows of the locking cases."""
-    with matplotlib.rc_context(STYLE):
-        save(compose(rows, look), paths)
-
-
-def compose(rows: Sequence[Row], look: Look = PLAIN) -> Figure:
+def compose(rows: Sequence[Row], style: FigureStyle = PLAIN) -> Figure:
     """|w − w_converged| / w_converged in per cent over h/a, with the tolerances dashed."""
-    figure = Figure(figsize=(min(look.width, WIDEST), HEIGHT), layout="constrained")
+    figure = Figure(figsize=(min(style.width, WIDEST), HEIGHT), layout="constrained")
     axes = figure.add_subplot()
     colours = iter(SOLID_COLOURS)
     for (model, poisson), curve in groupby(rows, key=_series):

@@ -4,23 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, replace
-from functools import partial
 from itertools import groupby
-from pathlib import Path
 from typing import Any
 
 from fem_reference.verification import CASES, Row, strain_laws
-from sheetbench.answers.figure_style import Look
 from sheetbench.answers.report import Picture, Report
 from sheetbench.answers.table import Column, Table, number
 from sheetbench.choices import STRAIN_LAWS
 
 COLUMNS = (
     Column("case"),
-    Column("quantity", prose=True, apart=True),
+    Column("quantity", prose=True),
     Column("mesh"),
     Column("expected", form=".5g"),
-    Column("whose", prose=True, apart=True),
+    Column("whose", prose=True),
     Column("computed", form=".5g"),
     Column("off by", "", "%", 100.0, ".2f"),
     Column("held to"),
@@ -45,15 +42,11 @@ def report(rows: Sequence[Row], locking: bool = False, laws: bool = False) -> Re
             f"{row.case}: {row.quantity}: {number(row.computed)} instead of {number(row.published)}"
             for row in failed
         ),
-        pictures=(Picture(("locking.png",), partial(_picture, rows)),) if locking else (),
+        pictures=(Picture("locking", "comparisons.verification.locking:compose", (rows,), formats=("png",)),)
+        if locking
+        else (),
         met=not failed,
     )
-
-
-def _picture(rows: Sequence[Row], paths: Sequence[Path], look: Look) -> None:
-    from comparisons.verification.locking import picture
-
-    picture(paths, rows, look)
 
 
 def table(rows: Sequence[Row]) -> Table:

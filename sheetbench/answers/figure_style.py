@@ -17,7 +17,7 @@ WIDTHS = {"single": 89.0 / INCH, "double": 183.0 / INCH}  # inches
 
 
 @dataclass(frozen=True)
-class Look:
+class FigureStyle:
     """formats: the files' suffixes, each picture's own where there are none; narrow: of one column; titled:
     whether the scene's title stands over it."""
 
@@ -35,11 +35,11 @@ class Look:
         return (count, 1) if self.narrow else (1, count)
 
 
-PLAIN = Look()
+PLAIN = FigureStyle()
 
 
-def parse_figure(text: str | None) -> Look:
-    """The look that `--figure` asks for: formats with commas between them, a width after a colon, as
+def parse_figure(text: str | None) -> FigureStyle:
+    """The style that `--figure` asks for: formats with commas between them, a width after a colon, as
     `pdf`, `pdf,png` or `svg:single`. Raises BadInput, naming the option."""
     if text is None:
         return PLAIN
@@ -51,4 +51,4 @@ def parse_figure(text: str | None) -> Look:
         require_choice("--figure", name, FORMATS)
     if colon:
         require_choice("the width in --figure", width.strip(), WIDTHS)
-    return Look(formats, narrow=width.strip() == "single", titled=False)
+    return FigureStyle(formats, narrow=width.strip() == "single", titled=False)

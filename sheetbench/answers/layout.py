@@ -1,25 +1,31 @@
-"""A table as lines of text within a width: every figure and every status whole, however narrow that is.
+"""A table as lines of text within a width, laid out by rich: every figure is whole, and nothing is cut off.
 
-A table that is too wide first breaks its headings and its prose over lines, at spaces. Where that is not
-enough, columns that may stand apart go, the last one first, on lines of their own over the rows that share
-them. Where there are none, or still no room, the columns are stacked in blocks, each led by the columns that
-name the rows. Only a word longer than the width itself is broken, and goes on in the next line: nothing is
-ever cut off.
+Headings and prose are broken over lines at spaces. A table that is still too wide stands in blocks one under
+the other, each led by the columns that name the rows. Only a word longer than the width itself is broken.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from itertools import chain
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from io import StringIO
+from itertools import pairwise
+from shutil import get_terminal_size
+from textwrap import wrap
 
+from rich.box import Box
 from rich.cells import cell_len
+from rich.console import Console
+from rich.table import Table as Layout
+from rich.text import Text
 
 from sheetbench.answers.escape import terminal
 from sheetbench.answers.table import Column, Table
 
-GAP = 2  # blanks between columns
+GAP, RULE = 2, "─"  # blanks between columns; the line under headings and between groups
 PROSE = 24  # a narrower column of prose is no pleasure to read
+LEAST, UNBOUNDED = 20, 10_000  # columns of any output, and of one that is no terminal
+BOX = Box("\n".join(["    ", "    ", 4 * RULE, "    ", 4 * RULE, "    ", "    ", "    "]) + "\n")
 
 
 @dataclass(frozen=True)
@@ -33,7 +39,7 @@ class Block:
 
 @dataclass(frozen=True)
 class _Strip:
-    """A column with its name, unit and cells as text, and the widths that it may have."""
+    """A column with its name, unit and cells as text."""
 
     column: Column
     name: str
@@ -41,21 +47,21 @@ class _Strip:
     cells: list[str]
 
     @property
-    def wide(self) -> int:
-        """Width without a broken line."""
-        return max(map(cell_len, [*self.cells, self.name, self.unit]))
-
-    @property
     def narrow(self) -> int:
-        """The least width at which every number and word is whole."""
-        words = chain(self.name.split(), *(c.split() for c in self.cells if self.column.prose))
-        whole = [] if self.column.prose else self.cells
-        return max(map(cell_len, [*whole, *words, self.unit]))
+        """The width at which every number and every word is whole, and prose can still be read."""
+        most = PROSE if self.column.prose else UNBOUNDED
+        words = [word for text in (self.name, *self.cells) for word in text.split()]
+        return max(*map(cell_len, [*words, self.unit]), *(min(cell_len(c), most) for c in self.cells))
 
     @property
-    def pleasant(self) -> int:
-        """The width below which columns are stacked rather than prose squeezed."""
-        return max(self.narrow, min(self.wide, PROSE)) if self.column.prose else self.narrow
+    def wide(self) -> int:
+        """The width at which not even the name is broken."""
+        return max(self.narrow, cell_len(self.name))
+
+    def head(self, width: int) -> str:
+        """The name, broken to a width, over the unit."""
+        lines = wrap(self.name, width, break_long_words=False)
+        return "\n".join([*lines, self.unit] if self.unit else lines)
 
 
 def blocks(table: Table, width: int | None, say: Callable[[str], str] = terminal) -> list[Block]:
@@ -63,171 +69,67 @@ def blocks(table: Table, width: int | None, say: Callable[[str], str] = terminal
 
     say: what makes a text fit to be shown, before it is laid out.
     """
-    brief = table.brief()
+    brief, width = table.brief(), width and max(width, LEAST)
     shown = [[say(text) for text in row] for row in brief.shown_rows()]
-    naming = _naming(brief.columns, shown)
-    starts = [i == 0 or not table.grouped or shown[i][0] != shown[i - 1][0] for i in range(len(shown))]
-    for row, start in zip(shown, starts, strict=True):
-        if not start:
-            row[0] = ""
     strips = [
-        _Strip(
-            column,
-            say(column.name),
-            say(f"[{column.shown_unit}]") if column.shown_unit else "",
-            [row[i] for row in shown],
-        )
+        _Strip(column, say(column.name), say(column.bracketed_unit), [row[i] for row in shown])
         for i, column in enumerate(brief.columns)
     ]
-    ruled = [table.grouped and start and i > 0 for i, start in enumerate(starts)]
-    apart, rest = _set_apart(strips, width)
-    if apart and width is not None:
-        return [_over(apart, rest, width, ruled)]
-    return [_block(part, _widths(part, width), ruled) for part in _stacked(strips, naming, width)]
+    firsts = strips[0].cells
+    new = [True, *(a != b or not table.grouped for a, b in pairwise(firsts))][: len(firsts)]
+    if table.grouped:
+        firsts[:] = [text if first else "" for text, first in zip(firsts, new, strict=True)]
+    starts = [*(table.grouped and first for first in new[1:]), False][: len(firsts)]
+    naming = next((i for i, c in enumerate(brief.columns) if c.numeric or c.prose), 1)
+    while naming < len(strips) - 1 and len({tuple(row[:naming]) for row in shown}) < len(shown):
+        naming += 1
+    return [_block(part, width, starts) for part in _stacked(strips, max(naming, 1), width)]
 
 
-def _set_apart(strips: list[_Strip], width: int | None) -> tuple[list[_Strip], list[_Strip]]:
-    """The columns that are to stand apart for the others to fit into the width, and the others."""
-    apart, rest = list[_Strip](), strips
-    while width is not None and _total(strip.pleasant for strip in rest) > width - (GAP if apart else 0):
-        last = next((strip for strip in reversed(rest) if strip.column.apart), None)
-        if last is None or len(rest) == 1:
-            return [], strips
-        apart, rest = [last, *apart], [strip for strip in rest if strip is not last]
-    return apart, rest
+def text(table: Table, most: int | None = None) -> str:
+    """The table as text, its caption above it, as wide as the terminal; most: rows."""
+    width = get_terminal_size((100, 24)).columns
+    left_out = len(table.rows[most:]) if most else 0
+    table = replace(table, rows=table.rows[:most])
+    lines = [line for block in blocks(table, width) for line in (*block.head, block.rule, *block.rows, "")]
+    more = [f"… and {left_out} more rows", ""] if left_out else []
+    return "\n".join([terminal(table.caption), *lines[: -1 if more else None], *more])
 
 
-def _naming(columns: Sequence[Column], rows: list[list[str]]) -> int:
-    """How many columns name a row: those before the first figure, and more until no two rows are alike."""
-    count = next((i for i, column in enumerate(columns) if column.numeric or column.prose), 1)
-    while count < len(columns) - 1 and len({tuple(row[:count]) for row in rows}) < len(rows):
-        count += 1
-    return max(count, 1)
+def _fits(strips: list[_Strip], width: int | None) -> bool:
+    return width is None or sum(strip.narrow + GAP for strip in strips) - GAP <= width
 
 
-def _stacked(strips: list[_Strip], count: int, width: int | None) -> list[list[_Strip]]:
-    """The columns in as few blocks as the width allows, the `count` naming columns in front of each."""
-    if width is None or _total(s.pleasant for s in strips) <= width:
+def _stacked(strips: list[_Strip], naming: int, width: int | None) -> list[list[_Strip]]:
+    """The columns in as few blocks as the width allows, the `naming` ones in front of each."""
+    if _fits(strips, width):
         return [strips]
-    while count > 1 and _total(s.wide for s in strips[:count]) > width // 2:
-        count -= 1
-    keys, rest = strips[:count], strips[count:]
-    parts: list[list[_Strip]] = []
-    for strip in rest:
-        if parts and _total(s.pleasant for s in [*parts[-1], strip]) <= width:
+    while naming > 1 and not _fits(strips[:naming], (width or 0) // 2):
+        naming -= 1
+    keys, parts = strips[:naming], list[list[_Strip]]()
+    for strip in strips[naming:]:
+        if parts and _fits([*parts[-1], strip], width):
             parts[-1].append(strip)
         else:
             parts.append([*keys, strip])
     return parts or [keys]
 
 
-def _total(widths: Iterable[int]) -> int:
-    each = list(widths)
-    return sum(each) + GAP * (len(each) - 1)
-
-
-def _widths(strips: list[_Strip], width: int | None) -> list[int]:
-    """The width of each column: as wide as it would be, or its least and what is left over, prose first.
-
-    Where not even that fits, text is broken before figures are.
-    """
-    wide = [strip.wide for strip in strips]
-    if width is None or _total(wide) <= width:
-        return wide
-    found = [strip.narrow for strip in strips]
-    while (spare := width - _total(found)) != 0:
-        if spare > 0:
-            short = [i for i, n in enumerate(found) if n < wide[i]]
-            if not short:
-                break
-            prose = [i for i in short if strips[i].column.prose]
-            found[min(prose or short, key=lambda i: found[i])] += 1
-        else:
-            text = [i for i, n in enumerate(found) if n > 2 and not strips[i].column.numeric]
-            widest = max(text or range(len(found)), key=lambda i: found[i])
-            if found[widest] <= 2:
-                break
-            found[widest] -= 1
-    return found
-
-
-def _over(apart: list[_Strip], rest: list[_Strip], width: int, ruled: list[bool]) -> Block:
-    """The columns that stand apart over the others, which are indented, wherever they change."""
-    widths = _widths(rest, width - GAP)
-    indent = " " * GAP
-    leads = [" · ".join(cells) for cells in zip(*(strip.cells for strip in apart), strict=True)]
-    rule, rows = "─" * (GAP + _total(widths)), list[str]()
-    for i, lines in enumerate(_rows(rest, widths)):
-        rows += [rule] if ruled[i] else []
-        rows += wrapped(leads[i], width) if i == 0 or leads[i] != leads[i - 1] else []
-        rows += [indent + line for line in lines]
-    title = wrapped(" · ".join(strip.name for strip in apart), width)
-    return Block([*title, *(indent + line for line in _head(rest, widths))], rule, rows)
-
-
-def _block(strips: list[_Strip], widths: list[int], ruled: list[bool]) -> Block:
-    rule, rows = "─" * _total(widths), list[str]()
-    for i, lines in enumerate(_rows(strips, widths)):
-        rows += [rule, *lines] if ruled[i] else lines
-    return Block(_head(strips, widths), rule, rows)
-
-
-def _rows(strips: list[_Strip], widths: list[int]) -> Iterator[list[str]]:
-    """The lines of each row."""
-    for cells in zip(*(strip.cells for strip in strips), strict=True):
-        yield _lines(
-            [wrapped(cell, width) for cell, width in zip(cells, widths, strict=True)], strips, widths
-        )
-
-
-def _head(strips: list[_Strip], widths: list[int]) -> list[str]:
-    """The lines of the headings, names over units."""
-    any_unit = any(strip.unit for strip in strips)
-    heads = []
-    for strip, width in zip(strips, widths, strict=True):
-        lines = wrapped(strip.name, width)
-        heads.append([*lines, strip.unit] if any_unit and strip.unit else lines)
-    height = max(map(len, heads))
-    return _lines([[""] * (height - len(head)) + head for head in heads], strips, widths)
-
-
-def _lines(cells: list[list[str]], strips: list[_Strip], widths: list[int]) -> list[str]:
-    """Cells of several lines side by side."""
-    found = []
-    for i in range(max(map(len, cells))):
-        texts = [cell[i] if i < len(cell) else "" for cell in cells]
-        padded = [
-            " " * (width - cell_len(text)) + text
-            if strip.column.numeric
-            else text + " " * (width - cell_len(text))
-            for text, strip, width in zip(texts, strips, widths, strict=True)
-        ]
-        found.append((" " * GAP).join(padded).rstrip())
-    return found
-
-
-def wrapped(text: str, width: int) -> list[str]:
-    """The text in lines of at most `width`, broken at spaces; a longer word goes on in the next line."""
-    if cell_len(text) <= width:
-        return [text]
-    lines, line = [], ""
-    for word in text.split():
-        joined = f"{line} {word}" if line else word
-        if cell_len(joined) <= width:
-            line = joined
-            continue
-        if line:
-            lines.append(line)
-        *whole, line = _pieces(word, width)
-        lines += whole
-    return [*lines, line]
-
-
-def _pieces(word: str, width: int) -> list[str]:
-    """A word in pieces of at most `width`, or of one character where that is wider."""
-    pieces = [""]
-    for character in word:
-        if pieces[-1] and cell_len(pieces[-1] + character) > width:
-            pieces.append("")
-        pieces[-1] += character
-    return pieces
+def _block(strips: list[_Strip], width: int | None, starts: list[bool]) -> Block:
+    """starts: after which rows a group begins."""
+    fits = _fits(strips, width)
+    layout = Layout(box=BOX, show_edge=False, pad_edge=False, padding=(0, GAP - 1, 0, 0))
+    room = width is None or sum(strip.wide + GAP for strip in strips) - GAP <= width
+    for strip in strips:
+        whole = strip.column.numeric or (fits and not strip.column.prose)
+        layout.add_column(
+            Text(strip.head(strip.wide if room else strip.narrow)), overflow="fold", no_wrap=whole,
+            justify="right" if strip.column.numeric else "left",
+        )  # fmt: skip
+    for row, start in zip(zip(*(strip.cells for strip in strips), strict=True), starts, strict=True):
+        layout.add_row(*map(Text, row), end_section=start)
+    console = Console(file=StringIO(), width=width or UNBOUNDED, color_system=None, legacy_windows=False)
+    console.print(layout)
+    lines = [line.rstrip() for line in console.file.getvalue().splitlines()]  # type: ignore[attr-defined]
+    rule = next(i for i, line in enumerate(lines) if set(line) == {RULE})
+    return Block(lines[:rule], lines[rule], lines[rule + 1 :])

@@ -6,42 +6,98 @@ what its tables, notes and pictures are.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
+from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sheetbench.answers.escape import html, markdown, terminal
-from sheetbench.answers.figure_style import FORMATS, PLAIN, Look, parse_figure
+from sheetbench.answers.figure_style import PLAIN, FigureStyle, parse_figure
 from sheetbench.answers.files import digest, to_json, write_text
 from sheetbench.answers.files import folder as made
+from sheetbench.answers.layout import text
 from sheetbench.answers.table import Table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Write = Callable[[Path], None]
 
 
+class NoPicture(Exception):
+    """Why a figure cannot be drawn here, in a sentence."""
+
+
 @dataclass(frozen=True)
 class Picture:
-    """A picture in one or more files; `draw` writes them, or answers in a sentence why there is none.
+    """A figure of an answer, made when it is drawn.
 
-    look: how it is dressed.
+    compose: "module:function", which makes the figure `of` these in a style, or raises NoPicture. name: of
+    its files, without suffixes; description: kept in the files.
     """
 
-    names: tuple[str, ...]
-    draw: Callable[[Sequence[Path], Look], str | None]
-    look: Look = PLAIN
+    name: str
+    compose: str
+    of: tuple[Any, ...]
+    description: str = ""
+    formats: tuple[str, ...] = ("png", "pdf")
+    style: FigureStyle = PLAIN
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of its files."""
+        return tuple(f"{self.name}.{suffix}" for suffix in self.formats)
+
+    def figure(self) -> Figure:
+        """Compose the figure. Raises NoPicture."""
+        from matplotlib import rc_context
+
+        from sheetbench.answers.style import STYLE
+
+        with rc_context(STYLE):
+            figure: Figure = _function(self.compose)(*self.of, self.style)
+        return figure
 
     def write(self, folder: Path) -> str | None:
         """Write the files into a folder; a sentence that says why there are none."""
-        return self.draw([folder / name for name in self.names], self.look)
+        from sheetbench.answers.style import save
 
-    def dressed(self, look: Look) -> Picture:
-        """The picture with another look, in its formats; a film keeps its own."""
-        stills = [Path(name) for name in self.names if Path(name).suffix[1:] in FORMATS]
-        if not look.formats or not stills:
-            return self
-        return replace(self, names=tuple(f"{stills[0].stem}.{form}" for form in look.formats), look=look)
+        try:
+            save(self.figure(), [folder / name for name in self.names], self.description)
+        except NoPicture as why:
+            return str(why)
+        return None
+
+    def with_style(self, style: FigureStyle) -> Picture:
+        """The picture in another style, and in its formats where it names some."""
+        return replace(self, style=style, formats=style.formats or self.formats)
+
+
+@dataclass(frozen=True)
+class Film(Picture):
+    """A picture that moves: `compose` writes the files of what it is of, and it has no other style."""
+
+    formats: tuple[str, ...] = ("gif",)
+
+    def write(self, folder: Path) -> str | None:
+        """Write the files into a folder; a sentence that says why there are none."""
+        try:
+            _function(self.compose)(*self.of, [folder / name for name in self.names])
+        except NoPicture as why:
+            return str(why)
+        return None
+
+    def with_style(self, style: FigureStyle) -> Picture:
+        """The same film."""
+        return self
+
+
+def _function(name: str) -> Callable[..., Any]:
+    module, _, function = name.partition(":")
+    found: Callable[..., Any] = getattr(import_module(module), function)
+    return found
 
 
 @dataclass(frozen=True, repr=False)
@@ -52,7 +108,7 @@ class Report:
     title, subtitle, lead: what it is about, and a line more. tables: in the files, each with a name in CSV
     too; printed: what a terminal shows instead of them. notes: remarks under the tables. complaints: what
     went wrong, a sentence each. document: the JSON document. attachments: further files by name, with what
-    writes them. scene, settings: what was asked, for the manifest. met: whether the question has its answer.
+    writes them. settings: for the manifest. met: whether the question has its answer.
     """
 
     name: str
@@ -67,7 +123,6 @@ class Report:
     complaints: tuple[str, ...] = ()
     pictures: tuple[Picture, ...] = ()
     attachments: Mapping[str, Write] = field(default_factory=dict)
-    scene: Any = None
     settings: Mapping[str, Any] = field(default_factory=dict)
     met: bool = True
 
@@ -81,22 +136,22 @@ class Report:
 
         figure: pictures for a paper, as `--figure` has them: "pdf", "svg:single". Raises BadInput.
         """
-        dressed, target = self.dressed(parse_figure(figure)), made(folder, "folder")
-        for name, write in dressed.files().items():
+        styled, target = self.with_style(parse_figure(figure)), made(folder, "folder")
+        for name, write in styled.files().items():
             write(target / name)
-        drawn = (picture.write(target) for picture in dressed.pictures)
-        return tuple(said for said in drawn if said)
+        missing = (picture.write(target) for picture in styled.pictures)
+        return tuple(why for why in missing if why)
 
-    def dressed(self, look: Look) -> Report:
-        """The report with its pictures in another look."""
-        return replace(self, pictures=tuple(picture.dressed(look) for picture in self.pictures))
+    def with_style(self, style: FigureStyle) -> Report:
+        """The report with its pictures in another style."""
+        return replace(self, pictures=tuple(picture.with_style(style) for picture in self.pictures))
 
     def __repr__(self) -> str:
         heading = " ".join(filter(None, [self.title, self.subtitle]))
         return "\n".join(
             [
                 f"{terminal(heading)}\n",
-                *(f"{table}" for table in self.shown),
+                *(text(table) for table in self.shown),
                 *(terminal(said, keep="\n") for said in self.notes),
             ]
         )
@@ -119,7 +174,7 @@ class Report:
 
     def to_markdown(self, made_with: str = "") -> str:
         """A page with all tables, notes and complaints; a table's text comes with the picture of its name."""
-        drawn = {Path(name).stem: name for picture in self.pictures for name in reversed(picture.names)}
+        drawn = {picture.name: picture.names[0] for picture in self.pictures}
         parts = [f"# {markdown(self.title)}\n"]
         parts += [f"{markdown(said)}\n" for said in (self.subtitle, self.lead) if said]
         for table in self.tables:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from cycler import cycler
+from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from sheetbench.files import whole
@@ -45,7 +46,7 @@ def save(figure: Figure, paths: Iterable[Path], description: str = "") -> None:
     """
     for path in paths:
         words = {DESCRIPTION[path.suffix]: description} if description else {}
-        with whole(path) as partial:
+        with whole(path) as partial, rc_context(STYLE):
             figure.savefig(partial, dpi=DPI, facecolor="white", metadata={**UNDATED[path.suffix], **words})
 
 

@@ -1,5 +1,7 @@
 """Tables: columns with units, rows of plain values, and the ways to write them.
 
+A row is a dataclass whose fields carry their columns, `error: Annotated[float | None, PERCENT(".3g")]`, and
+`Table.of` makes the table of such rows: CSV, Markdown, LaTeX, pandas and a terminal's lines follow from it.
 Values are kept in SI units. CSV has them as they are, with the unit in the header; Markdown, LaTeX and the
 terminal show them scaled and rounded (a displacement in mm, a time in ms). Negative numbers have a minus sign
 (U+2212) there, in CSV a hyphen, as other programs read it.
@@ -9,8 +11,13 @@ from __future__ import annotations
 
 import csv
 import io
-from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from dataclasses import fields as dataclass_fields
+from functools import cache
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, get_args, get_origin, get_type_hints
+
+import numpy as np
 
 from sheetbench.answers.escape import cell, csv_cell, html, markdown, terminal
 from sheetbench.answers.latex import latex
@@ -21,14 +28,21 @@ if TYPE_CHECKING:
 
 
 class Unit(NamedTuple):
-    """The unit of a row's numbers, as a cell of that row: in SI, as people read it, the factor between."""
+    """A unit in SI, as people read it, and the factor between. Called it is a column of numbers in it; as a
+    cell it is the unit of its row's numbers."""
 
     si: str
     shown: str
     scale: float = 1.0
 
+    def __call__(self, form: str, name: str = "", *, detail: bool = False) -> Column:
+        """A column of numbers in this unit; without a name it has that of its field."""
+        return Column(name, self.si, self.shown, self.scale, form, detail=detail)
 
-_SHOWN = {unit.si: unit for unit in (Unit("Pa", "MPa", 1e-6), Unit("m", "mm", 1e3), Unit("s", "ms", 1e3))}
+
+NUMBER, PERCENT, HERTZ = Unit("", ""), Unit("", "%", 100.0), Unit("Hz", "Hz")
+MILLIMETRES, MILLISECONDS, SECONDS = Unit("m", "mm", 1e3), Unit("s", "ms", 1e3), Unit("s", "s")
+_SHOWN = {unit.si: unit for unit in (Unit("Pa", "MPa", 1e-6), MILLIMETRES, MILLISECONDS)}
 
 
 def unit(si: str) -> Unit:
@@ -40,18 +54,26 @@ def unit(si: str) -> Unit:
 class Column:
     """A column's name, the SI unit of its values, and how to show them: unit, scale and format.
 
-    Numbers have a format; prose may be broken over lines. A detail is left out on terminals and in LaTeX. One
-    that may stand apart does so on terminals too narrow for its table, over the rows that share it.
+    Numbers have a format; prose may be broken over lines. A detail is left out on terminals and in LaTeX.
+    words: for true and false.
     """
 
-    name: str
+    name: str = ""
     unit: str = ""
     shown_unit: str = ""
     scale: float = 1.0
     form: str = ""
     prose: bool = False
     detail: bool = False
-    apart: bool = False
+    words: tuple[str, str] = ("yes", "no")
+
+    def of(self, value: Any) -> Any:
+        """A value of a row as a cell: true and false in words, a grid as 9×9×2, texts with commas between."""
+        if isinstance(value, bool | np.bool_):
+            return self.words[not value]
+        if isinstance(value, list | tuple) and not isinstance(value, Unit):
+            return ("×" if all(isinstance(part, int) for part in value) else ", ").join(map(str, value))
+        return value.item() if isinstance(value, np.generic) else value
 
     @property
     def numeric(self) -> bool:
@@ -60,8 +82,13 @@ class Column:
 
     def header(self, shown: bool) -> str:
         """The name with its unit in brackets."""
-        unit = self.shown_unit if shown else self.unit
-        return f"{self.name} [{unit}]" if unit else self.name
+        unit = self.bracketed_unit if shown else f"[{self.unit}]" * bool(self.unit)
+        return f"{self.name} {unit}".rstrip()
+
+    @property
+    def bracketed_unit(self) -> str:
+        """The unit that is shown, in brackets; nothing of a number without one."""
+        return f"[{self.shown_unit}]" * bool(self.shown_unit)
 
     def show(self, value: Any, scale: float = 1.0) -> str:
         """A value as people read it; a dash where there is none.
@@ -77,6 +104,23 @@ class Column:
         if self.form.endswith("d"):
             return number(value, self.form)
         return number(value * (self.scale if self.shown_unit else self.scale * scale), self.form)
+
+
+@cache
+def _declared(kind: type) -> dict[str, Column]:
+    """The columns of a row's class by field and property."""
+    hints = get_type_hints(kind, include_extras=True)
+    found = {field.name: hints[field.name] for field in dataclass_fields(kind)}
+    for name, value in vars(kind).items():
+        if isinstance(value, property):
+            found[name] = get_type_hints(value.fget, include_extras=True)["return"]
+    return {name: _column(name, hint) for name, hint in found.items()}
+
+
+def _column(name: str, hint: Any) -> Column:
+    declared = get_args(hint)[1:] if get_origin(hint) is Annotated else ()
+    column = next((one for one in declared if isinstance(one, Column)), Column())
+    return replace(column, name=column.name or name.replace("_", " "))
 
 
 def number(value: float, form: str = "g") -> str:
@@ -104,6 +148,31 @@ class Table:
     name: str = ""
     grouped: bool = False
     text: str = ""
+
+    @classmethod
+    def of(
+        cls, kind: type, rows: Iterable[Any], caption: str, name: str = "", *, fields: Sequence[str] = (),
+        without: Sequence[str] = (), grouped: bool = False, text: str = "",
+    ) -> Table:  # fmt: skip
+        """The table of rows, dataclasses of one kind: a column a field, or those in `fields`, properties too.
+
+        A field's column is in its annotation; without one it holds words under the field's name. A field that
+        holds a mapping is a column a key: a name, or a Column itself. without: fields that are left out.
+        """
+        rows, declared = list(rows), _declared(kind)
+        columns: list[Column] = []
+        cells: list[list[Any]] = [[] for _ in rows]
+        for field in fields or (one.name for one in dataclass_fields(kind)):
+            if field in without:
+                continue
+            own, values = [declared[field]], [(getattr(row, field),) for row in rows]
+            if values and isinstance(values[0][0], Mapping):
+                keys, values = list(values[0][0]), [tuple(value.values()) for (value,) in values]
+                own = [k if isinstance(k, Column) else replace(own[0], name=str(k)) for k in keys]
+            columns += own
+            for row, parts in zip(cells, values, strict=True):
+                row += [column.of(part) for column, part in zip(own, parts, strict=True)]
+        return cls(caption, tuple(columns), tuple(map(tuple, cells)), name, grouped, text)
 
     def to_csv(self) -> str:
         """All digits in SI units; an empty cell where there is no value."""

@@ -5,19 +5,38 @@ Part of the question's language, as `scenes.Solution` is for statics: it holds n
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from sheetbench.scenes import summary
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.files import write_text
+from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.table import MILLIMETRES, PERCENT, Column, Table, number
+from sheetbench.errors import BadInput
+from sheetbench.scenes.measured_history import COMPONENTS, Measured
 from sheetbench.scenes.solution import Status
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 ENERGIES = ("kinetic", "elastic", "potential", "dissipated", "work")
 
 
+@dataclass(frozen=True)
+class ProbeRow:
+    """Displacement of a probe at the end and its largest component on the way; off: the measured history."""
+
+    probe: str
+    moved: Annotated[Mapping[str, float], MILLIMETRES("z.3f")]
+    error: Annotated[float | None, PERCENT("z.2f", "off by")]
+
+
 @dataclass(frozen=True, repr=False)
-class History(summary.Summarised):
+class History(Answer):
     """Samples of a run; n of them, of which the first is the start.
 
     time: (n,) [s]; probes: name → displacement (n, 3) [m]; energies: kinetic, elastic, potential,
@@ -29,6 +48,7 @@ class History(summary.Summarised):
     before is an earlier run's, which this one took up [s].
     """
 
+    file_name = "history"
     label: str
     integrator: str
     settings: dict[str, Any]
@@ -52,19 +72,119 @@ class History(summary.Summarised):
         total: np.ndarray = e["kinetic"] + e["elastic"] + e["potential"] + e["dissipated"] - e["work"]
         return total
 
-    def _summary(self) -> tuple[str, summary.Facts]:
-        end = {name: 1e3 * values[-1] for name, values in self.probes.items() if len(values)}
-        return f"History of {self.label}, {self.integrator}: {self.status}", [
-            (
-                "time",
-                f"{len(self.time)} samples to {self.time[-1]:.4g} s" if len(self.time) else "no samples",
-            ),
-            ("steps", f"{self.steps} in {summary.milliseconds(self.solve_seconds)}"),
-            ("at the end", ", ".join(f"{name} uz = {u[2]:.4g} mm" for name, u in end.items())),
-            ("reactions", summary.forces({name: force[-1] for name, force in self.reactions.items()})),
-            (
-                "energies",
-                summary.energies({name: float(e[-1]) for name, e in self.energies.items() if len(e)}),
-            ),
-            ("message", self.message),
-        ]
+    def heading(self) -> tuple[str, str, str]:
+        """What was run, by which integrator."""
+        return f"History of {self.label}, {self.integrator}", f"{self.status}", f"{self.steps} steps"
+
+    def document(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench simulate`: seconds, metres, joules, newtons."""
+        return {
+            "time": self.time,
+            "probes": self.probes,
+            "energy": self.balance,
+            "status": str(self.status),
+            "steps": self.steps,
+            "solve_seconds": self.solve_seconds,
+            "setup_seconds": self.setup_seconds,
+            "message": self.message,
+            "integrator": self.integrator,
+            "label": self.label,
+            "settings": self.settings,
+            "resumed_from": self.resumed_from,
+            "energies": self.energies,
+            "reactions": self.reactions,
+            "actuators": self.actuators,
+        }
+
+    def tables(self, measured: Mapping[str, Measured] | None = None) -> tuple[Table, ...]:
+        """A row per probe: the displacement at the end, its largest excursion and, if measured, the error."""
+        of, rows = measured or {}, []
+        for name, u in self.probes.items() if len(self.time) else ():
+            off = of[name].error(self.time, u) if name in of else None
+            moved = dict(zip(COMPONENTS, u[-1], strict=True)) | {"largest": np.abs(u).max()}
+            rows.append(ProbeRow(name, moved, off))
+        end = self.time[-1] if len(self.time) else 0.0
+        caption = f"Displacement at {end:g} s, and largest component on the way"
+        return (Table.of(ProbeRow, rows, caption, "probes"),)
+
+    def figures(self) -> tuple[Picture, ...]:
+        """Probes and energies over time."""
+        return (Picture("history", "sheetbench.scenes.history_figure:compose", (self, self.label, {})),)
+
+    def files(self) -> dict[str, Write]:
+        """All samples as CSV."""
+        return {"history.csv": lambda path: write_text(path, self.series().to_csv())}
+
+    def notes(self) -> list[str]:
+        """Why the integrator is the one that it is, how long an explicit one's steps may be, and how well the
+        run kept its energy, a line each."""
+        notes = []
+        if why := self.settings.get("integrator_reason"):
+            notes.append(f"integrator {self.integrator}: {why}")
+        if limit := self.settings.get("largest_step"):
+            taken = number(1e3 * self.settings["step"], ".4g")
+            notes.append(f"steps of {taken} ms; the largest stable one is {number(1e3 * limit, '.4g')} ms")
+        return [*notes, self.balance_note] if len(self.time) else notes
+
+    @property
+    def balance_note(self) -> str:
+        """How well the run kept its energy, in a sentence."""
+        spread = float(abs(self.balance - self.balance[0]).max())
+        scale = max(float(abs(energy).max()) for energy in self.energies.values())
+        held = number(spread / scale if scale else spread, ".1e")
+        return f"energy balance held to {held} of the largest energy"
+
+    def choices(self) -> dict[str, Any]:
+        """Integrator and settings."""
+        return {"integrator": self.integrator, **self.settings}
+
+    def complaints(self) -> list[str]:
+        """Why the run did not reach its end."""
+        return [] if self.succeeded else [f"{self.status}: {self.message}"]
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether the run reached its end."""
+        return self.status is Status.CONVERGED
+
+    def series(self) -> Table:
+        """A row per sample: time, probes, energies, reactions and the actuators' total force."""
+        columns, values = [Column("time", "s")], [self.time]
+        for name, u in self.probes.items():
+            columns += [Column(f"{name}.{component}", "m") for component in COMPONENTS]
+            values += list(u.T)
+        for name, energy in [*self.energies.items(), ("balance", self.balance)]:
+            columns.append(Column(name, "J"))
+            values.append(energy)
+        for name, force in self.reactions.items():
+            columns += [Column(f"{name}.F{axis}", "N") for axis in "xyz"]
+            values += list(force.T)
+        for name, wrench in self.actuators.items():
+            for segment in range(wrench.shape[1]):
+                columns += [Column(f"{name}.{segment}.F{axis}", "N") for axis in "xyz"]
+                columns += [Column(f"{name}.{segment}.M{axis}", "N·m") for axis in "xyz"]
+                values += list(wrench[:, segment].T)
+        return Table("History", tuple(columns), tuple(zip(*(v.tolist() for v in values), strict=True)))
+
+    def to_pandas(self, table: str = "") -> pandas.DataFrame:
+        """Return all samples in SI units, or the table of a name. Raises BadInput as `Answer.to_pandas`."""
+        return super().to_pandas(table) if table else self.series().to_pandas()
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return displacement [m] by probe, time and axis, energies [J] and reactions [N] by time.
+
+        Raises BadInput where xarray is not installed."""
+        try:
+            import xarray
+        except ModuleNotFoundError:
+            raise BadInput("to_xarray needs xarray: pip install xarray") from None
+        moved = np.stack([*self.probes.values()]) if self.probes else np.empty((0, len(self.time), 3))
+        forces = {
+            f"reaction {name}": (("time", "axis"), f, {"units": "N"}) for name, f in self.reactions.items()
+        }
+        energies = {name: ("time", energy, {"units": "J"}) for name, energy in self.energies.items()}
+        return xarray.Dataset(
+            {"displacement": (("probe", "time", "axis"), moved, {"units": "m"}), **energies, **forces},
+            {"time": ("time", self.time, {"units": "s"}), "probe": [*self.probes], "axis": [*"xyz"]},
+            {"label": self.label, "integrator": self.integrator, "status": str(self.status)},
+        )

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     import meshio
     import pyvista
 
+    from sheetbench.scenes.scene import Scene
+
 About = Literal["flat", "deformed"]  # what oscillations are about: the sheet at rest, or its equilibrium
 
 
@@ -171,6 +173,36 @@ class Solution(summary.Summarised):
         return "; ".join(filter(None, [self.fallback, *snapped, *self.notes]))
 
     @property
+    def status_text(self) -> str:
+        """The status, with the share of the load that was reached if it is not all of it."""
+        reached = "" if self.load_factor == 1.0 else f" at {100 * self.load_factor:.3g} % of the load"
+        return f"{self.status}{reached}"
+
+    def document(self, scene: Scene | None = None) -> dict[str, Any]:
+        """The JSON document, SI units; probes are the scene's, or else those whose points are known."""
+        points = self.points if scene is None else scene.probes
+        moved = self.displacement(np.array([*points.values()]))
+        return {
+            "model": self.model,
+            "label": self.label,
+            "settings": self.settings,
+            "status": str(self.status),
+            "advice": self.status.advice,
+            "message": self.message,
+            "stretch": self.stretch,
+            "snaps": list(self.snaps),
+            "load_factor": self.load_factor,
+            "unknowns": self.unknowns,
+            "iterations": self.iterations,
+            "solve_seconds": self.solve_seconds,
+            "setup_seconds": self.setup_seconds,
+            "probes": dict(zip(points, moved, strict=True)),
+            "reactions": self.reactions,
+            "energies": self.energies,
+            "balance": self.balance.document() if self.balance is not None else None,
+        }
+
+    @property
     def comparable(self) -> bool:
         """Whether it may be compared with others, as `comparable` has it."""
         return comparable(self.status, self.load_factor)
@@ -196,8 +228,7 @@ class Solution(summary.Summarised):
 
     def _summary(self) -> tuple[str, summary.Facts]:
         moved = self.mesh.point_data.get("displacement", np.zeros((1, 3)))
-        reached = "" if self.load_factor == 1.0 else f" at {100 * self.load_factor:.3g} % of the load"
-        return f"Solution of {self.label}: {self.status}{reached}", [
+        return f"Solution of {self.label}: {self.status_text}", [
             ("unknowns", f"{self.unknowns}, {self.iterations} factorisations"),
             (
                 "time",

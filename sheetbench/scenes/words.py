@@ -76,6 +76,13 @@ def _relaxation(material: Material) -> str:
     return f" at rest, {_pascals(float(f'{at_once:.4g}'))} at once, of which relax {listed}"
 
 
+def sheet_in_words(sheet: Sheet, material: Material) -> str:
+    """The sheet and its material in a line."""
+    sides = " × ".join(f"{1e3 * length:g}" for length in (*sheet.lengths, sheet.thickness))
+    young = f"{material.young / 1e6:g} MPa" + (" (long-time)" if material.branches.times else "")
+    return f"{sides} mm, E = {young}, ν = {material.poisson:g}, ρ = {material.density:g} kg/m³"
+
+
 def _weight(scene: Scene, mass: float) -> str:
     if scene.gravity is None:
         return "none: weightless"

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
-from functools import partial
-from pathlib import Path
 
-from sheetbench.answers.figure_style import Look
 from sheetbench.answers.report import Picture, Report
 from sheetbench.answers.table import Column, Table
 from studies.peers import settling, statics
@@ -49,7 +46,7 @@ def report(rows: Sequence[PeerRow]) -> Report:
         document={"rows": told},
         tables=tuple(table(name, rows) for name in asked),
         notes=NOTES,
-        pictures=(Picture(("peers.png", "peers.pdf"), partial(_draw, rows)),),
+        pictures=(Picture("peers", "studies.peers.figure:compose", (rows,)),),
     )
 
 
@@ -67,9 +64,3 @@ def table(question: str, rows: Sequence[PeerRow]) -> Table:
     shown = tuple((r.code, r.size, r.error, r.median, faster(r, kept), r.status) for r in kept)
     caption = f"{question.capitalize()} of Habibi et al.'s sheet"
     return Table(caption, columns, shown, question, text=TEXTS[question])
-
-
-def _draw(rows: Sequence[PeerRow], paths: Sequence[Path], look: Look) -> None:
-    from studies.peers.figure import draw
-
-    draw(rows, paths, look)

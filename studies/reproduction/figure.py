@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from comparisons.reproduction.figure import legend, picture
-from sheetbench.answers.figure_style import Look
+from comparisons.reproduction.figure import legend
+from sheetbench.answers.figure_style import FigureStyle
 from sheetbench.answers.style import GREY, SERIES
 from sheetbench.scenes.seed import seed_inputs
 from studies.reproduction.nearest import SOURCE, target
-
-if TYPE_CHECKING:
-    from studies.reproduction.study import Forensics
+from studies.reproduction.study import Forensics
 
 SCANNED: dict[tuple[tuple[int, ...], int], tuple[str, str]] = {
     ((1,), 0): ("test 1", SERIES[0]),
@@ -26,15 +22,10 @@ SCANNED: dict[tuple[tuple[int, ...], int], tuple[str, str]] = {
 TICKS = {"sheet": (2, 5, 10, 20, 50, 100, 200), "lattice": (2, 3, 5, 7, 10, 15, 20)}
 
 
-def draw(found: Forensics, paths: Sequence[Path], look: Look) -> None:
-    """Write the picture to every path."""
-    picture(paths, misfit, found, look)
-
-
-def misfit(found: Forensics, look: Look) -> Figure:
+def misfit(found: Forensics, style: FigureStyle) -> Figure:
     """Root mean square of the differences from the published table over the first number of each kind."""
-    figure = Figure(figsize=(look.width, 5.2 if look.narrow else 2.8), layout="constrained")
-    axes = figure.subplots(*look.panels(len(SOURCE)), squeeze=False).ravel()
+    figure = Figure(figsize=(style.width, 5.2 if style.narrow else 2.8), layout="constrained")
+    axes = figure.subplots(*style.panels(len(SOURCE)), squeeze=False).ravel()
     panels = dict(zip(SOURCE, axes, strict=True))
     for scan in found.scans:
         if (scan.tests, scan.sense) not in SCANNED:
@@ -66,5 +57,5 @@ def misfit(found: Forensics, look: Look) -> Figure:
         panels[kind].axvline(at, color=GREY, lw=0.7, ls="--")
         aside: dict[str, Any] = {"textcoords": "offset points", "va": "top", "fontsize": 6.5, "color": GREY}
         panels[kind].annotate(said, (at, 98.0), (3, 0), **aside)
-    legend(figure, panels["lattice"], 1 if look.narrow else 3)
+    legend(figure, panels["lattice"], 1 if style.narrow else 3)
     return figure

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any
 
 from comparisons.models.grids import Elements
@@ -22,7 +21,7 @@ from comparisons.reproduction.tables import findings_table
 from sheetbench.answers.report import Picture, Report
 from sheetbench.choices import ELEMENTS
 from sheetbench.scenes.seed import seed_inputs
-from studies.reproduction import figure, findings, tables
+from studies.reproduction import findings, tables
 from studies.reproduction.chords import Chord, chords
 from studies.reproduction.inputs import Check, checks
 from studies.reproduction.nearest import Fit, Scan, nearest, scans
@@ -82,7 +81,7 @@ class Forensics:
         report = self.models.report()
         before = [tables.errors(self), tables.inputs(self)] if self.cells else []
         after = [tables.nearest(self), tables.ratios(self), tables.chords(self)] if self.scans else []
-        drawn = [Picture(("nearest.png", "nearest.pdf"), partial(figure.draw, self))] if self.scans else []
+        drawn = [Picture("nearest", "studies.reproduction.figure:misfit", (self,))] if self.scans else []
         return replace(
             report,
             subtitle="what was published, what the same inputs give, and what comes nearest to it",

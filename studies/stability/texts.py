@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from functools import partial
-from pathlib import Path
 from typing import Any
 
 from comparisons.stability.rows import Row, doubtful, percent
-from sheetbench.answers.figure_style import Look
 from sheetbench.answers.report import Picture, Report
 from sheetbench.answers.table import Column, Table
 from studies.stability.study import Study
@@ -35,18 +32,12 @@ def report(studies: Sequence[Study], rows: list[Row]) -> Report:
         tables=tuple(table(study, of[study.name]) for study in studies),
         complaints=tuple(f"{r['study']} {r['cell']}: {r['status']}: {r['message']}" for r in broken),
         pictures=tuple(
-            Picture((f"{study.name}.png", f"{study.name}.pdf"), partial(_draw, study, of[study.name]))
+            Picture(study.name, "studies.stability.figure:compose", (study, of[study.name]))
             for study in studies
         ),
         settings={"studies": list(of)},
         met=not broken,
     )
-
-
-def _draw(study: Study, rows: list[Row], paths: Sequence[Path], look: Look) -> None:
-    from studies.stability.figure import picture
-
-    picture(study, rows, paths, look)
 
 
 def table(study: Study, rows: list[Row]) -> Table:

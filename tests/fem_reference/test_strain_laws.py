@@ -174,7 +174,7 @@ def test_compare_says_what_is_due_to_laws_of_strain() -> None:
     scene = pulled((200.0, 0.0))
     found = compare(scene, grid=5, calibration="consistent", elements=4)
     assert "% stretch" in found.laws and "(st-venant-kirchhoff)" in found.laws and "up to" in found.laws
-    assert found.laws in found.report().notes and found.as_dict()["laws"] == found.laws
+    assert found.laws in found.report().notes and found.document()["laws"] == found.laws
     assert not compare(bent(0.05), grid=5, calibration="consistent", elements=4).laws
 
 

@@ -10,7 +10,6 @@ import pytest
 
 import fem_reference
 from comparisons.comparison import comparison as displacement
-from comparisons.comparison import tables as summary
 from comparisons.comparison.comparison import compare
 from comparisons.models.candidate import Candidate
 from fem_reference.edge_layer import Missed, missed_by
@@ -188,14 +187,14 @@ def test_compare_says_what_its_mesh_cannot_tell_apart(
     assert found.bar is not None
     layer = missed_by(found.scene, {"elements": 8}).stiffening
     assert 1.35 * 0.08 / 64 < 1.0001 * found.bar.error < 1.35 * (0.08 / 64 + 0.3 * layer)
-    document = json.loads(to_json(found.as_dict()))
+    document = json.loads(to_json(found.document()))
     assert {d["distinguishable"] for d in document["differences"]} == {told_apart}
     assert document["errors"][0]["distinguishable"] is told_apart
     bar = document["solutions"][1]["uncertainty"]
     assert bar["elements"] == [8, 6, 4] and bar["order"] == pytest.approx(2.0, abs=1e-3)
     assert bar["solve_seconds"] == pytest.approx(0.008)
     assert document["solutions"][1]["solve_seconds"] == 0.004
-    said = " ".join(summary.uncertainty(found))
+    said = " ".join(found.notes())
     assert ("not distinguishable" in said) is not told_apart
     assert "observed order 2.0" in said
 
@@ -209,5 +208,5 @@ def test_it_is_off_when_not_wanted_and_for_the_solid_unless_wanted(by_mesh: dict
     assert not asked(reference="solid") and asked(reference="solid", uncertainty=True)
     assert not asked(elements=1)
     without = compare("one-edge-clamped", calibration="consistent", uncertainty=False)
-    assert "uncertainty" not in without.as_dict()["solutions"][1]
+    assert "uncertainty" not in without.document()["solutions"][1]
     assert {d.distinguishable for d in without.differences} == {None}

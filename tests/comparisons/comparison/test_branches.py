@@ -27,7 +27,7 @@ def test_the_model_that_has_both_equilibria_is_shown_on_the_others_branch() -> N
     assert lattice.status is shell.status is Status.CONVERGED
     assert found.several and "different branches of equilibria" in found.apart
     assert found.error(lattice) < 0.5
-    document = found.as_dict()["solutions"]
+    document = found.document()["solutions"]
     assert {one["branch"] for one in document} == {"path", "of lumped"}
     assert np.abs(found.probes(shell)["P3"][2]) < 0.015  # not hanging down
 
@@ -39,7 +39,7 @@ def test_models_that_stay_on_different_branches_get_no_error() -> None:
     assert lattice.status is shell.status is Status.CONVERGED
     assert "they lie on different branches of equilibria" in found.apart
     assert found.error(lattice) is None
-    document = found.as_dict()
+    document = found.document()
     assert [one["branch"] for one in document["solutions"]] == ["own", "own"]
     assert [one["error"] for one in document["errors"]] == [None]
 
@@ -48,7 +48,7 @@ def test_models_that_stay_on_different_branches_get_no_error() -> None:
 def test_a_perfect_column_has_no_error_until_it_is_let_buckle(branch) -> None:
     found = compare(COLUMN, grid=3, elements=2, branch=branch, companion=False)
     lattice, shell = found.solutions
-    assert {one["branch"] for one in found.as_dict()["solutions"]} == {branch} or branch == "buckled"
+    assert {one["branch"] for one in found.document()["solutions"]} == {branch} or branch == "buckled"
     if branch == "path":
         assert lattice.status is shell.status is Status.UNSTABLE
         assert found.error(lattice) is None and found.bar is None

@@ -8,7 +8,8 @@ import pytest
 from fake_solutions import solution
 
 from comparisons.comparison import far_apart
-from comparisons.comparison.comparison import Comparison, compare, error
+from comparisons.comparison.answer import Comparison
+from comparisons.comparison.comparison import compare, error
 from comparisons.models.candidate import Candidate
 from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Solution, Status
 
@@ -27,7 +28,7 @@ def test_pressure_on_a_few_masses_between_tilted_clamps() -> None:
     found = compare(SCENE, grid=(5, 3), calibration="consistent", elements=(8, 3), uncertainty=False)
     assert found.apart.startswith("lumped and shell both converged, 26")
     assert "the grid is too coarse, on 9×5×2 masses it is 9" in found.apart
-    assert found.as_dict()["apart"] == found.apart
+    assert found.document()["apart"] == found.apart
     report = found.report()
     assert found.apart in report.complaints
     assert "both converged" in report.to_markdown()
@@ -60,7 +61,7 @@ def test_answers_on_different_branches_have_no_error(known: bool) -> None:
     found = Comparison(SCENE, pair, apart=apart, several=known, other_branch=other_branch)
     assert (found.error(pair[0]) is None) is known
     assert all((difference.relative is None) is known for difference in found.differences)
-    assert found.converged and found.as_dict()["apart"] in found.report().complaints
+    assert found.converged and found.document()["apart"] in found.report().complaints
 
 
 def test_another_branch_stays_where_it_is() -> None:

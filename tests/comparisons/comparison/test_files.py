@@ -16,8 +16,8 @@ import pytest
 import pyvista
 
 from comparisons.calibration import tables as calibration
-from comparisons.comparison.comparison import Comparison, compare
-from comparisons.comparison.tables import draw
+from comparisons.comparison.answer import Comparison
+from comparisons.comparison.comparison import compare
 from comparisons.report import offscreen as rendering
 from comparisons.report import vtk
 from comparisons.runs.folder import Folder
@@ -104,7 +104,7 @@ def test_tables_carry_units_and_si_values(folder: Path, comparison: Comparison) 
 
 
 def test_json_file_is_the_printed_document(folder: Path, comparison: Comparison) -> None:
-    assert (folder / "comparison.json").read_text(encoding="utf-8") == files.to_json(comparison.as_dict())
+    assert (folder / "comparison.json").read_text(encoding="utf-8") == files.to_json(comparison.document())
 
 
 def test_manifest_tells_versions_machine_scene_and_settings(folder: Path, scene: Scene) -> None:
@@ -136,8 +136,12 @@ def test_springs_as_toml_are_the_same_springs(scene: Scene) -> None:
     assert table == found["springs"] and lattice == {name: found[name] for name in lattice}
 
 
+def draw(comparison: Comparison, folder: Path) -> str | None:
+    return comparison.figures()[0].write(folder)
+
+
 def test_picture_is_drawn_or_the_missing_packages_are_named(comparison: Comparison, tmp_path: Path) -> None:
-    impossible = draw(comparison, [tmp_path / "comparison.png"])
+    impossible = draw(comparison, tmp_path)
     if impossible is not None:
         assert rendering.PACKAGES in impossible
         pytest.skip(impossible)
@@ -154,7 +158,7 @@ def test_without_a_way_to_draw_there_is_a_sentence_and_no_picture(
     both = Comparison(
         scene, (fake_solutions.solution(scene), fake_solutions.solution(scene, "shell", -0.011))
     )
-    said = draw(both, [tmp_path / "comparison.png"])
+    said = draw(both, tmp_path)
     rendering.why_not.cache_clear()
     assert said is not None and "libegl1" in said
     assert not list(tmp_path.iterdir())
@@ -162,7 +166,7 @@ def test_without_a_way_to_draw_there_is_a_sentence_and_no_picture(
 
 def test_what_is_not_finite_is_not_drawn(scene: Scene, tmp_path: Path) -> None:
     pair = (fake_solutions.solution(scene, size=np.nan), fake_solutions.solution(scene, "shell"))
-    said = draw(Comparison(scene, pair), [tmp_path / "comparison.png"])
+    said = draw(Comparison(scene, pair), tmp_path)
     assert said is not None and "finite" in said
 
 

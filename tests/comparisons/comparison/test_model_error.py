@@ -94,7 +94,7 @@ def test_of_plates_and_unstable_answers_nothing_is_said() -> None:
 
 def test_compare_names_both_parts(capsys: pytest.CaptureFixture[str]) -> None:
     found = compare("two-edges-clamped", grid=5, elements=6)
-    bar = found.as_dict()["solutions"][1]["uncertainty"]
+    bar = found.document()["solutions"][1]["uncertainty"]
     assert bar["mesh"] == bar["error"] and bar["model"] == sum(bar["model_parts"].values()) > 0.0
     assert bar["clamp"] == pytest.approx(0.75 * 0.48 / 0.52 * 0.003 / 0.188)
     said = [note for note in found.report().notes if note.startswith("shell: ")]

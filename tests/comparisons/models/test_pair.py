@@ -80,7 +80,7 @@ def test_grading_is_of_both_grids() -> None:
 def test_the_bar_stands_in_the_comparison() -> None:
     other = Candidate("lumped-pair", {"grid": 5, "coarser": 3})
     found = compare("two-edges-clamped", grid=5, calibration="consistent", elements=2, others=[other])
-    document = found.as_dict()["solutions"][2]
+    document = found.document()["solutions"][2]
     assert document["model"] == "lumped-pair"
     assert document["uncertainty"]["error"] == found.bar_of(found.solutions[2])
     assert set(document["uncertainty"]["probes"]) == {"P1", "P2", "P3", "P4"}

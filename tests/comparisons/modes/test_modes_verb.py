@@ -78,7 +78,7 @@ def test_modes_of_a_strip_are_paired_by_shape_where_their_order_differs() -> Non
     assert twist.relative == pytest.approx(lattice[4] / shell[5] - 1.0)
     assert in_plane.relative == pytest.approx(lattice[5] / shell[4] - 1.0)
     assert abs(twist.relative) < 0.004 < 0.01 < in_plane.relative < 0.015  # by rank both are between
-    document = found.as_dict()["pairs"][4]
+    document = found.document()["pairs"][4]
     assert list(document) == ["of", "number", "against", "is", "mac", "relative", "kind"]
     assert (document["of"], document["number"], document["against"], document["is"]) == (
         "lumped",

@@ -13,6 +13,7 @@ import lumped
 from comparisons.motion import history as histories
 from comparisons.motion.frames import frames
 from sheetbench.scenes import load
+from sheetbench.scenes.measured_history import Measured
 
 RUN = ["simulate", "two-edges-settling", "--lumped", "4", "--duration", "0.1"]
 
@@ -102,12 +103,12 @@ def test_measured_error_is_relative_to_the_largest_measured_component():
     asked = scene()
     history = lumped.simulate(asked, springs(asked, 4), 0.05, every=0.005)
     exact = history.probes["P4"][2:8]
-    measured = histories.Measured(history.time[2:8], exact.copy())
-    assert histories.error(history, "P4", measured) == pytest.approx(0.0, abs=1e-12)
+    measured = Measured(history.time[2:8], exact.copy())
+    assert measured.error(history.time, history.probes["P4"]) == pytest.approx(0.0, abs=1e-12)
     measured.displacement[:, 0] = np.nan
     measured.displacement[3, 2] *= 1.1
     expected = abs(0.1 * exact[3, 2]) / np.nanmax(np.abs(measured.displacement))
-    assert histories.error(history, "P4", measured) == pytest.approx(expected)
+    assert measured.error(history.time, history.probes["P4"]) == pytest.approx(expected)
 
 
 @pytest.mark.usefixtures("undrawn")

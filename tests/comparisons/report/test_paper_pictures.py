@@ -16,13 +16,12 @@ from matplotlib.figure import Figure
 
 from comparisons.comparison import figure as comparing
 from comparisons.comparison import probes_figure
-from comparisons.comparison.comparison import Comparison
+from comparisons.comparison.answer import Comparison
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.linearisation import figure as responding
 from comparisons.linearisation.linearisation import linearise
 from comparisons.modes import figure as swinging
 from comparisons.modes.spectra import spectra
-from comparisons.motion import figure as moving
 from comparisons.tradeoff import figure as trading
 from comparisons.tradeoff.row import TradeoffRow
 from comparisons.tradeoff.statics import Tradeoff
@@ -30,13 +29,14 @@ from comparisons.verification import locking
 from fem_reference.uncertainty import Uncertainty
 from fem_reference.verification.rows import relatively
 from sheetbench import scenes
-from sheetbench.answers.figure_style import PLAIN, WIDTHS, Look, parse_figure
+from sheetbench.answers.figure_style import PLAIN, WIDTHS, FigureStyle, parse_figure
 from sheetbench.answers.style import STYLE, save
 from sheetbench.errors import BadInput
 from sheetbench.scenes import History, Scene, Status
+from sheetbench.scenes import history_figure as moving
 from sheetbench.scenes.history import ENERGIES
 
-Compose = Callable[[Look], Figure]
+Compose = Callable[[FigureStyle], Figure]
 
 
 @pytest.fixture(scope="module")
@@ -91,8 +91,8 @@ def composed(scene: Scene, comparison: Comparison) -> dict[str, Compose]:
 
 def test_what_a_figure_may_be() -> None:
     assert parse_figure(None) == PLAIN and not PLAIN.formats
-    assert parse_figure("pdf") == Look(("pdf",), narrow=False, titled=False)
-    assert parse_figure("PNG, svg:single") == Look(("png", "svg"), narrow=True, titled=False)
+    assert parse_figure("pdf") == FigureStyle(("pdf",), narrow=False, titled=False)
+    assert parse_figure("PNG, svg:single") == FigureStyle(("png", "svg"), narrow=True, titled=False)
     for wrong in ("", "eps", "pdf:wide", "pdf;png"):
         with pytest.raises(BadInput, match="--figure"):
             parse_figure(wrong)

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from comparisons.motion import figure as motion
 from comparisons.report.labels import place_labels
 from sheetbench.answers.style import MOST, STYLE, plain, save
 from sheetbench.scenes import History, Status
+from sheetbench.scenes import history_figure as motion
 from sheetbench.scenes.history import ENERGIES
 
 HOSTILE = "T $\\foo$ \x1b[31m _x^y\n$"

@@ -57,38 +57,6 @@ def test_blocks_repeat_the_figures_that_tell_rows_apart() -> None:
     assert [row.split() for row in second.rows] == [["5", "1", "20"], ["5", "100", "40"]]
 
 
-SOURCES = Table(
-    "Values",
-    (
-        Column("quantity", prose=True, apart=True),
-        Column("expected", form=".5g"),
-        Column("whose", prose=True, apart=True),
-        Column("computed", form=".5g"),
-        Column("off by", "", "%", 100.0, ".2f"),
-        Column("ok"),
-    ),
-    (
-        ("change from half the mesh", 0.0, "this project", -7.2139e-5, None, "yes"),
-        ("mode 4, converged", 4.182, "Leissa & Author 1973", 4.1853, 8e-4, "yes"),
-        ("mode 5, converged", 4.182, "Leissa & Author 1973", 4.1853, 8e-4, "NO"),
-    ),
-)
-
-
-def test_columns_set_apart_stand_over_the_rows_that_share_them() -> None:
-    """The last one first, and only as many as need be: every row's figures and status stay on one line."""
-    for width, over in ((160, []), (70, [0, 2]), (45, [0, 2, 4])):
-        (block,) = blocks(SOURCES, width)
-        lines = [line.split() for line in block.rows]
-        assert [i for i, line in enumerate(lines) if line[-1] not in ("yes", "NO")] == over
-        assert all(cell_len(line) <= width for line in [*block.head, block.rule, *block.rows])
-        assert [line[-1] for i, line in enumerate(lines) if i not in over] == ["yes", "yes", "NO"]
-        assert {"−7.2139e−05", "4.1853", "0.08", "–"} <= {word for line in lines for word in line}
-    assert blocks(SOURCES, 70)[0].rows[2] == "Leissa & Author 1973"
-    assert blocks(SOURCES, 45)[0].rows[4] == "mode 5, converged · Leissa & Author 1973"
-    assert len(blocks(SOURCES, 30)) > 1  # where not even the figures fit, stacked like any other
-
-
 @given(
     st.lists(st.tuples(st.text(max_size=30), st.floats(), st.text(max_size=60)), max_size=4),
     st.integers(4, 100),

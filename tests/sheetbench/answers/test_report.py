@@ -18,7 +18,7 @@ from comparisons.cli.warned import in_a_line
 from comparisons.runs.folder import MANIFEST, Folder
 from sheetbench import scenes
 from sheetbench.answers import escape
-from sheetbench.answers.report import Report
+from sheetbench.answers.report import Picture, Report
 from sheetbench.answers.table import Column, Table, Unit, quantity, unit
 from sheetbench.errors import BadInput, Implausible
 
@@ -108,7 +108,7 @@ kind = "clamped"
 def test_a_hostile_scene_is_harmless_wherever_it_is_shown(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("comparisons.comparison.tables.draw", lambda *_: "not drawn here")
+    monkeypatch.setattr(Picture, "write", lambda *_: "not drawn here")
     assert run("compare", str(written(tmp_path, HOSTILE_SCENE)), "--out", str(tmp_path / "out")) == 0
     printed = capsys.readouterr()
     assert "\x1b" not in printed.out + printed.err and r"\x1b[2J" in printed.out

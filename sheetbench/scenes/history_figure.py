@@ -2,37 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
-import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from comparisons.motion.history import Measured, error
-from sheetbench.answers.figure_style import PLAIN, Look
-from sheetbench.answers.style import COMPONENTS, MOST, STYLE, plain, save
-from sheetbench.scenes import History
+from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.style import COMPONENTS, MOST, plain
+from sheetbench.scenes.history import History
+from sheetbench.scenes.measured_history import Measured
 
 DASHES: Any = {"uy": (0, (4, 2))}  # of a symmetric sheet it lies on ux
 ABOVE: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "frameon": False}
 
 
-def plot(
-    paths: Sequence[Path], history: History, title: str, measured: dict[str, Measured], look: Look = PLAIN
-) -> None:
-    """Write the picture."""
-    with matplotlib.rc_context(STYLE):
-        save(compose(history, title, measured, look), paths)
-
-
-def compose(history: History, title: str, measured: dict[str, Measured], look: Look = PLAIN) -> Figure:
+def compose(
+    history: History, title: str, measured: dict[str, Measured], style: FigureStyle = PLAIN
+) -> Figure:
     """The figure with a panel per probe, and the energies below; of many probes those that were measured, or
     else that move most."""
     shown = _shown(history, measured)
     count = len(shown)
-    figure = Figure(figsize=(look.width, 1.5 * count + 1.9), layout="constrained")
+    figure = Figure(figsize=(style.width, 1.5 * count + 1.9), layout="constrained")
     panels = figure.subplots(count + 1, 1, sharex=True, squeeze=False)[:, 0]
     for axis, name in zip(panels, shown, strict=False):
         u = history.probes[name]
@@ -43,7 +34,7 @@ def compose(history: History, title: str, measured: dict[str, Measured], look: L
             if name in measured:
                 points = measured[name]
                 axis.plot(points.time, 1e3 * points.displacement[:, i], "o", color=colour, markersize=2.5)
-        off = error(history, name, measured[name]) if name in measured else None
+        off = measured[name].error(history.time, u) if name in measured else None
         said = "" if off is None else f"   (points measured; off by {100 * off:.1f} %)"
         axis.set_title(f"{plain(name, longest=60)}{said}", loc="left", fontsize=7.5, fontweight="bold")
         axis.set_ylabel("displacement [mm]")
@@ -53,13 +44,13 @@ def compose(history: History, title: str, measured: dict[str, Measured], look: L
     panels[-1].plot(history.time, 1e3 * history.balance, "k--", linewidth=0.9, label="balance")
     panels[-1].set_ylabel("energy [mJ]")
     panels[-1].set_xlabel("time [s]")
-    panels[-1].legend(ncols=3 if look.narrow else 5, fontsize=6.5, **ABOVE)
+    panels[-1].legend(ncols=3 if style.narrow else 5, fontsize=6.5, **ABOVE)
     for axis in panels:
         axis.spines[["top", "right"]].set_visible(False)
         axis.margins(x=0)
     left = f"; {count} of {len(history.probes)} probes" if count < len(history.probes) else ""
     said = f"{plain(title, width=95)}\n{history.label}, {history.integrator}{left}"
-    if look.titled:
+    if style.titled:
         figure.suptitle(said, fontsize=8)
     return figure
 

@@ -1,0 +1,329 @@
+"""Displacements of a lattice beside those of a reference: the answer of `sheetbench compare`.
+
+With u the displacement of a model and u_ref that of the reference at the same plan points,
+
+    error     largest |component of (u − u_ref)| over the probes / largest |component of u_ref| over them
+    relative  |u − u_ref| / |u_ref| at one probe
+
+Both are fractions, and None where they have no meaning: the reference does not move there by more than
+round-off, a number is not finite, or one of the two models did not reach the full load.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from comparisons.comparison import branches
+from comparisons.comparison.differences import error, relative
+from comparisons.comparison.error_bar import ErrorBar
+from comparisons.comparison.model_error import ModelError, model_error
+from comparisons.comparison.rows import CostRow, Difference, ProbeRow, ReactionRow
+from comparisons.models.expected_error import ExpectedError
+from comparisons.models.grading import told
+from comparisons.report.vtk import plan_mesh, write_mesh, write_solution
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.table import Table
+from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes.summary import few
+from sheetbench.scenes.words import sheet_in_words
+
+ROUND_OFF = 1e-9  # of the largest displacement at a probe
+BUCKLED = (
+    "branch buckled: a model whose equilibrium under the whole load is unstable leaves it along its lowest "
+    "mode; what is shown is the stable equilibrium that it comes to, one of several."
+)
+
+
+@dataclass(frozen=True, repr=False)
+class Comparison(Answer):
+    """Solutions of one scene: the chosen lattice first, the reference second, then what is shown alongside.
+
+    Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
+    reference's mesh leaves uncertain, where that was asked for; laws: a sentence where lattice and reference
+    have laws of strain that differ by more. apart: a sentence where both are at rest and far apart.
+    expected: the error to expect of the chosen lattice's grid, where an estimate holds. several: whether more
+    than one equilibrium is known; other_branch: whether the first two are known to be different ones. busy:
+    sentences on times taken on a busy machine. law_chosen: the reference's law of strain, by the user.
+    """
+
+    file_name, page_name = "comparison", "table"
+    scene: Scene
+    solutions: tuple[Solution, ...]
+    bar: ErrorBar | None = None
+    laws: str = ""
+    apart: str = ""
+    expected: ExpectedError | None = None
+    several: bool = False
+    other_branch: bool = False
+    busy: tuple[str, ...] = ()
+    law_chosen: bool = False
+
+    @property
+    def reference(self) -> Solution:
+        """The solution that the others are measured against."""
+        return self.solutions[1]
+
+    @property
+    def converged(self) -> bool:
+        """Whether the chosen lattice and the reference both reached a stable equilibrium."""
+        return all(solution.status is Status.CONVERGED for solution in self.solutions[:2])
+
+    def probes(self, solution: Solution) -> dict[str, np.ndarray]:
+        """Displacement (3,) [m] at each probe."""
+        values = solution.displacement(self.scene.probe_points())
+        return dict(zip(self.scene.probes, values, strict=True))
+
+    @property
+    def least(self) -> float:
+        """The displacement [m] of the reference at a probe up to which it is rounding, as at a support."""
+        return ROUND_OFF * max(float(np.linalg.norm(u)) for u in self.probes(self.reference).values())
+
+    def measurable(self, solution: Solution) -> bool:
+        """Whether a solution and the reference are both stable, and not known to be on different branches."""
+        pair = (solution, self.reference)
+        stable = all(one.comparable and one.status is not Status.UNSTABLE for one in pair)
+        if not stable or not self.several or (solution in self.solutions[:2] and not self.other_branch):
+            return stable
+        return not branches.far(*(one.displacement(self.scene.probe_points()) for one in pair))
+
+    def error(self, solution: Solution) -> float | None:
+        """The solution's error against the reference."""
+        if solution is self.reference or not self.measurable(solution):
+            return None
+        points = self.scene.probe_points()
+        return error(solution.displacement(points), self.reference.displacement(points))
+
+    @property
+    def differences(self) -> tuple[Difference, ...]:
+        """The relative difference of every other model from the reference at every probe."""
+        truth, least = self.probes(self.reference), self.least
+        found = []
+        for solution in (one for one in self.solutions if one is not self.reference):
+            both = self.measurable(solution)
+            for name, value in self.probes(solution).items():
+                off = relative(value, truth[name], least) if both else None
+                told_apart = None
+                if self.bar is not None and off is not None:
+                    told_apart = bool(np.linalg.norm(value - truth[name]) > self.bar.at(name))
+                found.append(Difference(name, solution.model, self.reference.model, off, told_apart))
+        return tuple(found)
+
+    def own_bar(self, solution: Solution) -> dict[str, np.ndarray] | None:
+        """Half a length (3,) [m] of the bar at each probe that a solution brings with it, None of most."""
+        if solution.bar is None:
+            return None
+        return dict(zip(self.scene.probes, solution.bar(self.scene.probe_points()), strict=True))
+
+    def bar_of(self, solution: Solution) -> float | None:
+        """By how much a solution says that it may be off: its largest bar over its largest displacement."""
+        if solution is self.reference and self.bar is not None:
+            return self.bar.error
+        if solution.bar is None or solution.status is Status.UNSTABLE:
+            return None
+        points = self.scene.probe_points()
+        u = solution.displacement(points)
+        return error(u + solution.bar(points), u)
+
+    @property
+    def model_error(self) -> ModelError | None:
+        """What the reference leaves out of the sheet on every mesh, where that is known."""
+        return model_error(self.scene, self.reference, self.law_chosen)
+
+    def distinguishable(self, solution: Solution) -> bool | None:
+        """Whether a solution's error is above the reference's own; None where either is not known."""
+        off = self.error(solution)
+        return None if self.bar is None or off is None else off > self.bar.error
+
+    def branch(self, solution: Solution) -> str:
+        """Which equilibrium, where several are known: "path", "buckled", "of" the model in whose shape it was
+        begun, or "own", where lattice and reference are on different branches."""
+        if "begun" in solution.settings:
+            return f"of {solution.settings['begun']}"
+        if self.other_branch and solution in self.solutions[:2]:
+            return "own"
+        several = solution.snaps or solution.status is Status.UNSTABLE or self.several
+        return str(solution.settings.get("branch", "path" if several else ""))
+
+    def document(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench compare`: metres, newtons, seconds."""
+        return {
+            "scene": self.scene.document(),
+            "solutions": [self._solution_document(solution) for solution in self.solutions],
+            "laws": self.laws,
+            "apart": self.apart,
+            "differences": [asdict(difference) for difference in self.differences],
+            "errors": [
+                {
+                    "of": solution.model,
+                    "against": self.reference.model,
+                    "error": self.error(solution),
+                    "distinguishable": self.distinguishable(solution),
+                }
+                for solution in self.solutions
+                if solution is not self.reference
+            ],
+        }
+
+    def _solution_document(self, solution: Solution) -> dict[str, Any]:
+        bar: dict[str, Any] = {}
+        if solution is self.reference and self.bar is not None:
+            bar = self.bar.as_dict() | (self.model_error.as_dict() if self.model_error else {"model": None})
+        if (own := self.own_bar(solution)) is not None:
+            bar = {"error": (off := self.bar_of(solution)), "mesh": off, "probes": own}
+        expected = self.expected if solution is self.solutions[0] else None
+        return {
+            **solution.document(self.scene),
+            **({"branch": branch} if (branch := self.branch(solution)) else {}),
+            **({"uncertainty": bar} if bar else {}),
+            **({"expected_error": expected.as_dict()} if expected else {}),
+        }
+
+    def heading(self) -> tuple[str, str, str]:
+        """The scene, and its sheet."""
+        return self.scene.name, self.scene.title, sheet_in_words(self.scene.sheet, self.scene.material)
+
+    def tables(self) -> tuple[Table, ...]:
+        """Displacement at the probes, the reference first; cost and error; forces of the supports."""
+        return (*self.printed(), self._reactions())
+
+    def printed(self) -> tuple[Table, ...]:
+        """All tables but the forces of the supports."""
+        return self._displacements(), self._costs()
+
+    def _displacements(self) -> Table:
+        off = {(d.probe, d.of): d.relative for d in self.differences}
+        ordered = sorted(self.solutions, key=lambda solution: solution is not self.reference)
+        models = [(s.model, self.probes(s), self._relative_bars(s)) for s in ordered]
+        rows = (
+            ProbeRow(probe, x, y, model, _named("u", moved[probe]), off.get((probe, model)), bars.get(probe))
+            for probe, (x, y) in self.scene.probes.items()
+            for model, moved, bars in models
+        )
+        return Table.of(ProbeRow, rows, "Displacement of the mid-surface", "table", grouped=True)
+
+    def _relative_bars(self, solution: Solution) -> dict[str, float]:
+        """The bar of a model that has one over its displacement, at the probes where it moves."""
+        lengths = self.own_bar(solution)
+        if solution is self.reference and self.bar is not None:
+            lengths = dict(zip(self.bar.names, self.bar.uncertainty.bar, strict=True))
+        moved = {probe: float(np.linalg.norm(u)) for probe, u in self.probes(solution).items()}
+        return {
+            probe: float(np.linalg.norm(length)) / moved[probe]
+            for probe, length in (lengths or {}).items()
+            if moved[probe] > self.least
+        }
+
+    def _costs(self) -> Table:
+        rows = (
+            CostRow(
+                s.model, s.label, s.unknowns, s.iterations, s.setup_seconds, s.solve_seconds, self.error(s),
+                s.status_text,
+            )
+            for s in self.solutions
+        )  # fmt: skip
+        return Table.of(CostRow, rows, "Cost and error of each model", "models", text="; ".join(self.busy))
+
+    def _reactions(self) -> Table:
+        found = sorted((edge, s.model, s.reactions[edge]) for s in self.solutions for edge in s.reactions)
+        rows = (ReactionRow(edge, model, _named("F", force)) for edge, model, force in found)
+        return Table.of(ReactionRow, rows, "Force of each support on the sheet", "reactions")
+
+    def figures(self) -> tuple[Picture, ...]:
+        """The deformed sheets, and what every model is off by at the probes."""
+        lattice, reference = self.solutions[:2]
+        off = self.error(lattice)
+        said = "" if off is None else f": error at the probes {100 * off:.2f} %"
+        described = f"{self.scene.name}: {lattice.label} against {reference.label}{said}"
+        return (
+            Picture("comparison", "comparisons.comparison.figure:compose", (self,), described),
+            Picture("probes", "comparisons.comparison.probes_figure:compose", (self,)),
+        )
+
+    def files(self) -> dict[str, Write]:
+        """The solutions as VTU, each on its own mesh and all on one."""
+        own: dict[str, Write] = {
+            f"{s.model}.vtu": partial(write_solution, solution=s) for s in self.solutions
+        }
+        return {**own, "comparison.vtu": self.write_plan}
+
+    def write_plan(self, path: Path) -> None:
+        """Write all solutions on one plan grid, `displacement_MODEL` each, and what they differ by.
+
+        `displacement` is the reference's; `difference` is the chosen lattice's from it, `difference_MODEL`
+        any other model's.
+        """
+        plan = plan_mesh(self.scene.sheet)
+        fields = {s.model: s.displacement(plan.points[:, :2]) for s in self.solutions}
+        truth = fields[self.reference.model]
+        plan.point_data["displacement"] = truth
+        plan.point_data["difference"] = fields[self.solutions[0].model] - truth
+        for solution in self.solutions:
+            plan.point_data[f"displacement_{solution.model}"] = fields[solution.model]
+        for solution in self.solutions[2:]:
+            plan.point_data[f"difference_{solution.model}"] = fields[solution.model] - truth
+        write_mesh(path, plan)
+
+    def choices(self) -> dict[str, Any]:
+        """The settings of every model."""
+        return {solution.model: solution.settings for solution in self.solutions}
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether the chosen lattice and the reference both reached a stable equilibrium."""
+        return self.converged
+
+    def complaints(self) -> list[str]:
+        """A sentence for every model that did not converge: what happened and what can be done; and why
+        lattice and reference are far apart though both did."""
+        return [*([self.apart] if self.apart else [])] + [
+            ": ".join(part for part in (s.model, s.status_text, s.message, s.status.advice) if part)
+            for s in self.solutions
+            if s.status is not Status.CONVERGED
+        ]
+
+    def notes(self) -> list[str]:
+        """The models, what was chosen for them, error bars, and what the percentages mean."""
+        ref = f"u_{self.reference.model}"
+        return [
+            " · ".join(solution.label for solution in self.solutions),
+            *dict.fromkeys(note for s in self.solutions for note in told(s.settings)),
+            *([f"{self.solutions[0].model}: {self.expected}"] if self.expected else []),
+            *self._bar_notes(),
+            f"off by: |u − {ref}| / |{ref}| at the probe. "
+            f"error: largest component of u − {ref} over the probes / largest component of {ref}.",
+            *([BUCKLED] if self.reference.settings.get("branch") == "buckled" else []),
+        ]
+
+    def _bar_notes(self) -> list[str]:
+        """The reference's error bar in words, the models that differ from it by less, and what is due to laws
+        of strain."""
+        notes, model = [self.laws] if self.laws else [], self.reference.model
+        for solution in self.solutions:
+            if solution.bar is not None:
+                notes.append(
+                    f"{solution.model}: ± {few(100.0 * (self.bar_of(solution) or 0.0))} % by its grids."
+                )
+        if self.bar is None:
+            return notes
+        notes.append(self.bar.note(model))
+        notes += [f"{model}: {left_out}."] if (left_out := str(self.model_error or "")) else []
+        for solution in self.solutions:
+            close = [
+                d.probe for d in self.differences if d.of == solution.model and d.distinguishable is False
+            ]
+            if self.distinguishable(solution) is False:
+                notes.append(f"{solution.model}: not distinguishable from {model}.")
+            elif close:
+                notes.append(f"{solution.model}: not distinguishable from {model} at {', '.join(close)}.")
+        return notes
+
+
+def _named(letter: str, vector: np.ndarray) -> dict[str, float]:
+    """The components of a vector (3,) by name."""
+    return {f"{letter}{axis}": float(part) for axis, part in zip("xyz", vector, strict=True)}

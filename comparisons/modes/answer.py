@@ -1,0 +1,234 @@
+"""Natural frequencies of a lattice beside those of references: the answer of `sheetbench modes`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Annotated, Any, overload
+
+import numpy as np
+
+from comparisons.models.grading import told
+from comparisons.modes.kinds import kinds
+from comparisons.modes.pairing import CELLS, Pair, assurance, cell_centres, matched
+from comparisons.report.vtk import plan_mesh, write_mesh
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.table import HERTZ, NUMBER, PERCENT, Column, Table, number
+from sheetbench.scenes import About, Scene
+from sheetbench.scenes.summary import few
+
+FLAT = 0.3  # displacement, in thicknesses, from which on stretching stiffens a plate by percents
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """A model's lowest natural frequencies (count,) [Hz]; rigid: rigid motions left out; shapes: plan points
+    (n, 2) [m] → displacement of the mid-surface in every mode, (count, n, 3), of any scale; expected: the
+    relative error to expect of each, where that is estimated."""
+
+    model: str
+    label: str
+    settings: dict[str, Any]
+    frequencies: np.ndarray
+    rigid: int
+    unknowns: int
+    seconds: float
+    shapes: Callable[[np.ndarray], np.ndarray]
+    expected: tuple[float | None, ...] = ()
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "model": self.model,
+            "label": self.label,
+            "settings": self.settings,
+            "frequencies_hz": self.frequencies,
+            "rigid_modes": self.rigid,
+            "unknowns": self.unknowns,
+            "solve_seconds": self.seconds,
+            **({"expected_errors": list(self.expected)} if self.expected else {}),
+        }
+
+
+@dataclass(frozen=True)
+class ModeRow:
+    """A mode of the lattice: its kind and frequency, the mode of the same shape of every reference, and how
+    far the lattice is from the first of them."""
+
+    mode: Annotated[int, NUMBER("d")]
+    kind: str | None
+    frequencies: Mapping[Column, float | None]
+    relative: Annotated[float | None, PERCENT("+.2f", "off by")] = None
+    mac: Annotated[float | None, NUMBER(".3f", "MAC")] = None
+    expected: Annotated[float | None, PERCENT("+.2f")] = None
+
+
+@dataclass(frozen=True, repr=False)
+class Spectra(Answer, Sequence[Spectrum]):
+    """The spectra of a scene, the lattice's first, then that of each reference.
+
+    about: "flat" or "deformed"; sag [m]: the largest displacement that the lattice's flat tangent gives under
+    the scene's loads, None where there are none, or nothing that stops a rigid motion.
+    """
+
+    file_name = "modes"
+    scene: Scene
+    found: tuple[Spectrum, ...]
+    about: About = "flat"
+    sag: float | None = None
+
+    @overload
+    def __getitem__(self, index: int) -> Spectrum: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Spectrum]: ...
+
+    def __getitem__(self, index: int | slice) -> Spectrum | Sequence[Spectrum]:
+        return self.found[index]
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    @property
+    def frequencies(self) -> np.ndarray:
+        """The lattice's (count,) [Hz]; the first reference's are `self[1].frequencies`."""
+        return self[0].frequencies
+
+    @cached_property
+    def _sampled(self) -> tuple[np.ndarray, ...]:
+        """Shapes (count, n, 3) of every model on equal plan cells."""
+        plan = cell_centres(self.scene.sheet)
+        return tuple(spectrum.shapes(plan) for spectrum in self)
+
+    @cached_property
+    def kinds(self) -> tuple[str | None, ...]:
+        """What kind of mode every one of the lattice is; None about a deformed sheet."""
+        if self.about == "deformed":
+            return (None,) * len(self[0].frequencies)
+        return tuple(kinds(self.scene, self._sampled[0], CELLS))
+
+    @cached_property
+    def pairs(self) -> tuple[Pair, ...]:
+        """Every mode of the lattice with the mode of the same shape of each reference."""
+        of, found = self[0], []
+        for spectrum, shapes in zip(self[1:], self._sampled[1:], strict=True):
+            mac = assurance(self._sampled[0], shapes, spectrum.frequencies)
+            for i, match in enumerate(matched(mac)):
+                at = int(np.argmax(mac[i])) if match is None else match
+                off = None if match is None else float(of.frequencies[i] / spectrum.frequencies[at] - 1.0)
+                is_ = None if match is None else match + 1
+                found.append(
+                    Pair(of.model, i + 1, spectrum.model, is_, float(mac[i, at]), off, self.kinds[i])
+                )
+        return tuple(found)
+
+    def against(self, model: str) -> tuple[Pair, ...]:
+        """The pairs with one reference, in the order of the lattice's modes."""
+        return tuple(pair for pair in self.pairs if pair.against == model)
+
+    def document(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench modes`."""
+        return {
+            "scene": self.scene.document(),
+            "about": self.about,
+            "sag": self.sag,
+            "solutions": [spectrum.as_dict() for spectrum in self],
+            "pairs": [pair.as_dict() for pair in self.pairs],
+        }
+
+    def tables(self) -> tuple[Table, ...]:
+        """A row per mode of the lattice."""
+        references, rows = [(spectrum, self.against(spectrum.model)) for spectrum in self[1:]], []
+        for i, kind in enumerate(self.kinds):
+            hertz: dict[Column, float | None] = {HERTZ(".4g", self[0].model): self.frequencies[i]}
+            for spectrum, pairs in references:
+                match = pairs[i].is_
+                hertz[NUMBER("d", f"{spectrum.model}'s mode")] = match
+                hertz[HERTZ(".4g", spectrum.model)] = match and spectrum.frequencies[match - 1]
+            first = references[0][1][i] if references else None
+            off = (first.relative, first.mac) if first else (None, None)
+            rows.append(ModeRow(i + 1, kind, hertz, *off, *self[0].expected[i : i + 1]))
+        empty = {"kind": not self.kinds[0], "expected": not self[0].expected}
+        empty |= dict.fromkeys(("relative", "mac"), not references)
+        without = [field for field, left_out in empty.items() if left_out]
+        caption = f"Natural frequencies about the {self.about} sheet"
+        return (Table.of(ModeRow, rows, caption, "modes", without=without),)
+
+    def figures(self) -> tuple[Picture, ...]:
+        """Shapes on the plan."""
+        return (Picture("modes", "comparisons.modes.figure:compose", (self,)),)
+
+    def files(self) -> dict[str, Write]:
+        """The shapes as VTU."""
+        return {"modes.vtu": self.write_shapes}
+
+    def write_shapes(self, path: Path) -> None:
+        """Write every mode of every model on one plan grid, `MODEL_mode_N` each, its largest displacement a
+        tenth of the longer side; `displacement` is the first model's first mode."""
+        plan = plan_mesh(self.scene.sheet)
+        largest = 0.1 * max(self.scene.sheet.lengths)
+        for spectrum in self:
+            for mode, shape in enumerate(spectrum.shapes(plan.points[:, :2]), 1):
+                shape = largest / (abs(shape).max() or 1.0) * shape
+                plan.point_data.setdefault("displacement", shape)
+                plan.point_data[f"{spectrum.model}_mode_{mode}"] = shape
+        write_mesh(path, plan)
+
+    def choices(self) -> dict[str, Any]:
+        """The settings of every model."""
+        return {spectrum.model: spectrum.settings for spectrum in self}
+
+    def complaints(self) -> list[str]:
+        """That modes of the flat sheet were asked of one that its loads take far from flat."""
+        thickness = self.scene.sheet.thickness
+        if self.about == "deformed" or self.sag is None or self.sag < FLAT * thickness:
+            return []
+        return [
+            "this scene's sheet is not flat under its loads: by its flat stiffness it would move "
+            f"{few(self.sag / thickness)} times its thickness, and these modes are the flat sheet's; "
+            "--about deformed gives them about its equilibrium"
+        ]
+
+    def notes(self) -> list[str]:
+        """What the table does not say: labels, rigid motions left out, actuators left out."""
+        notes = [" · ".join(spectrum.label for spectrum in self), *told(self[0].settings)]
+        known = [100.0 * error for error in self[0].expected if error is not None]
+        if known:
+            of, low, high = self[0].model, number(min(known), "+.2g"), number(max(known), "+.2g")
+            notes.append(
+                f"{of}: expected grid error of the frequencies {low} to {high} %, from a second solve "
+                "on a finer grid"
+            )
+        for spectrum in self[1:]:
+            notes += _pairing_notes(self.against(spectrum.model))
+        if self[0].rigid:
+            notes.append(f"{self[0].rigid} rigid motions, free of any frequency, are left out")
+        if self.scene.actuators:
+            notes.append("actuators have no part in these modes: they are those of the sheet alone")
+        return notes
+
+
+def _pairing_notes(pairs: Sequence[Pair]) -> list[str]:
+    """That modes stand in another order with a reference, or have no counterpart there."""
+    of, against = pairs[0].of, pairs[0].against
+    swapped = [
+        f"{pair.number}{f' ({pair.kind})' if pair.kind else ''} is {pair.is_}"
+        for pair in pairs
+        if pair.swapped
+    ]
+    alone = [str(pair.number) for pair in pairs if pair.is_ is None]
+    notes = []
+    if swapped:
+        notes.append(
+            f"swapped: {of} mode {', '.join(swapped)} of the {against}, by their shapes; "
+            "the rows compare modes of the same shape"
+        )
+    if alone:
+        notes.append(
+            f"{of} mode {', '.join(alone)}: none of the {against}'s first {len(pairs)} has its shape; "
+            "--count lists more"
+        )
+    return notes

@@ -1,0 +1,77 @@
+"""A simulated scene: its history beside measured ones, frames of the whole sheet: `sheetbench simulate`."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from comparisons.models.grading import told
+from comparisons.motion import frames
+from comparisons.motion.history import left_out
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import Film, Picture, Write
+from sheetbench.answers.table import Table
+from sheetbench.scenes import History, Scene
+from sheetbench.scenes.measured_history import Measured
+
+
+@dataclass(frozen=True, repr=False)
+class Simulation(Answer):
+    """A run of a scene; measured: histories by probe; animate: draw it moving."""
+
+    file_name = "history"
+    history: History
+    scene: Scene
+    measured: Mapping[str, Measured] = field(default_factory=dict)
+    animate: bool = False
+
+    def heading(self) -> tuple[str, str, str]:
+        """The scene, and how it was run."""
+        run = self.history
+        return self.scene.name, self.scene.title, f"{run.label}, {run.integrator}, {run.steps} steps"
+
+    def document(self) -> dict[str, Any]:
+        """The history's, with its errors where it was measured."""
+        run = self.history
+        errors = {name: m.error(run.time, run.probes[name]) for name, m in self.measured.items()}
+        return {**run.document(), **({"measured_errors": errors} if errors else {})}
+
+    def tables(self) -> tuple[Table, ...]:
+        """The history's."""
+        return self.history.tables(self.measured)
+
+    def figures(self) -> list[Picture]:
+        """Probes over time, and the sheet moving."""
+        of = (self.history, self.scene.title or self.scene.name, self.measured)
+        pictures = [Picture("history", "sheetbench.scenes.history_figure:compose", of)]
+        if self.animate:
+            formats = ("gif", "mp4") if shutil.which("ffmpeg") else ("gif",)
+            film = "comparisons.motion.animation:animate"
+            pictures.append(Film("animation", film, (self.scene, self.history), formats=formats))
+        return pictures
+
+    def files(self) -> dict[str, Write]:
+        """All samples, and the sheet at some moments."""
+        series: Write = lambda path: frames.write_series(path, frames.frames(self.history))  # noqa: E731
+        return {**self.history.files(), "frames.pvd": series}
+
+    def notes(self) -> list[str]:
+        """What it went on from, what was chosen, and what the history says."""
+        resumed = self.history.resumed_from
+        earlier = f"went on from {resumed:.4g} s, which an earlier run had reached"
+        return [*([earlier] if resumed else []), *told(self.history.settings), *self.history.notes()]
+
+    def complaints(self) -> list[str]:
+        """Why the run did not reach its end, and what was measured outside it."""
+        return [*self.history.complaints(), *left_out(self.history, self.measured)]
+
+    def choices(self) -> Mapping[str, Any]:
+        """Integrator and settings."""
+        return self.history.choices()
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether the run reached its end."""
+        return self.history.succeeded

@@ -1,0 +1,121 @@
+"""What every answer has: a document, tables, figures and notes; all else follows from these."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from sheetbench.answers.escape import terminal
+from sheetbench.answers.layout import text
+from sheetbench.answers.report import NoPicture, Picture, Report, Write
+from sheetbench.answers.table import Table
+from sheetbench.errors import BadInput
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.figure import Figure
+
+ROWS = 6  # of a table at a prompt
+
+
+class Answer(ABC):
+    """Base of all answers; file_name: of the files under `--out`, page_name: of its tables' in Markdown and
+    LaTeX, where that differs."""
+
+    file_name: ClassVar[str] = "answer"
+    page_name: ClassVar[str] = ""
+
+    @abstractmethod
+    def document(self) -> dict[str, Any]:
+        """Return the JSON document: plain data in SI units."""
+
+    @abstractmethod
+    def tables(self) -> Sequence[Table]:
+        """Return the tables; those with a name become CSV files too."""
+
+    def heading(self) -> tuple[str, str, str]:
+        """Return title, subtitle and a line more: those of the scene, unless an answer has its own."""
+        scene: Any = getattr(self, "scene", None)
+        return ("", "", "") if scene is None else (scene.name, scene.title, "")
+
+    def printed(self) -> Sequence[Table]:
+        """Return what a terminal shows, where that is not all tables."""
+        return self.tables()
+
+    def figures(self) -> Sequence[Picture]:
+        """Return the figures, drawn when they are asked for."""
+        return ()
+
+    def notes(self) -> Sequence[str]:
+        """Return remarks on the tables, a sentence each."""
+        return ()
+
+    def complaints(self) -> Sequence[str]:
+        """Return what went wrong or is doubtful, a sentence each."""
+        return ()
+
+    def files(self) -> Mapping[str, Write]:
+        """Return what writes each further file, by name."""
+        return {}
+
+    def choices(self) -> Mapping[str, Any]:
+        """Return the settings it was made with, for the manifest."""
+        return {}
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether the question has its answer."""
+        return True
+
+    def report(self) -> Report:
+        """Return everything that is to be shown, made once."""
+        title, subtitle, lead = self.heading()
+        return Report(
+            name=self.file_name,
+            page=self.page_name,
+            title=title,
+            subtitle=subtitle,
+            lead=lead,
+            document=self.document(),
+            tables=tuple(self.tables()),
+            printed=tuple(self.printed()),
+            notes=tuple(self.notes()),
+            complaints=tuple(self.complaints()),
+            pictures=tuple(self.figures()),
+            attachments=self.files(),
+            settings=self.choices(),
+            met=self.succeeded,
+        )
+
+    def to_pandas(self, table: str = "") -> pandas.DataFrame:
+        """Return the first table, or that of a name, as a data frame in SI units. Raises BadInput where there
+        is no such table, or pandas is not installed."""
+        found = {one.name or one.caption: one for one in self.tables()}
+        if not found or (table and table not in found):
+            raise BadInput(f"to_pandas('{table}'): tables are {', '.join(found) or 'none'}")
+        return (found[table] if table else next(iter(found.values()))).to_pandas()
+
+    def plot(self, figure: str = "") -> Figure:
+        """Return the first figure, or that of a name, for matplotlib. Raises BadInput where there is none, or
+        it cannot be drawn here."""
+        found = {one.name: one for one in self.figures()}
+        if not found or (figure and figure not in found):
+            raise BadInput(f"plot('{figure}'): figures are {', '.join(found) or 'none'}")
+        try:
+            return (found[figure] if figure else next(iter(found.values()))).figure()
+        except NoPicture as why:
+            raise BadInput(f"plot('{figure}'): {why}") from None
+
+    def save(self, folder: Path | str, figure: str | None = None) -> tuple[str, ...]:
+        """Write every file and picture into a folder, as `Report.save` does."""
+        return self.report().save(folder, figure)
+
+    def __repr__(self) -> str:
+        title = terminal("  ".join(filter(None, self.heading()[:2])))
+        tables = (text(table, ROWS) for table in self.printed())
+        return "\n".join([title, "", *tables, *map(terminal, self.complaints())]).rstrip()
+
+    def _repr_html_(self) -> str:
+        return self.report()._repr_html_()

@@ -141,7 +141,17 @@ def test_no_file_imports_itself_by_way_of_others(package):
 
 # imported where they are used, as they decide how soon a command answers: the solvers (compiled kernels) and
 # what draws, reads or writes by a large library; the command line and the face import nothing before its use
-SLOW = ("lumped", "fem_reference", "scipy", "matplotlib", "vtkmodules", "pyvista", "meshio", "pandas")
+SLOW = (
+    "lumped",
+    "fem_reference",
+    "scipy",
+    "matplotlib",
+    "vtkmodules",
+    "pyvista",
+    "meshio",
+    "pandas",
+    "xarray",
+)
 SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "pypardiso", "comparisons.models.training")
 SLOW += ("numba.core.extending", "numba.np")  # what compiles, where nothing is compiled
 DRAWS = (

@@ -9,7 +9,7 @@ FUZZ   ?=
 KILLS  ?=
 
 .PHONY: docs docs-scene help install demo wheel test check nightly kernels slow fuzz kills catalogue verify tradeoff animations pictures \
-        notebooks bench mutants viewer wheel-check extras-check lint clean
+        notebooks bench mutants tests-of viewer wheel-check extras-check lint clean
 help:
 	@echo "make demo      set up and compare both models on test 1 of the published study, Habibi et al. (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
@@ -18,7 +18,8 @@ help:
 	@echo "make fuzz      20 000 scenes, 1 000 of them solved, command lines and measured files that no one would write"
 	@echo "               (half an hour; goes on where it stopped; files in $(OUT)/fuzz/; others: FUZZ='--seed 2 --scenes 500')"
 	@echo "make kills     a hundred kills of campaigns, runs and trade-offs, and what stands there after (ten minutes; $(OUT)/kills/)"
-	@echo "make mutants   how many of 120 faults put into the packages the tests notice: docs/quality.md (an hour; goes on where it stopped)"
+	@echo "make tests-of  the test files that run FILE=lumped/statics/polygon.py, the nearest first"
+	@echo "make mutants   faults put into FILE=… that its nearest tests do not notice, of 20 (COUNT=…); docs/quality.md"
 	@echo "make catalogue the table of the catalogue's answers, tests/helpers/catalogue.json, for a change that is meant"
 	@echo "make verify    the references against published values, every row (about a minute)"
 	@echo "make nightly   every other test, as those of the studies, notebooks, browsers and the slow ones (half an hour)"
@@ -128,10 +129,14 @@ docs-scene: install
 	@$(BIN)/python docs/scene_sketch.py
 	@$(BIN)/sheetbench schema --markdown > docs/scene.md
 
-# OPTIONS='--survivors TEXT --tests FILE…' tries again what survived
+# FILE=lumped/statics/polygon.py: the test files that run it, the nearest first; COUNT of them
+tests-of:
+	@$(PYTHON) tests/helpers/nearest.py $(FILE) $(COUNT)
+
+# COUNT faults in FILE, and which of them its nearest tests do not notice
 mutants: $(VENV)/testing
-	@$(BIN)/python tests/mutants/session.py $(OUT)/mutants $(OPTIONS)
-	@$(BIN)/python tests/mutants/page.py docs/quality.md
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt cosmic-ray
+	@$(BIN)/python tests/helpers/mutants.py $(OUT)/mutants $(FILE) $(COUNT)
 
 wheel-check: install
 	@.ci/wheel-check $(BIN)/python

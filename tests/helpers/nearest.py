@@ -1,18 +1,21 @@
-"""Which tests may notice a fault in a module, those likely to do so first.
+"""The test files that run a module, the nearest first.
 
-A test file is the nearer, the fewer imports lie between it and the module; one that speaks of the module,
-of its folder or of the faulty function is nearer than that.
+A test file is the nearer, the fewer imports lie between it and the module; one that names the module, its
+folder or a function is nearer than that.
+
+Usage: python tests/helpers/nearest.py FILE [COUNT]   (10 unless given)
 """
 
 from __future__ import annotations
 
 import re
+import sys
 from pathlib import Path
 
 FOLDERS = ("lumped", "fem_reference", "comparisons", "sheetbench", "tests")
 # also in a text that a test runs as a program; all files by ast would take seconds
 IMPORTS = re.compile(r"^[ \t]*(?:from ([\w.]+) )?import (\([^)]*\)|[^\n]*)", re.MULTILINE)
-SPOKEN_OF = 2.0  # imports that a mention is worth
+MENTION = 2.0  # imports that a mention is worth
 
 
 class Nearest:
@@ -29,11 +32,11 @@ class Nearest:
     def tests(self, module: str, words: list[str]) -> list[str]:
         """All files of tests, the nearest first, with mentions of words."""
         distances = self._distances(self._files[module])
-        farthest = max(distances.values()) + 1  # what is not imported at all
+        farthest = max(distances.values()) + 1  # of what is not imported at all
 
         def nearness(test: str) -> tuple[float, str]:
-            spoken = sum(has(self._texts[test], word) for word in words)
-            return distances.get(test, farthest) - SPOKEN_OF * spoken, test
+            mentions = sum(has(self._texts[test], word) for word in words)
+            return distances.get(test, farthest) - MENTION * mentions, test
 
         return [self._tests[test] for test in sorted(self._tests, key=nearness)]
 
@@ -49,7 +52,7 @@ class Nearest:
 
 
 def words_of(module: str, function: str) -> list[str]:
-    """What a test may speak of that is about a function of a module: its own and its containers' names."""
+    """Return what a test of a function may name: the function, its class, module and folder."""
     parts = [Path(module).parent.name, Path(module).stem, *function.split(".")]
     return [part for part in dict.fromkeys(parts) if part.strip("_")]
 
@@ -77,3 +80,10 @@ def imported(path: Path, files: dict[str, Path]) -> set[str]:
         named = [name.split()[0] for name in names.strip("()").split(",") if name.strip()]
         found |= {module, *(f"{module}.{name}" for name in named)} if module else set(named)
     return found & files.keys()
+
+
+if __name__ == "__main__":
+    file, count = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 10
+    root = Path(__file__).parents[2]
+    file = str(Path(file).resolve().relative_to(root))
+    print("\n".join(Nearest(root).tests(file, words_of(file, ""))[:count]))

@@ -24,7 +24,7 @@ if _TYPE_CHECKING:
     from comparisons.linearisation.linearisation import linearise
     from comparisons.modes.spectra import spectra as modes
     from comparisons.reproduction.reproduction import reproduce
-    from comparisons.suite.tables import report as suite
+    from comparisons.scoring.suite_tables import report as suite
     from sheetbench.face import calibrate, compare, simulate, solve, tradeoff
     from sheetbench.scenes import (
         BadInput,
@@ -71,7 +71,7 @@ _ELSEWHERE = {  # name: module and what it is called there; all else is of sheet
     "simulate": ("sheetbench.face", "simulate"),
     "solve": ("sheetbench.face", "solve"),
     "stability": ("sheetbench.verbs", "stability"),
-    "suite": ("comparisons.suite.tables", "report"),
+    "suite": ("comparisons.scoring.suite_tables", "report"),
     "tradeoff": ("sheetbench.face", "tradeoff"),
     "verify": ("sheetbench.verbs", "verify"),
 }

@@ -158,8 +158,8 @@ def report(folder: str | Path, out: str | Path | None = None) -> Path:
 
 def score(answers: str | Path, suite: str = "statics", case: str | Sequence[str] = ()) -> Score:
     """Score a CSV of answers to the reference set, of all its cases unless some are named."""
+    from comparisons.scoring.cases import SUITES
     from comparisons.scoring.score import score as rate
-    from comparisons.suite.cases import SUITES
 
     require_choice("suite", suite, SUITES)
     return rate(Path(answers), suite, case)

@@ -6,6 +6,7 @@ springs or elements carry it each solver derives for itself, for a shared deriva
 """
 
 import ast
+import re
 from functools import cache
 from pathlib import Path
 
@@ -83,22 +84,46 @@ def test_imports_run_one_way(package):
         assert not forbidden, f"{path.relative_to(ROOT)} imports {', '.join(sorted(forbidden))}"
 
 
-# of comparisons; questions: 2
-FLOORS = {"models": 0, "external": 0, "report": 0, "browser": 0, "runs": 1, "cli": 3}
+FLOORS = {  # of comparisons; CONTRIBUTING.md says what is in each room
+    **dict.fromkeys(("models", "external", "report", "browser", "measured"), 0),
+    "runs": 1,
+    **dict.fromkeys(("comparison", "check", "crosscheck", "export", "identification", "linearisation"), 2),
+    **dict.fromkeys(("modes", "scoring", "verification"), 2),
+    **dict.fromkeys(("advice", "calibration", "motion", "tradeoff"), 3),
+    **dict.fromkeys(("live", "reproduction", "stability", "pages"), 4),
+    "cli": 5,
+}
+ONE_ROOM = {"external": "models"}  # plug-ins are models, and executables are plug-ins
 
 
-def test_rooms_of_the_comparisons_import_from_their_own_floor_and_those_below():
-    """Who answers and how it is shown, below how it is kept, below the questions, below the command line.
+def test_rooms_of_the_comparisons_import_from_lower_floors():
+    """Never from a higher floor, and on one floor in no circle.
 
     Tasks, "module:function", are called by name by whoever carries them out, and count for nothing.
     """
+    below: dict[str, set[str]] = {ONE_ROOM.get(room, room): set() for room in FLOORS}
     for path in sorted((ROOT / "comparisons").rglob("*/*.py")):
         room = path.relative_to(ROOT / "comparisons").parts[0]
         for name in names_in(path):
             parts = name.split(".")
             if parts[0] == "comparisons" and len(parts) > 2 and ":" not in name:
-                above = FLOORS.get(parts[1], 2) > FLOORS.get(room, 2)
-                assert not above, f"{path.relative_to(ROOT)} imports {name}"
+                assert FLOORS[parts[1]] <= FLOORS[room], f"{path.relative_to(ROOT)} imports {name}"
+                below[ONE_ROOM.get(room, room)].add(ONE_ROOM.get(parts[1], parts[1]))
+    while leaves := {room for room, others in below.items() if not others & below.keys() - {room}}:
+        below = {room: others for room, others in below.items() if room not in leaves}
+    assert not below, f"rooms that import each other: {', '.join(sorted(below))}"
+
+
+def test_contributors_read_of_every_room():
+    page = text_of(ROOT / "CONTRIBUTING.md").split("<!-- floors -->")[1].split("<!-- end of floors -->")[0]
+    rooms = {path.name for path in (ROOT / "comparisons").iterdir() if (path / "__init__.py").is_file()}
+    assert rooms == FLOORS.keys()
+    for row in page.splitlines():
+        if floor := re.match(r"\| comparisons (\d) \| ([^|]*)\|", row):
+            named = set(re.findall(r"`([a-z]+)`", floor[2]))
+            assert {FLOORS[room] for room in named} == {int(floor[1])}, row
+            rooms -= named
+    assert not rooms, f"CONTRIBUTING.md has no row of {', '.join(sorted(rooms))}"
 
 
 def module_of(path: Path) -> str:

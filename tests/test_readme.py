@@ -1,4 +1,4 @@
-"""The README: its Python runs, its commands parse, its pictures exist and are small."""
+"""The README and what it leads to: Python runs, commands parse, pictures exist and are small."""
 
 from __future__ import annotations
 
@@ -15,12 +15,15 @@ from sheetbench import scenes
 
 ROOT = Path(__file__).parent.parent
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
+QUESTIONS, COMPARING = (
+    (ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("questions.md", "comparing.md")
+)
 
 
-def blocks(language: str) -> list[str]:
+def blocks(language: str, text: str = TEXT) -> list[str]:
     """The fenced blocks of a language. There must be some: a test that collects nothing proves nothing."""
-    found = re.findall(rf"^```{language}\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)
-    assert found, f"no {language} block in the README"
+    found = re.findall(rf"^```{language}\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    assert found, f"no {language} block"
     return found
 
 
@@ -41,7 +44,7 @@ def test_python_runs(
 
 
 def test_commands_name_verbs_and_scenes_that_exist(tmp_path: Path) -> None:
-    commands = re.findall(r"sheetbench (\w[^\n`]*)", "\n".join(blocks("sh")))
+    commands = re.findall(r"sheetbench (\w[^\n`]*)", "\n".join([*blocks("sh"), *blocks("sh", QUESTIONS)]))
     assert commands
     for command in commands:
         verb, *arguments = shlex.split(command, comments=True)
@@ -52,8 +55,8 @@ def test_commands_name_verbs_and_scenes_that_exist(tmp_path: Path) -> None:
 
 def test_make_targets_exist() -> None:
     makefile = make_files()
-    targets = re.findall(r"make (\w+)", "\n".join(blocks("sh")))
-    assert {"demo", "test"} <= set(targets)
+    targets = re.findall(r"make ([\w-]+)", TEXT + (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"))
+    assert {"demo", "test", "check", "tests-of"} <= set(targets)
     for target in targets:
         assert re.search(rf"^{target}:", makefile, re.MULTILINE)
 
@@ -106,7 +109,7 @@ def test_every_picture_is_drawn_by_a_make_target_and_shown_somewhere() -> None:
 def test_displacements_in_the_table_are_those_that_compare_gives() -> None:
     printed = {
         (cells[0], cells[1]): cells[2:5]
-        for line in TEXT.split("<!-- table -->")[1].split("<!-- end of table -->")[0].splitlines()
+        for line in COMPARING.split("<!-- table -->")[1].split("<!-- end of table -->")[0].splitlines()
         if (cells := [cell.strip() for cell in line.strip("|").split("|")])[0].startswith("P")
     }
     both = compare("two-edges-clamped")

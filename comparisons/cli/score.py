@@ -32,8 +32,8 @@ def command(
     `sheetbench suite --out DIR` writes the scenes and a form to fill in; cases left empty are left out. Exit
     status 3 where units, signs or probes are mistaken.
     """
+    from comparisons.scoring.cases import SUITES
     from comparisons.scoring.score import score
-    from comparisons.suite.cases import SUITES
     from sheetbench.errors import require_choice
 
     require_choice("--suite", suite, SUITES)

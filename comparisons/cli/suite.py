@@ -21,8 +21,8 @@ def command(
 
     --out writes its scenes, its values as CSV and JSON (CC-BY-4.0), and a form for answers.
     """
-    from comparisons.suite.cases import SUITES
-    from comparisons.suite.tables import report
+    from comparisons.scoring.cases import SUITES
+    from comparisons.scoring.suite_tables import report
     from sheetbench.errors import require_choice
 
     if suite is not None:

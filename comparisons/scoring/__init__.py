@@ -1,1 +1,1 @@
-"""Answers in: somebody's values for the reference set, scored beside other models, their faults named."""
+"""The reference set of converged cases, and answers scored against it."""

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from comparisons.measured.columns import Row, read_columns
-from comparisons.suite.reference import Reference, reference, references
+from comparisons.scoring.reference import Reference, reference, references
 from sheetbench.errors import BadInput
 
 HEADERS = {

@@ -22,8 +22,8 @@ from comparisons.models.candidate import Candidate, written
 from comparisons.scoring import tables
 from comparisons.scoring.answers import Answer, read_answers
 from comparisons.scoring.faults import faults
+from comparisons.scoring.reference import Reference, document
 from comparisons.scoring.verdict import stiffness, verdict
-from comparisons.suite.reference import Reference, document
 from sheetbench.answers.report import Report
 from sheetbench.choices import REFERENCES
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from comparisons.scoring.reference import document
 from comparisons.scoring.verdict import verdict
-from comparisons.suite.reference import document
 from sheetbench.answers.report import Picture, Report
 from sheetbench.answers.table import Column, Table, number
 

@@ -16,7 +16,7 @@ import numpy as np
 from comparisons.comparison.comparison import error
 from comparisons.models import registry
 from comparisons.models.candidate import Candidate, written
-from comparisons.suite.reference import FILE, Reference, document, references
+from comparisons.scoring.reference import FILE, Reference, document, references
 from sheetbench.answers.files import plain, to_json, write_text
 from sheetbench.errors import BadInput, require_choice
 

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from comparisons.cli import console
-from comparisons.suite.reference import FILE
+from comparisons.scoring.reference import FILE
 from sheetbench.answers.files import to_json, write_text
 from studies.reference_set.study import regenerate
 

@@ -21,8 +21,8 @@ import fem_reference
 import lumped
 from comparisons.comparison.comparison import error
 from comparisons.runs.manifest import machine, version
-from comparisons.suite.cases import FREQUENCIES, Case, cases
-from comparisons.suite.reference import LICENCE, VERSION, document
+from comparisons.scoring.cases import FREQUENCIES, Case, cases
+from comparisons.scoring.reference import LICENCE, VERSION, document
 from fem_reference.uncertainty import coarser, estimate, mesh_size, solve_with_bar
 from sheetbench.answers.files import plain
 from sheetbench.scenes import Scene

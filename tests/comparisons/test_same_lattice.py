@@ -13,7 +13,7 @@ from commands import run
 import lumped
 import sheetbench as sb
 from comparisons.advice.probing import Probing
-from comparisons.crosscheck import study as crosscheck
+from comparisons.crosscheck import crosscheck
 from comparisons.live import server
 from comparisons.models import registry
 from comparisons.models.springs import LatticeSpec, resolve

@@ -38,6 +38,7 @@ def main(folder: Path, file: str, count: int) -> None:
     )
     session.unlink(missing_ok=True)
     _cosmic_ray(tree, "cosmic-ray", "init", "faults.toml", str(session))
+    _cosmic_ray(tree, "cosmic-ray", "baseline", "faults.toml")  # raises where the tests fail anyway
     with sqlite3.connect(session) as store:
         drawn = "SELECT job_id FROM work_items ORDER BY random() LIMIT ?"
         store.execute(f"CREATE TEMP TABLE drawn AS {drawn}", (count,))

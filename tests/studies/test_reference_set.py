@@ -6,8 +6,8 @@ import json
 
 import pytest
 
-from comparisons.suite.cases import cases
-from comparisons.suite.reference import document, references
+from comparisons.scoring.cases import cases
+from comparisons.scoring.reference import document, references
 from studies.leaderboard import study as leaderboard
 from studies.reference_set import study as regenerate
 

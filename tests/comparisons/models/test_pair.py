@@ -8,7 +8,7 @@ import pytest
 from comparisons.comparison.comparison import compare, error
 from comparisons.models.candidate import Candidate, pairs
 from comparisons.models.registry import solve
-from comparisons.suite.reference import reference
+from comparisons.scoring.reference import reference
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench.choices import CALIBRATIONS, EXTRAPOLATED
 from sheetbench.errors import BadInput

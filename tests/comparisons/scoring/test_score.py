@@ -13,8 +13,8 @@ import pytest
 from commands import one_line, run
 
 from comparisons.scoring.answers import HEADERS
+from comparisons.scoring.reference import Reference, references
 from comparisons.scoring.score import score
-from comparisons.suite.reference import Reference, references
 
 Change = Callable[[Reference, np.ndarray], np.ndarray]
 Write = Callable[..., Path]

@@ -12,8 +12,8 @@ import pytest
 from commands import one_line, run
 
 import fem_reference
-from comparisons.suite.cases import SUITES, cases
-from comparisons.suite.reference import FILE, VERSION, document, references
+from comparisons.scoring.cases import SUITES, cases
+from comparisons.scoring.reference import FILE, VERSION, document, references
 from sheetbench import scenes
 
 FROZEN = "a43fc4b07b6b059e"  # of scenes and values of version 1.0

@@ -9,8 +9,8 @@ from functools import partial
 from typing import Any
 
 from comparisons.scoring.answers import HEADERS
+from comparisons.scoring.reference import Reference, document, references
 from comparisons.scoring.score import own_models
-from comparisons.suite.reference import Reference, document, references
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Report
 from sheetbench.answers.table import Column, Table

@@ -1,1 +1,0 @@
-"""The reference set: scenes with converged values and error bars, for models to be scored against."""

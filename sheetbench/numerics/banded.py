@@ -24,15 +24,14 @@ REORDERED = {"reassoc", "contract", "nsz"}  # sums in any order, for vector inst
 class Band(NamedTuple):
     """Where the entries of a matrix over 3×3 blocks go.
 
-    order: (n,) the unknown at each place; width: entries below the diagonal; source, column, below, weight:
-    entry of the blocks, column and distance from the diagonal where it is added, factor.
+    order: (n,) the unknown at each place; width: entries below the diagonal; source, target, weight: entry of
+    the blocks, entry of the storage where it is added, both flat, and its factor (none where all are one).
     """
 
     order: np.ndarray
     width: int
     source: np.ndarray
-    column: np.ndarray
-    below: np.ndarray
+    target: np.ndarray
     weight: np.ndarray
 
 
@@ -80,8 +79,11 @@ def band_of(
     place[order] = np.arange(n)
     r, c = place[rows], place[columns]
     lower = np.flatnonzero(r >= c)
-    r, c = r[lower], c[lower]
-    return Band(order.astype(np.intp), width, source[lower].astype(np.intp), c, r - c, weight[lower])
+    r, c, weight = r[lower], c[lower], weight[lower]
+    kind = np.int32 if n * (width + 1 + PANEL) < 2**31 else np.int64
+    target = (c * (width + 1 + PANEL) + r - c).astype(kind)
+    weight = np.empty(0) if (weight == 1.0).all() else weight
+    return Band(order.astype(np.intp), width, source[lower].astype(np.int32), target, weight)
 
 
 @njit(cache=True, nogil=True)
@@ -91,32 +93,22 @@ def padded_length(n: int) -> int:
 
 
 @njit(cache=True, nogil=True)
-def stored(blocks: np.ndarray, band: Band) -> np.ndarray:
-    """The matrix of blocks (b, 3, 3) in band storage: whole panels, and zeros where the loops run over."""
-    out = empty_storage(band)
-    store(blocks, band, out)
-    return out
-
-
-@njit(cache=True, nogil=True)
 def shape(band: Band) -> tuple[int, int]:
     """Rows and columns of the storage."""
     return padded_length(len(band.order)), band.width + 1 + PANEL
 
 
 @njit(cache=True, nogil=True)
-def empty_storage(band: Band) -> np.ndarray:
-    """Return band storage of zeros."""
-    return np.zeros(shape(band))
-
-
-@njit(cache=True, nogil=True)
-def store(blocks: np.ndarray, band: Band, out: np.ndarray) -> None:
-    """Write the matrix of blocks (b, 3, 3) into band storage `out`, over what it held."""
-    out[:] = 0.0
-    entries = blocks.ravel()
-    for e in range(len(band.source)):
-        out[band.column[e], band.below[e]] += band.weight[e] * entries[band.source[e]]
+def stored(blocks: np.ndarray, band: Band) -> np.ndarray:
+    """The matrix of blocks (b, 3, 3) in band storage: whole panels, and zeros where the loops run over."""
+    out = np.zeros(shape(band))
+    entries, places = blocks.ravel(), out.ravel()
+    if not len(band.weight):
+        for e in range(len(band.source)):
+            places[np.uint64(band.target[e])] += entries[np.uint64(band.source[e])]
+    for e in range(len(band.weight)):
+        places[band.target[e]] += band.weight[e] * entries[band.source[e]]
+    return out
 
 
 @njit(cache=True, nogil=True, fastmath=REORDERED)
@@ -204,16 +196,29 @@ def subtract_product(matrix: np.ndarray, n: int, width: int, x: np.ndarray, out:
 
 
 @njit(cache=True, nogil=True)
+def solve_unrefined(factors: np.ndarray, width: int, order: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """x with A x = b as the factors have it."""
+    x = np.zeros(len(factors) + width)
+    for j in range(len(order)):
+        x[j] = b[order[j]]
+    substitute(factors, len(order), width, x)
+    out = np.empty(len(order))
+    for j in range(len(order)):
+        out[order[j]] = x[j]
+    return out
+
+
+@njit(cache=True, nogil=True)
 def solve(
-    matrix: np.ndarray, factors: np.ndarray, width: int, order: np.ndarray, b: np.ndarray, refinements: int
+    matrix: np.ndarray, factors: np.ndarray, width: int, order: np.ndarray, b: np.ndarray
 ) -> tuple[np.ndarray, float]:
-    """x with A x = b, refined, and the largest residual left over ‖A‖‖x‖ + ‖b‖ (largest entries)."""
+    """x with A x = b, refined once, and the largest residual left over ‖A‖‖x‖ + ‖b‖ (largest entries)."""
     n, padded = len(order), len(matrix) + width
     right, x = np.zeros(padded), np.zeros(padded)
     for j in range(n):
         right[j] = b[order[j]]
     left = right.copy()
-    for _ in range(refinements + 1):
+    for _ in range(2):
         substitute(factors, n, width, left)
         x += left
         left[:] = right

@@ -13,7 +13,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from sheetbench.numerics import banded
-from sheetbench.numerics.direct import DirectSolver, Factor, Inertia, SingularMatrixError, checked
+from sheetbench.numerics.direct import CHOLESKY, DirectSolver, Factor, Inertia, SingularMatrixError, checked
 from sheetbench.numerics.fronts import Cells, Fronts, fronts_of
 from sheetbench.numerics.kept import kept
 from sheetbench.numerics.reduction import BlockPattern, Reduction, reduction
@@ -25,9 +25,16 @@ BANDED_LIMIT = 2.0e7  # n × bandwidth² below which the banded Cholesky is quic
 class BandedFactor(Factor):
     """Cholesky factors in a band: of a positive definite matrix."""
 
-    def __init__(self, band: banded.Band, matrix: np.ndarray, factors: np.ndarray):
-        self._band, self._stored, self._factors = band, matrix, factors
+    def __init__(self, band: banded.Band, blocks: np.ndarray, factors: np.ndarray):
+        """blocks (b, 3, 3): of the matrix, not to be written to any more."""
+        self._band, self._blocks, self._factors = band, blocks, factors
+        self._backward_error = CHOLESKY
         self.inertia = Inertia(len(band.order), 0, 0)
+
+    @cached_property
+    def _stored(self) -> np.ndarray:
+        stored: np.ndarray = banded.stored(self._blocks, self._band)
+        return stored
 
     @cached_property
     def matrix(self) -> sp.csc_array:  # type: ignore[override]
@@ -35,20 +42,15 @@ class BandedFactor(Factor):
         return banded.sparse(self._stored, self._band)
 
     def _solve(self, b: np.ndarray) -> np.ndarray:
-        return self._substituted(b, 0)[0]
+        found: np.ndarray = banded.solve_unrefined(self._factors, self._band.width, self._band.order, b)
+        return found
 
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
-        """x with A x = b, refined once where its backward error exceeds `enough`. Raises
+        """x with A x = b, refined once where its backward error may exceed `enough`. Raises
         SingularMatrixError when the residual stays large."""
-        if enough > 0.0:
-            x, error = self._substituted(b, 0)
-            if error <= enough:
-                return x
-        return checked(*self._substituted(b, 1))
-
-    def _substituted(self, b: np.ndarray, refinements: int) -> tuple[np.ndarray, float]:
-        order, width = self._band.order, self._band.width
-        return banded.solve(self._stored, self._factors, width, order, b, refinements)
+        if enough >= self._backward_error and np.isfinite(x := self._solve(b)).all():
+            return x
+        return checked(*banded.solve(self._stored, self._factors, self._band.width, self._band.order, b))
 
 
 class SaddleFactor(Factor):
@@ -136,10 +138,9 @@ class ReducedSystem:
     def factor(self, blocks: np.ndarray) -> Factor:
         """Factors of Tᵀ K T. Raises SingularMatrixError when there are none."""
         if self.band is not None:
-            stored = banded.stored(blocks, self.band)
-            factors = stored.copy()
+            factors = banded.stored(blocks, self.band)
             if banded.factor(factors, self.unknowns, self.band.width):
-                return BandedFactor(self.band, stored, factors)
+                return BandedFactor(self.band, blocks, factors)
         matrix = self.matrix(blocks)
         if self._saddle is None:
             return self._solver.factor(matrix)

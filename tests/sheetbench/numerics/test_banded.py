@@ -38,9 +38,11 @@ def test_banded_factors_solve_as_dense_ones_do(n, width):
         assert np.array_equal(banded.sparse(stored, band).toarray(), a)
         factors = stored.copy()
         assert banded.factor(factors, n, band.width)
-        x, miss = banded.solve(stored, factors, band.width, band.order, b, 1)
+        x, miss = banded.solve(stored, factors, band.width, band.order, b)
         assert x == pytest.approx(np.linalg.solve(a, b), rel=1e-12, abs=1e-14)
         assert miss < 1e-14  # a backward error is of the order of rounding, whatever the condition
+        x = banded.solve_unrefined(factors, band.width, band.order, b)
+        assert np.abs(a @ x - b).max() < 1e-14 * (np.abs(a).max() * np.abs(x).max() + np.abs(b).max())
 
 
 def test_a_shuffled_band_is_found_again():

@@ -16,7 +16,7 @@ from lumped.actuators import Coupling
 from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.pattern import Pattern, neighbours, of_grid
-from lumped.springs.all_families import Stresses, all_families, copy_above
+from lumped.springs.all_families import NO_STRESSES, Stresses, all_families, copy_above
 from lumped.springs.families import Links, NeoHookeanCells, families
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
@@ -135,12 +135,6 @@ class Assembly:
                 found[name] = found.get(name, 0.0) + energy
         return found
 
-    def stresses(self, u: np.ndarray) -> Stresses:
-        """Stresses of every family at u."""
-        if self.all_families is not None:
-            return self.all_families.stresses(u)
-        return tuple(family.stresses(u) for family in self.springs)
-
     def extrapolated(self, u: np.ndarray, step: np.ndarray) -> Stresses:
         """Stresses that the linearisation at u predicts after `step`."""
         if self.all_families is not None:
@@ -149,14 +143,17 @@ class Assembly:
 
     def nonnegative_tangent(self, u: np.ndarray) -> np.ndarray:
         """Return blocks (b, 3, 3) [N/m] of the tangent at u less what could make it indefinite."""
-        return self.tangent(u, tuple(family.nonnegative_part(u) for family in self.springs), 0.0)
+        stresses: Stresses = tuple(family.nonnegative_part(u) for family in self.springs)
+        if self.all_families is not None:
+            stresses = self.all_families.every(stresses)
+        return self.tangent(u, stresses, 0.0)
 
     def tangent(self, u: np.ndarray, stresses: Stresses | None = None, share: float = 1.0) -> np.ndarray:
         """Return blocks (b, 3, 3) [N/m] of the tangent at u, with the stresses given or the share of those at
         u, and of the stiffness the material part and this share of the rest (`lumped.springs.laws`)."""
-        stresses = stresses or tuple(family.no_stress for family in self.springs)
         if self.all_families is not None:
-            return self.all_families.tangent(u, stresses, self.pattern, share)
+            return self.all_families.tangent(u, stresses or NO_STRESSES, self.pattern, share)
+        stresses = stresses or tuple(family.no_stress for family in self.springs)
         blocks = np.zeros((self.pattern.blocks, 3, 3))
         for family, stress in zip(self.springs, stresses, strict=True):
             family.add_tangent(u, stress, blocks, share, self.conservative)

@@ -57,8 +57,9 @@ class Part:
 class Loads:
     """The external forces of a scene at load factor 1; every load scales with the load factor.
 
-    dead: (n, 3) [N], of the dead loads without a history; follow: whether some loads follow the sheet;
-    conservative: whether all have a potential at a given time; potential: whether `dead` is all there is.
+    dead: (n, 3) [N], of the dead loads without a history; last_dead, pressure: of all in the end, (n, 3) [N]
+    and [Pa]; follow: whether some loads follow the sheet, turning: edge moments; conservative: whether all
+    have a potential at a given time; potential: whether `dead` is all there is.
     """
 
     def __init__(self, scene: Scene, assembly: Assembly):
@@ -91,10 +92,13 @@ class Loads:
                     part.moments.append((edge, length * load.moment_per_length, float(turn)))
             elif isinstance(load, Pressure):
                 part.pressure += load.value
-        turning = any(part.moments for part in self._parts.values())
-        self.follow = turning or any(part.pressure for part in self._parts.values())
-        self.conservative = not turning and (not self.follow or encloses_volume(scene.supports))
-        self.potential = not self.follow and len(self._parts) == 1
+        last = [(part.factor(None), part) for part in self._parts.values()]
+        self.pressure = sum(factor * part.pressure for factor, part in last)
+        self.last_dead = self.dead if len(last) == 1 else sum(factor * part.dead for factor, part in last)
+        self.turning = any(part.moments for _, part in last)
+        self.follow = self.turning or any(part.pressure for _, part in last)
+        self.conservative = not self.turning and (not self.follow or encloses_volume(scene.supports))
+        self.potential = not self.follow and len(last) == 1
         frozen(tuple(part.dead for part in self._parts.values()))
 
     @property

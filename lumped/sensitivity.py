@@ -104,7 +104,7 @@ def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, State
     if outcome.status is not Status.CONVERGED:
         raise BadInput(f"scene '{scene.name}': no sensitivity of an answer that is {outcome.status}")
     state = outcome.state
-    return problem, state, problem.factor(problem.tangent(state.u, 1.0))
+    return problem, state, problem.linearise(state.u, 1.0).factor
 
 
 def rates(

@@ -32,8 +32,9 @@ class Springs(NamedTuple):
     middle: CellArrays
 
 
-Stresses = tuple[np.ndarray, ...]  # three, as `Springs`
+Stresses = tuple[np.ndarray, ...]  # three, as `Springs`, where there is a table of those
 KINDS: tuple[type[Family], ...] = (Links, Cells, Cells)
+NO_STRESSES: Stresses = tuple(kind.no_stress for kind in KINDS)
 
 
 class AllFamilies:
@@ -45,40 +46,30 @@ class AllFamilies:
         links_, *cells_ = [_arrays(found[at]) if at in found else _empty(k) for at, k in enumerate(KINDS)]
         self.springs = Springs(LinkArrays(*links_), *(CellArrays(*parts) for parts in cells_))
         self._places = places
-        self._none = [kind.no_stress for kind in KINDS]
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Return the energy [J] and the internal force."""
         energy, internal = force(np.ascontiguousarray(u), self.springs)
         return energy, internal
 
-    def stresses(self, u: np.ndarray) -> Stresses:
-        """Return the stresses at u."""
-        return self.of_families(stresses(np.ascontiguousarray(u), self.springs))
-
     def extrapolated(self, u: np.ndarray, step: np.ndarray) -> Stresses:
-        """Return the stresses that the linearisation at u predicts after `step`."""
-        return self.of_families(
-            extrapolated(np.ascontiguousarray(u), np.ascontiguousarray(step), self.springs)
-        )
+        """Return the stresses that the linearisation at u predicts after `step`, as `Springs`."""
+        predicted: Stresses = extrapolated(np.ascontiguousarray(u), np.ascontiguousarray(step), self.springs)
+        return predicted
 
     def tangent(self, u: np.ndarray, stress: Stresses, pattern: Pattern, share: float = 1.0) -> np.ndarray:
         """Return blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the springs' own
         where they are empty, and with M + share (D − M)."""
-        every, place = self.every(stress), (pattern.blocks, pattern.mirror)
-        blocks: np.ndarray = tangent(np.ascontiguousarray(u), self.springs, every, share, *place)
+        place = pattern.blocks, pattern.mirror
+        blocks: np.ndarray = tangent(np.ascontiguousarray(u), self.springs, stress, share, *place)
         return blocks
 
     def every(self, stress: Stresses) -> Stresses:
         """Return the families' stresses, and those of none where there is no such family."""
-        every = list(self._none)
+        every = list(NO_STRESSES)
         for at, values in zip(self._places, stress, strict=True):
             every[at] = values
         return tuple(every)
-
-    def of_families(self, every: Stresses) -> Stresses:
-        """Return the families' own again."""
-        return tuple(every[at] for at in self._places)
 
 
 def all_families(families: Sequence[Family]) -> AllFamilies | None:
@@ -110,12 +101,6 @@ def force(u: np.ndarray, springs: Springs) -> tuple[float, np.ndarray]:
     energy += cells.add_forces(u, springs.layers, out)
     energy += cells.add_forces(u, springs.middle, out)
     return energy, out
-
-
-@njit(cache=True, nogil=True)
-def stresses(u: np.ndarray, springs: Springs) -> Stresses:
-    """Return the stresses at u."""
-    return extrapolated(u, np.zeros_like(u), springs)
 
 
 @njit(cache=True, nogil=True)
@@ -151,9 +136,3 @@ def copy_above(blocks: np.ndarray, mirror: np.ndarray) -> None:
         for q in range(3):
             for r in range(3):
                 above[q, r] = below[r, q]
-
-
-@njit(cache=True, nogil=True)
-def own_tangent(u: np.ndarray, springs: Springs, share: float, count: int, mirror: np.ndarray) -> np.ndarray:
-    """Return blocks (count, 3, 3) [N/m] of the tangent with this share of the springs' stresses at u."""
-    return tangent(u, springs, (np.empty(0), np.empty((0, 3)), np.empty((0, 3))), share, count, mirror)

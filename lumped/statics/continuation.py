@@ -158,8 +158,7 @@ def _arc_step(
             raise StepFailed("the corrections grow")
         rounded = all_rounding(problem, u, residual, float(np.abs(move).max()))
         close = rounded or residual.relative < REFINE_BELOW
-        blocks = problem.tangent(u, load_factor, None if close else stresses)
-        factor = problem.factor(blocks)
+        blocks, factor = problem.linearise(u, load_factor, None if close else stresses)
         if rounded or residual.relative < TOLERANCE:
             state = State(u, load_factor, blocks, factor, problem.negative(factor))
             return state, start.load_factor + change

@@ -80,7 +80,7 @@ def _definite_factor(problem: Problem, u: np.ndarray, load_factor: float, wait: 
     """Factors of a positive definite tangent and for how many steps to stay with the projected one."""
     if wait == 0:
         try:
-            factor = problem.factor(problem.tangent(u, load_factor))
+            factor = problem.linearise(u, load_factor).factor
             if factor.negative == 0:
                 return factor, 0
         except SingularMatrixError:

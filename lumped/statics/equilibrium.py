@@ -22,7 +22,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lumped.springs.all_families import Stresses
 from lumped.statics.faults import broken
 from lumped.statics.limits import (
     BRANCHING,
@@ -46,7 +45,7 @@ from lumped.statics.limits import (
     SHORTEST_STEP,
     STALE_FACTORS_ABOVE,
 )
-from lumped.statics.problem import Problem, Residual, Tangent
+from lumped.statics.problem import SOLVED, Advance, Problem, Residual, Tangent
 from sheetbench.numerics.reduced import Factor, SingularMatrixError
 
 
@@ -73,8 +72,7 @@ class StepFailed(ArithmeticError):
 def at_rest(problem: Problem) -> State:
     """The flat, stress-free state. Raises SingularMatrixError when its tangent has no factors."""
     u = np.zeros_like(problem.loads.dead)
-    blocks = problem.tangent(u, 0.0)
-    factor = problem.factor(blocks)
+    blocks, factor = problem.linearise(u, 0.0)
     return State(u, 0.0, blocks, factor, problem.negative(factor))
 
 
@@ -153,30 +151,24 @@ def predictor(problem: Problem, state: State, step: float) -> np.ndarray:
     unbalanced = step * problem.growing(state.u)
     if moved.any():
         unbalanced = unbalanced - problem.system.apply(state.blocks, moved)
-    return problem.expand(state.factor.solve(problem.reduce(unbalanced))) + moved
+    return problem.expand(state.factor.solve(problem.reduce(unbalanced), SOLVED)) + moved
 
 
 def _correct(
     problem: Problem, start: State, load_factor: float, predicted: np.ndarray, tolerance: float
 ) -> State:
     """Equilibrium at a load factor from a predicted step. Raises StepFailed, SingularMatrixError."""
-    stresses = problem.assembly.extrapolated(start.u, predicted)
-    return newton_at_load(problem, start.u + predicted, stresses, load_factor, predicted, tolerance)
+    began = problem.advance(start.u, predicted, load_factor, True)
+    return newton_at_load(problem, began, load_factor, tolerance)
 
 
 def newton_at_load(
-    problem: Problem,
-    u: np.ndarray,
-    expected: Stresses,
-    load_factor: float,
-    step: np.ndarray,
-    tolerance: float = RESIDUAL_TOLERANCE,
+    problem: Problem, began: Advance, load_factor: float, tolerance: float = RESIDUAL_TOLERANCE
 ) -> State:
-    """Equilibrium at a load factor from u and the stresses expected there, to which a step (n, 3) [m] has
-    led. Raises StepFailed, SingularMatrixError."""
-    stresses: Stresses | None = expected
-    lengths = [float(np.abs(step).max())]
-    residual = problem.residual(u, load_factor)
+    """Equilibrium at a load factor from where a step has led, with the stresses predicted there. Raises
+    StepFailed, SingularMatrixError."""
+    u, length, residual, stresses = began
+    lengths = [length]
     near: Factor | None = None
     made: Tangent | None = None
     for _ in range(CORRECTIONS):
@@ -187,17 +179,16 @@ def newton_at_load(
             near = None  # its memory is needed
             close = made if lengths[-1] <= REUSE_FACTORS_WITHIN * problem.size else None
             return refine(problem, u, load_factor, tolerance, close, residual)
-        done = problem.correction(u, load_factor, residual, stresses, near)
-        u, residual, stresses = done.u, done.residual, done.stresses
-        lengths.append(done.length)
-        if problem.iterates:
-            near = done.factor
-        else:
-            made = Tangent(done.blocks, done.factor)
-        del done
-        if lengths[-1] > FARTHEST * problem.size or (
-            len(lengths) > 4 and lengths[-1] > lengths[-2] > lengths[-3]
-        ):
+        done = None if near is None else problem.solve_near(u, load_factor, residual, stresses, near)
+        if done is None:
+            near = made = None  # whose memory the new factors may need
+            made = problem.linearise(u, load_factor, stresses)
+            done = problem.correct(made.factor, u, load_factor, residual, True)
+            if problem.iterates:
+                near, made = made.factor, None
+        u, length, residual, stresses = done
+        lengths.append(length)
+        if length > FARTHEST * problem.size or (len(lengths) > 4 and lengths[-1] > lengths[-2] > lengths[-3]):
             raise StepFailed("the corrections grow")
     raise StepFailed(f"no equilibrium in {CORRECTIONS} corrections")
 
@@ -221,22 +212,21 @@ def refine(
     for fresh in range(REFINEMENTS + 1):
         if fresh:
             near = None  # its memory is needed
-            done = problem.correction(u, load_factor, left)
+            near = problem.linearise(u, load_factor)
+            done = problem.correct(near.factor, u, load_factor, left)
             if not np.isfinite(done.residual.relative) or done.length > LONGEST_REFINEMENT * problem.size:
                 raise StepFailed("the polishing step is not small")
             if done.residual.relative < left.relative:
                 u, left = done.u, done.residual
             problem.note(load_factor, left.relative, done.length)
-            near = Tangent(done.blocks, done.factor)
-            del done
         if near is None:
             continue
         while not left.relative < aim:
-            step, after = problem.correction_with(near.factor, u, load_factor, left)
-            if not after.relative < STALE_FACTORS_ABOVE * left.relative:
+            done = problem.correct(near.factor, u, load_factor, left)
+            if not done.residual.relative < STALE_FACTORS_ABOVE * left.relative:
                 break
-            u, left = u + step, after
-            problem.note(load_factor, left.relative, float(np.abs(step).max()))
+            u, left = done.u, done.residual
+            problem.note(load_factor, left.relative, done.length)
         if left.relative < aim:
             return State(u, load_factor, near.blocks, near.factor, problem.negative(near.factor), left)
     raise StepFailed("the residual stagnates")

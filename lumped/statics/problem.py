@@ -11,16 +11,17 @@ from typing import NamedTuple
 
 import numpy as np
 
+from lumped import equations
 from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
 from lumped.loads import Loads
-from lumped.springs.all_families import Stresses
+from lumped.equations import Equations, equations_of, size_of, unbalanced_force
+from lumped.springs.all_families import NO_STRESSES, Stresses
 from lumped.statics.faults import Fault
-from lumped.statics.unbalanced import scale, unbalanced_force
 from lumped.supports import Constraints
 from sheetbench.numerics.iterated import iterated
 from sheetbench.numerics.maps import product, transposed_product
-from sheetbench.numerics.reduced import Factor, ReducedSystem
+from sheetbench.numerics.reduced import BandedFactor, Factor, ReducedSystem, SingularMatrixError
 from sheetbench.scenes import Iteration
 
 Progress = Callable[[Iteration], None]
@@ -28,6 +29,7 @@ Progress = Callable[[Iteration], None]
 
 SOLVED = 1e-14  # backward error of a correction that is not refined: the next one is its refinement
 ITERATED = 5000  # unknowns from which a factorisation costs as much as ten solutions
+NO_FORCE, NO_FACTORS, NO_INERTIA = np.empty(0), np.empty((0, 0)), np.empty(0)
 
 
 class Tangent(NamedTuple):
@@ -52,15 +54,12 @@ class Residual(NamedTuple):
         return self.norm / self.scale if self.scale > 0.0 else self.norm
 
 
-class Correction(NamedTuple):
-    """A Newton correction: displacement (n, 3) [m] behind it and how far it went at most [m]; the tangent's
-    blocks and factors; the residual behind it; the stresses that the linearisation predicts there, where it
-    was given some."""
+class Advance(NamedTuple):
+    """A displacement (n, 3) [m], how far at most the step to it went [m], what the equilibrium equation leaves
+    there, and the stresses that the linearisation before the step predicts there, where asked for."""
 
     u: np.ndarray
     length: float
-    blocks: np.ndarray
-    factor: Factor
     residual: Residual
     stresses: Stresses | None
 
@@ -96,6 +95,9 @@ class Problem:
         else:
             multipliers = self._multiplier_unknowns(coupling)
             self.system = ReducedSystem(pattern, transform, self.conservative, multipliers)
+        turning = self.loads.turning or (self.base is not None and self.base.follow)
+        compiled = None if turning else equations_of(self.assembly, self.constraints, self.system.band)
+        self.equations: Equations | None = compiled
 
     def _multiplier_unknowns(self, coupling: Coupling) -> np.ndarray:
         """Which unknowns are multipliers of the actuators' constraints, (m,) bool."""
@@ -202,47 +204,79 @@ class Problem:
 
     def scale_of(self, internal: np.ndarray, external: np.ndarray) -> float:
         """Return the norm [N] of external forces plus that of the supports', of forces (n, 3) [N]."""
-        size: float = scale(internal, external, self.constraints.held)
+        size: float = size_of(internal, external, self.constraints.held)
         return size
 
     def residual(self, u: np.ndarray, load_factor: float) -> Residual:
         """Return what the equilibrium equation leaves at u."""
-        _, internal = self.internal(u, load_factor)
-        external = self.external(u, load_factor)
-        return Residual(
-            *unbalanced_force(internal, external, self.constraints.held, self._free, self.system.unknowns)
-        )
+        return self.advance(u, np.zeros_like(u), load_factor).residual
 
-    def correction(
+    def linearise(self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None) -> Tangent:
+        """Return the tangent at u, or with these stresses, and its factors; every call counts. Raises
+        SingularMatrixError when there are none."""
+        if self.equations is None:
+            blocks = self.tangent(u, load_factor, stresses)
+            return Tangent(blocks, self.factor(blocks))
+        self.factorisations += 1
+        pressing = load_factor * self.loads.pressure
+        definite, blocks, factors = equations.linearise(
+            np.ascontiguousarray(u), stresses or NO_STRESSES, 1.0, 1.0, NO_INERTIA, pressing, self.equations
+        )
+        if definite:
+            return Tangent(blocks, BandedFactor(self.equations.band, blocks, factors))
+        return Tangent(blocks, self.system.factor(blocks))
+
+    def advance(
+        self, u: np.ndarray, step: np.ndarray, load_factor: float, predict: bool = False
+    ) -> Advance:
+        """Go from u by a step (n, 3) [m]; predict: the stresses too."""
+        if self.equations is not None:
+            return self._advance(u, step, NO_FORCE, NO_FACTORS, load_factor, predict)
+        after = u + step
+        _, internal = self.internal(after, load_factor)
+        residual = unbalanced_force(
+            internal, self.external(after, load_factor), self.constraints.held, self._free, self.system.unknowns
+        )
+        stresses = self.assembly.extrapolated(u, step) if predict else None
+        return Advance(after, float(np.abs(step).max()), Residual(*residual), stresses)
+
+    def correct(
+        self, factor: Factor, u: np.ndarray, load_factor: float, residual: Residual, predict: bool = False
+    ) -> Advance:
+        """Go from u by the Newton correction of its residual with these factors; predict: the stresses too.
+        Raises SingularMatrixError when they do not solve the system."""
+        if self.equations is None or not isinstance(factor, BandedFactor):
+            return self.advance(u, self.expand(factor.solve(residual.reduced, SOLVED)), load_factor, predict)
+        return self._advance(u, u, residual.reduced, factor.factors, load_factor, predict)
+
+    def _advance(
         self,
         u: np.ndarray,
+        step: np.ndarray,
+        right: np.ndarray,
+        factors: np.ndarray,
         load_factor: float,
-        residual: Residual,
-        stresses: Stresses | None = None,
-        near: Factor | None = None,
-    ) -> Correction:
-        """Return the Newton correction at u with these stresses in the tangent, or those at u. near: factors
-        of a tangent close by, which large systems are solved with as long as they serve.
+        predict: bool,
+    ) -> Advance:
+        dead = load_factor * self.loads.last_dead
+        if self.base is not None:
+            dead += self.base.last_dead
+        after, length, stresses, *left = equations.advance(
+            np.ascontiguousarray(u), np.ascontiguousarray(step), right, factors, predict, dead,
+            load_factor * self.loads.pressure, self.equations,
+        )  # fmt: skip
+        if not np.isfinite(length):
+            raise SingularMatrixError("the tangent's factors solve nothing: a number overflowed")
+        return Advance(after, length, Residual(*left), stresses if predict else None)
 
-        Raises SingularMatrixError when the tangent has no usable factors.
-        """
-        blocks, right = self.tangent(u, load_factor, stresses), residual.reduced
-        found = iterated(self.system.matrix(blocks), near, right) if near is not None else None
-        if found is None or near is None:
-            near = None  # whose memory the new factors may need
-            near = self.factor(blocks)
-            found = near.solve(right, SOLVED)
-        step = self.expand(found)
-        following = self.assembly.extrapolated(u, step) if stresses is not None else None
-        after, length = u + step, float(np.abs(step).max())
-        return Correction(after, length, blocks, near, self.residual(after, load_factor), following)
-
-    def correction_with(
-        self, factor: Factor, u: np.ndarray, load_factor: float, residual: Residual
-    ) -> tuple[np.ndarray, Residual]:
-        """Return a correction (n, 3) [m] with factors at hand, and the residual behind it."""
-        step = self.expand(factor.solve(residual.reduced, SOLVED))
-        return step, self.residual(u + step, load_factor)
+    def solve_near(
+        self, u: np.ndarray, load_factor: float, residual: Residual, stresses: Stresses | None, near: Factor
+    ) -> Advance | None:
+        """Go from u by the correction of its residual with the tangent there, solved by iterations with
+        factors of one close by; None where those do not serve."""
+        matrix = self.system.matrix(self.tangent(u, load_factor, stresses))
+        found = iterated(matrix, near, residual.reduced)
+        return None if found is None else self.advance(u, self.expand(found), load_factor, True)
 
     def note(self, load_factor: float, residual: float, step: float) -> None:
         """Keep one line of history and tell whoever watches."""

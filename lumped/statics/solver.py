@@ -261,7 +261,8 @@ def _from_near(scene: Scene, problem: Problem, u: np.ndarray) -> Outcome | None:
         raise BadInput(f"near: of shape {u.shape}, and the lattice's {problem.loads.dead.shape}")
     u = problem.project_to_supports(u, 1.0)
     try:
-        state = newton_at_load(problem, u, problem.assembly.stresses(u), 1.0, u)
+        began = problem.advance(u, np.zeros_like(u), 1.0, True)._replace(length=float(np.abs(u).max()))
+        state = newton_at_load(problem, began, 1.0)
     except (StepFailed, SingularMatrixError):
         return None
     if state.negative != 0 or broken(problem.assembly, state.u) is not None:

@@ -35,6 +35,9 @@ class Band(NamedTuple):
     weight: np.ndarray
 
 
+NO_BAND = Band(np.empty(0, np.intp), 0, np.empty(0, np.int32), np.empty(0, np.int32), np.empty(0))
+
+
 def sparse(matrix: np.ndarray, band: Band) -> sp.csc_array:
     """A matrix in band storage as SciPy has it, both triangles."""
     n = len(band.order)

@@ -27,7 +27,7 @@ class BandedFactor(Factor):
 
     def __init__(self, band: banded.Band, blocks: np.ndarray, factors: np.ndarray):
         """blocks (b, 3, 3): of the matrix, not to be written to any more."""
-        self._band, self._blocks, self._factors = band, blocks, factors
+        self._band, self._blocks, self.factors = band, blocks, factors
         self._backward_error = CHOLESKY
         self.inertia = Inertia(len(band.order), 0, 0)
 
@@ -42,7 +42,7 @@ class BandedFactor(Factor):
         return banded.sparse(self._stored, self._band)
 
     def _solve(self, b: np.ndarray) -> np.ndarray:
-        found: np.ndarray = banded.solve_unrefined(self._factors, self._band.width, self._band.order, b)
+        found: np.ndarray = banded.solve_unrefined(self.factors, self._band.width, self._band.order, b)
         return found
 
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
@@ -50,7 +50,7 @@ class BandedFactor(Factor):
         SingularMatrixError when the residual stays large."""
         if enough >= self._backward_error and np.isfinite(x := self._solve(b)).all():
             return x
-        return checked(*banded.solve(self._stored, self._factors, self._band.width, self._band.order, b))
+        return checked(*banded.solve(self._stored, self.factors, self._band.width, self._band.order, b))
 
 
 class SaddleFactor(Factor):

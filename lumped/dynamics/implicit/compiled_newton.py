@@ -12,8 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.dynamics.implicit.compiled_tangent import factorised, tangent_of
 from lumped.dynamics.system import System
+from lumped.equations import linearise
+from lumped.springs.all_families import NO_STRESSES
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_TRUE
@@ -68,7 +69,8 @@ class CompiledNewton:
         right = np.zeros(banded.padded_length(len(band.order)) + band.width)
         self.workspace = Workspace(force, velocity, base_u, base_v, right)
         self.factors = np.empty((0, 0))
-        self._tangent = tangent_of(system)
+        proportional = system.damping.time or not system.damping.dampers
+        self._equations = system.problem.equations if proportional else None
 
     @staticmethod
     def serves(system: System) -> bool:
@@ -81,16 +83,17 @@ class CompiledNewton:
         self, u: np.ndarray, v: np.ndarray, time: float, mass_coefficient: float, damping_coefficient: float
     ) -> bool:
         """Keep the factors of K + c₁ C + c₂ M at a state; False where it is not positive definite."""
-        self._system.problem.factorisations += 1
-        if self._tangent is not None:
-            definite, factors = factorised(
-                np.ascontiguousarray(u), mass_coefficient, damping_coefficient, self._tangent
+        system, by, band = self._system, (mass_coefficient, damping_coefficient), self._band
+        system.problem.factorisations += 1
+        if self._equations is not None:  # K̃ + c₁ t M̃ = s (M̃ + (D − M̃)/s) of springs with dampers of time t
+            scale = 1.0 + damping_coefficient * system.damping.time
+            inertia = mass_coefficient * system.lattice_mass + damping_coefficient * system.damping.rate
+            definite, _, factors = linearise(
+                np.ascontiguousarray(u), NO_STRESSES, 1.0 / scale, scale, inertia, 0.0, self._equations
             )
         else:
-            factors = banded.stored(
-                self._system.matrix(u, v, time, mass_coefficient, damping_coefficient, 1.0), self._band
-            )
-            definite = banded.factor(factors, len(self._band.order), self._band.width)
+            factors = banded.stored(system.matrix(u, v, time, *by, 1.0), band)
+            definite = banded.factor(factors, len(band.order), band.width)
         if definite:
             self.factors = factors
         return bool(definite)

@@ -31,14 +31,12 @@ def test_extrapolated_stresses_are_the_linearisation():
     assembly = assembly_of(**ALL)
     u, direction = state(assembly), state(assembly, seed=2)
 
-    def flat(stresses):
-        return np.concatenate([stress.ravel() for stress in stresses])
+    def flat(at, step):
+        return np.concatenate([stress.ravel() for stress in assembly.extrapolated(at, step)])
 
-    h = 1e-6
-    slope = (flat(assembly.stresses(u + h * direction)) - flat(assembly.stresses(u - h * direction))) / (
-        2 * h
-    )
-    change = flat(assembly.extrapolated(u, direction)) - flat(assembly.stresses(u))
+    h, rest = 1e-6, np.zeros_like(u)
+    slope = (flat(u + h * direction, rest) - flat(u - h * direction, rest)) / (2 * h)
+    change = flat(u, direction) - flat(u, rest)
     assert np.allclose(change, slope, atol=1e-6 * np.abs(slope).max())
 
 

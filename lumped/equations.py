@@ -41,16 +41,22 @@ class Equations(NamedTuple):
     slots: np.ndarray
 
 
-def equations_of(assembly: Assembly, constraints: Constraints, band: banded.Band | None) -> Equations | None:
-    """Return what the calls take; None for actuators, single precision, and springs that they do not know."""
+def equations_of(
+    assembly: Assembly, constraints: Constraints, band: banded.Band | None, pressed: bool
+) -> Equations | None:
+    """Return what the calls take; None for actuators, single precision, and springs that they do not know.
+    pressed: whether there is a pressure."""
     if assembly.all_families is None or assembly.coupling is not None or assembly.precision != "double":
         return None
-    lattice, pattern, masses = assembly.lattice, assembly.pattern, np.arange(assembly.lattice.mass_count)
+    lattice, pattern = assembly.lattice, assembly.pattern
     (cells,) = (family.nodes for family in lattice.cells if family.name == "mid_area")
-    place = pattern.blocks, pattern.mirror, pattern.slots(masses, masses)
+    cells = cells[: len(cells) * pressed]
+    place = pattern.blocks, pattern.mirror, pattern.diagonal
     free = constraints.transform_arrays, constraints.transform.shape[1], constraints.held
-    pressed = lattice.positions, cells, pattern.among(cells.reshape(len(cells), -1))
-    return Equations(assembly.all_families.springs, *place, *free, band or banded.NO_BAND, *pressed)
+    slots = pattern.among(cells.reshape(len(cells), 4 * lattice.grid[2]))
+    return Equations(
+        assembly.all_families.springs, *place, *free, band or banded.NO_BAND, lattice.positions, cells, slots
+    )
 
 
 @njit(cache=True, nogil=True)

@@ -34,6 +34,11 @@ class Pattern:
         below = np.flatnonzero(self.rows > self.indices).astype(np.int32)
         return np.stack([below, self.slots(self.indices[below], self.rows[below])], axis=1)
 
+    @cached_property
+    def diagonal(self) -> np.ndarray:
+        """Block number of every mass with itself, (n,)."""
+        return self.slots(np.arange(self.size), np.arange(self.size))
+
     @property
     def blocks(self) -> int:
         """Number of blocks."""

@@ -35,7 +35,7 @@ class Damping:
             time = scene.material.dashpot_time
             self.dampers = [family.damped(time) for family in assembly.springs] if time else []
             self.time = time if assembly.conservative else 0.0
-        self._diagonal = assembly.pattern.slots(np.arange(len(mass)), np.arange(len(mass)))
+        self._diagonal = assembly.pattern.diagonal[: len(mass)]
         self._in_chains = any(getattr(a, "damping_time", 0.0) > 0.0 for a in scene.actuators)
         self.proportional = scene.dampers is None and not scene.actuators and assembly.conservative
         self.present = bool(self.dampers or self.rate.any() or self._in_chains)

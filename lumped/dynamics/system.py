@@ -51,8 +51,8 @@ class System:
         self.packing = pack(lattice, self.assembly.springs, self.damping.dampers)
         self.scratch = scratch(self.packing)
         self.mass_blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
-        n = np.arange(lattice.mass_count)
-        self.mass_blocks[self.assembly.pattern.slots(n, n)] = self.lattice_mass[:, None, None] * np.eye(3)
+        own = self.assembly.pattern.diagonal[: lattice.mass_count]
+        self.mass_blocks[own] = self.lattice_mass[:, None, None] * np.eye(3)
         if self.coupling is not None:
             own = self.coupling.mass_blocks()[:, None, None] * np.eye(3)
             np.add.at(self.mass_blocks, self.assembly.coupling_slots, own)

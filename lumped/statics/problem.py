@@ -95,9 +95,10 @@ class Problem:
         else:
             multipliers = self._multiplier_unknowns(coupling)
             self.system = ReducedSystem(pattern, transform, self.conservative, multipliers)
-        turning = self.loads.turning or (self.base is not None and self.base.follow)
-        compiled = None if turning else equations_of(self.assembly, self.constraints, self.system.band)
-        self.equations: Equations | None = compiled
+        self.equations: Equations | None = None  # where the compiled ones serve
+        if not (self.loads.turning or (self.base is not None and self.base.follow)):
+            pressed = bool(self.loads.pressure)
+            self.equations = equations_of(self.assembly, self.constraints, self.system.band, pressed)
 
     def _multiplier_unknowns(self, coupling: Coupling) -> np.ndarray:
         """Which unknowns are multipliers of the actuators' constraints, (m,) bool."""

@@ -1,6 +1,6 @@
 """A lattice's equations as compiled calls: the tangent with its factors, and what a displacement leaves over.
 
-    K = s K̃(u, S) + diag(m) − p ∂f_p/∂u,      r = f + p f_p(u + δ) − f_int(u + δ),   Tᵀ K T x = Tᵀ r,   δ = T x
+    K = s K̃(u, S) + diag(m) − p ∂f_p/∂u,   Tᵀ K T x = Tᵀ r,   δ = T x,   r = f + p f_p(u + δ) − f_int(u + δ)
 
 of springs with an energy (`lumped.springs.all_families`) under dead loads f and pressure p. One call for each
 costs a small lattice less than a call for each part. Statics and implicit integrators share the first.
@@ -24,9 +24,9 @@ from sheetbench.numerics.maps import Rows, product, transposed_product
 
 class Equations(NamedTuple):
     """springs; blocks, mirror: how many blocks the tangent has, and `Pattern.mirror`; own: (n,) each mass's
-    own block; free, unknowns: T and its columns; held: (n, 3) bool, components that supports act on; band: where the entries of TᵀKT
-    go, of no unknowns where it has no banded factors; positions (n, 3) [m], cells (c, 4, p) and slots
-    (c, 4p, 4p) of a pressure."""
+    own block; free, unknowns: T and how many columns it has; held: (n, 3) bool, components that supports act
+    on; band: where the entries of TᵀKT go, of no unknowns where it has no banded factors; positions (n, 3)
+    [m], cells (c, 4, p) and slots (c, 4p, 4p) of a pressure."""
 
     springs: Springs
     blocks: int
@@ -105,7 +105,7 @@ def advance(
     if len(right):
         found = banded.solve_unrefined(factors, band.width, band.order, right)
         step = product(equations.free, found).reshape(-1, 3)
-    stresses = np.empty(0), np.empty((0, 3)), np.empty((0, 3))
+    stresses: Stresses = np.empty(0), np.empty((0, 3)), np.empty((0, 3))
     if predict:
         stresses = all_families.extrapolated(u, step, springs)
     after, length = u + step, 0.0

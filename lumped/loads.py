@@ -94,7 +94,8 @@ class Loads:
                 part.pressure += load.value
         last = [(part.factor(None), part) for part in self._parts.values()]
         self.pressure = sum(factor * part.pressure for factor, part in last)
-        self.last_dead = self.dead if len(last) == 1 else sum(factor * part.dead for factor, part in last)
+        others = [factor * part.dead for factor, part in last[1:]]
+        self.last_dead = np.sum([self.dead, *others], axis=0) if others else self.dead
         self.turning = any(part.moments for _, part in last)
         self.follow = self.turning or any(part.pressure for _, part in last)
         self.conservative = not self.turning and (not self.follow or encloses_volume(scene.supports))

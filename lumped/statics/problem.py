@@ -14,8 +14,8 @@ import numpy as np
 from lumped import equations
 from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
-from lumped.loads import Loads
 from lumped.equations import Equations, equations_of, size_of, unbalanced_force
+from lumped.loads import Loads
 from lumped.springs.all_families import NO_STRESSES, Stresses
 from lumped.statics.faults import Fault
 from lumped.supports import Constraints
@@ -55,8 +55,8 @@ class Residual(NamedTuple):
 
 
 class Advance(NamedTuple):
-    """A displacement (n, 3) [m], how far at most the step to it went [m], what the equilibrium equation leaves
-    there, and the stresses that the linearisation before the step predicts there, where asked for."""
+    """A displacement (n, 3) [m], how far the step there went at most [m], what the equilibrium equation
+    leaves, and the stresses that the linearisation before the step predicts, where asked for."""
 
     u: np.ndarray
     length: float
@@ -228,18 +228,32 @@ class Problem:
         return Tangent(blocks, self.system.factor(blocks))
 
     def advance(
-        self, u: np.ndarray, step: np.ndarray, load_factor: float, predict: bool = False
+        self,
+        u: np.ndarray,
+        step: np.ndarray,
+        load_factor: float,
+        predict: bool = False,
+        right: np.ndarray = NO_FORCE,
+        factors: np.ndarray = NO_FACTORS,
     ) -> Advance:
-        """Go from u by a step (n, 3) [m]; predict: the stresses too."""
-        if self.equations is not None:
-            return self._advance(u, step, NO_FORCE, NO_FACTORS, load_factor, predict)
-        after = u + step
-        _, internal = self.internal(after, load_factor)
-        residual = unbalanced_force(
-            internal, self.external(after, load_factor), self.constraints.held, self._free, self.system.unknowns
-        )
-        stresses = self.assembly.extrapolated(u, step) if predict else None
-        return Advance(after, float(np.abs(step).max()), Residual(*residual), stresses)
+        """Go from u by a step (n, 3) [m], or by what banded factors make of a force (m,) [N] on the unknowns;
+        predict: the stresses too. Raises SingularMatrixError where that is no number."""
+        if self.equations is None:
+            after = u + step
+            forces = self.internal(after, load_factor)[1], self.external(after, load_factor)
+            found = unbalanced_force(*forces, self.constraints.held, self._free, self.system.unknowns)
+            predicted = self.assembly.extrapolated(u, step) if predict else None
+            return Advance(after, float(np.abs(step).max()), Residual(*found), predicted)
+        dead = load_factor * self.loads.last_dead
+        if self.base is not None:
+            dead += self.base.last_dead
+        after, length, stresses, force, reduced, norm, size = equations.advance(
+            np.ascontiguousarray(u), np.ascontiguousarray(step), right, factors, predict, dead,
+            load_factor * self.loads.pressure, self.equations,
+        )  # fmt: skip
+        if not np.isfinite(length):
+            raise SingularMatrixError("the tangent's factors solve nothing: a number overflowed")
+        return Advance(after, length, Residual(force, reduced, norm, size), stresses if predict else None)
 
     def correct(
         self, factor: Factor, u: np.ndarray, load_factor: float, residual: Residual, predict: bool = False
@@ -248,27 +262,7 @@ class Problem:
         Raises SingularMatrixError when they do not solve the system."""
         if self.equations is None or not isinstance(factor, BandedFactor):
             return self.advance(u, self.expand(factor.solve(residual.reduced, SOLVED)), load_factor, predict)
-        return self._advance(u, u, residual.reduced, factor.factors, load_factor, predict)
-
-    def _advance(
-        self,
-        u: np.ndarray,
-        step: np.ndarray,
-        right: np.ndarray,
-        factors: np.ndarray,
-        load_factor: float,
-        predict: bool,
-    ) -> Advance:
-        dead = load_factor * self.loads.last_dead
-        if self.base is not None:
-            dead += self.base.last_dead
-        after, length, stresses, *left = equations.advance(
-            np.ascontiguousarray(u), np.ascontiguousarray(step), right, factors, predict, dead,
-            load_factor * self.loads.pressure, self.equations,
-        )  # fmt: skip
-        if not np.isfinite(length):
-            raise SingularMatrixError("the tangent's factors solve nothing: a number overflowed")
-        return Advance(after, length, Residual(*left), stresses if predict else None)
+        return self.advance(u, u, load_factor, predict, residual.reduced, factor.factors)
 
     def solve_near(
         self, u: np.ndarray, load_factor: float, residual: Residual, stresses: Stresses | None, near: Factor

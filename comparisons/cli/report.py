@@ -30,7 +30,7 @@ def command(
 
     A study is what a verb wrote with --out, as its manifest says.
 
-    Sheets to turn, tables to sort, plots, findings and manifests; it needs no network.
+    Sheets to turn, tables to sort, figures, notes and manifests; it needs no network.
     """
     from webbrowser import open as browse
 
@@ -62,5 +62,3 @@ def command(
         console.warn("There is no browser here: open the page where there is one.")
     for said in troubles:
         console.warn(said)
-    for fault in (fault for study in found.studies for fault in study.faults):
-        raise fault

@@ -27,7 +27,7 @@ from comparisons.models.expected_error import ExpectedError
 from comparisons.models.grading import told
 from comparisons.report.vtk import plan_mesh, write_mesh, write_solution
 from sheetbench.answers.answer import Answer
-from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.table import Table
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.summary import few
@@ -241,7 +241,7 @@ class Comparison(Answer):
         said = "" if off is None else f": error at the probes {100 * off:.2f} %"
         described = f"{self.scene.name}: {lattice.label} against {reference.label}{said}"
         return (
-            Picture("comparison", "comparisons.comparison.figure:compose", (self,), described),
+            Picture("comparison", "comparisons.comparison.figure:compose", (self,), described, RASTER),
             Picture("probes", "comparisons.comparison.probes_figure:compose", (self,)),
         )
 

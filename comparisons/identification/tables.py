@@ -8,7 +8,7 @@ import numpy as np
 
 from comparisons.identification.measurements import Displacements
 from comparisons.models.grading import told
-from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.report import RASTER, Picture, Report
 from sheetbench.answers.table import Column, Table, unit
 
 if TYPE_CHECKING:
@@ -32,7 +32,9 @@ def report(found: Identification, file: str) -> Report:
         printed=(unknowns(found), worst(found)),
         notes=(*told(found.settings), explanation(found)),
         complaints=(*found.warnings, *unended),
-        pictures=(Picture("identification", "comparisons.identification.figure:compose", (found,)),),
+        pictures=(
+            Picture("identification", "comparisons.identification.figure:compose", (found,), formats=RASTER),
+        ),
         settings={**found.settings, "measured": file},
         met=found.converged,
     )

@@ -15,7 +15,7 @@ from comparisons.modes.kinds import kinds
 from comparisons.modes.pairing import CELLS, Pair, assurance, cell_centres, matched
 from comparisons.report.vtk import plan_mesh, write_mesh
 from sheetbench.answers.answer import Answer
-from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.table import HERTZ, NUMBER, PERCENT, Column, Table, number
 from sheetbench.scenes import About, Scene
 from sheetbench.scenes.summary import few
@@ -159,7 +159,7 @@ class Spectra(Answer, Sequence[Spectrum]):
 
     def figures(self) -> tuple[Picture, ...]:
         """Shapes on the plan."""
-        return (Picture("modes", "comparisons.modes.figure:compose", (self,)),)
+        return (Picture("modes", "comparisons.modes.figure:compose", (self,), formats=RASTER),)
 
     def files(self) -> dict[str, Write]:
         """The shapes as VTU."""

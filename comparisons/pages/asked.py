@@ -10,29 +10,6 @@ from comparisons.pages.studies import Study
 from sheetbench.answers.table import number
 from sheetbench.scenes.words import in_words
 
-QUESTIONS = {
-    "compare": "How far is a spring lattice from a finite-element reference of the same sheet?",
-    "calibrate": "Which spring constants belong to this material and grid?",
-    "simulate": "How does the lattice move from rest?",
-    "modes": "What are the natural frequencies of both models?",
-    "tradeoff": "What does speed cost in accuracy, over models and grids?",
-    "advise": "Which is the cheapest model within a tolerance?",
-    "identify": "Which material brings the model nearest to measured displacements?",
-    "stability": "Where does each solver hold, degrade, refuse or break?",
-    "verify": "Do the references meet published values?",
-    "crosscheck": "Do independent programs agree on this sheet?",
-    "linearise": "What are mass, damping and stiffness about the sheet's rest?",
-    "suite": "What are the cases of the reference set?",
-    "score": "How near are these answers to the reference set?",
-    "reproduce": "What do both models make of the published tests?",
-    "check": "What does this scene ask?",
-}
-
-
-def question(study: Study) -> str:
-    """The question that a verb answers."""
-    return QUESTIONS.get(study.verb, "")
-
 
 def command(study: Study) -> str:
     """The command as it was typed."""

@@ -36,7 +36,6 @@ class Words(TypedDict, total=False):
     subtitle: str | None
     lead: str | None
     document: Name
-    digest: str
     tables: list[dict[str, Any]]
     notes: list[str]
     complaints: list[str]

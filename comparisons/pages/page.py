@@ -17,10 +17,9 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from comparisons.browser import viewer
-from comparisons.pages.asked import asked, command, question
-from comparisons.pages.charts import charts
-from comparisons.pages.findings import complaints, findings, notes
+from comparisons.pages.asked import asked, command
 from comparisons.pages.pictures import pictures
+from comparisons.pages.remarks import complaints, notes
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import Found, Study
 from comparisons.pages.tables import tables
@@ -30,7 +29,7 @@ from sheetbench.answers.escape import terminal
 from sheetbench.answers.files import plain
 
 PACKAGE = "comparisons.pages"
-MANY, OTHERS = 4, 30  # studies from which on each is folded to its findings; other files that are named
+MANY, OTHERS = 4, 30  # studies from which on each is folded; other files that are named
 
 
 def page(found: Found, title: str) -> str:
@@ -88,6 +87,9 @@ def _study(study: Study, number: int) -> dict[str, Any]:
     sheets = stage(study)
     words = study.words
     record = study.record
+    drawn = pictures(study)
+    turning = sheets is not None and not any(sheet.get("frames") for sheet in sheets["sheets"])
+    folded = [one for one in drawn if turning and not one[0].endswith(".svg")]
     return {
         "id": f"study-{number}",
         "title": study.title,
@@ -95,20 +97,17 @@ def _study(study: Study, number: int) -> dict[str, Any]:
         "lead": words.get("lead") or "",
         "verb": study.verb,
         "place": study.place,
-        "question": question(study),
         "command": command(study),
         "asked": asked(study),
         "date": study.date,
-        "findings": findings(study),
         "notes": notes(study),
         "complaints": complaints(study),
         "unfinished": bool(study.run) and not study.run.get("finished", True),
-        "met": words.get("met", True),
         "stage": plain({**sheets, "label": f"Sheet of {study.title}"}) if sheets else None,
-        "moving": any(sheet.get("frames") for sheet in (sheets or {}).get("sheets", [])),
         "tables": tables(study),
-        "plots": charts(study),
-        "pictures": pictures(study),
+        "pictures": drawn,
+        "figures": [one for one in drawn if one not in folded],
+        "folded": folded,
         "made": [*_made(record, study.run)],
         "files": [(name, _size(study.folder / name)) for name in study.files],
     }

@@ -113,7 +113,7 @@ def _ordered(views: list[Options], study: Study) -> list[Options]:
     order = {name: place for place, name in enumerate(models)}
     found = sorted(views, key=lambda view: order.get(view["name"], len(order)))
     there = [view["name"] for view in found]
-    if len(models) > 1 and all(name in there for name in models[:2]) and study.verb == "compare":
+    if len(models) > 1 and all(name in there for name in models[:2]):
         both = {"name": "both", "label": f"{models[0]} and {models[1]}", "sheets": models[:2]}
         found.insert(0, {**both, "field": found[0]["field"]})
     return found

@@ -1,8 +1,7 @@
 """The studies that a folder holds: what every run was asked, what it said, and which files are its own.
 
 A manifest tells of its folder's runs; other files beside them are named. A file that cannot be read costs a
-sentence and nothing else. A document that is as its run wrote it and cannot be shown is a fault of the
-program.
+sentence and nothing else.
 """
 
 from __future__ import annotations
@@ -16,7 +15,6 @@ from typing import Any
 
 from comparisons.pages.manifests import LARGEST, manifest
 from comparisons.runs.folder import MANIFEST
-from sheetbench.answers.files import digest
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 
@@ -30,7 +28,7 @@ class Study:
 
     folder: where its files are; place: that as the reader knows it; verb: of the run, "" of sheets without
     one; run: its entry in the manifest; record: the manifest. troubles: a sentence for everything that cannot
-    be read; faults: of the program.
+    be read.
     """
 
     folder: Path
@@ -40,7 +38,6 @@ class Study:
     run: Mapping[str, Any] = field(default_factory=dict)
     record: Mapping[str, Any] = field(default_factory=dict)
     troubles: list[str] = field(default_factory=list)
-    faults: list[Exception] = field(default_factory=list)
 
     @cached_property
     def words(self) -> Mapping[str, Any]:
@@ -117,25 +114,6 @@ class Study:
                 f"{self.named(what)}: cannot be shown: {type(error).__name__}: {error}"[:240]
             )
         return None
-
-    def of_document(self, made: Callable[[Mapping[str, Any]], Any]) -> Any:
-        """What is made of the document, None where nothing can be. An exception is the program's fault where
-        the document is as its run wrote it."""
-
-        def attempt() -> Any:
-            try:
-                return made(self.document)
-            except Exception as error:
-                if self._unchanged():
-                    self.faults.append(error)
-                raise
-
-        return self.attempt(self.words.get("document") or "document", attempt) if self.document else None
-
-    def _unchanged(self) -> bool:
-        name, kept = self.words.get("document"), self.words.get("digest")
-        text = self.read(name, lambda path: path.read_text(encoding="utf-8")) if name and kept else None
-        return text is not None and digest(text) == kept
 
     def json(self, name: str) -> Any:
         """A JSON document."""

@@ -55,8 +55,6 @@ def tables(study: Study) -> list[Sheet]:
     for words in study.words.get("tables", ()):
         name = f"{words.get('name')}.csv"
         told.add(name)
-        if name == "findings.csv" and study.document.get("findings"):
-            continue  # they are said in sentences
         rows = words.get("rows")
         if rows is None:
             read = study.read(name, _rows) if name in study.files else None

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 
 from sheetbench.answers.escape import html, markdown, terminal
 from sheetbench.answers.figure_style import PLAIN, FigureStyle, parse_figure
-from sheetbench.answers.files import digest, to_json, write_text
 from sheetbench.answers.files import folder as made
+from sheetbench.answers.files import to_json, write_text
 from sheetbench.answers.layout import text
 from sheetbench.answers.table import Table
 
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Write = Callable[[Path], None]
+
+
+RASTER = ("png", "pdf")
 
 
 class NoPicture(Exception):
@@ -35,14 +38,14 @@ class Picture:
     """A figure of an answer, made when it is drawn.
 
     compose: "module:function", which makes the figure `of` these in a style, or raises NoPicture. name: of
-    its files, without suffixes; description: kept in the files.
+    its files, without suffixes; description: kept in the files; formats: RASTER where most of it is an image.
     """
 
     name: str
     compose: str
     of: tuple[Any, ...]
     description: str = ""
-    formats: tuple[str, ...] = ("png", "pdf")
+    formats: tuple[str, ...] = ("svg", "png", "pdf")
     style: FigureStyle = PLAIN
 
     @property
@@ -200,7 +203,6 @@ class Report:
             "subtitle": self.subtitle,
             "lead": self.lead,
             "document": f"{self.name}.json",
-            "digest": digest(to_json(self.document)),
             "tables": [table.words() for table in self.tables],
             "notes": list(self.notes),
             "complaints": list(self.complaints),

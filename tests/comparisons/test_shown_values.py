@@ -21,7 +21,6 @@ from comparisons.cli import modes
 from comparisons.linearisation.tables import poles
 from comparisons.models.candidate import Candidate
 from comparisons.modes.spectra import spectra
-from comparisons.pages import plots
 from comparisons.reproduction import figure
 from comparisons.runs.store import Finished
 from comparisons.stability import tiles as stability_figure
@@ -114,15 +113,6 @@ def test_a_front_without_a_bar_has_every_row_that_errs_less_for_more_time() -> N
 def test_unless_told_otherwise_functions_and_commands_ask_for_as_many_modes() -> None:
     asked = (spectra, lumped.modes, fem_reference.modes, modes.command)
     assert [signature(call).parameters["count"].default for call in asked] == [10] * 4
-
-
-@pytest.mark.parametrize("values, shown", [
-    ([1.0, 3.0], (0.9, 3.1)), ([4.0, 4.0], (2.0, 6.0)), ([0.0], (-1.0, 1.0)),
-])  # fmt: skip
-def test_an_axis_has_room_beside_its_values_also_where_they_are_one(
-    values: list[float], shown: tuple[float, float]
-) -> None:
-    assert plots._span(values, False) == pytest.approx(shown)
 
 
 def test_a_pole_is_shown_in_hertz_and_its_damping_in_percent() -> None:

@@ -14,11 +14,13 @@ import pytest
 from browser import browser, colours, opened, pixels  # noqa: F401
 from commands import run
 
+from comparisons.cli.app import VERBS
 from comparisons.comparison.comparison import compare
-from comparisons.pages import charts
+from comparisons.pages import remarks
 from comparisons.pages.asked import asked
-from comparisons.pages.findings import _percent, findings, notes
 from comparisons.pages.page import page
+from comparisons.pages.pictures import pictures
+from comparisons.pages.remarks import notes
 from comparisons.pages.studies import Study, read
 from comparisons.pages.tables import tables
 from comparisons.runs.folder import Folder
@@ -101,14 +103,6 @@ def test_tables_sort_by_click_and_by_key_numbers_by_value(shown: Any) -> None:
     assert table.locator("tbody tr").first.locator("td").all_text_contents()[2:] == ["=r3", "MPa"]
 
 
-def test_a_plot_says_the_values_under_pointer_and_keys(shown: Any) -> None:
-    plot = shown.locator("#study-2 .plot .canvas")
-    plot.locator("svg").hover()
-    assert plot.locator(".value").text_content() == "lumped: mode 2, frequency [Hz] 10.25"
-    plot.locator("svg").press("ArrowRight")
-    assert plot.locator(".value").text_content() == "lumped: mode 3, frequency [Hz] 100"
-
-
 def test_a_phone_needs_no_sideways_scrolling(shown: Any) -> None:
     before = shown.viewport_size
     shown.set_viewport_size({"width": 360, "height": 740})
@@ -150,39 +144,6 @@ def test_tables_are_shown_as_the_run_showed_them(studies: Path) -> None:
     assert not comparison.troubles
 
 
-FOUND = {
-    "score": (
-        {
-            "score": 0.02,
-            "cases": [{"case": "thick", "error": 0.01}, {"case": "soft", "error": 0.04}],
-            "standing": [{"model": "shell:elements=8"}, {"model": "answers"}],
-        },
-        ["A score of 2 %; the worst case is soft, 4 % off.", "Of 2 models on these cases it is number 2."],
-    ),
-    "crosscheck": (
-        {
-            "pairs": [
-                {"scene": "flat", "a": "lumped", "b": "shell", "difference": 0.01, "apart": []},
-                {"scene": "flat", "a": "plate", "b": "shell", "difference": 0.3, "apart": ["P1"]},
-            ]
-        },
-        [
-            "1 of 2 pairs of models agree within their error bars.",
-            "Farthest apart are plate and shell on flat, by 30 %.",
-        ],
-    ),
-}
-
-
-@pytest.mark.parametrize("verb", FOUND)
-def test_a_study_begins_with_what_it_found(tmp_path: Path, verb: str) -> None:
-    """Those of these verbs began with what their columns mean."""
-    document, said = FOUND[verb]
-    (tmp_path / "found.json").write_text(json.dumps(document))
-    study = Study(tmp_path, "", verb, ("found.json",), {"words": {"notes": ["what columns mean"]}})
-    assert findings(study) == said and notes(study) == ["what columns mean"] and not study.troubles
-
-
 @pytest.mark.parametrize("there", [True, False])
 def test_the_page_is_opened_where_that_is_asked(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, there: bool
@@ -215,31 +176,19 @@ def _motion_tradeoff(folder: Path, drawn: bool = False) -> Path:
     return folder
 
 
-def test_a_trade_of_motion_has_its_picture_its_plot_and_its_findings(tmp_path: Path) -> None:
+def test_a_trade_of_motion_has_its_figure_and_its_notes(tmp_path: Path) -> None:
     (study,) = read(_motion_tradeoff(tmp_path, drawn=True)).studies
-    assert {"motion.png", "motion.pdf"} <= set(study.files)
-    assert findings(study) == [
-        "Cheapest within 5 %: midpoint with steps of 10 ms, 3 % off in 200 ms a simulated second.",
-        "Cheapest within 1 %: midpoint with steps of 1 ms, 0.03 % off in 1.5 s a simulated second.",
-    ]
-    (plot,) = charts.charts(study)
-    assert [series.name for series in plot.series] == ["midpoint"] and "simulated second" in plot.x.label
-    assert not study.troubles and not study.faults
+    assert {"motion.svg", "motion.png", "motion.pdf"} <= set(study.files)
+    assert [name for name, _ in pictures(study)] == ["motion.svg"]
+    assert "uncertainty of the reference" in notes(study)[0] and not study.troubles
 
 
-def test_a_document_that_we_wrote_and_cannot_show_is_our_fault(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    _motion_tradeoff(tmp_path)
-    monkeypatch.setitem(charts.CHARTS, "tradeoff", lambda document: document["of no such key"])
-    assert run("report", str(tmp_path)) == 1
-    said = capsys.readouterr().err
-    assert "cannot be shown: KeyError" in said and "Traceback" in said and "fault of the program" in said
-    assert (tmp_path / "report.html").is_file()
-    document = json.loads((tmp_path / "motion.json").read_text())
-    (tmp_path / "motion.json").write_text(json.dumps({**document, "rows": 7}))  # somebody's hand
-    assert run("report", str(tmp_path)) == 0
-    assert "cannot be shown" in capsys.readouterr().err
+def test_no_verb_has_a_page_of_its_own() -> None:
+    """What a page shows it is told by the manifest: a new verb needs nothing there."""
+    for path in sorted(Path(remarks.__file__).parent.glob("*.py")):
+        text = path.read_text(encoding="utf-8")
+        named = [verb for verb in VERBS if f'"{verb}"' in text or f"'{verb}'" in text]
+        assert not set(named), f"{path.name} knows {named}"
 
 
 def test_many_studies_are_folded_dated_and_placed(tmp_path: Path) -> None:
@@ -255,11 +204,6 @@ def test_many_studies_are_folded_dated_and_placed(tmp_path: Path) -> None:
     for study in found.studies:
         assert re.fullmatch(r"\d{4}-\d\d-\d\d \d\d:\d\d", study.date)
         assert f'<span class="place">{study.place} {study.date}</span>' in text
-
-
-@pytest.mark.parametrize(("share", "said"), [(1.0, "100 %"), (0.0123, "1.2 %"), (12.3, "1230 %")])
-def test_percent_has_no_exponent(share: float, said: str) -> None:
-    assert _percent(share) == said
 
 
 def test_long_tables_are_folded(tmp_path: Path) -> None:

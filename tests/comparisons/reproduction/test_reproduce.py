@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from commands import one_line, run
 
-from comparisons.pages.findings import SAID
 from comparisons.reproduction.answers import Answer, answer
 from comparisons.reproduction.findings import all_of
 from comparisons.reproduction.published import published, scene
@@ -51,7 +50,7 @@ def test_the_tables_hold_what_was_published_and_what_we_answer(test_1: Answer) -
     found = Reproduction(("tables",), 2, answers=(test_1,))
     document = found.as_dict()
     assert {"parts", "inputs", "known_faults", "findings", "tests"} == set(document)
-    assert SAID["reproduce"](document)[0].startswith("Test 1: Our lattice with consistent springs is ")
+    assert document["findings"][0]["finding"].startswith("Our lattice with consistent springs is ")
     assert found.converged and document["tests"][0]["name"] == "test-1"
     report: Report = found.report()
     table = next(table for table in report.tables if table.name == "test-1")

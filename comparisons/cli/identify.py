@@ -8,23 +8,53 @@ from typing import Annotated
 import typer
 
 from comparisons.cli.lattice_options import Lattice, with_lattice
-from comparisons.cli.options import Elements, Large, Law, Scene
+from comparisons.cli.options import Elements, Large, Law
+from comparisons.cli.quantity import quantity_in
 from comparisons.cli.verb import PictureOptions
 from sheetbench.choices import ELEMENTS
+from sheetbench.errors import BadInput
 
 
 @with_lattice
 def command(
-    scene: Scene,
+    scene: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="[SCENE]", help="Catalogue name or path; not needed for --tensile.", show_default=False
+        ),
+    ] = None,
+    *,
     lattice: Lattice,
     measured: Annotated[
-        Path,
+        Path | None,
         typer.Option(
             metavar="FILE",
             help="CSV with the columns x,y,ux,uy,uz or x,y,uz (metres; with a column time [s], a motion), or "
             "x,y,z of the deformed surface; or a VTP or PLY point cloud of it.",
+            show_default=False,
         ),
-    ],
+    ] = None,
+    tensile: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FILE",
+            help="A tensile test instead: CSV with stretch (or strain) and engineering_stress, true_stress "
+            "or force; pure-shear=FILE or equibiaxial=FILE of other tests. May be repeated.",
+            show_default=False,
+        ),
+    ] = None,
+    up_to: Annotated[
+        float | None,
+        typer.Option(metavar="STRETCH", help="With --tensile: leave out what is stretched farther."),
+    ] = None,
+    area: Annotated[
+        float | None,
+        typer.Option(
+            metavar="M2",
+            parser=quantity_in("m²"),
+            help="With --tensile and a force: undeformed cross-section, 1.8e-5 or 18mm².",
+        ),
+    ] = None,
     unknown: Annotated[
         str,
         typer.Option(
@@ -44,7 +74,6 @@ def command(
         ),
     ] = 0.0,
     large: Large = False,
-    *,
     output: PictureOptions,
 ) -> None:
     """Find the values with which a model comes nearest to what was measured, with 95 % intervals.
@@ -52,7 +81,19 @@ def command(
     The search starts from the scene's own values, and from others where these lead to no fit. Unless --lumped
     is given, the fit makes the lattice's cells smaller until they move the values less than the noise does.
     Lengths are in metres unless a column's header says otherwise (uz [mm]), in the scene's axes.
+    --tensile finds the law of rubber and its constants instead.
     """
+    if tensile:
+        if measured is not None or scene is not None:
+            raise BadInput("--tensile: needs no SCENE and no --measured; ask for one or the other")
+        from comparisons.identification.tensile.tensile import identify_tensile
+
+        curves = identify_tensile(tensile, area=area, up_to=up_to)
+        with output.open(about={"tensile": tensile}) as out:
+            out.show(curves.report())
+        return
+    if scene is None or measured is None:
+        raise BadInput("identify: give a SCENE and --measured FILE, or --tensile FILE")
     from comparisons.comparison.comparison import load_static
     from comparisons.identification.identification import identify
     from comparisons.identification.measurements import read

@@ -1,0 +1,1 @@
+"""From a tensile test to a law of rubber with its constants."""

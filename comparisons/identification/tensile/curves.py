@@ -1,0 +1,130 @@
+"""A tensile test as it was measured: stretch and engineering stress of a loading branch.
+
+stress: engineering P = force/undeformed area, or true σ = P λ of an incompressible sheet
+strain: engineering λ − 1, or true ln λ
+test: uniaxial, pure-shear (a wide strip held along its width) or equibiaxial
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from comparisons.measured.columns import Columns, read_columns
+from sheetbench.errors import BadInput, require_choice
+
+TESTS = ("uniaxial", "pure-shear", "equibiaxial")
+ENGINEERING, TRUE = ("engineering_stress", "nominal_stress"), ("true_stress", "cauchy_stress")
+UNITS = {
+    "stretch": "",
+    "strain": "",
+    "engineering_strain": "",
+    "true_strain": "",
+    "force": "N",
+    "stress": "Pa",
+}
+UNITS |= dict.fromkeys((*ENGINEERING, *TRUE), "Pa")
+FEWEST = 5  # rows
+BACK = 0.005  # of the range of stretch, that it may go back by noise
+BROKEN = 0.8  # of the largest stress, below which a sheet has torn
+LARGEST_STRETCH = 25.0
+SOFTEST = 1e3  # Pa
+
+
+@dataclass(frozen=True)
+class Curve:
+    """stretch (n,), engineering stress (n,) [Pa]; file: where from."""
+
+    test: str
+    stretch: np.ndarray
+    stress: np.ndarray
+    file: str = ""
+
+
+def read(text: str, area: float | None = None, up_to: float | None = None) -> Curve:
+    """The curve of `FILE`, uniaxial, or `TEST=FILE`; area [m²]: undeformed cross-section, where forces were
+    measured; up_to: the largest stretch to take. Raises BadInput naming file, line and remedy."""
+    test, _, name = text.rpartition("=") if text.partition("=")[0] in TESTS else ("uniaxial", "", text)
+    path = Path(name)
+    columns = read_columns(path, UNITS)
+    stretch, stress = _stretch(path, columns), _stress(path, columns, area)
+    if any(column in columns.names for column in TRUE) and not set(ENGINEERING) & set(columns.names):
+        stress = stress / stretch
+    if up_to is not None:
+        stretch, stress = stretch[stretch <= up_to], stress[stretch <= up_to]
+    curve = Curve(test, stretch, stress, str(path))
+    require_loading(curve, columns)
+    return curve
+
+
+def require_loading(curve: Curve, columns: Columns | None = None) -> None:
+    """Raise BadInput unless the curve is one branch of loading, in SI units."""
+    where, stretch, stress = curve.file or "tensile test", curve.stretch, curve.stress
+    require_choice("test", curve.test, TESTS)
+    if len(stretch) < FEWEST:
+        raise BadInput(f"{where}: {len(stretch)} rows; at least {FEWEST}")
+    if stretch.max() > LARGEST_STRETCH:
+        raise BadInput(
+            f"{where}: stretched to {stretch.max():g}: per cent? strains are fractions, or write the unit: "
+            "strain [%]"
+        )
+    if stretch.min() <= 0.0:
+        raise BadInput(
+            f"{where}: stretch = {stretch.min():g}: must be greater than 0; of strains write strain"
+        )
+    way = 1.0 if abs(stretch[-1] - 1.0) >= abs(stretch[0] - 1.0) and stretch[-1] >= stretch[0] else -1.0
+    gone = np.maximum.accumulate(way * stretch)
+    back = gone - way * stretch > BACK * np.ptp(stretch)
+    if back.any():
+        row = int(np.argmax(back))
+        line = columns.rows[row].where if columns is not None else f"{where}, row {row + 1}"
+        raise BadInput(
+            f"{line}: stretch goes back to {stretch[row]:.4g}: an unloading branch; keep one loading"
+        )
+    pull = np.sign(stretch - 1.0) * stress
+    if pull.max() <= 0.0 or pull.min() < -0.05 * pull.max():
+        raise BadInput(
+            f"{where}: stress {stress.min():g} to {stress.max():g} Pa: tension is > 0, compression < 0"
+        )
+    if pull[-1] < BROKEN * pull.max():
+        row = int(np.argmax(pull))
+        raise BadInput(
+            f"{where}: the stress falls after stretch {stretch[row]:.4g}: torn? Leave that out by "
+            f"--up-to {stretch[row]:.4g}"
+        )
+    if pull.max() < SOFTEST * np.abs(stretch - 1.0).max():
+        raise BadInput(
+            f"{where}: at most {pull.max():g} Pa, softer than any solid sheet: write the stress's unit in "
+            "the header, as engineering_stress [MPa]"
+        )
+
+
+def _stretch(path: Path, columns: Columns) -> np.ndarray:
+    for name, law in (
+        ("stretch", lambda e: e),
+        ("engineering_strain", lambda e: 1.0 + e),
+        ("strain", lambda e: 1.0 + e),
+        ("true_strain", np.exp),
+    ):
+        if name in columns.names:
+            return np.asarray(law(np.array([row.number(name) for row in columns.rows])))
+    named = ", ".join(filter(None, columns.names)) or "none"
+    raise BadInput(f"{path}: columns {named}; needed is stretch, strain or true_strain")
+
+
+def _stress(path: Path, columns: Columns, area: float | None) -> np.ndarray:
+    found = [name for name in (*ENGINEERING, *TRUE, "force") if name in columns.names]
+    if not found and "stress" in columns.names:
+        raise BadInput(
+            f"{path}: stress: engineering or true? name the column engineering_stress or true_stress"
+        )
+    if not found:
+        raise BadInput(f"{path}: needed is engineering_stress, true_stress or force")
+    values = np.array([row.number(found[0]) for row in columns.rows])
+    if found[0] != "force":
+        return values
+    if area is None:
+        raise BadInput(f"{path}: force: give the undeformed cross-section, --area 18mm²")
+    return values / area

@@ -1,0 +1,172 @@
+"""Constants of the laws of rubber from curves of incompressible sheets, with intervals.
+
+With x = I₁ − 3 and f, c₀₁ of `sheetbench.scenes.material`, engineering stress is 2 (f′(x) + c₀₁ m)(λ − w):
+
+    uniaxial     m = 1/λ    w = λ⁻²    I₁ = λ² + 2/λ
+    pure shear   m = 1      w = λ⁻³    I₁ = λ² + 1 + λ⁻²
+    equibiaxial  m = λ²     w = λ⁻⁵    I₁ = 2λ² + λ⁻⁴
+
+Least squares of the misfit over each curve's largest stress, within the bounds of laws that pull at any
+stretch (c1, c2 of mooney-rivlin, c1 and c3 of yeoh not below 0). What is left is seldom noise alone:
+neighbours are alike, and n rows tell as much as n (1 − ρ)/(1 + ρ) independent ones, ρ the correlation of a
+row's misfit with the next one's (AR(1)); intervals are Student's with these. Sources: Treloar, The
+Physics of Rubber Elasticity (1975); Bates and Watts, Nonlinear Regression Analysis (1988).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import inf, isfinite, log
+
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.stats import t as student
+
+from comparisons.identification.tensile.curves import Curve
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Material
+from sheetbench.scenes.material import WORDS, Energy
+
+POISSON = 0.499  # written beside constants of incompressible sheets
+AS_GOOD, GOOD = 1.5, 0.01  # times the least misfit, or of the largest stress: then few constants will do
+LIMITS = (1e-6, 1e3)  # of gent's limit over the largest I₁ − 3, less 1: beyond, it is not seen
+LAWS = ("neo-hookean", *WORDS)
+KEYS = {"neo-hookean": ("young",), **{law: words.keys for law, words in WORDS.items()}}
+
+
+def energy(law: str, constants: Sequence[float]) -> Energy:
+    """The energy of a law's constants; neo-Hooke's is Young's modulus of an incompressible sheet."""
+    return Energy(constants[0] / 6.0) if law == "neo-hookean" else WORDS[law].energy(*constants)
+
+
+def stress(of: Energy, test: str, stretch: np.ndarray) -> np.ndarray:
+    """Engineering stress (n,) [Pa] of an incompressible sheet."""
+    m, w, x = {
+        "uniaxial": (1.0 / stretch, stretch**-2.0, stretch**2 + 2.0 / stretch - 3.0),
+        "pure-shear": (np.ones_like(stretch), stretch**-3.0, stretch**2 + stretch**-2.0 - 2.0),
+        "equibiaxial": (stretch**2, stretch**-5.0, 2.0 * stretch**2 + stretch**-4.0 - 3.0),
+    }[test]
+    slope = of.c10 / (1.0 - x / of.limit) if of.limit else of.c10 + 2.0 * of.c20 * x + 3.0 * of.c30 * x * x
+    return np.asarray(2.0 * (slope + of.c01 * m) * (stretch - w))
+
+
+def largest_x(curve: Curve) -> float:
+    """The largest I₁ − 3 of a curve: half the stress of f′ = 1 is λ − w, and x its own integral."""
+    s = curve.stretch
+    x = {"uniaxial": s**2 + 2.0 / s, "pure-shear": s**2 + s**-2.0 + 1.0, "equibiaxial": 2.0 * s**2 + s**-4.0}
+    return float(x[curve.test].max() - 3.0)
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A law's constants with 95 % intervals; young: of small strains [Pa]; rms and largest misfit over the
+    largest stress; independent: rows that tell as much; correlation: of its first two constants; unstable:
+    why no material may have these constants; bound: those that are at their bounds."""
+
+    law: str
+    constants: dict[str, float]
+    intervals: dict[str, tuple[float, float]]
+    young: float
+    rms: float
+    largest: float
+    independent: float
+    correlation: float
+    unstable: str
+    bound: tuple[str, ...]
+
+    @property
+    def energy(self) -> Energy:
+        return energy(self.law, list(self.constants.values()))
+
+
+def fit(law: str, curves: Sequence[Curve], free: bool = False) -> Fit | None:
+    """The law's constants nearest to the curves, `free` of bounds; None where there are too few rows."""
+    scale = [float(np.abs(curve.stress).max()) for curve in curves]
+    rows, keys = sum(len(curve.stretch) for curve in curves), KEYS[law]
+    if rows < len(keys) + 3:
+        return None
+    size = max(float(s / abs(c.stretch[-1] - 1.0)) for s, c in zip(scale, curves, strict=True)) / 6.0
+    most = max(map(largest_x, curves))
+
+    def constants(q: np.ndarray) -> list[float]:
+        if law == "gent":
+            return [size * float(q[0]), most * (1.0 + float(np.exp(q[1])))]
+        return [size * float(v) / most**k for k, v in zip(_powers(law), q, strict=True)]
+
+    def misfit(q: np.ndarray) -> np.ndarray:
+        of = energy(law, constants(q))
+        parts = zip(curves, scale, strict=True)
+        return np.concatenate([(stress(of, c.test, c.stretch) - c.stress) / s for c, s in parts])
+
+    ends = (-inf, inf) if free else tuple(map(np.array, _BOUNDS[law]))
+    start = np.clip([1.0, *[0.01] * (len(keys) - 1)], *ends)
+    found = least_squares(misfit, start, bounds=ends, x_scale="jac", xtol=1e-12, ftol=1e-12, gtol=1e-12)
+    left, rss = found.fun, float(found.fun @ found.fun)
+    last = np.cumsum([len(curve.stretch) for curve in curves])[:-1]
+    independent = max(sum(map(_independent, np.split(left, last))), len(keys) + 2.0)
+    spread = rss / (rows - len(keys)) * rows / independent
+    covariance = np.linalg.pinv(found.jac.T @ found.jac) * spread
+    reach = float(student.ppf(0.975, independent - len(keys))) * np.sqrt(np.diag(covariance))
+    between = {}
+    for i, key in enumerate(keys):
+        by = reach[i] * np.eye(len(keys))[i]
+        low_end, high_end = (constants(np.clip(found.x + step, *ends))[i] for step in (-by, by))
+        between[key] = low_end, high_end
+    at = np.isclose(found.x, ends[0], atol=1e-5) | np.isclose(found.x, ends[1], rtol=1e-3)
+    best = found.x if law == "gent" else np.where(at, 0.0, found.x)
+    kept = dict(zip(keys, constants(best), strict=True))
+    alone = float(np.sqrt(np.prod(np.diag(covariance)[:2])))
+    return Fit(
+        law=law,
+        constants=kept,
+        intervals=between,
+        young=3.0 * energy(law, list(kept.values())).shear,
+        rms=float(np.sqrt(rss / rows)),
+        largest=float(np.abs(left).max()),
+        independent=independent,
+        correlation=float(covariance[0, 1]) / alone if len(keys) > 1 and alone > 0.0 else 0.0,
+        unstable=_unstable(law, kept),
+        bound=tuple(key for key, there in zip(keys, at, strict=True) if there),
+    )
+
+
+def chosen(fits: Sequence[Fit], curves: Sequence[Curve]) -> Fit | None:
+    """The law that the curves ask for: of few constants among those that fit well. One kind of test does not
+    tell c1 from c2 of mooney-rivlin, which is then left out; so is a limit that is not seen."""
+    several = len({curve.test for curve in curves}) > 1
+    able = [f for f in fits if not f.unstable and "limit" not in f.bound]
+    able = [f for f in able if several or f.law != "mooney-rivlin"]
+    if not able:
+        return None
+    enough = max(AS_GOOD * min(f.rms for f in able), GOOD)
+    return min((f for f in able if f.rms <= enough), key=lambda f: (len(f.constants), f.rms))
+
+
+_BOUNDS = {
+    "neo-hookean": ([0.0], [inf]),
+    "mooney-rivlin": ([0.0, 0.0], [inf, inf]),
+    "yeoh": ([0.0, -inf, 0.0], [inf, inf, inf]),
+    "gent": ([0.0, log(LIMITS[0])], [inf, log(LIMITS[1])]),
+}
+
+
+def _powers(law: str) -> tuple[int, ...]:
+    return {"neo-hookean": (0,), "mooney-rivlin": (0, 0), "yeoh": (0, 1, 2)}[law]
+
+
+def _independent(left: np.ndarray) -> float:
+    """Rows that tell as much as these, whose neighbours are alike."""
+    whole = float(left @ left)
+    alike = float(left[1:] @ left[:-1]) / whole if whole > 0.0 else 0.0
+    alike = min(max(alike, 0.0), 1.0 - 1.0 / len(left))
+    return len(left) * (1.0 - alike) / (1.0 + alike)
+
+
+def _unstable(law: str, constants: dict[str, float]) -> str:
+    try:
+        Material.model_validate({"law": law, "poisson": POISSON, "density": 1000.0, **constants})
+    except (BadInput, ValueError) as error:
+        said = error.errors()[0]["msg"] if hasattr(error, "errors") else str(error)
+        return str(said).removeprefix("Value error, ")
+    return "" if all(map(isfinite, constants.values())) else "not finite"

@@ -1,0 +1,104 @@
+"""Which law of rubber a tensile test asks for, with its constants: `sheetbench identify --tensile`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from comparisons.identification.tensile import tables
+from comparisons.identification.tensile.curves import Curve, read, require_loading
+from comparisons.identification.tensile.laws import LAWS, POISSON, Fit, chosen, energy, fit, largest_x, stress
+from sheetbench.answers.report import Report
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Material, summary
+
+
+@dataclass(frozen=True, repr=False)
+class TensileFit(summary.Summarised):
+    """curves: as measured; fits: of every law; free: those without bounds, where bounds matter; law: the one
+    that the curves ask for, None where no law fits stably."""
+
+    curves: tuple[Curve, ...]
+    fits: tuple[Fit, ...]
+    free: tuple[Fit, ...]
+    law: Fit | None
+
+    @property
+    def covered(self) -> dict[str, tuple[float, float]]:
+        """The least and largest stretch of each kind of test."""
+        kinds = {curve.test for curve in self.curves}
+        each = {kind: np.concatenate([c.stretch for c in self.curves if c.test == kind]) for kind in kinds}
+        return {
+            kind: (float(min(s.min(), 1.0)), float(max(s.max(), 1.0))) for kind, s in sorted(each.items())
+        }
+
+    @property
+    def open(self) -> tuple[float, tuple[float, float]] | None:
+        """Of one kind of test, the equibiaxial stretch of its largest I₁ and the least and largest stress
+        [Pa] that laws with at most twice the chosen one's misfit foretell there; None of several kinds."""
+        if len(self.covered) > 1 or self.law is None or "equibiaxial" in self.covered:
+            return None
+        most = max(map(largest_x, self.curves))
+        stretches = np.linspace(1.0, 10.0, 20_001)
+        at = float(np.interp(most, 2.0 * stretches**2 + stretches**-4.0 - 3.0, stretches))
+        near = [f for f in self.fits if f.rms <= 2.0 * self.law.rms]
+        ends = [f.energy for f in near]
+        for f in near:  # mooney-rivlin at the ends of c2, c1 following
+            if f.law == "mooney-rivlin":
+                ends += [energy(f.law, [max(f.young / 6.0 - c2, 0.0), c2]) for c2 in f.intervals["c2"]]
+        foretold = [float(stress(e, "equibiaxial", np.array([at]))[0]) for e in ends]
+        return at, (min(foretold), max(foretold))
+
+    def material(self, density: float = 1000.0, poisson: float = POISSON) -> Material:
+        """The law as a scene's material. Raises BadInput where there is none."""
+        if self.law is None:
+            raise BadInput("tensile: no law fits these curves stably")
+        values: dict[str, Any] = {"law": self.law.law, "poisson": poisson, "density": density}
+        constants = dict(self.law.constants)
+        if "young" in constants:
+            constants["young"] *= (1.0 + poisson) / 1.5  # of the same shear modulus
+        return Material.model_validate(values | constants)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON document: SI units."""
+        return {
+            "law": self.law.law if self.law else None,
+            "covered": {kind: list(ends) for kind, ends in self.covered.items()},
+            "laws": [asdict(f) for f in self.fits],
+            "free": [asdict(f) for f in self.free],
+            "curves": [
+                {"test": c.test, "file": c.file, "stretch": c.stretch, "stress": c.stress}
+                for c in self.curves
+            ],
+            "warnings": [],
+        }
+
+    def _summary(self) -> tuple[str, summary.Facts]:
+        found = self.law.law if self.law else "no law"
+        facts = [(f.law, f"misfit {100 * f.rms:.2g} % of the largest stress") for f in self.fits]
+        return f"Tensile test: {found}; .report() has the table", facts
+
+    def report(self) -> Report:
+        """What is shown of it."""
+        return tables.report(self)
+
+
+def identify_tensile(
+    curves: Sequence[Curve | str] | Curve | str, *, area: float | None = None, up_to: float | None = None
+) -> TensileFit:
+    """Return the constants of every law of rubber from curves or files (`curves.read`), and the law to take.
+
+    area [m²]: undeformed cross-section, for columns of force; up_to: largest stretch of files to fit. Raises
+    BadInput for what is no loading branch of engineering or true stress.
+    """
+    given = [curves] if isinstance(curves, Curve | str) else list(curves)
+    measured = tuple(c if isinstance(c, Curve) else read(c, area, up_to) for c in given)
+    for curve in measured:
+        require_loading(curve)
+    fits = tuple(found for law in LAWS if (found := fit(law, measured)) is not None)
+    bound = [f.law for f in fits if f.bound and f.law != "gent"]
+    free = tuple(found for law in bound if (found := fit(law, measured, free=True)) is not None)
+    return TensileFit(measured, fits, free, chosen(fits, measured))

@@ -1,0 +1,150 @@
+"""Laws of rubber from tensile tests: closed forms, intervals that hold, Treloar's rubber, refusals."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from measured_data import measured_data
+
+from comparisons.identification.tensile.curves import TESTS, Curve, read
+from comparisons.identification.tensile.laws import KEYS, LAWS, energy, largest_x, stress
+from comparisons.identification.tensile.tensile import identify_tensile
+from sheetbench.errors import BadInput
+from sheetbench.scenes.material import Energy
+
+TRUE = {
+    "neo-hookean": (0.6e6,),
+    "mooney-rivlin": (0.08e6, 0.02e6),
+    "yeoh": (0.1e6, -2e3, 400.0),
+    "gent": (0.2e6, 20.0),
+}
+
+
+def work(of: Energy, test: str, stretch: float) -> float:
+    """W of an incompressible sheet at a stretch."""
+    s = {"uniaxial": stretch**-0.5, "pure-shear": 1.0, "equibiaxial": stretch}[test]
+    squares = np.array([stretch, s, 1.0 / (stretch * s)]) ** 2
+    x, y = squares.sum() - 3.0, (1.0 / squares).sum() - 3.0
+    chain = -of.c10 * of.limit * np.log(1.0 - x / of.limit) if of.limit else of.c10 * x
+    return float(chain + of.c20 * x**2 + of.c30 * x**3 + of.c01 * y)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("test", TESTS)
+def test_stress_is_the_slope_of_the_work(law: str, test: str) -> None:
+    """Of an equibiaxial sheet half the slope: two sides are pulled. Central differences, error (1e-5)²."""
+    of = energy(law, TRUE[law])
+    for at in (0.8, 1.3, 2.1):
+        slope = (work(of, test, at + 1e-5) - work(of, test, at - 1e-5)) / 2e-5
+        sides = 2.0 if test == "equibiaxial" else 1.0
+        assert sides * stress(of, test, np.array([at]))[0] == pytest.approx(slope, rel=1e-7)
+    assert stress(of, test, np.array([1.0]))[0] == pytest.approx(0.0, abs=1e-9)
+
+
+def curves(law: str, tests: tuple[str, ...], noise: float = 0.0, seed: int = 0) -> list[Curve]:
+    random = np.random.default_rng(seed)
+    found = []
+    for test in tests:
+        at = np.linspace(1.02, 3.0 if test == "uniaxial" else 2.2, 40)
+        clean = stress(energy(law, TRUE[law]), test, at)
+        found.append(Curve(test, at, clean + noise * clean.max() * random.standard_normal(len(at))))
+    return found
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_a_laws_own_curves_give_its_constants_back(law: str) -> None:
+    found = identify_tensile(curves(law, TESTS))
+    assert found.law is not None and found.law.law == law
+    assert list(found.law.constants.values()) == pytest.approx(TRUE[law], rel=1e-4)
+    assert found.material().law == law
+    assert found.material(poisson=0.4999).young == pytest.approx(found.law.young, rel=1e-3)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_intervals_hold_in_18_to_20_of_20_seeds(law: str) -> None:
+    held = dict.fromkeys(KEYS[law], 0)
+    for seed in range(20):
+        found = identify_tensile(curves(law, TESTS, 0.02, seed))
+        (fit,) = (f for f in found.fits if f.law == law)
+        for key, true in zip(KEYS[law], TRUE[law], strict=True):
+            held[key] += fit.intervals[key][0] <= true <= fit.intervals[key][1]
+    assert min(held.values()) >= 18, held
+
+
+def test_one_curve_cannot_tell_the_two_constants_of_mooney_rivlin() -> None:
+    found = identify_tensile(curves("mooney-rivlin", ("uniaxial",), 0.005))
+    (mooney,) = (f for f in found.fits if f.law == "mooney-rivlin")
+    assert mooney.correlation < -0.9 and found.law is not None and found.law.law != "mooney-rivlin"
+    said = " ".join(found.report().notes)
+    assert "cannot tell c1 from c2" in said and "Not measured: equibiaxial" in said
+    assert found.open is not None and found.open[1][1] > 1.2 * found.open[1][0]
+    both = identify_tensile(curves("mooney-rivlin", ("uniaxial", "equibiaxial"), 0.005))
+    assert both.law is not None and both.law.law == "mooney-rivlin" and both.open is None
+
+
+def table(folder: Path, text: str) -> str:
+    (folder / "test.csv").write_text(text, encoding="utf-8")
+    return str(folder / "test.csv")
+
+
+def rows(stretch: np.ndarray, values: np.ndarray, header: str) -> str:
+    return "\n".join([header, *(f"{s:.9g},{v:.9g}" for s, v in zip(stretch, values, strict=True))])
+
+
+def test_columns_of_all_kinds_mean_the_same_curve(tmp_path: Path) -> None:
+    (one,) = curves("gent", ("uniaxial",))
+    written = {
+        "stretch,engineering_stress [MPa]": (one.stretch, one.stress / 1e6),
+        "Engineering Strain (%),True Stress (kPa)": (100 * (one.stretch - 1), one.stress * one.stretch / 1e3),
+        "true strain,force [mN]": (np.log(one.stretch), one.stress * 18e-6 * 1e3),
+    }  # fmt: skip
+    for header, (stretch, values) in written.items():
+        found = read(table(tmp_path, "Machine,5\n" + rows(stretch, values, header)), area=18e-6)
+        assert found.stretch == pytest.approx(one.stretch, rel=1e-6)
+        assert found.stress == pytest.approx(one.stress, rel=1e-6)
+    assert read("equibiaxial=" + str(tmp_path / "test.csv"), area=18e-6).test == "equibiaxial"
+
+
+UP = np.linspace(1.05, 2.0, 12)
+PULL = 1e5 * (UP - UP**-2)
+REFUSED = {
+    "which stress": (rows(UP, PULL, "stretch,stress"), "engineering or true"),
+    "per cent": (rows(100 * (UP - 1.0), PULL, "strain,engineering_stress"), r"per cent.*strain \[%\]"),
+    "no unit": (rows(UP, PULL / 1e6, "stretch,engineering_stress"), "write the stress's unit"),
+    "unloading": (
+        rows(np.append(UP, UP[::-1]), np.append(PULL, PULL[::-1]), "stretch,true_stress"),
+        "line 15: stretch goes back to 1.914: an unloading branch",
+    ),
+    "torn": (rows(np.append(UP, 2.1), np.append(PULL, 9.0), "stretch,nominal_stress"), "torn.*--up-to 2"),
+    "no area": (rows(UP, PULL, "stretch,force"), "--area"),
+    "few rows": (rows(UP[:3], PULL[:3], "stretch,true_stress"), "3 rows; at least 5"),
+    "no stretch": (rows(UP, PULL, "time,true_stress"), "needed is stretch"),
+    "pushed": (rows(UP, -PULL, "stretch,engineering_stress"), "tension is > 0"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("fault", REFUSED)
+def test_what_is_no_loading_branch_is_refused(tmp_path: Path, fault: str) -> None:
+    text, named = REFUSED[fault]
+    with pytest.raises(BadInput, match=named):
+        read(table(tmp_path, text))
+
+
+def test_treloars_rubber_asks_for_gent_with_published_constants(tmp_path: Path) -> None:
+    """Published of the same data: 0.240 MPa and 80 (Hyperelastics.jl), within our intervals."""
+    text = measured_data("treloar/uniaxial.csv").read_text(encoding="utf-8")
+    found = identify_tensile(table(tmp_path, text.replace(",Stress", ",engineering_stress [MPa]", 1)))
+    assert found.law is not None and found.law.law == "gent"
+    low, high = found.law.intervals["shear"]
+    assert low < 0.240e6 < high and high / low < 1.2
+    low, high = found.law.intervals["limit"]
+    assert low < 80.0 < high and high / low < 1.1
+    assert max(map(largest_x, found.curves)) == pytest.approx(7.512**2 + 2.0 / 7.512 - 3.0)
+
+
+def test_a_silicone_file_is_read_as_the_machine_wrote_it() -> None:
+    found = identify_tensile(str(measured_data("silicone-tensile/Ecoflex 00-30.csv")), up_to=2.5)
+    assert len(found.curves[0].stretch) == 64
+    assert found.law is not None and found.law.young == pytest.approx(47e3, rel=0.05)

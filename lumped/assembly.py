@@ -17,7 +17,7 @@ from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.pattern import Pattern, neighbours, of_grid
 from lumped.springs.all_families import NO_STRESSES, Stresses, all_families, copy_above
-from lumped.springs.families import Links, NeoHookeanCells, families
+from lumped.springs.families import Cells, Links, families
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.springs import Distribution
@@ -95,7 +95,7 @@ class Assembly:
     @property
     def any_strain(self) -> bool:
         """Whether the law of the layers is one of large strains."""
-        return any(isinstance(family, NeoHookeanCells) for family in self.springs)
+        return any(isinstance(family, Cells) and family.law.any_strain for family in self.springs)
 
     def require_energy(self) -> None:
         """Raise BadInput when the springs have no energy."""

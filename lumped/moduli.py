@@ -97,10 +97,10 @@ def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: 
     dilation[:2, :2] = 1.0
     in_layer = layer[:3, :3] + springs.area * dilation
     in_layer += np.diag(constants.of_strains(springs, "area")[1][0])
-    if springs.neo_hookean_shear:
+    if springs.rubber:
         area = spacing[0] * spacing[1]
         sides = np.array([[[spacing[0], 0.0, 0.0], [0.0, spacing[1], 0.0]]])
-        ((volume, *strains),), _ = constants.of_neo_hookean(springs, sides, np.array([area]), np.zeros(1))
+        ((volume, *strains),), _ = constants.of_rubber(springs, sides, np.array([area]), np.zeros(1))
         in_layer += volume * dilation + np.diag(strains)
     mid_surface = springs.mid_area * dilation + np.diag(constants.of_strains(springs, "mid_area")[1][0])
     in_gap = gap[:3, :3].copy()

@@ -35,6 +35,7 @@ CALIBRATIONS: dict[str, Method] = {
     "consistent-membrane": Method("consistent, and cells bend in their plane as the sheet", GRADED),
     "consistent-oblique": Method("consistent, and waves oblique to the grid right in second order", GRADED),
     "neo-hookean": Method("layers as neo-Hookean membranes, for rubbers at any strain", ("grading",)),
+    "hyperelastic": Method("the same of the law of the scene's material", ("grading",)),
     "moduli": Method("bounded least squares on the moduli"),
     "fit-static": Method("fitted to displacements", (*GRADED, "targets")),
     "fit-modal": Method("fitted to natural frequencies", ("layer_distance", "targets")),
@@ -52,6 +53,7 @@ EXTRAPOLATED = (
     "consistent-membrane",
     "consistent-oblique",
     "neo-hookean",
+    "hyperelastic",
 )
 
 MASSES = {

@@ -1,9 +1,11 @@
-"""Which springs a scene gets where the choice is left to it: `consistent` or `consistent-membrane`.
+"""Which springs a scene gets where the choice is left to it: `consistent`, `consistent-membrane` or rubber.
 
-Their linear bending is the same to the last digit. Where a sheet bends far, cells that are too stiff in their
-own plane make `consistent` err, stiff; where edges hold a sheet whose deflection is a few thicknesses that
-hides chords taken for arcs, which err the other way and are all that `consistent-membrane` has left. Before
-anything is solved the second is chosen
+Of a material with a law of rubber they are of that law, `hyperelastic`. Of the others, a load that would
+stretch a strip that it hangs from by more than STRETCHED has them `neo-hookean`: links that are linear in
+their elongation mean no material there. Below that their linear bending is the same to the last digit. Where
+a sheet bends far, cells that are too stiff in their own plane make `consistent` err, stiff; where edges hold
+a sheet whose deflection is a few thicknesses that hides chords taken for arcs, which err the other way and
+are all that `consistent-membrane` has left. Before anything is solved the second is chosen
 
 - where one edge alone holds the sheet: nothing makes it stretch as a whole;
 - of two adjacent edges where the load is large for the thickness, (q a³/D)(a/h) above FAR, q the load along
@@ -26,8 +28,10 @@ from sheetbench.scenes import EDGES, Clamped, Curved, Hinged, Scene
 from sheetbench.scenes.grid import LAYERS
 
 MEMBRANE = "consistent-membrane"
+RUBBER = "hyperelastic"
 INCOMPRESSIBLE = 0.4
 FAR = 600.0
+STRETCHED = 0.1
 
 
 def chosen(
@@ -35,16 +39,20 @@ def chosen(
 ) -> tuple[str | None, str]:
     """The calibration asked for, None where nothing is; and where it is "auto", or nothing but the grading
     "auto" is asked, the one for this scene, and why. others: k and layer_distance of the lattice."""
-    left_open = calibration is None and grading == AUTO and all(value is None for value in others.values())
-    if calibration != AUTO and not left_open:
+    unasked = calibration is None and all(value is None for value in others.values())
+    if scene.material.law is not None and (unasked or calibration == AUTO):
+        return RUBBER, f"the material has the law {scene.material.law}"
+    if calibration != AUTO and not (unasked and grading == AUTO):
         return calibration, ""
-    if grid[2] != LAYERS:
+    if grid[2] != LAYERS and not scales(scene).strain > STRETCHED:
         return CALIBRATION, f"the usual one, of {grid[2]} layers"
     return method_for(scene)
 
 
 def method_for(scene: Scene) -> tuple[str, str]:
     """The name of a calibration, and why in a sentence."""
+    if (strain := scales(scene).strain) > STRETCHED:
+        return "neo-hookean", f"q a/(E h) = {strain:.2g} is above {STRETCHED:g}: it stretches as rubber may"
     held = {support.edge for support in scene.supports}
     known = all(isinstance(s, Clamped | Hinged | Curved) and s.motion is None for s in scene.supports)
     if scene.actuators or not held or not known:

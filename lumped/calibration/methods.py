@@ -14,8 +14,8 @@ from lumped.calibration.consistent import (
     consistent_oblique,
 )
 from lumped.calibration.least_squares import fit_moduli
-from lumped.calibration.neo_hookean import neo_hookean
 from lumped.calibration.report import report
+from lumped.calibration.rubber import hyperelastic, neo_hookean
 from lumped.calibration.textbook import axial, cauchy, lloyd, van_gelder
 from lumped.calibration.uniform import uniform
 from lumped.springs import by_cell
@@ -49,6 +49,7 @@ MAKERS: dict[str, Callable[..., Calibration]] = {
     "consistent-membrane": consistent_membrane,
     "consistent-oblique": consistent_oblique,
     "neo-hookean": neo_hookean,
+    "hyperelastic": hyperelastic,
     "moduli": fit_moduli,
     "uniform": uniform,
     "cauchy": cauchy,
@@ -97,7 +98,10 @@ def given(
 
 
 def default(scene: Scene) -> Calibration:
-    """The scene's own springs, or else consistent ones, on nine masses along the shorter side."""
+    """The scene's own springs, or else consistent ones, of rubber those of its law, on nine masses along the
+    shorter side."""
     if scene.springs is not None:
         return given(scene)
-    return consistent(scene.sheet, scene.material, grid_of(scene.sheet))
+    return (consistent if scene.material.law is None else hyperelastic)(
+        scene.sheet, scene.material, grid_of(scene.sheet)
+    )

@@ -2,21 +2,22 @@
 
 A call from Python costs microseconds, as much as a small lattice's springs do; so statics make one call, not
 one a family. Its arrays always are of the same kinds, empty where a lattice has no such springs: links, the
-layers' cells, the mid-surface's cells. The loops themselves are each family's own; here they release the
-interpreter's lock.
+layers' cells, the mid-surface's cells, upright faces. The loops themselves are each family's own; here they
+release the interpreter's lock.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
 
 from lumped.pattern import Pattern
 from lumped.springs import cells, links
+from lumped.springs.cell_laws import AreaAndStrains
 from lumped.springs.cells import CellArrays
 from lumped.springs.families import Cells, Links
 from lumped.springs.family import Family
@@ -30,11 +31,11 @@ class Springs(NamedTuple):
     links: LinkArrays
     layers: CellArrays
     middle: CellArrays
+    faces: CellArrays
 
 
-Stresses = tuple[np.ndarray, ...]  # three, as `Springs`, where there is a table of those
-KINDS: tuple[type[Family], ...] = (Links, Cells, Cells)
-NO_STRESSES: Stresses = tuple(kind.no_stress for kind in KINDS)
+Stresses = tuple[np.ndarray, ...]  # four, as `Springs`, where there is a table of those
+NO_STRESSES: Stresses = (np.empty(0), *3 * (np.empty((0, 3)),))
 
 
 class AllFamilies:
@@ -43,7 +44,7 @@ class AllFamilies:
 
     def __init__(self, families: Sequence[Family], places: Sequence[int]):
         found = dict(zip(places, families, strict=True))
-        links_, *cells_ = [_arrays(found[at]) if at in found else _empty(k) for at, k in enumerate(KINDS)]
+        links_, *cells_ = [_arrays(found[at]) if at in found else _no_cells() for at in range(4)]
         self.springs = Springs(LinkArrays(*links_), *(CellArrays(*parts) for parts in cells_))
         self._places = places
 
@@ -74,23 +75,26 @@ class AllFamilies:
 
 def all_families(families: Sequence[Family]) -> AllFamilies | None:
     """Return families in one call; None where one is of another kind."""
-    places: list[int] = []
-    for family in families:
-        free = [at for at, kind in enumerate(KINDS) if type(family) is kind and at not in places]
-        if not free:
-            return None
-        places.append(free[0])
-    return AllFamilies(families, places) if 0 in places else None
+    places = [_place(family) for family in families]
+    each_once = 0 in places and -1 not in places and len(set(places)) == len(places)
+    return AllFamilies(families, places) if each_once else None
 
 
-def _arrays(family: Family) -> tuple[np.ndarray, ...]:
-    return tuple([np.ascontiguousarray(part) for part in family.arrays])
+def _place(family: Family) -> int:
+    """Which of the families in `Springs` it is; −1 if none."""
+    if isinstance(family, Cells):
+        return 3 if family.upright else 1 if family.nodes.shape[2] == 1 else 2
+    return 0 if type(family) is Links else -1
+
+
+def _arrays(family: Family) -> tuple[Any, ...]:
+    return tuple([type(p)(*p) if isinstance(p, tuple) else np.ascontiguousarray(p) for p in family.arrays])
 
 
 @cache
-def _empty(kind: type[Family]) -> tuple[np.ndarray, ...]:
+def _no_cells() -> tuple[Any, ...]:
     nodes, slots = np.empty((0, 4, 1), int), np.empty((0, 4, 4), np.int32)
-    return nodes, np.empty((0, 2, 3)), np.empty(0), np.empty((0, 4)), slots
+    return nodes, np.empty((0, 2, 3)), np.empty(0), AreaAndStrains(np.empty((0, 4))), slots
 
 
 @njit(cache=True, nogil=True)
@@ -100,6 +104,7 @@ def force(u: np.ndarray, springs: Springs) -> tuple[float, np.ndarray]:
     energy = links.add_forces(u, springs.links, out)
     energy += cells.add_forces(u, springs.layers, out)
     energy += cells.add_forces(u, springs.middle, out)
+    energy += cells.add_forces(u, springs.faces, out)
     return energy, out
 
 
@@ -110,6 +115,7 @@ def extrapolated(u: np.ndarray, step: np.ndarray, springs: Springs) -> Stresses:
         links.extrapolated(u, step, springs.links),
         cells.extrapolated(u, step, springs.layers),
         cells.extrapolated(u, step, springs.middle),
+        cells.extrapolated(u, step, springs.faces),
     )
 
 
@@ -124,6 +130,7 @@ def tangent(
     links.add_tangent(u, springs.links, stress[0], share, NUMBA_TRUE, blocks)
     cells.add_tangent(u, springs.layers, stress[1], share, NUMBA_TRUE, blocks)
     cells.add_tangent(u, springs.middle, stress[2], share, NUMBA_TRUE, blocks)
+    cells.add_tangent(u, springs.faces, stress[3], share, NUMBA_TRUE, blocks)
     copy_above(blocks, mirror)
     return blocks
 

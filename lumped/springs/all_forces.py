@@ -11,9 +11,16 @@ import numpy as np
 from numba import njit
 
 from lumped.springs import packing as kinds
-from lumped.springs.cell_tiles import HALF, gather_sides, push_corner, resist_cells, stretch_cells
+from lumped.springs.cell_laws import AreaAndStrains
+from lumped.springs.cell_tiles import (
+    HALF,
+    gather_sides,
+    push_corner,
+    push_warp,
+    resist_cells,
+    stretch_cells,
+)
 from lumped.springs.link_tiles import pull_ends, resist_links, stretch_directional, stretch_links
-from lumped.springs.membrane_tiles import stretch_others
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import LANES, NUMBA_FALSE, NUMBA_TRUE, OPTIONS, ROWS
 
@@ -117,11 +124,12 @@ def _pass(
         if fresh:
             gather_sides(u, a, b, c, d, size, blocks, tile)
             if kind == CELLS:
-                energy += stretch_cells(share, rest, t, blocks, tile, at)
-            else:
-                energy += stretch_others(
-                    packing.law, u, (a, b, c, d), size, share, rest, t, blocks, tile, at, force
+                energy += stretch_cells(
+                    AreaAndStrains(rest), u, (a, b, c, d), size, share, t, blocks, tile, at
                 )
+            else:
+                energy += stretch_cells(packing.law, u, (a, b, c, d), size, share, t, blocks, tile, at)
+                push_warp(packing.law, (a, b, c, d), size, blocks, tile, force)
         else:
             tile[R6 : R11 + blocks * LANES] = 0.0
         if damped:

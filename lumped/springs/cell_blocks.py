@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from lumped.springs.laws import Three
-from lumped.springs.vectors import Vector, plus, times
+from lumped.springs.laws import Four, Three
+from lumped.springs.vectors import Vector, less, plus, times
 
 Pair = tuple[Vector, Vector]
 Rows = tuple[Pair, Pair, Pair]
@@ -50,6 +50,19 @@ def to_diagonals(stress: Three, a: Vector, b: Vector, rows: Rows, out: np.ndarra
             out[3, at] = bb + aa - (ab + ba)
 
 
+@njit(cache=True, error_model="numpy", forceinline=True)
+def by_warp(stress: float, more: Four, a: Vector, b: Vector, q: Vector, out: np.ndarray) -> None:
+    """The tangent's part of q, (3, 9) of (q, d1), (q, d2) and (q, q), from S₄ and the derivatives of the
+    stress by s, 14 24 34 44."""
+    by_a, by_b = by_sides((more[0], more[1], more[2]), a, b)
+    by_d1, by_d2 = plus(by_a, by_b), less(by_b, by_a)
+    for x in range(3):
+        for y in range(3):
+            out[0, 3 * x + y] = q[x] * by_d1[y]
+            out[1, 3 * x + y] = q[x] * by_d2[y]
+            out[2, 3 * x + y] = 4.0 * more[3] * q[x] * q[y] + (2.0 * stress if x == y else 0.0)
+
+
 @njit(cache=True, error_model="numpy")
 def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, lower: bool, blocks: np.ndarray) -> None:
     """Add a tangent in a cell's diagonals, (4, 9), to the blocks of its corners, each a mean of p masses, or
@@ -67,3 +80,28 @@ def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, lower: bool,
                     block = flat[np.uint64(slots[row, column])]
                     for e in range(9):
                         block[e] += sign * part[e]
+
+
+@njit(cache=True, error_model="numpy", forceinline=True)
+def add_warped_blocks(
+    in_diagonals: np.ndarray, of_warp: np.ndarray, slots: np.ndarray, lower: bool, blocks: np.ndarray
+) -> None:
+    """Add a tangent in a cell's diagonals, (4, 9), and q, (3, 9), as `add_blocks`; each corner one mass."""
+    flat = blocks.reshape(-1, 9)
+    for corner in range(4):
+        side, turn = -1.0 if corner < 2 else 1.0, 1.0 if corner % 2 == 0 else -1.0
+        for other in range(4):
+            if lower and slots[corner, other] < slots[other, corner]:
+                continue
+            side2, turn2 = -1.0 if other < 2 else 1.0, 1.0 if other % 2 == 0 else -1.0
+            block = flat[np.uint64(slots[corner, other])]
+            part, row, column = in_diagonals[2 * (corner % 2) + other % 2], other % 2, corner % 2
+            for x in range(3):
+                for y in range(3):
+                    e = 3 * x + y
+                    block[e] += (
+                        side * side2 * part[e]
+                        + turn * side2 * of_warp[row, e]
+                        + side * turn2 * of_warp[column, 3 * y + x]
+                        + turn * turn2 * of_warp[2, e]
+                    )

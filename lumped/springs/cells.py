@@ -2,17 +2,19 @@
 
 A cell whose four corners, in turn, are the means of p masses each has the mean sides a = (d1 − d2)/2 and
 b = (d1 + d2)/2, d1 and d2 its diagonals, and the measure g = (a·a, b·b, a·b); its area is √(det g), exact for
-a flat cell, that of the mid-point parallelogram doubled for a warped one. What its springs store is a law of
-g (`lumped.springs.laws`); rigid motions leave g alone. With S = dW/dg, D = d²W/dg² and the change δ of g,
+a flat cell, that of the mid-point parallelogram doubled for a warped one. What its corners have beside mean
+sides, warped or bent in the plane, is q = p₀ − p₁ + p₂ − p₃, 0 at rest, and s = q·q. What its springs store
+is a law of g, of rubber also of s (`lumped.springs.cell_laws`); rigid motions leave both alone. With S =
+dW/dg, D = d²W/dg² and the change δ of g,
 
-    forces      f_a = 2 S₁ a + S₃ b,   f_b = 2 S₂ b + S₃ a
-    tangent     δf_a = 2 S₁ δa + S₃ δb + 2 a δS₁ + b δS₃,   δS = D δg,   δf_b likewise.
+    forces      f_a = 2 S₁ a + S₃ b,   f_b = 2 S₂ b + S₃ a,   f_q = 2 S₄ q
+    tangent     δf_a = 2 S₁ δa + S₃ δb + 2 a δS₁ + b δS₃,   δS = D δg,   δf_b and δf_q likewise.
 
 The tangent takes S as an argument of its own: that at u, an extrapolated one S + D ġ, its nonnegative part,
-none. Dampers have the stress M ġ (`lumped.springs.laws`); of it the derivative by the displacement is
-unsymmetric.
+none. Dampers have the stress M ġ (`lumped.springs.laws`), of area and strains whatever the law; of it the
+derivative by the displacement is unsymmetric.
 
-Arrays: stress (c, 3) [N/m]; blocks (b, 3, 3) [N/m], added to; u, v, force (n, 3).
+Arrays: stress (c, 3) or (c, 4) [N/m]; blocks (b, 3, 3) [N/m], added to; u, v, force (n, 3).
 """
 
 from __future__ import annotations
@@ -22,36 +24,30 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from lumped.springs.cell_blocks import add_blocks, both, by_sides, to_diagonals
-from lumped.springs.laws import (
-    Four,
-    Six,
-    Three,
-    area_and_strains,
-    mean_area_and_strains,
-    stiffness_of_area_and_strains,
-)
+from lumped.springs.cell_blocks import add_blocks, add_warped_blocks, both, by_sides, by_warp, to_diagonals
+from lumped.springs.cell_laws import Tag, constants, mean_stress, measures, respond, stiffness
+from lumped.springs.laws import Four, Six, Three, stiffness_of_area_and_strains
 from lumped.springs.vectors import Vector, dot, less, plus, times
 
 HALF = 0.5
-NO_STRESS = (0.0, 0.0, 0.0)
+NO_CHANGE = (0.0, 0.0, 0.0, 0.0)
 
 
 class CellArrays(NamedTuple):
-    """nodes (c, 4, p); sides (c, 2, 3) [m] and area (c,) [m²] at rest; constants (c, n) of the springs' law
-    or, times a second, of the dampers'; slots (c, 4p, 4p) block numbers, corner-major."""
+    """nodes (c, 4, p); sides (c, 2, 3) [m] and area (c,) [m²] at rest; law: the tag with the constants of the
+    springs' law or, times a second, of the dampers'; slots (c, 4p, 4p) block numbers, corner-major."""
 
     nodes: np.ndarray
     sides: np.ndarray
     area: np.ndarray
-    constants: np.ndarray
+    law: Tag
     slots: np.ndarray
 
 
-@njit(cache=True, error_model="numpy")
-def side_changes(u: np.ndarray, nodes: np.ndarray, c: int) -> tuple[Vector, Vector]:
-    """What u changes in the mean sides a and b of cell c."""
-    fx = fy = fz = sx = sy = sz = 0.0
+@njit(cache=True, error_model="numpy", forceinline=True)
+def changes(u: np.ndarray, nodes: np.ndarray, c: int) -> tuple[Vector, Vector, Vector]:
+    """What u changes in the mean sides a and b and in q of cell c."""
+    fx = fy = fz = sx = sy = sz = qx = qy = qz = 0.0
     for s in range(nodes.shape[2]):
         k, m = np.uint64(nodes[c, 0, s]), np.uint64(nodes[c, 1, s])
         n, o = np.uint64(nodes[c, 2, s]), np.uint64(nodes[c, 3, s])
@@ -61,10 +57,15 @@ def side_changes(u: np.ndarray, nodes: np.ndarray, c: int) -> tuple[Vector, Vect
         sx += u[o, 0] - u[m, 0]
         sy += u[o, 1] - u[m, 1]
         sz += u[o, 2] - u[m, 2]
+        qx += (u[k, 0] - u[m, 0]) + (u[n, 0] - u[o, 0])
+        qy += (u[k, 1] - u[m, 1]) + (u[n, 1] - u[o, 1])
+        qz += (u[k, 2] - u[m, 2]) + (u[n, 2] - u[o, 2])
     share = 0.5 / nodes.shape[2]
+    twice = share + share
     return (
         (share * (fx - sx), share * (fy - sy), share * (fz - sz)),
         (share * (fx + sx), share * (fy + sy), share * (fz + sz)),
+        (twice * qx, twice * qy, twice * qz),
     )
 
 
@@ -83,29 +84,21 @@ def products(a: Vector, b: Vector) -> Three:
     return dot(a, a), dot(b, b), dot(a, b)
 
 
-@njit(cache=True, error_model="numpy")
-def measure(
-    u: np.ndarray, nodes: np.ndarray, sides: np.ndarray, c: int
-) -> tuple[Three, Three, Vector, Vector]:
-    """δg, g at rest, and the sides a and b now, of cell c."""
-    a, b = at_rest(sides, c)
-    da, db = side_changes(u, nodes, c)
+@njit(cache=True, error_model="numpy", forceinline=True)
+def measure(u: np.ndarray, cells: CellArrays, c: int) -> tuple[Four, Three, tuple[Vector, Vector, Vector]]:
+    """δg and s; g at rest; a, b and q now, of cell c."""
+    a, b = at_rest(cells.sides, c)
+    da, db, q = changes(u, cells.nodes, c)
     rest = products(a, b)
     now_a, now_b = plus(a, da), plus(b, db)
-    change = dot(plus(a, now_a), da), dot(plus(b, now_b), db), dot(da, b) + dot(now_a, db)
-    return change, rest, now_a, now_b
+    change = dot(plus(a, now_a), da), dot(plus(b, now_b), db), dot(da, b) + dot(now_a, db), dot(q, q)
+    return change, rest, (now_a, now_b, q)
 
 
 @njit(cache=True, error_model="numpy")
 def rate(a: Vector, b: Vector, va: Vector, vb: Vector) -> Three:
     """ġ of sides a, b that move with va, vb."""
     return 2.0 * dot(a, va), 2.0 * dot(b, vb), dot(a, vb) + dot(b, va)
-
-
-@njit(cache=True, error_model="numpy")
-def of_cell(constants: np.ndarray, c: int) -> Four:
-    """The constants of cell c."""
-    return constants[c, 0], constants[c, 1], constants[c, 2], constants[c, 3]
 
 
 @njit(cache=True, error_model="numpy")
@@ -119,20 +112,30 @@ def times_six(d: Six, x: Three) -> Three:
 
 
 @njit(cache=True, error_model="numpy")
-def pull(nodes: np.ndarray, c: int, stress: Three, a: Vector, b: Vector, force: np.ndarray) -> None:
-    """Add the forces of a stress on sides a and b of cell c to its masses."""
+def pull(
+    cells: CellArrays, c: int, stress: Four, shape: tuple[Vector, Vector, Vector], force: np.ndarray
+) -> None:
+    """Add the forces of a stress on a, b and q of cell c to its masses."""
+    nodes, (a, b, q) = cells.nodes, shape
     share = 0.5 / nodes.shape[2]
     twice1, twice2, s3 = share * (stress[0] + stress[0]), share * (stress[1] + stress[1]), share * stress[2]
     on_a, on_b = plus(times(twice1, a), times(s3, b)), plus(times(twice2, b), times(s3, a))
     along, across = plus(on_a, on_b), less(on_b, on_a)
+    warping = times(4.0 * share * stress[3], q)
     for s in range(nodes.shape[2]):
         k, m = np.uint64(nodes[c, 0, s]), np.uint64(nodes[c, 1, s])
         n, o = np.uint64(nodes[c, 2, s]), np.uint64(nodes[c, 3, s])
-        for q in range(3):
-            force[k, q] -= along[q]
-            force[n, q] += along[q]
-            force[m, q] -= across[q]
-            force[o, q] += across[q]
+        for e in range(3):
+            if measures(cells.law) == 4:
+                force[k, e] += warping[e] - along[e]
+                force[m, e] -= warping[e] + across[e]
+                force[n, e] += warping[e] + along[e]
+                force[o, e] += across[e] - warping[e]
+            else:
+                force[k, e] -= along[e]
+                force[n, e] += along[e]
+                force[m, e] -= across[e]
+                force[o, e] += across[e]
 
 
 @njit(cache=True, error_model="numpy")
@@ -140,10 +143,10 @@ def add_forces(u: np.ndarray, cells: CellArrays, force: np.ndarray) -> float:
     """Add the internal force to `force` (n, 3) [N]; return the energy [J]."""
     energy = 0.0
     for c in range(len(cells.nodes)):
-        d, g, a, b = measure(u, cells.nodes, cells.sides, c)
-        stored, _, _, stress = area_and_strains(HALF, d, g, cells.area[c], of_cell(cells.constants, c))
+        d, g, shape = measure(u, cells, c)
+        stored, _, stress = respond(cells.law, HALF, d, g, cells.area[c], constants(cells.law, c))
         energy += stored
-        pull(cells.nodes, c, stress, a, b, force)
+        pull(cells, c, stress, shape, force)
     return energy
 
 
@@ -152,23 +155,27 @@ def energies(u: np.ndarray, cells: CellArrays) -> np.ndarray:
     """Energy of every cell, (c,) [J]."""
     out = np.empty(len(cells.nodes))
     for c in range(len(cells.nodes)):
-        d, g, _, _ = measure(u, cells.nodes, cells.sides, c)
-        out[c] = area_and_strains(HALF, d, g, cells.area[c], of_cell(cells.constants, c))[0]
+        d, g, _ = measure(u, cells, c)
+        out[c] = respond(cells.law, HALF, d, g, cells.area[c], constants(cells.law, c))[0]
     return out
 
 
 @njit(cache=True, error_model="numpy")
 def extrapolated(u: np.ndarray, step: np.ndarray, cells: CellArrays) -> np.ndarray:
-    """Stress S + D ġ that the linearisation at u predicts after a step (n, 3) [m], (c, 3) [N/m]."""
-    out = np.empty((len(cells.nodes), 3))
+    """Stress S + D ġ that the linearisation at u predicts after a step (n, 3) [m], (c, measures) [N/m]."""
+    out = np.empty((len(cells.nodes), measures(cells.law)))
     for c in range(len(cells.nodes)):
-        d, g, a, b = measure(u, cells.nodes, cells.sides, c)
-        q = of_cell(cells.constants, c)
-        _, t, square, stress = area_and_strains(HALF, d, g, cells.area[c], q)
-        moved = rate(a, b, *side_changes(step, cells.nodes, c))
-        out[c, 0], out[c, 1], out[c, 2] = plus(
-            stress, times_six(stiffness_of_area_and_strains(d, g, t, square, 1.0, q), moved)
-        )
+        d, g, (a, b, q) = measure(u, cells, c)
+        k, area = constants(cells.law, c), cells.area[c]
+        _, memory, s = respond(cells.law, HALF, d, g, area, k)
+        six, more = stiffness(cells.law, d, g, area, memory, 1.0, k)
+        va, vb, vq = changes(step, cells.nodes, c)
+        moved, warped = rate(a, b, va, vb), 2.0 * dot(q, vq)
+        out[c, 0], out[c, 1], out[c, 2] = plus((s[0], s[1], s[2]), times_six(six, moved))
+        if measures(cells.law) == 4:
+            for e in range(3):
+                out[c, e] += more[e] * warped
+            out[c, 3] = s[3] + dot((more[0], more[1], more[2]), moved) + more[3] * warped
     return out
 
 
@@ -177,10 +184,12 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, cells: CellArrays, fo
     """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it: that
     of the mean stress on the mean sides."""
     for c in range(len(cells.nodes)):
-        d0, g, a0, b0 = measure(start, cells.nodes, cells.sides, c)
-        d1, _, a1, b1 = measure(end, cells.nodes, cells.sides, c)
-        stress = mean_area_and_strains(d0, d1, g, cells.area[c], of_cell(cells.constants, c))
-        pull(cells.nodes, c, stress, times(0.5, plus(a0, a1)), times(0.5, plus(b0, b1)), force)
+        d0, g, (a0, b0, q0) = measure(start, cells, c)
+        d1, _, (a1, b1, q1) = measure(end, cells, c)
+        s = mean_stress(cells.law, d0, d1, g, cells.area[c], constants(cells.law, c))
+        pull(
+            cells, c, s, (times(0.5, plus(a0, a1)), times(0.5, plus(b0, b1)), times(0.5, plus(q0, q1))), force
+        )
 
 
 @njit(cache=True, error_model="numpy")
@@ -189,16 +198,22 @@ def add_damping_forces(u: np.ndarray, v: np.ndarray, cells: CellArrays, force: n
     power taken [W]."""
     power = 0.0
     for c in range(len(cells.nodes)):
-        _, _, a, b = measure(u, cells.nodes, cells.sides, c)
-        q, now = of_cell(cells.constants, c), products(a, b)
-        moving = rate(a, b, *side_changes(v, cells.nodes, c))
-        stress = times_six(
-            stiffness_of_area_and_strains(NO_STRESS, now, 0.0, now[0] * now[1] - now[2] * now[2], 0.0, q),
-            moving,
-        )
-        power += dot(stress, moving)
-        pull(cells.nodes, c, stress, a, b, force)
+        _, _, shape = measure(u, cells, c)
+        va, vb, _ = changes(v, cells.nodes, c)
+        moving = rate(shape[0], shape[1], va, vb)
+        s = times_six(_material(cells, c, products(shape[0], shape[1])), moving)
+        power += dot(s, moving)
+        pull(cells, c, (s[0], s[1], s[2], 0.0), shape, force)
     return power
+
+
+@njit(cache=True, error_model="numpy")
+def _material(cells: CellArrays, c: int, now: Three) -> Six:
+    """M of area and strains of cell c, whose measure is `now`."""
+    memory = 0.0, now[0] * now[1] - now[2] * now[2]
+    return stiffness_of_area_and_strains(NO_CHANGE, now, cells.area[c], memory, 0.0, constants(cells.law, c))[
+        0
+    ]
 
 
 @njit(cache=True, error_model="numpy")
@@ -207,21 +222,25 @@ def add_tangent(
 ) -> None:
     """Add the tangent of every cell with this stress, or with the share of its own where `stress` is empty,
     and with M + share (D − M), to the 3×3 blocks; lower: to those on and below the diagonal alone."""
-    in_diagonals = np.empty((4, 9))
+    in_diagonals, of_warp = np.empty((4, 9)), np.empty((3, 9))
     own = len(stress) == 0
     for c in range(len(cells.nodes)):
-        d, g, a, b = measure(u, cells.nodes, cells.sides, c)
-        q = of_cell(cells.constants, c)
-        _, t, square, s = area_and_strains(HALF, d, g, cells.area[c], q)
-        s = times(share, s) if own else (stress[c, 0], stress[c, 1], stress[c, 2])
-        k = stiffness_of_area_and_strains(d, g, t, square, share, q)
+        d, g, (a, b, q) = measure(u, cells, c)
+        k, area = constants(cells.law, c), cells.area[c]
+        _, memory, s = respond(cells.law, HALF, d, g, area, k)
+        three = times(share, (s[0], s[1], s[2])) if own else (stress[c, 0], stress[c, 1], stress[c, 2])
+        six, more = stiffness(cells.law, d, g, area, memory, share, k)
         rows = (
-            by_sides((k[0], k[3], k[4]), a, b),
-            by_sides((k[3], k[1], k[5]), a, b),
-            by_sides((k[4], k[5], k[2]), a, b),
+            by_sides((six[0], six[3], six[4]), a, b),
+            by_sides((six[3], six[1], six[5]), a, b),
+            by_sides((six[4], six[5], six[2]), a, b),
         )
-        to_diagonals(s, a, b, rows, in_diagonals)
-        add_blocks(in_diagonals, cells.nodes.shape[2], cells.slots[c], lower, blocks)
+        to_diagonals(three, a, b, rows, in_diagonals)
+        if measures(cells.law) == 4:
+            by_warp(share * s[3] if own else stress[c, 3], more, a, b, q, of_warp)
+            add_warped_blocks(in_diagonals, of_warp, cells.slots[c], lower, blocks)
+        else:
+            add_blocks(in_diagonals, cells.nodes.shape[2], cells.slots[c], lower, blocks)
 
 
 @njit(cache=True, error_model="numpy")
@@ -234,15 +253,14 @@ def add_damping_tangent(u: np.ndarray, v: np.ndarray, cells: CellArrays, blocks:
     """
     in_diagonals = np.empty((4, 9))
     for c in range(len(cells.nodes)):
-        _, _, a, b = measure(u, cells.nodes, cells.sides, c)
-        q, now = of_cell(cells.constants, c), products(a, b)
-        va, vb = side_changes(v, cells.nodes, c)
+        _, _, (a, b, _) = measure(u, cells, c)
+        now = products(a, b)
+        va, vb, _ = changes(v, cells.nodes, c)
         moving = rate(a, b, va, vb)
-        square = now[0] * now[1] - now[2] * now[2]
-        k = stiffness_of_area_and_strains(NO_STRESS, now, 0.0, square, 0.0, q)
+        square, k = now[0] * now[1] - now[2] * now[2], _material(cells, c, now)
         n, turned = (now[1], now[0], -2.0 * now[2]), (moving[1], moving[0], -2.0 * moving[2])
         along = dot(n, moving) / square
-        scale = 0.25 * q[0] / square
+        scale = 0.25 * constants(cells.law, c)[0] / square
         h = less(turned, times(0.5 * along, n))  # 2A ∇²A ġ
         h, growing = times(scale, less(h, times(0.5 * along, n))), scale * along * square
         r1 = plus(times(n[0], h), (0.0, growing, 0.0))

@@ -16,6 +16,14 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, PerDirection, SpringSet
 from sheetbench.scenes.springs import DamperSet, Either
 
+RUBBER_CONSTANTS = (
+    "neo_hookean_shear",
+    "neo_hookean_volume",
+    "mooney_rivlin",
+    "yeoh_square",
+    "yeoh_cube",
+    "gent_limit",
+)
 SIGNED = ("area", "mid_area", "mid_shear", *EDGES_OWN)
 
 
@@ -73,19 +81,25 @@ def of_faces(springs: SpringSet, spacing: Sequence[float]) -> tuple[np.ndarray, 
     return along_each(springs.face_shear, 1)[:, 0], diagonal
 
 
-def of_neo_hookean(
+def of_rubber(
     springs: SpringSet, sides: np.ndarray, area: np.ndarray, twist: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Stiffness (c, 4) [N/m] of the small strains of a layer's plan cells that are neo-Hookean membranes,
-    less that of their axial links, and the last six constants (c, 6) of `lumped.springs.laws.neo_hookean`.
-    sides (c, 2, 3) [m], area (c,) [m²]; twist: (c,) [N/m] that edges add to the shear."""
+    """Stiffness (c, 4) [N/m] of the small strains of a layer's plan cells that are rubber membranes, less
+    that of their axial links, and what else `lumped.springs.rubber` takes of them (c, 10). sides (c, 2, 3)
+    [m], area (c,) [m²]; twist: (c,) [N/m] that edges add to the shear."""
     count = len(area)
-    shear = of_cells(springs.neo_hookean_shear, count)
-    ratio = of_cells(springs.neo_hookean_volume, count) / shear
+    shear, volume, c01, c20, c30, limit = (
+        of_cells(getattr(springs, name), count) for name in RUBBER_CONSTANTS
+    )
+    c10 = 0.5 * shear
+    stiffening = 2.0 * c20 + np.divide(c10, limit, out=np.zeros(count), where=limit > 0.0)
+    modulus, lame = shear + 2.0 * c01, volume + 4.0 * (c01 + stiffening)
     axial, lengths = along_each(springs.axial, count), (sides**2).sum(axis=2).T
-    stretch = 2.0 * shear - axial * lengths / area
-    stiffness = np.column_stack([2.0 * shear * ratio / (2.0 + ratio), *stretch, shear + twist])
-    return stiffness, np.column_stack([shear * area, ratio, *axial, twist / area, np.zeros(count)])
+    stretch = 2.0 * modulus - axial * lengths / area
+    ratio = lame / modulus
+    stiffness = np.column_stack([2.0 * modulus * ratio / (2.0 + ratio), *stretch, modulus + twist])
+    energy = np.column_stack([c10, c01, c20, c30, volume]) * area[:, None]
+    return stiffness, np.column_stack([energy, limit, *axial, twist / area, np.zeros(count)])
 
 
 def of_edge_cells(springs: SpringSet, grid: tuple[int, int, int], twisting: frozenset[str]) -> np.ndarray:

@@ -7,7 +7,7 @@ arrays are, and a row of the table.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -15,7 +15,8 @@ import numpy as np
 
 from lumped.lattice import Lattice
 from lumped.pattern import Pattern
-from lumped.springs import by_cell, cells, constants, directional, laws, links, membranes
+from lumped.springs import by_cell, cells, constants, directional, laws, links
+from lumped.springs.cell_laws import AREA_AND_STRAINS, RUBBER, Law
 from lumped.springs.cells import CellArrays
 from lumped.springs.family import Dampers, Family
 from lumped.springs.links import LinkArrays
@@ -110,30 +111,39 @@ class DirectionalLinks(Links):
 
 @dataclass(frozen=True, eq=False)
 class Cells(Family):
-    """Springs on the cells of the layers or of the mid-surface: nodes (c, 4, p), stiffness (c, 4) against
-    the change of area and the Green strains ε1, ε2, γ of the mean sides; at rest sides (c, 2, 3) [m] and area
-    (c,) [m²]; the names of area springs and of springs against strain."""
+    """Springs on the cells of the layers, of the mid-surface or on upright faces: nodes (c, 4, p), stiffness
+    (c, 4) of small strains, against the change of area and the Green strains ε1, ε2, γ of the mean sides,
+    which dampers in proportion resist; at rest sides (c, 2, 3) [m] and area (c,) [m²]; the names of area
+    springs and of springs against strain, or of all; their law, and what constants it has beside (c, n)."""
 
     sides: np.ndarray
     area: np.ndarray
     names: tuple[str, str]
     upright: bool = False  # faces between the layers
+    law: Law = AREA_AND_STRAINS
+    others: np.ndarray | None = None
 
     loops: ClassVar[Any] = cells
-    no_stress: ClassVar[np.ndarray] = np.empty((0, 3))
+
+    @property
+    def no_stress(self) -> np.ndarray:  # type: ignore[override]
+        """Stresses of no cell."""
+        return _NO_STRESS[self.law.measures]
 
     @cached_property
     def constants(self) -> np.ndarray:
-        """Return the law's constants, (c, 4) [N/m³]."""
-        return laws.of_stiffness(self.stiffness, self.sides, self.area)
+        """Return the law's constants, (c, 4 + n), those of small strains first [N/m³]."""
+        springs = laws.of_stiffness(self.stiffness, self.sides, self.area)
+        return springs if self.others is None else np.column_stack([springs, self.others])
 
     @cached_property
     def arrays(self) -> CellArrays:
         """Return what the loops take."""
-        return CellArrays(self.nodes, self.sides, self.area, self.constants, self.slots)
+        return CellArrays(self.nodes, self.sides, self.area, self.law.tag(self.constants), self.slots)
 
     def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
-        """Return the positive semidefinite part of the stresses as matrices ((S₁, S₃/2), (S₃/2, S₂))."""
+        """Return the positive semidefinite part of the stresses as matrices ((S₁, S₃/2), (S₃/2, S₂)), and
+        where it is positive S₄."""
         s = self.stresses(u)
         mean, apart = 0.5 * (s[:, 0] + s[:, 1]), 0.5 * (s[:, 0] - s[:, 1])
         radius = np.hypot(apart, 0.5 * s[:, 2])
@@ -141,10 +151,12 @@ class Cells(Family):
         with np.errstate(invalid="ignore", divide="ignore"):
             share = np.where(low < 0.0, high / (2.0 * radius), 1.0)[:, None]
         parts = np.stack([s[:, 0] - low, s[:, 1] - low, s[:, 2]], axis=1) * share
-        return np.where((low < 0.0)[:, None], parts, s[:, :3])
+        found = np.where((low < 0.0)[:, None], parts, s[:, :3])
+        return np.column_stack([found, np.maximum(s[:, 3:], 0.0)])
 
     def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
-        """Return the energy of the area spring and of the springs against strain of every cell."""
+        """Return the energy of the area spring and of the springs against strain of every cell; of rubber, at
+        any strain, that of the membrane less that of the links along its sides."""
         if linear:
             corners = u[self.nodes].mean(axis=2)
             first, second = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
@@ -155,54 +167,30 @@ class Cells(Family):
             squares = np.stack([(strains[0] + strains[1]) ** 2, *strains**2], axis=1)
             stored = 0.5 * self.area[:, None] * self.stiffness * squares
             return np.stack([stored[:, 0], stored[:, 1:].sum(axis=1)], axis=1)
+        if self.law is not AREA_AND_STRAINS:
+            every: np.ndarray = cells.energies(u, self.arrays)
+            return every[:, None]
         of_areas, of_strains = self.constants.copy(), self.constants.copy()
         of_areas[:, 1:], of_strains[:, 0] = 0.0, 0.0
-        parts = [cells.energies(u, self.arrays._replace(constants=each)) for each in (of_areas, of_strains)]
+        parts = [
+            cells.energies(u, self.arrays._replace(law=self.law.tag(each))) for each in (of_areas, of_strains)
+        ]
         return np.stack(parts, axis=1)
 
     def by_name(self, energies: np.ndarray) -> dict[str, float]:
         """Return both sums, of the springs that there are."""
         there = self.stiffness[:, 0].any(), self.stiffness[:, 1:].any()
+        if self.law is not AREA_AND_STRAINS:
+            return {self.names[0]: float(energies.sum())}
         sums = zip(self.names, energies.sum(axis=0).tolist(), there, strict=True)
         return {name: energy for name, energy, has in sums if has}
 
-
-@dataclass(frozen=True, eq=False)
-class NeoHookeanCells(Cells):
-    """A layer's cells as a neo-Hookean membrane, or upright faces between the layers: stiffness (c, 4) of
-    their small strains, which dampers in proportion resist; law (c, 6), the rest of their constants
-    (`laws.neo_hookean`)."""
-
-    law: np.ndarray = field(kw_only=True)
-
-    loops: ClassVar[Any] = membranes
-    no_stress: ClassVar[np.ndarray] = np.empty((0, 4))
-
-    @cached_property
-    def arrays(self) -> CellArrays:
-        """Return what the loops take."""
-        constants = np.column_stack([self.constants, self.law])
-        return CellArrays(self.nodes, self.sides, self.area, constants, self.slots)
-
-    def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
-        """Return the positive semidefinite part of the stresses as matrices, and where it is positive S₄."""
-        return np.column_stack([super().nonnegative_part(u), np.maximum(self.stresses(u)[:, 3], 0.0)])
-
-    def energies(self, u: np.ndarray, linear: bool = False) -> np.ndarray:
-        """Return the energy of the membrane, less that of the links along its sides."""
-        if linear:
-            return super().energies(u, True)
-        energies: np.ndarray = membranes.energies(u, self.arrays)
-        return energies[:, None]
-
-    def by_name(self, energies: np.ndarray) -> dict[str, float]:
-        """Return the sum."""
-        return {self.names[0]: float(energies.sum())}
-
     def damped(self, time: float) -> Dampers:
-        """Return dampers of the springs of its small strains."""
-        arrays = self.slots, self.sides, self.area, self.names
-        return Dampers(Cells(self.nodes, time * self.stiffness, *arrays))
+        """Return dampers of coefficient time [s] × stiffness of small strains."""
+        return Dampers(replace(self, stiffness=time * self.stiffness, law=AREA_AND_STRAINS, others=None))
+
+
+_NO_STRESS = {count: np.empty((0, count)) for count in (3, 4)}
 
 
 def link_springs(lattice: Lattice, pattern: Pattern, table: SpringSet | DamperSet) -> Iterator[Links]:
@@ -240,10 +228,10 @@ def cell_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iter
     for family in lattice.cells:
         nodes, slots, sides, area = rest.cells(family.name)
         every = len(family.nodes) // len(twist)
-        if family.name == "area" and np.any(springs.neo_hookean_shear):
-            stiffness, law = constants.of_neo_hookean(springs, sides[: len(twist)], area[: len(twist)], twist)
-            stiffness, law = np.concatenate([stiffness] * every), np.concatenate([law] * every)
-            yield NeoHookeanCells(nodes, stiffness, slots, sides, area, ("neo_hookean", ""), law=law)
+        if family.name == "area" and springs.rubber:
+            found = constants.of_rubber(springs, sides[: len(twist)], area[: len(twist)], twist)
+            stiffness, others = (np.concatenate([each] * every) for each in found)
+            yield Cells(nodes, stiffness, slots, sides, area, ("rubber", ""), False, RUBBER, others)
             continue
         name, strains = constants.of_strains(springs, family.name, len(twist))
         of_area = by_cell.of_cells(getattr(springs, family.name), len(twist))
@@ -264,10 +252,10 @@ def face_springs(lattice: Lattice, pattern: Pattern, springs: SpringSet) -> Iter
         per_area = np.vstack([constants.along_each(springs.face_shear, count), diagonal])
         per_area = per_area[faces.axis[:, None], faces.cells]
         stored = per_area * lattice.cell_areas.ravel()[faces.cells]
-        stiffness, law = np.zeros((len(nodes), 4)), np.zeros((len(nodes), 6))
+        stiffness, others = np.zeros((len(nodes), 4)), np.zeros((len(nodes), 10))
         stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area
-        law[:, 5] = stiffness[:, 3] / area
-        yield NeoHookeanCells(nodes, stiffness, slots, sides, area, ("face_shear", ""), True, law=law)
+        others[:, 9] = stiffness[:, 3] / area
+        yield Cells(nodes, stiffness, slots, sides, area, ("face_shear", ""), True, RUBBER, others)
 
 
 FAMILIES: tuple[Callable[[Lattice, Pattern, SpringSet], Iterator[Family]], ...] = (

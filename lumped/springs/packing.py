@@ -16,23 +16,25 @@ import numpy as np
 
 from lumped.lattice import Lattice
 from lumped.pattern import ASKED, SHARED_UP_TO
-from lumped.springs import cell_tiles, link_tiles, membrane_tiles
-from lumped.springs.families import Cells, DirectionalLinks, Links, NeoHookeanCells
+from lumped.springs import cell_tiles, link_tiles
+from lumped.springs.cell_laws import AREA_AND_STRAINS, RUBBER, AreaAndStrains, Tag
+from lumped.springs.families import Cells, DirectionalLinks, Links
 from lumped.springs.family import Dampers, Family
 from lumped.springs.tiles import LANES, STRIDE, WIDTH
 from sheetbench.scenes.grid import Grid
 
-LINKS, DIRECTIONAL, CELLS, NEO_HOOKEAN = range(4)
+LINKS, DIRECTIONAL, CELLS, RUBBER_CELLS = range(4)
 BLOCK = int(LANES)
 CACHE_LIMIT = 2**18  # numbers of all shapes at most: from beyond the caches they come slower than anew
 BRIDGED = 4  # places at most from one spring of a run to the next
 ROWS = {LINKS: link_tiles.DATA, DIRECTIONAL: link_tiles.DATA}
-ROWS |= {CELLS: cell_tiles.DATA, NEO_HOOKEAN: membrane_tiles.DATA}
+OF_LAWS = {CELLS: AREA_AND_STRAINS, RUBBER_CELLS: RUBBER}
+ROWS |= {kind: cell_tiles.DATA[law.tag] for kind, law in OF_LAWS.items()}
 ABSENT_SPRING = {  # rest data where there is no spring: a link or a cell of side 1 [m]
     LINKS: (1.0, 0.0, 0.0, 1.0),
     DIRECTIONAL: (1.0, 0.0, 0.0, 1.0),
     CELLS: (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0),
-    NEO_HOOKEAN: (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0),
+    RUBBER_CELLS: (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0),
 }
 ODD = 2 * np.random.default_rng(0).integers(2**63, size=STRIDE, dtype=np.uint64) + np.uint64(1)  # of a hash
 
@@ -43,8 +45,8 @@ class Packing(NamedTuple):
     there are cells on the mid-surface; damped: whether there are dampers; runs: (r, 8), of each what it is,
     its blocks of springs, where its rest data begin, its first four (or two) masses, and where in a tile its
     shapes are kept; rest: rest data, flat; keeping: whether shapes are kept for dampers, those of each run in
-    a place of its own; length: of a tile with what is kept; law: NEO_HOOKEAN where there are such
-    cells, else None."""
+    a place of its own; length: of a tile with what is kept; law: of the cells that
+    have another than area and strains, with the rest data, else that."""
 
     order: np.ndarray
     layers: np.uint64
@@ -56,7 +58,7 @@ class Packing(NamedTuple):
     rest: np.ndarray
     keeping: bool
     length: int
-    law: int | None
+    law: Tag
 
 
 class Scratch(NamedTuple):
@@ -104,10 +106,10 @@ def pack(
         topology = _topology_of(lattice.grid, list(nodes.values()))
         ends = np.cumsum([len(part) for part in nodes.values()])
         number = dict(zip(nodes, np.split(topology.number, ends), strict=False))
-        data = np.zeros((ROWS[kind], len(topology.run)))
+        rows = np.zeros((ROWS[kind], len(topology.run)))
         for family, damped in parts:
-            _add_data(family, damped, number[id(family.nodes)], data)
-        of_runs, tables = _tables(kind, topology, data)
+            _add_data(family, damped, number[id(family.nodes)], rows)
+        of_runs, tables = _tables(kind, topology, rows)
         begins = used + tables[0].size * of_runs
         runs.append(np.column_stack([np.full(len(begins), kind), topology.runs, begins]))
         rest.append(tables.ravel())
@@ -115,6 +117,7 @@ def pack(
     table = np.concatenate([np.empty((0, 7), int), *runs])[:, [0, 1, 6, 2, 3, 4, 5, 6]].astype(np.uint64)
     table = table[np.argsort(table[:, 3] % plane, kind="stable")]  # masses stay in the fastest memory
     keeping, length = _place_shapes(table, bool(dampers))
+    data = np.concatenate(rest).astype(np.float32 if single else float)
     return Packing(
         _planes(lattice.grid),
         np.uint64(layers),
@@ -123,10 +126,10 @@ def pack(
         mid,
         bool(dampers),
         table,
-        np.concatenate(rest).astype(np.float32 if single else float),
+        data,
         keeping,
         length,
-        NEO_HOOKEAN if NEO_HOOKEAN in table[:, 0] else None,
+        (RUBBER.tag if RUBBER_CELLS in table[:, 0] else AreaAndStrains)(data),
     )
 
 
@@ -152,7 +155,7 @@ def _place_shapes(runs: np.ndarray, damped: bool) -> tuple[bool, int]:
 def _kind(family: Family) -> int:
     """What the springs of a family are."""
     if isinstance(family, Cells):
-        return NEO_HOOKEAN if isinstance(family, NeoHookeanCells) else CELLS
+        return next(kind for kind, law in OF_LAWS.items() if law is family.law)
     return DIRECTIONAL if isinstance(family, DirectionalLinks) else LINKS
 
 
@@ -169,8 +172,8 @@ def _add_data(family: Family, damped: bool, at: np.ndarray, data: np.ndarray) ->
         rest = (*a.T, *b.T, *((x * y).sum(axis=1) for x, y in ((a, a), (b, b), (a, b))), family.area)
         constants = family.constants.T
         first = 14 if damped else 10
-        if isinstance(family, NeoHookeanCells):
-            constants, data[18:20, at] = family.law[:, [0, 2, 3, 4]].T, family.law[:, [1, 5]].T
+        if family.law is RUBBER:
+            constants, data[18:, at] = constants[4:8], constants[8:]
     data[: len(rest), at] = rest
     data[first : first + len(constants), at] += constants
 

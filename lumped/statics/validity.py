@@ -105,7 +105,7 @@ def _stretch_share(assembly: Assembly, u: np.ndarray, elongations: np.ndarray, t
         columns, mean = assembly.lattice.columns(), u.copy()
         mean[columns] = u[columns].mean(axis=2, keepdims=True)
         energies = assembly.energies(mean)
-        return (energies["axial"] + energies["neo_hookean"]) / total
+        return (energies["axial"] + energies["rubber"]) / total
     links, layers_ = assembly.links, assembly.lattice.grid[2]
     in_plane = np.flatnonzero(links.offset[:, 2] == 0.0)
     if total <= 0.0 or len(in_plane) == 0:

@@ -108,10 +108,19 @@ class SpringSet(Frozen):
     mid_stretch: Stiffness = 0.0
     """Strain springs against the stretching of the mid-surface along x and y."""
     neo_hookean_shear: Annotated[Links, Unit("N/m")] = 0.0
-    """Cells of a layer as a neo-Hookean membrane instead of area and stretch: its shear modulus μ times its
-    thickness. Axial links then resist only the bending of cells in their plane."""
+    """Cells of a layer as a rubber membrane instead of area and stretch: 2 f'(0) of its energy's f(I1 - 3),
+    neo-Hooke's shear modulus, times its thickness. Axial links then resist only the bending of cells in
+    their plane."""
     neo_hookean_volume: Annotated[Links, Unit("N/m")] = 0.0
-    """Lamé's λ of that membrane times its thickness."""
+    """That membrane's Λ, of ½ ln² J, times its thickness; neo-Hooke's is Lamé's λ."""
+    mooney_rivlin: Annotated[AnySign, Unit("N/m")] = 0.0
+    """That membrane's coefficient of I2 - 3 times its thickness."""
+    yeoh_square: Annotated[AnySign, Unit("N/m")] = 0.0
+    """That membrane's coefficient of (I1 - 3)² times its thickness."""
+    yeoh_cube: Annotated[Links, Unit("N/m")] = 0.0
+    """That membrane's coefficient of (I1 - 3)³ times its thickness."""
+    gent_limit: Links = 0.0
+    """Gent's limit of I1 - 3 of that membrane; 0 for none."""
     face_shear: Stiffness = 0.0
     """Strain springs against the shear of the cells' upright faces, energy ½ k γ² a0, a0 the cell's area and
     γ the angle between mean chord and mean director."""
@@ -128,9 +137,14 @@ class SpringSet(Frozen):
     layer_distance: Annotated[Positive, Unit("m")] = Field(kw_only=True)
     """Distance of neighbouring layers; of two layers, about the sheet's thickness."""
 
+    @property
+    def rubber(self) -> bool:
+        """Whether the layers' cells are rubber membranes."""
+        return bool(self.neo_hookean_shear or self.mooney_rivlin)
+
     @model_validator(mode="after")
     def _one_law_a_cell(self) -> SpringSet:
-        if self.neo_hookean_shear and (self.area or self.stretch or self.shear):
+        if self.rubber and (self.area or self.stretch or self.shear):
             raise ValueError("neo_hookean_shear: the same cells cannot have area, stretch and shear springs")
         return self
 

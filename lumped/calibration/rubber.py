@@ -1,10 +1,8 @@
-"""A neo-Hookean sheet as a lattice, in closed form, for any strain and any ν below ½ (docs/theory.md).
+"""A sheet of rubber as a lattice, in closed form, for any strain and any ν below ½ (docs/theory.md).
 
-Each of L layers is a membrane of thickness h/L with the energy per volume
-
-    W = ½ μ (tr C − 2) + min over t of [½ μ (t² − 1) − μ ln(a t) + ½ λ ln²(a t)],
-
-μ = E/2(1 + ν), λ = 2 μ ν/(1 − 2ν), of its cells' mean sides (`lumped.springs.laws.neo_hookean`). Layers are
+Each of L layers is a membrane of thickness h/L with the energy of the material's law
+(`sheetbench.scenes.material`), of its cells' mean sides and with the thickness at which nothing pulls
+(`lumped.springs.rubber`); `neo-hookean` has neo-Hooke's whatever linear material it is given. Layers are
 h/√(L² − 1) apart, so that Σ z_k² h/L = h³/12 and bending is D exactly. Transverse shear is the upright
 faces', with S* of the grid, MacNeal's; a share d of it has the faces over the cells' diagonals. Against a
 bending wave of wave number q at the angle θ to the grid the stiffness of square cells is too small by (q l)²
@@ -38,17 +36,29 @@ from sheetbench.scenes.grading import Graded
 
 
 def neo_hookean(sheet: Sheet, material: Material, grid: Grid, grading: Graded = 0.0) -> Calibration:
-    """Neo-Hookean layers with the moduli of the sheet at small strains. Raises BadInput for ν = ½."""
-    if material.poisson >= 0.5:
-        raise BadInput("calibration 'neo-hookean' wants material.poisson below 0.5, such as 0.4999")
-    layers = grid[2]
+    """Neo-Hookean layers with the moduli of the sheet at small strains. Raises BadInput for a material of
+    another law."""
+    if material.law not in (None, "neo-hookean"):
+        raise BadInput(
+            f"calibration 'neo-hookean': the material's law is '{material.law}'; take 'hyperelastic'"
+        )
+    return _rubber("neo-hookean", sheet, material, grid, grading)
+
+
+def hyperelastic(sheet: Sheet, material: Material, grid: Grid, grading: Graded = 0.0) -> Calibration:
+    """Layers of the material's law, of a material without one neo-Hooke's."""
+    return _rubber("hyperelastic", sheet, material, grid, grading)
+
+
+def _rubber(method: str, sheet: Sheet, material: Material, grid: Grid, grading: Graded) -> Calibration:
+    layers, energy = grid[2], material.energy
+    thickness = sheet.thickness / layers
 
     def of_cell(cell: Sheet, _: float | None = None) -> SpringSet:
         lx, ly = cell.lengths
         asked = moduli.of_sheet(cell, material, cell.lengths)
-        side = material.young * sheet.thickness / (3.0 * layers)
+        side = material.young * thickness / 3.0
         square = sheet.thickness**2 / (layers**2 - 1)
-        shear = material.young * sheet.thickness / (2.0 * (1.0 + material.poisson) * layers)
         gap, squares = asked.shear / moduli.shear_gaps(layers), np.array([lx * lx, ly * ly])
         share = diagonals_for_waves(asked, lx * ly, 7.0 + material.poisson**2)
         diagonal = share * float((gap / squares).min() * squares.sum() / 2.0)
@@ -58,8 +68,12 @@ def neo_hookean(sheet: Sheet, material: Material, grid: Grid, grading: Graded = 
             vertical=vertical(asked, cell.lengths, square),
             cross=0.0,
             cross_diagonal=0.0,
-            neo_hookean_shear=shear,
-            neo_hookean_volume=2.0 * material.poisson / (1.0 - 2.0 * material.poisson) * shear,
+            neo_hookean_shear=2.0 * energy.c10 * thickness,
+            neo_hookean_volume=energy.volume(material.poisson) * thickness,
+            mooney_rivlin=energy.c01 * thickness,
+            yeoh_square=energy.c20 * thickness,
+            yeoh_cube=energy.c30 * thickness,
+            gent_limit=energy.limit,
             face_shear=by_direction(*(gap - 2.0 * diagonal * squares / squares.sum())),
             face_diagonal_shear=diagonal,
             layer_distance=math.sqrt(square),
@@ -71,5 +85,5 @@ def neo_hookean(sheet: Sheet, material: Material, grid: Grid, grading: Graded = 
         lx, ly = plan_spacing(sheet, grid)
         springs = of_cell(sheet.model_copy(update={"length_x": lx, "length_y": ly}))
     springs, notes = with_edges(sheet, grid, springs, grading)
-    found = report("neo-hookean", sheet, material, grid, springs, grading)
+    found = report(method, sheet, material, grid, springs, grading)
     return replace(found, notes=(*found.notes, *notes))

@@ -1,0 +1,156 @@
+"""The laws of cells as rows of a table, `LAWS`, and how compiled loops call the one that they are given.
+
+A law's constants go into the loops as a tuple of the law's own type, its tag: numba compiles a loop once for
+each tag that it meets, and `respond`, `stiffness`, `mean_stress`, `constants` and `measures` below stand in
+it for the functions of that tag's row. A new law is a row, its compiled functions and a tag.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import njit
+from numba.extending import overload
+
+from lumped.springs.laws import (
+    Constants,
+    Four,
+    Three,
+    area_and_strains,
+    mean_area_and_strains,
+    stiffness_of_area_and_strains,
+)
+from lumped.springs.rubber import mean_rubber, rubber, stiffness_of_rubber
+
+
+class AreaAndStrains(NamedTuple):
+    """constants: (c, 4) of every cell's `area_and_strains` [N/m³]."""
+
+    constants: np.ndarray
+
+
+class Rubber(NamedTuple):
+    """constants: (c, 14) of every cell's `rubber`."""
+
+    constants: np.ndarray
+
+
+Tag = AreaAndStrains | Rubber
+
+
+@njit(cache=True, error_model="numpy")
+def _four(k: np.ndarray, c: int) -> Constants:
+    return k[c, 0], k[c, 1], k[c, 2], k[c, 3]
+
+
+@njit(cache=True, error_model="numpy")
+def _fourteen(k: np.ndarray, c: int) -> Constants:
+    return (
+        k[c, 0], k[c, 1], k[c, 2], k[c, 3], k[c, 4], k[c, 5], k[c, 6], k[c, 7], k[c, 8], k[c, 9], k[c, 10],
+        k[c, 11], k[c, 12], k[c, 13],
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Law:
+    """tag: of its loops; respond: (½, δg and s, g at rest, area, constants) → energy, what its stiffness
+    takes, stress; stiffness: (δg and s, g, area, that, share, constants) → M + share (D − M) of g, and of s;
+    mean_stress: (of two states, g, area, constants) → the stress whose work is the energy stored; constants:
+    (array, cell) → a cell's; measures: 3, or 4 with s; any_strain: whether it means something at any strain;
+    example: constants of a cell of 1 × 1 m to test it by."""
+
+    tag: type[Tag]
+    respond: Callable[..., Any]
+    stiffness: Callable[..., Any]
+    mean_stress: Callable[..., Any]
+    constants: Callable[..., Any]
+    measures: int
+    any_strain: bool
+    examples: tuple[tuple[float, ...], ...]
+
+
+AREA_AND_STRAINS = Law(
+    AreaAndStrains,
+    area_and_strains,
+    stiffness_of_area_and_strains,
+    mean_area_and_strains,
+    _four,
+    3,
+    False,
+    ((-30.0, 200.0, 150.0, 80.0),),
+)
+RUBBER = Law(
+    Rubber,
+    rubber,
+    stiffness_of_rubber,
+    mean_rubber,
+    _fourteen,
+    4,
+    True,
+    (  # neo-hookean, mooney-rivlin, yeoh, gent
+        (164.0, 132.0, 140.0, 87.0, 50.0, 0.0, 0.0, 0.0, 900.0, 0.0, 68.0, 60.0, -13.0, 25.0),
+        (141.0, 152.0, 160.0, 107.0, 40.0, 20.0, 0.0, 0.0, 500.0, 0.0, 68.0, 60.0, -13.0, 25.0),
+        (153.0, 132.0, 140.0, 87.0, 50.0, 0.0, -3.0, 5.0, 700.0, 0.0, 68.0, 60.0, -13.0, 25.0),
+        (158.0, 132.0, 140.0, 87.0, 50.0, 0.0, 0.0, 0.0, 700.0, 3.0, 68.0, 60.0, -13.0, 25.0),
+    ),
+)
+LAWS = (AREA_AND_STRAINS, RUBBER)
+_OF = {law.tag: law for law in LAWS}
+
+
+def respond(tag: Tag, half: float, d: Four, g: Three, area: float, k: Constants) -> Any:
+    """Return the energy, what `stiffness` takes, and the stress S of a cell."""
+    return _OF[type(tag)].respond(half, d, g, area, k)
+
+
+def stiffness(tag: Tag, d: Four, g: Three, area: float, memory: Any, share: float, k: Constants) -> Any:
+    """Return M + share (D − M) by g, 11 22 33 12 13 23, and by s, 14 24 34 44."""
+    return _OF[type(tag)].stiffness(d, g, area, memory, share, k)
+
+
+def mean_stress(tag: Tag, start: Four, end: Four, g: Three, area: float, k: Constants) -> Any:
+    """Return the stress over a step whose work is the energy stored."""
+    return _OF[type(tag)].mean_stress(start, end, g, area, k)
+
+
+def constants(tag: Tag, c: int) -> Any:
+    """Return the constants of cell c."""
+    return _OF[type(tag)].constants(tag.constants, c)
+
+
+def measures(tag: Tag) -> int:
+    """Return 3, or 4 of a law of the corners' s too; compiled, a constant."""
+    return _OF[type(tag)].measures
+
+
+@overload(respond, strict=False)
+def _respond(tag: Any, half: Any, d: Any, g: Any, area: Any, k: Any) -> Any:
+    function = _OF[tag.instance_class].respond
+    return lambda tag, half, d, g, area, k: function(half, d, g, area, k)
+
+
+@overload(stiffness, strict=False)
+def _stiffness(tag: Any, d: Any, g: Any, area: Any, memory: Any, share: Any, k: Any) -> Any:
+    function = _OF[tag.instance_class].stiffness
+    return lambda tag, d, g, area, memory, share, k: function(d, g, area, memory, share, k)
+
+
+@overload(mean_stress, strict=False)
+def _mean_stress(tag: Any, start: Any, end: Any, g: Any, area: Any, k: Any) -> Any:
+    function = _OF[tag.instance_class].mean_stress
+    return lambda tag, start, end, g, area, k: function(start, end, g, area, k)
+
+
+@overload(constants, strict=False)
+def _constants(tag: Any, c: Any) -> Any:
+    function = _OF[tag.instance_class].constants
+    return lambda tag, c: function(tag.constants, c)
+
+
+@overload(measures, strict=False)
+def _measures(tag: Any) -> Any:
+    count = _OF[tag.instance_class].measures
+    return lambda tag: count

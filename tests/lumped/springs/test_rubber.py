@@ -1,0 +1,112 @@
+"""Rubber lattices of every law against closed forms of homogeneous stretches."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import lumped
+from lumped.assembly import Assembly
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Material, Scene, Sheet, Status
+
+THICKNESS, SIDES = 2e-3, (0.2, 0.1)
+SHEET = Sheet(*SIDES, THICKNESS)
+LAWS = {
+    "neo-hookean": {"young": 1e6},
+    "mooney-rivlin": {"c1": 1.5e5, "c2": 2e4},
+    "yeoh": {"c1": 1.7e5, "c2": -2e3, "c3": 60.0},
+    "gent": {"shear": 3.4e5, "limit": 20.0},
+}
+
+
+def rubber(law, poisson=0.49):
+    return Material(law=law, poisson=poisson, density=1000.0, **LAWS[law])
+
+
+def slopes(material, stretches):
+    """∂W/∂λ of the three principal stretches [Pa], from W as `sheetbench.scenes.material` writes it."""
+    e, s = material.energy, np.asarray(stretches) ** 2
+    x = s.sum() - 3.0
+    first = e.c10 + 2.0 * e.c20 * x + 3.0 * e.c30 * x * x
+    if e.limit:
+        first = e.c10 / (1.0 - x / e.limit)
+    pressure = e.volume(material.poisson) * np.log(np.prod(stretches)) - 2.0 * e.c10 - 4.0 * e.c01
+    return (2.0 * s * (first + e.c01 * (s.sum() - s)) + pressure) / np.asarray(stretches)
+
+
+def thickness(material, one, other):
+    """The third stretch, with which nothing pulls through the thickness."""
+    return brentq(lambda t: slopes(material, (one, other, t))[2], 0.05, 2.5, xtol=1e-15, rtol=1e-14)
+
+
+def forces(material, one, other):
+    """Forces per length [N/m] that hold two stretches."""
+    return THICKNESS * slopes(material, (one, other, thickness(material, one, other)))[:2]
+
+
+def alone(material, stretch):
+    """The stretch across, where nothing pulls across."""
+    return brentq(lambda w: forces(material, stretch, w)[1], 0.6, 1.4, xtol=1e-15, rtol=1e-14)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("poisson", [0.3, 0.4999])
+@pytest.mark.parametrize("way", ["uniaxial", "pure shear", "equibiaxial"])
+@pytest.mark.parametrize("stretch", [0.7, 1.01, 1.3, 2.0])
+def test_a_stretched_lattice_pulls_as_the_law_does(law, poisson, way, stretch):
+    """Two stretches imposed on all masses: the forces on two edges."""
+    material = rubber(law, poisson)
+    across = {"uniaxial": alone, "pure shear": lambda *_: 1.0, "equibiaxial": lambda _, one: one}[way](
+        material, stretch
+    )
+    springs = lumped.calibrate(SHEET, material, grid=(4, 3), method="hyperelastic")
+    assembly = Assembly(SHEET, springs)
+    x, y, _ = assembly.lattice.positions.T
+    u = np.zeros_like(assembly.lattice.positions)
+    u[:, 0], u[:, 1] = (stretch - 1.0) * x, (across - 1.0) * y
+    force = assembly.force(u)[1]
+    along = force[np.isclose(x, SIDES[0]), 0].sum() / SIDES[1]
+    beside = force[np.isclose(y, SIDES[1]), 1].sum() / SIDES[0]
+    wanted = forces(material, stretch, across)
+    assert np.allclose((along, beside), wanted, rtol=1e-9, atol=1e-9 * np.abs(wanted).max())
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("stretch", [1.5, 2.0])
+def test_a_strip_that_is_pulled_finds_the_stretches(law, stretch):
+    """One way, both ways, and with its width kept, to a rounding of the loads' closed form."""
+    material = rubber(law)
+    for across in (alone(material, stretch), stretch, 1.0):
+        pulls = forces(material, stretch, across)
+        loads = [
+            {"kind": "edge", "edge": edge, "force_per_length": [*(pull * np.eye(2)[axis] ), 0.0]}
+            for axis, (edge, pull) in enumerate(zip(("x1", "y1"), pulls, strict=True))
+            if abs(pull) > 1e-6 * abs(pulls[0])
+        ]  # fmt: skip
+        held = [{"edge": e, "kind": "held", "components": [c, "z"]} for e, c in (("x0", "x"), ("y0", "y"))]
+        scene = Scene(name="strip", sheet=SHEET, material=material, supports=held, loads=loads)
+        solution = lumped.solve(scene)  # of the material's law without being asked
+        assert solution.status is Status.CONVERGED and "hyperelastic" in str(solution.settings)
+        corner = solution.displacement([SIDES])[0]
+        assert np.allclose(1.0 + corner[:2] / SIDES, (stretch, across), rtol=1e-9)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_every_modulus_is_met_at_small_strains(law):
+    for options in ({}, {"grid": (4, 6, 3)}, {"grading": 0.5}):
+        springs = lumped.calibrate(SHEET, rubber(law), **{"grid": (5, 4), **options}, method="hyperelastic")
+        assert max(abs(row["miss"]) for row in springs.moduli) < 1e-11
+
+
+def test_beyond_gents_limit_there_is_no_equilibrium_and_the_solver_says_so():
+    material = rubber("gent").replace(limit=3.0)
+    springs = lumped.calibrate(SHEET, material, grid=(3, 3), method="hyperelastic")
+    assembly = Assembly(SHEET, springs)
+    u = np.zeros_like(assembly.lattice.positions)
+    u[:, 0] = 2.0 * assembly.lattice.positions[:, 0]  # tr C = 10
+    assert np.isnan(assembly.force(u)[0])
+
+
+def test_neo_hookean_springs_of_another_law_are_refused():
+    with pytest.raises(BadInput, match="the material's law is 'gent'; take 'hyperelastic'"):
+        lumped.calibrate(SHEET, rubber("gent"), grid=5, method="neo-hookean")

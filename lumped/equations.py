@@ -105,7 +105,8 @@ def advance(
     if len(right):
         found = banded.solve_unrefined(factors, band.width, band.order, right)
         step = product(equations.free, found).reshape(-1, 3)
-    stresses: Stresses = np.empty(0), np.empty((0, 3)), np.empty((0, 3))
+    none = np.empty((0, 3))
+    stresses: Stresses = np.empty(0), none, none, none
     if predict:
         stresses = all_families.extrapolated(u, step, springs)
     after, length = u + step, 0.0

@@ -39,7 +39,7 @@ _WORDS = {
     _ISOTROPIC: "young_x young_y young_z young_1 young_2 young_3 poisson_xy poisson_yx poisson_12 poisson_21 "
     "shear_xy shear_12 shear_13 shear_23 orthotropic orthotropy anisotropic fibre fibres fiber fibers "
     "fibre_angle fiber_angle angle",
-    _RUBBER: "laws hyperelastic neo_hookean mooney_rivlin ogden yeoh gent c10 c01 c20 c30",
+    _RUBBER: "laws hyperelastic neo_hookean ogden yeoh gent c10 c01 c20 c30",
     _VISCOUS: "prony viscoelastic viscoelasticity viscosity creep tan_delta damping_ratio quality",
     _CONTACT: "contact contacts friction obstacle obstacles floor ground table wall",
     _STRESS_FREE: "prestretch pre_stretch prestrain pre_strain prestress pre_stress pretension "

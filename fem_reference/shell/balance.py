@@ -26,7 +26,7 @@ from sheetbench.scenes import Balance, Scene
 def balance(
     scene: Scene,
     structure: ShellStructure,
-    path: Path[State],
+    path: Path[State, Forces],
     forces: Forces,
     surface: Surface,
     edges: Sequence[OnEdge],

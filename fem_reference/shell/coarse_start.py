@@ -15,7 +15,7 @@ from skfem import MeshQuad
 
 from fem_reference.shell.element import MEMBRANE
 from fem_reference.shell.membrane_strains import at_nodes, sampled
-from fem_reference.shell.state import State
+from fem_reference.shell.state import Forces, State
 from fem_reference.shell.structure import UP, ShellStructure
 from fem_reference.solving.newton import Start
 from fem_reference.solving.path import Path
@@ -37,7 +37,7 @@ def coarse(counts: tuple[int, int], scene: Scene) -> tuple[int, int] | None:
     return counts[0] // COARSER, counts[1] // COARSER
 
 
-def plain(path: Path[State]) -> bool:
+def plain(path: Path[State, Forces]) -> bool:
     """Whether a path has led straight to the only stable equilibrium in sight."""
     straight = all(entry.load_factor == 1.0 for entry in path.history)
     return path.status is Status.CONVERGED and straight and not path.snaps and not path.notes

@@ -20,13 +20,13 @@ from fem_reference.shell.coarse_start import Shape
 from fem_reference.shell.element import Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
-from fem_reference.shell.state import State
+from fem_reference.shell.state import Forces, State
 from fem_reference.shell.structure import UP, ShellStructure
 from fem_reference.shell.validity import STRETCHED, inspector, judge, membrane_strain
 from fem_reference.solving.equilibrium import trace
 from fem_reference.solving.newton import Start
 from fem_reference.solving.path import FACTORISATIONS, Path, Progress
-from fem_reference.solving.pseudo_transient import settler
+from fem_reference.solving.pseudo_transient import relax
 from fem_reference.surface import loads, rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import Held, exerted, on_edges
@@ -101,7 +101,7 @@ class _Run(NamedTuple):
     mesh: MeshQuad
     structure: ShellStructure
     nodes: np.ndarray
-    path: Path[State]
+    path: Path[State, Forces]
     setup_seconds: float
     solve_seconds: float
 
@@ -146,16 +146,16 @@ def _run(
         begin_at = coarse_start.shaped(near, structure, nodes)
     elif near is not None:
         begin_at = coarse_start.start(near.mesh, near.structure, near.path.state, structure, nodes)
-    inspect, settle = inspector(scene, structure, solver, graded), settler(structure, solver)
+    inspect = inspector(scene, structure, graded)
     slenderness = scene.sheet.thickness / structure.lever
-    path = trace(structure, solver, inspect, settle, progress, begin_at, slenderness, limit, buckled)
+    path = trace(structure, solver, inspect, relax, progress, begin_at, slenderness, limit, buckled)
     return _Run(mesh, structure, nodes, path, ready - begin, now() - ready)
 
 
 def trace_on(scene: Scene, structure: ShellStructure) -> tuple[State, Status, list[str]]:
     """The equilibrium of a structure under the full load, how the path to it ended and what is to be said."""
     solver = DirectSolver(structure.symmetric, fronts=structure.fronts)
-    path = trace(structure, solver, inspector(scene, structure, solver, False), settler(structure, solver))
+    path = trace(structure, solver, inspector(scene, structure, False), relax)
     return path.state, *judge(scene, structure, path, membrane_strain(structure, path.state))
 
 
@@ -170,7 +170,7 @@ def _solution(
 ) -> Solution:
     """The answer of a run; spent: those before it, the last first; own: whether the mesh has an outline of
     its own."""
-    structure, path = run.structure, run.path
+    structure, path, mesh, on = run.structure, run.path, run.mesh, run.structure.element_nodes
     stretched = membrane_strain(structure, path.state)
     status, notes = judge(scene, structure, path, stretched)
     displacement, turn = path.state.change
@@ -182,7 +182,7 @@ def _solution(
     edges = on_edges(structure.rods, forces.rods.pull, held, director)
     wrenches, line_force = exerted(scene, edges, structure.supports.moved, held)
     fields = {"actuator_line_force": line_force} if scene.actuators else {}
-    surface = Surface(run.mesh, structure.element_nodes, run.nodes, position, director, own)
+    surface = Surface(mesh, on, run.nodes, position, director, own)
     runs = [*reversed(spent), run]
     of_rods = {"rod": structure.rod_energy(path.state)} if scene.actuators else {}
     return Solution(
@@ -194,10 +194,10 @@ def _solution(
         iterations=sum(one.path.factorisations for one in runs),
         setup_seconds=sum(one.setup_seconds for one in runs),
         solve_seconds=sum(one.solve_seconds for one in runs),
-        sample=lambda points: interpolate(run.mesh, structure.element_nodes, displacement, points),
+        sample=lambda points: interpolate(mesh, on, displacement, points),
         reactions=structure.supports.reactions(forces.residual[0]),
         energies=structure.energies(path.state) | of_rods,
-        mesh=field_mesh(run.nodes, structure.element_nodes, displacement, director, **fields),
+        mesh=field_mesh(run.nodes, on, displacement, director, **fields),
         history=tuple(entry for one in runs for entry in one.path.history),
         load_factor=path.load_factor,
         actuators=wrenches,

@@ -18,17 +18,14 @@ stretched  In an element of sides b ≥ l the membrane shear's assumed strains d
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from fem_reference.shell.element import BENDING, MEMBRANE
-from fem_reference.shell.state import State
+from fem_reference.shell.state import Forces, State
 from fem_reference.shell.structure import ShellStructure
-from fem_reference.solving.path import Fault, Path
+from fem_reference.solving.path import Fault, Inspect, Path
 from fem_reference.solving.stability import stability
 from fem_reference.surface.biquadratic import AT_GAUSS, cross
-from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, Status, outside_model
 
 STRETCH_LIMIT = 5.0
@@ -36,15 +33,13 @@ STRETCHED = Fault(Status.UNSTABLE, "elements are stretched too far for how much 
 FLAT = 1e-6  # of the element's area in the flat sheet, below which it counts as turned inside out
 
 
-def inspector(
-    scene: Scene, structure: ShellStructure, solver: DirectSolver, graded: bool
-) -> Callable[[Path[State]], Fault | None]:
+def inspector(scene: Scene, structure: ShellStructure, graded: bool) -> Inspect[State, Forces]:
     """What `equilibrium.trace` is to look at; graded: elements are stretched, and may be without harm."""
 
-    def inspect(path: Path[State]) -> Fault | None:
+    def inspect(path: Path[State, Forces]) -> Fault | None:
         fault = inverted(structure, path.state)
         if fault is None and graded and stretch(structure, path.state, scene.sheet.thickness) > STRETCH_LIMIT:
-            return None if stability(structure, solver, path)[0] is Status.CONVERGED else STRETCHED
+            return None if stability(path)[0] is Status.CONVERGED else STRETCHED
         return fault
 
     return inspect
@@ -84,7 +79,7 @@ def membrane_strain(structure: ShellStructure, state: State) -> float:
 
 
 def judge(
-    scene: Scene, structure: ShellStructure, path: Path[State], stretched: float
+    scene: Scene, structure: ShellStructure, path: Path[State, Forces], stretched: float
 ) -> tuple[Status, list[str]]:
     """The status and notes of a path that has ended: strains beyond the model, if it has come to them;
     stretched: by how much, as `membrane_strain` has it."""

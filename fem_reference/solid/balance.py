@@ -24,7 +24,7 @@ from sheetbench.scenes import Balance, Scene
 def balance(
     scene: Scene,
     structure: SolidStructure,
-    path: Path[State],
+    path: Path[State, Forces],
     forces: Forces,
     edges: Sequence[OnEdge],
     own: bool,

@@ -6,8 +6,8 @@ from typing import Protocol, TypeVar
 
 from fem_reference.solving.path import FACTORISATIONS, Path, StepFailed
 from fem_reference.solving.stability import stability
-from fem_reference.solving.structure import Forces, State, Structure
-from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
+from fem_reference.solving.structure import Forces, State
+from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.scenes import Status
 
 DOUBTFUL = 16  # factorisations from which on a load step may have jumped over a fold
@@ -30,14 +30,14 @@ class Reached(Protocol[Linear]):
     target: float
 
 
-def worth(structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> int:
+def worth(path: Path[State, Forces]) -> int:
     """Factorisations that it is worth to look for another branch, which large load steps may have left: where
     the equilibrium is unstable, or, up to DEARER times those before, where it took long to find; else none. A
     path that is one linear step, without a correction, has jumped over nothing."""
-    if not structure.symmetric or path.load_factor == 0.0 or path.factorisations == 1:
+    if not path.structure.symmetric or path.load_factor == 0.0 or path.factorisations == 1:
         return 0
     taken = path.factorisations
-    if stability(structure, solver, path)[0] is Status.UNSTABLE:
+    if stability(path)[0] is Status.UNSTABLE:
         return FACTORISATIONS
     return min(DEARER * taken, FACTORISATIONS) if taken > DOUBTFUL else 0
 
@@ -48,25 +48,17 @@ def negatives(factor: Factor | None) -> int:
 
 
 def continuous(
-    structure: Structure[State, Forces],
-    solver: DirectSolver,
-    path: Path[State],
-    first: Reached[State],
-    state: State,
-    negative: int,
-    rounding: float,
+    path: Path[State, Forces], first: Reached[State], state: State, negative: int, rounding: float
 ) -> tuple[Factor, float]:
     """The factors of the tangent at an equilibrium, and how far the next linear step may go. Raises
     StepFailed where it is on another branch than the one that the step set out from: far from where the
     linear step led, or past a change of stability by more than a short step. negative: eigenvalues before;
     rounding: length that is none."""
-    miss = structure.length(first.state, state)
+    miss = path.structure.length(first.state, state)
     if miss > max(min(CONTINUOUS * first.length, MISS), rounding):
         raise StepFailed(Status.STEP_LIMIT, "the path folds", first.length)
-    path.factorisations += 1
-    forces = structure.forces(state, first.target)
     try:
-        found = solver.factor(structure.system(state, forces, first.target, mixed=False)[0])
+        found = path.factored(path.tangent(state, first.target))
     except SingularMatrixError as error:
         raise StepFailed(Status.SINGULAR, str(error), first.length) from None
     if negatives(found) > negative and first.length > BRANCHING:

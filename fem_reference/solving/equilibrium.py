@@ -22,11 +22,17 @@ tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from fem_reference.solving.careful import continuous, negatives, worth
 from fem_reference.solving.newton import FIRST_REACH, TOLERANCE, Predictor, Start, newton
-from fem_reference.solving.path import FACTORISATIONS, Fault, Path, Progress, StepFailed
+from fem_reference.solving.path import (
+    FACTORISATIONS,
+    Fault,
+    Inspect,
+    Path,
+    Progress,
+    Settle,
+    StepFailed,
+)
 from fem_reference.solving.stability import stability
 from fem_reference.solving.structure import Forces, State, Structure
 from sheetbench.numerics.direct import DirectSolver, Factor
@@ -48,14 +54,14 @@ SNAPPING = 4 * FACTORISATIONS  # in all, where the structure snaps
 def trace(
     structure: Structure[State, Forces],
     solver: DirectSolver,
-    inspect: Callable[[Path[State]], Fault | None] = lambda path: None,
-    settle: Callable[[Path[State], float], State] | None = None,
+    inspect: Inspect[State, Forces] = lambda path: None,
+    settle: Settle[State, Forces] | None = None,
     progress: Progress | None = None,
     near: Start[State] | None = None,
     slenderness: float = 0.0,
     limit: int = FACTORISATIONS,
     buckled: bool = False,
-) -> Path[State]:
+) -> Path[State, Forces]:
     """The equilibrium at load factor 1, or the last one on the way with the reason it is the last.
 
     inspect: shown the path at every equilibrium on the way; a fault, if it finds one, ends it there.
@@ -67,24 +73,25 @@ def trace(
     buckled: leave an unstable equilibrium for the stable one that `settle` leads to.
     """
     with one_blas_thread():
-        path = Path(structure.rest(), limit=limit, progress=progress, alike=SAME_TANGENT * slenderness**2)
+        alike = SAME_TANGENT * slenderness**2
+        path = Path(structure, solver, structure.rest(), limit=limit, progress=progress, alike=alike)
         ended: StepFailed | Fault | None = None
         careful, reached = False, None
-        if near is None or not _arrived(structure, solver, path, inspect, near):
-            ended = _follow(structure, solver, path, inspect)
-            more = 0 if isinstance(ended, Fault) else worth(structure, solver, path)
+        if near is None or not _arrived(path, inspect, near):
+            ended = _follow(path, inspect)
+            more = 0 if isinstance(ended, Fault) else worth(path)
             careful = more > 0
             if careful:
                 reached = path.state if ended is None else None
                 path.state, path.load_factor, path.factor = structure.rest(), 0.0, None
                 path.limit = path.factorisations + more
-                ended = _follow(structure, solver, path, inspect, careful)
+                ended = _follow(path, inspect, careful)
         while isinstance(ended, StepFailed):
             tried = ""
             if settle is not None and structure.symmetric and _at_limit_point(path, ended):
-                left_at, doubt = path.load_factor, _doubt(structure, solver, path)
+                left_at, doubt = path.load_factor, _doubt(path)
                 try:
-                    following = _snap(structure, solver, path, inspect, settle, careful)
+                    following = _snap(path, inspect, settle, careful)
                 except StepFailed as failure:
                     tried = f"; relaxed at a load factor {SNAP_STEP:g} higher, {failure}"
                 else:
@@ -92,7 +99,7 @@ def trace(
                     path.notes.extend(doubt)
                     ended = following
                     continue
-            ended = _give_up(structure, solver, path, ended, tried)
+            ended = _give_up(path, ended, tried)
         if ended is not None and reached is not None:
             if path.load_factor > 0.0:
                 here = f"small load steps end at load factor {path.load_factor:.4g}"
@@ -102,13 +109,13 @@ def trace(
                 )
             path.state, path.load_factor, path.factor, ended = reached, 1.0, None, None
         path.fault = ended
-        path.status, said = ended or stability(structure, solver, path)
+        path.status, said = ended or stability(path)
         if buckled and settle is not None and ended is None and path.status is Status.UNSTABLE:
             try:
                 path.limit = path.factorisations + FACTORISATIONS
                 path.state, path.factor = settle(path, 1.0), None
                 path.notes.append("begun along the buckling mode of an unstable equilibrium")
-                path.status, said = stability(structure, solver, path)
+                path.status, said = stability(path)
             except StepFailed as failure:
                 said = f"{said}; beside it {failure}"
         path.notes.extend([said] if said else [])
@@ -116,33 +123,23 @@ def trace(
         return path
 
 
-def _arrived(
-    structure: Structure[State, Forces],
-    solver: DirectSolver,
-    path: Path[State],
-    inspect: Callable[[Path[State]], Fault | None],
-    near: Start[State],
-) -> bool:
+def _arrived(path: Path[State, Forces], inspect: Inspect[State, Forces], near: Start[State]) -> bool:
     """Whether a path is at a stable equilibrium close to a start; if not, it is where it was."""
     before = path.state, path.load_factor, path.factor
     try:
-        state, factor = newton(structure, solver, path, near)
+        state, factor = newton(path, near)
     except StepFailed:
         return False
     path.state, path.load_factor, path.factor = state, near.target, factor
-    close = structure.length(near.state, state) <= SAME_BRANCH * near.length
-    if close and inspect(path) is None and stability(structure, solver, path) == (Status.CONVERGED, ""):
+    close = path.structure.length(near.state, state) <= SAME_BRANCH * near.length
+    if close and inspect(path) is None and stability(path) == (Status.CONVERGED, ""):
         return True
     path.state, path.load_factor, path.factor = before
     return False
 
 
 def _follow(
-    structure: Structure[State, Forces],
-    solver: DirectSolver,
-    path: Path[State],
-    inspect: Callable[[Path[State]], Fault | None],
-    careful: bool = False,
+    path: Path[State, Forces], inspect: Inspect[State, Forces], careful: bool = False
 ) -> StepFailed | Fault | None:
     """Lead a path on to load factor 1: what has ended it before, if anything. careful: no load step may leave
     the branch that it begins on."""
@@ -152,19 +149,19 @@ def _follow(
     while path.load_factor < 1.0:
         before = path.factorisations
         try:
-            first = Predictor(structure, solver, path, min(1.0, path.load_factor + size), reach, factor)
-            factor = first.factor if structure.symmetric else None
+            first = Predictor(path, min(1.0, path.load_factor + size), reach, factor)
+            factor = first.factor if path.structure.symmetric else None
             close = CAREFUL_TOLERANCE if careful and first.target < 1.0 else 0.0
-            state, found = newton(structure, solver, path, first, close)
+            state, found = newton(path, first, close)
             if careful:
                 negative = negatives(first.factor) if negative is None else negative
-                found, longest = continuous(structure, solver, path, first, state, negative, TOLERANCE)
+                found, longest = continuous(path, first, state, negative, TOLERANCE)
         except StepFailed as failure:
             size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
             shortest = size < SMALLEST_STEP and (not careful or reach < SHORTEST)
             if shortest or path.factorisations >= path.limit:
                 if careful and path.load_factor > 0.0:
-                    _refine(structure, solver, path)
+                    _refine(path)
                 return failure
             continue
         grown = first.target - path.load_factor
@@ -181,27 +178,27 @@ def _follow(
     return None
 
 
-def _refine(structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> None:
+def _refine(path: Path[State, Forces]) -> None:
     """Bring the end of a careful path to the tolerance, at a load lower by what its last step left open."""
     for lower in (0.0, CAREFUL_TOLERANCE, 2.0 * CAREFUL_TOLERANCE, 4.0 * CAREFUL_TOLERANCE):
         target = (1.0 - lower) * path.load_factor
         try:
-            path.state = newton(structure, solver, path, Start(path.state, target, 1.0, 0.0))[0]
+            path.state = newton(path, Start(path.state, target, 1.0, 0.0))[0]
         except StepFailed:
             continue
         path.load_factor = target
         return
 
 
-def _at_limit_point(path: Path[State], failure: StepFailed) -> bool:
+def _at_limit_point(path: Path[State, Forces], failure: StepFailed) -> bool:
     """Whether a path that has ended may snap: it has left rest and has factorisations left."""
     stuck = failure.status is Status.STEP_LIMIT and path.load_factor > 0.0
     return stuck and path.factorisations < path.limit and len(path.snaps) < SNAPS
 
 
-def _doubt(structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> list[str]:
+def _doubt(path: Path[State, Forces]) -> list[str]:
     """A sentence where a path that is about to snap has not been stable until then."""
-    status, said = stability(structure, solver, path)
+    status, said = stability(path)
     if not said:
         return []
     begin = "" if status is Status.CONVERGED else "unstable "
@@ -209,11 +206,9 @@ def _doubt(structure: Structure[State, Forces], solver: DirectSolver, path: Path
 
 
 def _snap(
-    structure: Structure[State, Forces],
-    solver: DirectSolver,
-    path: Path[State],
-    inspect: Callable[[Path[State]], Fault | None],
-    settle: Callable[[Path[State], float], State],
+    path: Path[State, Forces],
+    inspect: Inspect[State, Forces],
+    settle: Settle[State, Forces],
     careful: bool,
 ) -> StepFailed | Fault | None:
     """Lead a path past its limit point and on: what has ended it then. Raises StepFailed, the path as it was,
@@ -222,21 +217,15 @@ def _snap(
     path.limit = min(path.factorisations + FACTORISATIONS, SNAPPING)
     path.state, path.load_factor, path.factor = settle(path, beyond), beyond, None
     path.limit = min(path.factorisations + FACTORISATIONS, SNAPPING)
-    return inspect(path) or _follow(structure, solver, path, inspect, careful)
+    return inspect(path) or _follow(path, inspect, careful)
 
 
-def _give_up(
-    structure: Structure[State, Forces],
-    solver: DirectSolver,
-    path: Path[State],
-    failure: StepFailed,
-    tried: str,
-) -> Fault:
+def _give_up(path: Path[State, Forces], failure: StepFailed, tried: str) -> Fault:
     """Where the path ended, what was tried beyond and, from the last equilibrium's tangent, whether it had
     branched by then."""
     message = f"no equilibrium found beyond load factor {path.load_factor:.4g}: {failure}{tried}"
     if path.load_factor > 0.0:
-        status, said = stability(structure, solver, path)
+        status, said = stability(path)
         if status is not Status.CONVERGED:
             message += f"; {said} there: the answer is not unique on this grid"
     return Fault(failure.status, message)

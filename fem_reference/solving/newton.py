@@ -13,8 +13,8 @@ from typing import Generic
 import numpy as np
 
 from fem_reference.solving.path import Path, StepFailed
-from fem_reference.solving.structure import Forces, State, Structure
-from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
+from fem_reference.solving.structure import Forces, State
+from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.scenes import Status
 
 TOLERANCE = 5e-9  # residual, relative to the forces that balance
@@ -44,30 +44,22 @@ class Predictor(Generic[State, Forces]):
     load. target: the load factor that the step is for.
     """
 
-    def __init__(
-        self,
-        structure: Structure[State, Forces],
-        solver: DirectSolver,
-        path: Path[State],
-        target: float,
-        reach: float,
-        factor: Factor | None,
-    ):
+    def __init__(self, path: Path[State, Forces], target: float, reach: float, factor: Factor | None):
         self.target, self.factor = target, factor
-        self._aim(structure, solver, path)
+        self._aim(path)
         if reach < self.length < np.inf:
             self.target = path.load_factor + (target - path.load_factor) * reach / self.length
-            self._aim(structure, solver, path)
+            self._aim(path)
         if not self.length < FARTHEST:
             raise StepFailed(Status.DIVERGED, "the first step has no end", FIRST_REACH)
 
-    def _aim(self, structure: Structure[State, Forces], solver: DirectSolver, path: Path[State]) -> None:
+    def _aim(self, path: Path[State, Forces]) -> None:
+        structure = path.structure
         forces = structure.forces(path.state, self.target)
         try:
             matrix, rows = structure.system(path.state, forces, self.target)
             if self.factor is None or not structure.symmetric:
-                path.factorisations += 1
-                self.factor = solver.factor(matrix)
+                self.factor = path.factored(matrix)
             step = self.factor.solve(rows, SOLVED)
         except SingularMatrixError as error:
             raise StepFailed(Status.SINGULAR, str(error), FIRST_REACH) from None
@@ -77,15 +69,11 @@ class Predictor(Generic[State, Forces]):
 
 
 def newton(
-    structure: Structure[State, Forces],
-    solver: DirectSolver,
-    path: Path[State],
-    first: Start[State] | Predictor[State, Forces],
-    close: float = 0.0,
+    path: Path[State, Forces], first: Start[State] | Predictor[State, Forces], close: float = 0.0
 ) -> tuple[State, Factor | None]:
     """The equilibrium at the load factor of a start, and the factors of its tangent where those of the last
     correction are, which was next to nothing. close: a residual that is good enough. Raises StepFailed."""
-    state, target, before = first.state, first.target, np.inf
+    structure, state, target, before = path.structure, first.state, first.target, np.inf
     factor: Factor | None = None
     works, lengths = [first.work], [first.length]
     for _ in range(ITERATIONS):
@@ -107,10 +95,9 @@ def newton(
         if path.factorisations >= path.limit:
             said = f"{path.limit} factorisations were not enough"
             raise StepFailed(Status.STEP_LIMIT, said, first.length)
-        path.factorisations += 1
         try:
             matrix, rows = structure.system(state, forces, target)
-            factor = solver.factor(matrix)
+            factor = path.factored(matrix)
             step = factor.solve(rows, SOLVED)
         except SingularMatrixError as error:
             raise StepFailed(Status.SINGULAR, str(error), first.length) from None

@@ -6,8 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Generic, NamedTuple
 
-from fem_reference.solving.structure import State
-from sheetbench.numerics.direct import Factor
+from scipy.sparse import csr_matrix
+
+from fem_reference.solving.structure import Forces, State, Structure
+from sheetbench.numerics.direct import DirectSolver, Factor
 from sheetbench.scenes import Iteration, Status
 
 FACTORISATIONS = 400  # in all
@@ -23,14 +25,16 @@ class Fault(NamedTuple):
 
 
 @dataclass
-class Path(Generic[State]):
-    """Where the tracing stands: the last equilibrium, its load factor, and what it took.
+class Path(Generic[State, Forces]):
+    """Where the tracing of a structure stands: the last equilibrium, its load factor, and what it took.
 
     alike: change of the strain that leaves the tangent what it is; snaps: load factors that it snapped at;
     fault: what has ended it early; notes: what to say of it; progress: told of every iteration; factor: of
     the equilibrium's tangent, where it is at hand.
     """
 
+    structure: Structure[State, Forces]
+    solver: DirectSolver
     state: State
     load_factor: float = 0.0
     status: Status = Status.STEP_LIMIT
@@ -44,11 +48,25 @@ class Path(Generic[State]):
     factor: Factor | None = None
     alike: float = 0.0
 
+    def factored(self, matrix: csr_matrix) -> Factor:
+        """The factors of a matrix, counted. Raises SingularMatrixError."""
+        self.factorisations += 1
+        return self.solver.factor(matrix)
+
+    def tangent(self, state: State, load_factor: float) -> csr_matrix:
+        """The true tangent at a state: with its own stresses, none extrapolated."""
+        forces = self.structure.forces(state, load_factor)
+        return self.structure.system(state, forces, load_factor, mixed=False)[0]
+
     def note(self, load_factor: float, residual: float, step: float) -> None:
         """Keep an iteration and tell whoever watches."""
         self.history.append(Iteration(load_factor, residual, step))
         if self.progress is not None:
             self.progress(self.history[-1])
+
+
+Inspect = Callable[[Path[State, Forces]], Fault | None]  # shown a path at an equilibrium, what ends it there
+Settle = Callable[[Path[State, Forces], float], State]  # a stable state beyond a limit point
 
 
 class StepFailed(ArithmeticError):

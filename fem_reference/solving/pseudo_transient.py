@@ -18,8 +18,7 @@ van den Doel (2007) on gradient flow with large steps.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Generic
+from typing import Generic, cast
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -27,7 +26,7 @@ from scipy.sparse import csr_matrix
 from fem_reference.solving.newton import TOLERANCE, Start, newton
 from fem_reference.solving.path import Path, StepFailed
 from fem_reference.solving.structure import Creeping, Forces, State
-from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
+from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.scenes import Status
 
 FACTORISATIONS = 300  # of one relaxation
@@ -48,16 +47,7 @@ PUSH, SMALLEST_PUSH = 1e-2, 1e-6  # sizes of the sheet that a saddle is left by
 INVERSE_STEPS = 12
 
 
-def settler(
-    structure: Creeping[State, Forces], solver: DirectSolver
-) -> Callable[[Path[State], float], State]:
-    """What `equilibrium.trace` calls beyond a limit point."""
-    return lambda path, load_factor: relax(structure, solver, path, load_factor)
-
-
-def relax(
-    structure: Creeping[State, Forces], solver: DirectSolver, path: Path[State], load_factor: float
-) -> State:
+def relax(path: Path[State, Forces], load_factor: float) -> State:
     """The stable equilibrium at a load factor > 0 to which the sheet creeps from a path's last one.
 
     The path's state stays; its factorisations and history grow. Raises StepFailed where there is none.
@@ -65,7 +55,7 @@ def relax(
     limit = path.limit
     path.limit = min(limit, path.factorisations + FACTORISATIONS)
     try:
-        return _Creep(structure, solver, path, load_factor).end()
+        return _Creep(path, load_factor).end()
     except SingularMatrixError as error:
         raise StepFailed(Status.SINGULAR, str(error), 0.0) from None
     finally:
@@ -75,15 +65,9 @@ def relax(
 class _Creep(Generic[State, Forces]):
     """Where the creep stands: state, potential, drag σ and the length of the last step."""
 
-    def __init__(
-        self,
-        structure: Creeping[State, Forces],
-        solver: DirectSolver,
-        path: Path[State],
-        load_factor: float,
-    ):
-        self.structure, self.solver, self.path = structure, solver, path
-        self.load_factor = load_factor
+    def __init__(self, path: Path[State, Forces], load_factor: float):
+        self.structure = structure = cast(Creeping[State, Forces], path.structure)
+        self.path, self.load_factor = path, load_factor
         self.state = structure.unextrapolated(path.state)
         self.size = structure.forces(self.state, load_factor).size
         self.first = structure.potential(self.state, load_factor)[0]
@@ -166,7 +150,7 @@ class _Creep(Generic[State, Forces]):
         released = abs(self.first - self.energy)
         start = Start(self.state, self.load_factor, self.length, released)
         try:
-            state, _ = newton(self.structure, self.solver, self.path, start)
+            state, _ = newton(self.path, start)
         except StepFailed:
             return None
         return self.structure.unextrapolated(state) if self._accepts(state) else None
@@ -222,5 +206,4 @@ class _Creep(Generic[State, Forces]):
         """The factors of a matrix. Raises StepFailed where they are too many."""
         if self.path.factorisations >= self.path.limit:
             raise StepFailed(Status.STEP_LIMIT, f"not at rest after {FACTORISATIONS} factorisations", 0.0)
-        self.path.factorisations += 1
-        return self.solver.factor(matrix)
+        return self.path.factored(matrix)

@@ -14,7 +14,7 @@ from fem_reference.shell.structure import ShellStructure
 from fem_reference.solving import pseudo_transient
 from fem_reference.solving.equilibrium import trace
 from fem_reference.solving.path import Path, StepFailed
-from fem_reference.solving.pseudo_transient import relax, settler
+from fem_reference.solving.pseudo_transient import relax
 from fem_reference.surface.loads import point_force
 from fem_reference.surface.mesh import rectangle
 from fem_reference.surface.supports import Driven
@@ -116,7 +116,7 @@ def strip(at: float = 0.5, shorter: float = SHORTER, bent: float = 0.0) -> Strip
 def arch() -> State:
     """The strip buckled upwards."""
     bent = strip(bent=1.0)
-    return relax(bent, DirectSolver(), Path(bent.start), 0.0)
+    return relax(Path(bent, DirectSolver(), bent.start), 0.0)
 
 
 def mirrored(change: np.ndarray) -> np.ndarray:
@@ -126,7 +126,7 @@ def mirrored(change: np.ndarray) -> np.ndarray:
 
 def pushed(arch: State, at: float = 0.5, settles: bool = True) -> tuple[Strip, Path]:
     structure, solver = replace(strip(at), start=arch), DirectSolver()
-    return structure, trace(structure, solver, settle=settler(structure, solver) if settles else None)
+    return structure, trace(structure, solver, settle=relax if settles else None)
 
 
 def left_at(path: Path) -> float:
@@ -145,15 +145,15 @@ def test_a_matrix_that_is_singular_ends_the_creep_with_that_status(arch, monkeyp
 
     monkeypatch.setattr(DirectSolver, "factor", factor)
     with pytest.raises(StepFailed) as caught:
-        relax(replace(strip(), start=arch), DirectSolver(), Path(arch), 0.5)
+        relax(Path(replace(strip(), start=arch), DirectSolver(), arch), 0.5)
     assert caught.value.status is Status.SINGULAR
 
 
 def test_a_compressed_strip_leaves_the_saddle_for_the_buckled_state():
     shorter = 1.5 * np.pi**2 * THICKNESS**2 / (12.0 * SIDE)
     flat = strip(shorter=shorter)
-    path = Path(flat.start)
-    buckled = relax(flat, DirectSolver(), path, 0.0)
+    path = Path(flat, DirectSolver(), flat.start)
+    buckled = relax(path, 0.0)
     assert np.abs(buckled.change[0, :, 2]).max() == pytest.approx(height(shorter), rel=5e-3)
     assert 0 < path.factorisations < 100
 
@@ -238,8 +238,7 @@ def test_the_potential_is_that_of_the_residual_and_a_drag_begins_with_none(scene
 
 def test_no_step_of_the_creep_raises_the_potential(taped, monkeypatch):
     structure, _ = shell.discretise(rectangle(taped.sheet, (6, 6), graded=True), taped)
-    solver = DirectSolver()
-    path = trace(structure, solver)
+    path = trace(structure, DirectSolver())
     energies = []
     measured = pseudo_transient._Creep._accepts
 
@@ -251,7 +250,7 @@ def test_no_step_of_the_creep_raises_the_potential(taped, monkeypatch):
 
     monkeypatch.setattr(pseudo_transient._Creep, "_accepts", accepts)
     before, state = path.factorisations, path.state
-    relax(structure, solver, path, path.load_factor + 0.01)
+    relax(path, path.load_factor + 0.01)
     assert path.state is state and path.factorisations > before
     assert len(energies) > 5 and energies[-1] < energies[0]
     assert np.diff(energies).max() <= 1e-12 * np.abs(energies).max()
@@ -261,7 +260,7 @@ def test_no_step_of_the_creep_raises_the_potential(taped, monkeypatch):
 def test_a_path_that_reaches_the_full_load_is_the_same_to_the_last_digit(name):
     scene = scenes.load(name)
     structure, _ = shell.discretise(rectangle(scene.sheet, (4, 4), graded=True), scene)
-    with_it = trace(structure, DirectSolver(), settle=settler(structure, DirectSolver()))
+    with_it = trace(structure, DirectSolver(), settle=relax)
     without = trace(structure, DirectSolver())
     assert np.array_equal(with_it.state.change, without.state.change)
     assert with_it.factorisations == without.factorisations

@@ -16,6 +16,7 @@ import numpy as np
 from sheetbench.choices import REFERENCE, REFERENCES, STRAIN_LAWS
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import AnyScene, Iteration, Solution, scene_of
+from sheetbench.scenes.material import WORDS
 
 MODELS = {name: f"fem_reference.{name}.statics" for name in REFERENCES}
 
@@ -70,7 +71,7 @@ def check(model: str, asked: Mapping[str, Any]) -> None:
         if isinstance(known[name], bool | int | str) and type(value) is not type(known[name]):
             raise BadInput(f"{model}: {name} = {value!r}: not a value like {known[name]!r}")
         if name == "law":
-            require_choice(name, value, STRAIN_LAWS)
+            require_choice(name, value, {**STRAIN_LAWS, **WORDS})
 
 
 def options(model: str) -> dict[str, Any]:

@@ -170,7 +170,8 @@ Law = Annotated[
     typer.Option(
         "--law",
         metavar="NAME",
-        help=f"Law of strain of a shell or solid: {listed(STRAIN_LAWS)}. {STRAIN_LAW} unless given.",
+        help=f"Law of strain of a shell or solid: {listed(STRAIN_LAWS)}. The material's own unless given, "
+        f"{STRAIN_LAW} where it has none.",
         show_default=False,
     ),
 ]

@@ -14,8 +14,8 @@ import numpy as np
 
 from comparisons.models.candidate import Candidate
 from comparisons.models.registry import answer
-from fem_reference.pulled_strip import curving, pulled
-from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
+from fem_reference.pulled_strip import curving, laws_of, pulled
+from sheetbench.choices import STRAIN_LAW
 from sheetbench.scenes import Scene, Solution
 from sheetbench.scenes.summary import few
 
@@ -46,9 +46,8 @@ def said(scene: Scene, lattice: Candidate, solutions: tuple[Solution, ...], bar:
         return ""
     if LEAST * stretch <= above or first.unknowns > 3 * MOST:
         return ""
-    law, poisson = str(reference.settings.get("law", STRAIN_LAW)), scene.material.poisson
-    own = of_lattice(scene, lattice)
-    off = {name: abs(own - curving(name, poisson)) for name in STRAIN_LAWS}
+    law, own = str(reference.settings.get("law", STRAIN_LAW)), of_lattice(scene, lattice)
+    off = {name: abs(own - curving(name, scene.material)) for name in laws_of(scene.material)}
     if off[law] <= PULLS[1] or not off[law] * stretch > above:
         return ""
     nearest = min(off, key=lambda name: off[name])

@@ -6,8 +6,8 @@ that explains a measurement is that of the law.
 
 from __future__ import annotations
 
-from fem_reference.pulled_strip import curving
-from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
+from fem_reference.pulled_strip import curving, laws_of
+from sheetbench.choices import STRAIN_LAW
 from sheetbench.scenes import Scene
 from sheetbench.scenes.summary import few
 
@@ -17,13 +17,18 @@ RUBBERS = "neo-hookean"
 
 def said(scene: Scene, law: str | None, stretch: float | None) -> list[str]:
     """A sentence where laws of strain differ at the largest stretch of the sheet with the values found."""
-    own, poisson = law or STRAIN_LAW, scene.material.poisson
-    apart = {name: abs(curving(own, poisson) - curving(name, poisson)) for name in STRAIN_LAWS}
+    material = scene.material
+    own = law or material.law or STRAIN_LAW
+    apart = {name: abs(curving(own, material) - curving(name, material)) for name in laws_of(material)}
     other = max(apart, key=lambda name: apart[name])
     off = apart[other] * (stretch or 0.0)
     if off <= SAID:
         return []
-    remedy = "" if own == RUBBERS else f"; of soft silicones, which are rubbers, take --law {RUBBERS}"
+    remedy = (
+        ""
+        if own in (RUBBERS, material.law)
+        else f"; of soft silicones, which are rubbers, take --law {RUBBERS}"
+    )
     return [
         f"values are those of the law {own}: at {few(100.0 * (stretch or 0.0))} % stretch, as here, the "
         f"force of {other} is some {few(100.0 * off)} % another{remedy}"

@@ -17,7 +17,7 @@ from typing import Self
 import numpy as np
 
 from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, STRAINS, Element, cartesian
-from fem_reference.shell.laws import Law, Response, neo_hookean
+from fem_reference.shell.laws import Law, Response
 from fem_reference.surface.materials import section_of
 from sheetbench.scenes import Material
 
@@ -68,7 +68,7 @@ class HyperelasticElement(Element):
     @property
     def stands_any_strain(self) -> bool:
         """Whether the law is meant for large strains."""
-        return self.law is neo_hookean
+        return self.law.stands_any_strain
 
     @property
     def coupled(self) -> bool:
@@ -104,7 +104,9 @@ class HyperelasticElement(Element):
         """Of the sampled strains (m, ≥ 42) at the points of every element, (m, 9, 3, …)."""
         stretch = np.einsum("egak,ek->ega", self.membrane, strain[:, MEMBRANE])
         curvature = np.einsum("egak,ek->ega", self.bending, strain[:, BENDING])
-        return self.law(self.material, stretch[:, :, None] + self.heights[:, None] * curvature[:, :, None])
+        return self.law.response(
+            self.material, stretch[:, :, None] + self.heights[:, None] * curvature[:, :, None]
+        )
 
     @property
     def _volumes(self) -> np.ndarray:

@@ -2,15 +2,22 @@
 
     St Venant–Kirchhoff   W = ½ E : C : E, quadratic in Green's strain
     Biot                  W = ½ (U − 1) : C : (U − 1),   U² = 1 + 2E: linear in the elongation, as springs are
-    neo-Hooke             W = ½ μ (tr C + c − 3) − μ ln J + ½ λ (ln J)²,   C = 1 + 2E,   J² = c det C,
+    rubbers               W = f(I₁ − 3) + c₀₁ (I₂ − 3) − m ln J + ½ Λ ln² J,   m = 2 f′(0) + 4 c₀₁
 
-the last with the stretch through the thickness, √c, such that nothing pulls there: μ (c − 1) + λ ln J = 0.
-C of the first two is the plane-stress stiffness of `surface.materials`, which all three have at small strain.
-With s = tr U, j = det U, P = ∂j/∂E = j C⁻¹ and g = ∂s/∂E = (1 + P)/s, and K = E/(1 − ν²), Biot's law is
+C of the first two is the plane-stress stiffness of `surface.materials`, which all have at small strain; f,
+c₀₁ and Λ are those of `sheetbench.scenes.material`. With s = tr U, j = det U, P = ∂j/∂E = j C⁻¹ and
+g = ∂s/∂E = (1 + P)/s, and K = E/(1 − ν²), Biot's law is
 
-    W = ½ K ((s − 2)² − 2 (1 − ν) det(U − 1)),     S = K ((s − 2) g + (1 − ν) (g − P)),
+    W = ½ K ((s − 2)² − 2 (1 − ν) det(U − 1)),     S = K ((s − 2) g + (1 − ν) (g − P)).
 
-and neo-Hooke's stress S = μ (1 − c C⁻¹). What cancels at small strain is formed from E, to keep its digits.
+A rubber has I₁ = tr C + c, I₂ = det C + c tr C and J² = c det C, with C = 1 + 2E in the plane and the stretch
+through the thickness, √c, such that nothing pulls there, ∂W/∂c = 0: c k + ½ (Λ ln J − m) = 0 with
+k = f′ + c₀₁ tr C. That leaves
+
+    S = 2 f′ (1 − c C⁻¹) + 2 c₀₁ (c 1 + (det C − c tr C) C⁻¹),
+    ∂S/∂E = W_EE − W_Ec ⊗ W_Ec/W_cc.
+
+What cancels at small strain is formed from E, to keep its digits.
 Voigt order (xx, yy, 2xy), stresses without the 2. [Pa]
 """
 
@@ -22,12 +29,14 @@ from typing import NamedTuple
 import numpy as np
 
 from fem_reference.surface.materials import plane_stress, shear_modulus
+from fem_reference.surface.rubber import slopes
 from sheetbench.scenes import Material
+from sheetbench.scenes.material import WORDS, Energy
 
 _ONE = np.array([1.0, 1.0, 0.0])
 _COFACTOR = np.array([[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, -1.0]])  # ∂(cof C)/∂E
 NEWTON_STEPS = 30
-SETTLED = 1e-15  # of c
+SETTLED, NEARLY = 1e-15, 1e-12  # steps of ln c: where they end, and up to which it was found
 
 
 class Response(NamedTuple):
@@ -36,9 +45,6 @@ class Response(NamedTuple):
     energy: np.ndarray
     stress: np.ndarray
     tangent: np.ndarray
-
-
-Law = Callable[[Material, np.ndarray], Response]
 
 
 def st_venant_kirchhoff(material: Material, strain: np.ndarray) -> Response:
@@ -69,37 +75,50 @@ def biot(material: Material, strain: np.ndarray) -> Response:
     return Response(stiffness * energy, stiffness * stress, stiffness * tangent)
 
 
-def neo_hookean(material: Material, strain: np.ndarray) -> Response:
-    """Of strains (…, 3)."""
-    shear = shear_modulus(material)
-    bulk = 2.0 * shear * material.poisson / (1.0 - 2.0 * material.poisson)  # λ
-    change = _change_of_determinant(strain)
+def rubber(energy: Energy, poisson: float, strain: np.ndarray) -> Response:
+    """Return the response of a rubber at strains (…, 3)."""
+    bulk, c01 = energy.volume(poisson), energy.c01
+    at_rest = energy.c10 + 2.0 * c01  # ½ m
+    change, trace = _change_of_determinant(strain), 2.0 * (strain[..., 0] + strain[..., 1])  # of C
     with np.errstate(invalid="ignore", divide="ignore"):  # inside out: not a number, which ends the step
         logarithm = np.log1p(change)
-        thinning = _thinning(bulk / shear, logarithm)  # c − 1
+        thinning = _thinning(energy, bulk, trace, logarithm)  # c − 1
         of_volume = 0.5 * (logarithm + np.log1p(thinning))  # ln J
-    inverse = (_ONE + strain @ _COFACTOR) / (1.0 + change)[..., None]
-    c = 1.0 + thinning
-    energy = shear * (strain[..., 0] + strain[..., 1] + 0.5 * thinning - of_volume)
-    energy = energy + 0.5 * bulk * of_volume**2
+        excess, rise, second = slopes(energy, trace + thinning)
+    c, inverse = 1.0 + thinning, (_ONE + strain @ _COFACTOR) / (1.0 + change)[..., None]
+    value = energy.c10 * (trace + thinning - 2.0 * of_volume) + excess + 0.5 * bulk * of_volume**2
+    value = value + c01 * (change + trace + 2.0 * thinning + thinning * trace - 4.0 * of_volume)
     away = (change[..., None] * _ONE - strain @ _COFACTOR) / (1.0 + change)[..., None]  # 1 − C⁻¹
-    stress = shear * (away - thinning[..., None] * inverse)
+    by_first = away - thinning[..., None] * inverse
+    by_second = c[..., None] * away + (change - thinning - c * trace)[..., None] * inverse
+    stress = 2.0 * (energy.c10 + rise)[..., None] * by_first + 2.0 * c01 * by_second
     both = _outer(inverse, inverse)
-    falling = bulk / (shear + bulk / (2.0 * c))  # −∂c/∂E = falling C⁻¹
+    pull = bulk * of_volume - 2.0 * at_rest  # Λ ln J − m
     of_inverse = _COFACTOR / (1.0 + change)[..., None, None] - 2.0 * both
-    tangent = shear * (falling[..., None, None] * both - c[..., None, None] * of_inverse)
-    return Response(energy, stress, tangent)
+    tangent = 4.0 * second[..., None, None] * _outer(_ONE, _ONE) + 2.0 * c01 * _COFACTOR + bulk * both
+    tangent = tangent + pull[..., None, None] * of_inverse
+    mixed = 2.0 * (second + c01)[..., None] * _ONE + (0.5 * bulk / c)[..., None] * inverse
+    across = second + (0.25 * bulk - 0.5 * pull) / c**2
+    return Response(value, stress, tangent - _outer(mixed, mixed) / across[..., None, None])
 
 
-def _thinning(ratio: float, logarithm: np.ndarray) -> np.ndarray:
-    """c − 1 of (c − 1) + ½ ratio (ln det C + ln c) = 0, by Newton's method on ln c, where that is convex."""
-    x = -ratio * logarithm / (2.0 + ratio)
+def _thinning(energy: Energy, bulk: float, trace: np.ndarray, logarithm: np.ndarray) -> np.ndarray:
+    """c − 1 with ∂W/∂c = 0 at tr C − 2 and ln det C, by Newton's method on ln c from J = 1; not a number
+    where that finds none."""
+    most = np.log(np.maximum(1.0 + energy.limit - trace, 0.0)) if energy.limit else np.inf  # of ln c
+    x = np.minimum(-logarithm, most - 0.5)
     for _ in range(NEWTON_STEPS):
-        step = (np.expm1(x) + 0.5 * ratio * (logarithm + x)) / (np.exp(x) + 0.5 * ratio)
-        x = x - step
-        if not np.any(np.abs(step) > SETTLED):
+        c = np.exp(x)
+        _, rise, second = slopes(energy, trace + np.expm1(x))
+        of_law = energy.c10 + rise + energy.c01 * (2.0 + trace)
+        of_volume = 0.5 * bulk * 0.5 * (logarithm + x)  # ½ Λ ln J
+        gap = np.expm1(x) * of_law + rise + energy.c01 * trace + of_volume
+        following = x - gap / (c * of_law + c * c * second + 0.25 * bulk)
+        following = np.where(following < most, following, 0.5 * (x + most))
+        moved, x = np.abs(following - x), following
+        if not np.any(moved > SETTLED):
             break
-    return np.asarray(np.expm1(x))
+    return np.asarray(np.where(moved <= NEARLY, np.expm1(x), np.nan))
 
 
 def _area(strain: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -120,8 +139,15 @@ def _outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return a[..., :, None] * b[..., None, :]
 
 
-LAWS: dict[str, Law] = {
-    "st-venant-kirchhoff": st_venant_kirchhoff,
-    "biot": biot,
-    "neo-hookean": neo_hookean,
-}
+class Law(NamedTuple):
+    """response: of a material at strains (…, 3); stands_any_strain: whether it is meant for large ones."""
+
+    response: Callable[[Material, np.ndarray], Response]
+    stands_any_strain: bool = True
+
+
+LAWS = {
+    "st-venant-kirchhoff": Law(st_venant_kirchhoff, False),
+    "biot": Law(biot, False),
+    "neo-hookean": Law(lambda of, strain: rubber(Energy(0.5 * shear_modulus(of)), of.poisson, strain)),
+} | dict.fromkeys(WORDS, Law(lambda of, strain: rubber(of.energy, of.poisson, strain)))

@@ -36,6 +36,7 @@ from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, nodes_of, on_boundary, quarters
+from fem_reference.surface.rubber import require_law
 from sheetbench.choices import BRANCHES, STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_choice
@@ -227,8 +228,8 @@ def discretise(
 
 
 def _elements(nodes: np.ndarray, scene: Scene, section: Section | None, law: str) -> Element:
-    require_choice("law", law, LAWS)
     material, thickness = scene.material, scene.sheet.thickness
+    require_law(law, LAWS, material)
     if law == STRAIN_LAW:
         return Element.build(nodes, section or section_of(material, thickness))
     if section is not None:

@@ -19,8 +19,8 @@ while ε < α²/2(1 + ν). All of it would lock the thin twisted sheet, and near
 In terms of the k = 126 samples everything is a quadratic form of the positions, e_k = ½ (x H_k x − X H_k X),
 with H_k the same for all elements, and B_k = H_k x.
 
-The volumetric energy is ½ λ (π ϑ)² with π the projection on {1, ξ, η} ⊗ {1, ζ}, element by element: the
-pressure λ π ϑ of a perturbed Lagrangian, condensed. As ν → ½ a pointwise ϑ locks; the L² projection
+The volumetric energy is ½ Λ (π ϑ)² with π the projection on {1, ξ, η} ⊗ {1, ζ}, element by element: the
+pressure Λ π ϑ of a perturbed Lagrangian, condensed. As ν → ½ a pointwise ϑ locks; the L² projection
 is what Q2/P−1 does, with ζ ξ and ζ η added because in bending the pressure is odd in ζ and varies along the
 sheet. A function of strain only, so that the laws keep their form and the tangent is symmetric.
 Sources: Bucalem & Bathe (1993) for the tying; Sussman & Bathe (1987) for the projection.
@@ -39,6 +39,7 @@ from skfem.refdom import RefHex
 from fem_reference.solid.materials import PAIRS, Law
 from fem_reference.surface.biquadratic import THREE, TYING, lagrange
 from sheetbench.numerics.kept import frozen
+from sheetbench.scenes import Material
 
 NODES = 27
 RETAINED_SHEAR = (
@@ -99,19 +100,19 @@ def reference() -> Reference:
 
 @dataclass(frozen=True)
 class Bricks:
-    """m elements of one material. positions: X (m, 27, 3) [m]; lame: λ, μ [Pa].
+    """m elements of one material. positions: X (m, 27, 3) [m].
 
     to_strain: (m, q, 6, k) Cartesian strain of the samples; volumes: (m, q) [m³].
     """
 
     positions: np.ndarray
     law: Law
-    lame: tuple[float, float]
+    material: Material
     to_strain: np.ndarray
     volumes: np.ndarray
 
     @classmethod
-    def build(cls, positions: np.ndarray, law: Law, lame: tuple[float, float]) -> Bricks:
+    def build(cls, positions: np.ndarray, law: Law, material: Material) -> Bricks:
         """The elements with nodes at positions (m, 27, 3), in scikit-fem's order of `ElementHex2`."""
         ref = reference()
         _, slope = shape(ref.points)
@@ -123,7 +124,12 @@ class Bricks:
         lost = pull_back @ ref.lost
         to_strain = pull_back @ ref.assumed + firm * lost
         to_strain += np.einsum("eqp,epik->eqik", share, (1.0 - firm) * lost, optimize=True)
-        return cls(positions, law, lame, to_strain, volumes)
+        return cls(positions, law, material, to_strain, volumes)
+
+    @cached_property
+    def bulk(self) -> float:
+        """Λ [Pa]."""
+        return self.law.bulk(self.material)
 
     def strain(self, change: np.ndarray) -> np.ndarray:
         """Sampled strains (m, k) of displacements (m, 27, 3): ½ (x H x − X H X) = ½ u H (2X + u)."""
@@ -158,9 +164,9 @@ class Bricks:
         return now / then
 
     def energies(self, samples: np.ndarray) -> dict[str, float]:
-        """Distortional ∫ W₀ dV and volumetric ∫ ½ λ (π ϑ)² dV [J] of sampled strains (m, k), by part."""
+        """Distortional ∫ W₀ dV and volumetric ∫ ½ Λ (π ϑ)² dV [J] of sampled strains (m, k), by part."""
         strain = self._at_points(samples)
-        distortion = self.lame[1] * np.sum(self.volumes * self.law.distortion(strain).value)
+        distortion = np.sum(self.volumes * self.law.distortion(self.material, strain).value)
         pressure = self._pressure(self.law.volume(strain).value)
         stretch = np.einsum("eq,eq,eq->", self.volumes, pressure, self.law.volume(strain).value)
         return {"distortion": float(distortion), "volumetric": 0.5 * float(stretch)}
@@ -171,12 +177,12 @@ class Bricks:
             return np.einsum("ekl,el->ek", self._constant_stiffness, samples)
         strain = self._at_points(samples)
         volume = self.law.volume(strain)
-        stress = self.lame[1] * self.law.distortion(strain).first
+        stress = self.law.distortion(self.material, strain).first
         stress = stress + self._pressure(volume.value)[..., None] * volume.first
         return np.einsum("eqik,eq,eqi->ek", self.to_strain, self.volumes, stress, optimize=True)
 
     def pressure(self, samples: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """λ π ϑ at the Gauss points (m, q) [Pa], linear in the step (m, k) from sampled strains (m, k)."""
+        """Λ π ϑ at the Gauss points (m, q) [Pa], linear in the step (m, k) from sampled strains (m, k)."""
         volume = self.law.volume(self._at_points(samples))
         return self._pressure(volume.value + np.einsum("eqi,eqi->eq", volume.first, self._at_points(step)))
 
@@ -192,22 +198,22 @@ class Bricks:
         strain = self._at_points(samples)
         volume = self.law.volume(strain)
         pressure = self._pressure(volume.value) if pressure is None else pressure
-        tangent = self.lame[1] * self.law.distortion(strain).second
+        tangent = self.law.distortion(self.material, strain).second
         tangent = tangent + pressure[..., None, None] * volume.second
         tangent = (tangent * self.volumes[..., None, None]) @ self.to_strain
         m, q, _, k = tangent.shape
         flat = self.to_strain.reshape(m, q * 6, k).swapaxes(1, 2)
         slope = np.einsum("eqi,eqik->eqk", volume.first, self.to_strain)
         projected = self._projector @ slope  # orthonormal modes: (m, 6, k)
-        return flat @ tangent.reshape(m, q * 6, k) + self.lame[0] * projected.swapaxes(1, 2) @ projected
+        return flat @ tangent.reshape(m, q * 6, k) + self.bulk * projected.swapaxes(1, 2) @ projected
 
     def _at_points(self, samples: np.ndarray) -> np.ndarray:
         return np.einsum("eqik,ek->eqi", self.to_strain, samples)
 
     def _pressure(self, change_of_volume: np.ndarray) -> np.ndarray:
-        """λ π ϑ (m, q) of ϑ (m, q) at the Gauss points."""
+        """Λ π ϑ (m, q) of ϑ (m, q) at the Gauss points."""
         coefficients = np.einsum("erq,eq->er", self._projector, change_of_volume)
-        return self.lame[0] * np.einsum("er,erq->eq", coefficients, self._projector) / self.volumes
+        return self.bulk * np.einsum("er,erq->eq", coefficients, self._projector) / self.volumes
 
     @cached_property
     def _projector(self) -> np.ndarray:

@@ -1,12 +1,15 @@
 """Hyperelastic laws of the solid, split so that the stiff volumetric part can be projected.
 
-    W(E) = W₀(E) + ½ λ ϑ(E)²
+    W(E) = W₀(E) + ½ Λ ϑ(E)²
 
 λ, μ are Lamé's constants; ϑ measures the change of volume and alone grows stiff as ν → ½:
 
-    St Venant–Kirchhoff   W₀ = μ E : E                        ϑ = tr E
-    Biot                  W₀ = μ (U − 1) : (U − 1)            ϑ = tr (U − 1),   U² = C
-    neo-Hooke             W₀ = ½ μ (tr C − 3) − μ ln J        ϑ = ln J,   C = 2E + 1, J² = det C
+    St Venant–Kirchhoff   W₀ = μ E : E                        ϑ = tr E,         Λ = λ
+    Biot                  W₀ = μ (U − 1) : (U − 1)            ϑ = tr (U − 1),   Λ = λ,   U² = C
+    rubbers               W₀ = f(x) + c₀₁ (I₂ − 3) − m ln J   ϑ = ln J,   C = 2E + 1,   J² = det C
+
+with x = I₁ − 3 = 2 tr E, I₂ − 3 = 2 x + ½ x² − 2 E : E and m = 2 f′(0) + 4 c₀₁; f, c₀₁ and Λ are those of
+`sheetbench.scenes.material`.
 
 Green–Lagrange strain E and second Piola–Kirchhoff stress in Voigt order (xx, yy, zz, 2xy, 2yz, 2xz), stresses
 without the 2. Every law is a triad: density → stress → tangent, of W₀ and of ϑ. All have the
@@ -24,7 +27,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fem_reference.surface.rubber import slopes
 from sheetbench.scenes import Material
+from sheetbench.scenes.material import WORDS, Energy
 
 PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
 _TRACE = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
@@ -41,11 +46,12 @@ class Triad(NamedTuple):
 
 @dataclass(frozen=True)
 class Law:
-    """distortion: E → triad of W₀/μ; volume: E → triad of ϑ; quadratic: whether W is quadratic in E;
-    stands_any_strain: whether the law is meant for large strains."""
+    """distortion: material and E → triad of W₀ [Pa]; volume: E → triad of ϑ; bulk: Λ [Pa] of a material;
+    quadratic: whether W is quadratic in E; stands_any_strain: whether the law is meant for large strains."""
 
-    distortion: Callable[[np.ndarray], Triad]
+    distortion: Callable[[Material, np.ndarray], Triad]
     volume: Callable[[np.ndarray], Triad]
+    bulk: Callable[[Material], float]
     quadratic: bool = False
     stands_any_strain: bool = False
 
@@ -56,9 +62,10 @@ def lame(material: Material) -> tuple[float, float]:
     return 2.0 * shear * material.poisson / (1.0 - 2.0 * material.poisson), shear
 
 
-def _green_distortion(strain: np.ndarray) -> Triad:
-    stress = strain @ _DOUBLE
-    return Triad(0.5 * np.sum(strain * stress, axis=-1), stress, _everywhere(_DOUBLE, strain))
+def _green_distortion(material: Material, strain: np.ndarray) -> Triad:
+    moduli = lame(material)[1] * _DOUBLE
+    stress = strain @ moduli
+    return Triad(0.5 * np.sum(strain * stress, axis=-1), stress, _everywhere(moduli, strain))
 
 
 def _green_volume(strain: np.ndarray) -> Triad:
@@ -75,11 +82,12 @@ def _stretch_volume(strain: np.ndarray) -> Triad:
     return Triad(np.sum(excess, axis=-1), first, second)
 
 
-def _stretch_distortion(strain: np.ndarray) -> Triad:
-    """(U − 1) : (U − 1) = tr C − 2 tr U + 3."""
-    excess, axes = _principal(strain)
+def _stretch_distortion(material: Material, strain: np.ndarray) -> Triad:
+    """μ (U − 1) : (U − 1) = μ (tr C − 2 tr U + 3)."""
+    (excess, axes), shear = _principal(strain), lame(material)[1]
     first = np.einsum("...a,...aai->...i", 2.0 * excess / (1.0 + excess), axes)
-    return Triad(np.sum(excess**2, axis=-1), first, -2.0 * _stretch_volume(strain).second)
+    second = -2.0 * shear * _stretch_volume(strain).second
+    return Triad(shear * np.sum(excess**2, axis=-1), shear * first, second)
 
 
 def _principal(strain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -115,9 +123,19 @@ def _logarithmic_volume(strain: np.ndarray) -> Triad:
     return Triad(value, first, np.stack([np.stack(row, axis=-1) for row in rows], axis=-2))
 
 
-def _neo_hookean_distortion(strain: np.ndarray) -> Triad:
-    volume = _logarithmic_volume(strain)
-    return Triad(strain @ _TRACE - volume.value, _TRACE - volume.first, -volume.second)
+def _rubber_distortion(energy: Energy, strain: np.ndarray) -> Triad:
+    x, double, log = 2.0 * strain @ _TRACE, strain @ _DOUBLE, _logarithmic_volume(strain)
+    excess, rise, second = slopes(energy, x)
+    c01, at_rest = energy.c01, 2.0 * energy.c10 + 4.0 * energy.c01
+    by_second = 2.0 * x + 0.5 * x**2 - np.sum(strain * double, axis=-1)
+    value = energy.c10 * x + excess + c01 * by_second - at_rest * log.value
+    stress = (
+        2.0 * (energy.c10 + rise + c01 * (2.0 + x))[..., None] * _TRACE
+        - 2.0 * c01 * double
+        - at_rest * log.first
+    )
+    tangent = 4.0 * (second + c01)[..., None, None] * np.outer(_TRACE, _TRACE)
+    return Triad(value, stress, tangent - 2.0 * c01 * _DOUBLE - at_rest * log.second)
 
 
 def _inverse(strain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -130,8 +148,17 @@ def _everywhere(constant: np.ndarray, strain: np.ndarray) -> np.ndarray:
     return np.broadcast_to(constant, strain.shape[:-1] + constant.shape)
 
 
+def _rubber(energy: Callable[[Material], Energy]) -> Law:
+    return Law(
+        lambda material, strain: _rubber_distortion(energy(material), strain),
+        _logarithmic_volume,
+        lambda material: energy(material).volume(material.poisson),
+        stands_any_strain=True,
+    )
+
+
 LAWS = {
-    "st-venant-kirchhoff": Law(_green_distortion, _green_volume, quadratic=True),
-    "biot": Law(_stretch_distortion, _stretch_volume),
-    "neo-hookean": Law(_neo_hookean_distortion, _logarithmic_volume, stands_any_strain=True),
-}
+    "st-venant-kirchhoff": Law(_green_distortion, _green_volume, lambda of: lame(of)[0], quadratic=True),
+    "biot": Law(_stretch_distortion, _stretch_volume, lambda of: lame(of)[0]),
+    "neo-hookean": _rubber(lambda of: Energy(0.5 * lame(of)[1])),
+} | dict.fromkeys(WORDS, _rubber(lambda of: of.energy))

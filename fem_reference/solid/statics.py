@@ -2,7 +2,7 @@
 
     ∫ S(E) : δE dV = δ(loads),    E = ½ (Fᵀ F − 1)
 
-total Lagrangian, St Venant–Kirchhoff (default), Biot or neo-Hooke (`materials`), on 27-node bricks that lock
+total Lagrangian, St Venant–Kirchhoff (default), Biot or a rubber's (`materials`), on 27-node bricks that lock
 neither in a thin sheet nor as ν → ½ (`element`), in one layer or more. Displacements are the
 mid-surface's.
 
@@ -23,7 +23,7 @@ from skfem import MeshQuad
 from fem_reference.solid import supports as column_supports
 from fem_reference.solid.balance import balance
 from fem_reference.solid.element import Bricks
-from fem_reference.solid.materials import LAWS, lame
+from fem_reference.solid.materials import LAWS
 from fem_reference.solid.mesh import Columns
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.structure import Forces, SolidStructure, State
@@ -32,6 +32,7 @@ from fem_reference.solving.path import Progress
 from fem_reference.surface import loads, rod
 from fem_reference.surface.actuator_forces import Held, OnEdge, exerted
 from fem_reference.surface.mesh import Elements, divisions, mesh_of, require_upright
+from fem_reference.surface.rubber import require_law
 from fem_reference.surface.stretch import largest_stretch
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
@@ -161,14 +162,13 @@ def discretise(
     thickness is used. Raises BadInput for an unknown law or clamp, no layers or a folded element.
     """
     require_upright(mesh)
-    if law not in LAWS:
-        raise BadInput(f"law = {law!r}: known are {', '.join(LAWS)}")
+    require_law(law, LAWS, scene.material)
     if layers < 1:
         raise BadInput(f"layers = {layers}: at least one through the thickness")
     columns = Columns.on(mesh, scene.sheet.thickness, layers)
     stacks = columns.positions.reshape(-1, 3)[columns.stacks]
     positions = np.concatenate([stacks[:, place] for place in columns.places])
-    bricks = Bricks.build(positions, LAWS[law], lame(scene.material))
+    bricks = Bricks.build(positions, LAWS[law], scene.material)
     sides = rod.sides(scene, mesh, columns.plan_elements, columns.plan_nodes)
     rods = rod.of_scene(scene, columns.plan_nodes, sides)
     supports = column_supports.of_scene(scene, columns, clamp, rods)

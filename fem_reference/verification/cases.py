@@ -43,6 +43,7 @@ CASES: dict[str, Case] = {
     "locking-shell": Case("shell on 8 × 8, h/a from 1e-5 to 0.2", locking.rows),
     "locking-solid": Case("solid on 8 × 8, ν up to 0.4999", locking.rows, quick=False),
     "strain-laws": Case("strip pulled one way and both ways, three laws of strain", strain_laws.rows),
+    "rubber": Case("rubber pulled, pressed and sheared, four laws", strain_laws.rubbers),
     "patch": Case("patch tests on distorted meshes", patch.rows),
 }
 

@@ -1,18 +1,21 @@
-"""A strip pulled one way and two ways, under each law of strain: closed forms.
+"""A strip pulled one way, sheared purely and pulled both ways, under each law of strain: closed forms.
 
-    P/E at a stretch ε = λ − 1      one way                        the same both ways
-    Biot                            ε                              ε/(1 − ν)
-    St Venant–Kirchhoff             ½ λ (λ² − 1)                   ½ λ (λ² − 1)/(1 − ν)
-    neo-Hooke                       (μ/E) (λ − λ_t²/λ)             (μ/E) (λ − λ_t²/λ)
+    P/E at a stretch ε = λ − 1      one way                        both ways: over 1 − ν, sheared: over 1 − ν²
+    Biot                            ε                              ε
+    St Venant–Kirchhoff             ½ λ (λ² − 1)                   ½ λ (λ² − 1)
 
-with P the force per area of the unstrained section and λ_t the stretch across, through the thickness too:
-μ (λ_t² − 1) + λ_L ln J = 0, J = λ λ_t² one way and λ² λ_t both ways. The strip is loaded by P, and the
-stretch that it shows is held to ε. P = E ε (1 + c ε + …) one way, with c of `pulled_strip.curving`.
+P is the force per area of the unstrained section; a strip that is sheared keeps its width. Of a rubber
+(`sheetbench.scenes.material`), with the stretches (λ, t, t), (λ, 1, t) or (λ, λ, t),
+
+    P_i = 2 λ_i (f′ + c₀₁ (I₁ − λ_i²)) + (Λ ln J − m)/λ_i
+
+and P = 0 along t. The strip is loaded by P, and the stretch that it shows is held to ε; of rubbers, at λ =
+0.7, 1.5 and 2, the force that holds it. P = E ε (1 + c ε + …) one way, with c of `pulled_strip.curving`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import log
 
 import numpy as np
@@ -20,13 +23,31 @@ from scipy.optimize import brentq
 
 from fem_reference import solve
 from fem_reference.pulled_strip import MATERIAL, SHEET, pulled
+from fem_reference.shell import statics as shell
+from fem_reference.shell.state import State as ShellState
+from fem_reference.solid import statics as solid
+from fem_reference.solid.structure import State as SolidState
+from fem_reference.surface.mesh import mesh_of
 from fem_reference.verification.rows import EXACT, Row, relatively
 from sheetbench.choices import STRAIN_LAWS
+from sheetbench.scenes import Material
 
 STRAINS = (0.001, 0.01, 0.1)
 WAYS = {"one way": 1, "both ways": 2}
 MODELS = ("shell", "solid")
 TOLERANCE = 1e-6
+LARGE = (-0.3, 0.5, 1.0)
+TO_ROUNDING = 1e-9
+CONSTANTS: dict[str, dict[str, float]] = {
+    "neo-hookean": {"young": 1e6},
+    "mooney-rivlin": {"c1": 0.16e6, "c2": 0.04e6},
+    "yeoh": {"c1": 0.19e6, "c2": -2e3, "c3": 100.0},
+    "gent": {"shear": 0.35e6, "limit": 30.0},
+}
+RUBBERS = [
+    Material.model_validate({"law": law, **constants, "poisson": 0.49, "density": 1000.0})
+    for law, constants in CONSTANTS.items()
+]
 
 
 def rows(case: str) -> Iterator[Row]:
@@ -40,17 +61,74 @@ def rows(case: str) -> Iterator[Row]:
                     yield relatively(case, quantity, f"{model} 2", strain, EXACT, found, TOLERANCE)
 
 
-def stress(law: str, way: str, strain: float, poisson: float = MATERIAL.poisson) -> float:
-    """P/E of a law at a stretch, pulled in one of the `WAYS`."""
-    ways, stretch = WAYS[way], 1.0 + strain
-    if law == "neo-hookean":
-        shear, bulk = 0.5 / (1.0 + poisson), poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson))
-        across = brentq(
-            lambda t: shear * (t**2 - 1.0) + bulk * log(stretch**ways * t ** (3 - ways)), 0.1, 4.0, xtol=1e-15
-        )
-        return shear * (stretch - across**2 / stretch)
-    elongation = strain if law == "biot" else 0.5 * stretch * (stretch**2 - 1.0)
-    return elongation if ways == 1 else elongation / (1.0 - poisson)
+def rubbers(case: str) -> Iterator[Row]:
+    """The force that holds each model of each rubber, stretched one way, sheared and both ways to λ = 2."""
+    for material in RUBBERS:
+        law = str(material.law)
+        for way in (*WAYS, "sheared"):
+            for strain in LARGE:
+                expected = stress(law, way, strain, material)
+                for model, force in FORCES.items():
+                    quantity = f"{law}, {way}: P/E at a stretch of {100.0 * strain:g} %"
+                    found = force(material, stretches(law, way, strain, material)) / material.young
+                    yield relatively(case, quantity, f"{model} 1", expected, EXACT, found, TO_ROUNDING)
+
+
+def stress(law: str, way: str, strain: float, material: Material = MATERIAL) -> float:
+    """P/E of a law at a stretch, pulled in one of the `WAYS` or "sheared"."""
+    poisson, stretch = material.poisson, 1.0 + strain
+    if law in ("biot", "st-venant-kirchhoff"):
+        elongation = strain if law == "biot" else 0.5 * stretch * (stretch**2 - 1.0)
+        return elongation / {"one way": 1.0, "both ways": 1.0 - poisson, "sheared": 1.0 - poisson**2}[way]
+    rubber = material if law == material.law else material.replace(law=law)
+    return _pull(rubber, stretches(law, way, strain, material), 0) / material.young
+
+
+def stretches(law: str, way: str, strain: float, material: Material) -> list[float]:
+    """λ along x and y and through the thickness of a rubber, the free ones such that nothing pulls there."""
+    rubber = material if law == material.law else material.replace(law=law)
+    stretch = 1.0 + strain
+
+    def with_free(free: float) -> list[float]:
+        return [stretch, {"one way": free, "both ways": stretch, "sheared": 1.0}[way], free]
+
+    kept = stretch ** {"one way": -0.5, "both ways": -2.0, "sheared": -1.0}[way]  # the volume
+    free = brentq(lambda t: _pull(rubber, with_free(t), 2), 0.5 * kept, 1.5 * kept, xtol=1e-15)
+    return with_free(float(free))
+
+
+def _pull(material: Material, stretches: list[float], axis: int) -> float:
+    """P [Pa] of a rubber along one of its three stretches."""
+    energy, along, volume = material.energy, stretches[axis], log(np.prod(stretches))
+    first = sum(one**2 for one in stretches)
+    x = first - 3.0
+    if material.law == "gent":
+        slope = 0.5 * energy.shear / (1.0 - x / energy.limit)
+    else:
+        slope = energy.c10 + 2.0 * energy.c20 * x + 3.0 * energy.c30 * x**2
+    at_rest = 2.0 * energy.c10 + 4.0 * energy.c01
+    pressure = energy.volume(material.poisson) * volume - at_rest
+    return 2.0 * along * (slope + energy.c01 * (first - along**2)) + pressure / along
+
+
+def _of_shell(material: Material, stretches: list[float]) -> float:
+    scene = pulled((0.0, 0.0), SHEET, material)
+    structure, nodes = shell.discretise(mesh_of(scene, (1, 1)), scene, law=str(material.law))
+    change = np.zeros((2, len(nodes), 3))
+    change[0, :, :2] = nodes * (np.array(stretches[:2]) - 1.0)
+    residual = structure.forces(ShellState(change), 0.0).residual[0]
+    return float(residual[nodes[:, 0] == SHEET.length_x, 0].sum() / (SHEET.length_y * SHEET.thickness))
+
+
+def _of_solid(material: Material, stretches: list[float]) -> float:
+    scene = pulled((0.0, 0.0), SHEET, material)
+    structure = solid.discretise(mesh_of(scene, (1, 1)), scene, law=str(material.law))
+    displacement = structure.columns.positions * (np.array(stretches) - 1.0)
+    residual = structure.forces(SolidState(displacement), 0.0).residual
+    return float(residual[structure.columns.edge("x1"), :, 0].sum() / (SHEET.length_y * SHEET.thickness))
+
+
+FORCES: dict[str, Callable[[Material, list[float]], float]] = {"shell": _of_shell, "solid": _of_solid}
 
 
 def _stretch(model: str, law: str, way: str, strain: float) -> float:

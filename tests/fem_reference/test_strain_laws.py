@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 
 import numpy as np
 import pytest
+from rubbers import material
 
 import fem_reference
 from comparisons.cli import main
@@ -21,17 +23,14 @@ from fem_reference.solid.materials import LAWS as SOLID_LAWS
 from fem_reference.surface.materials import plane_stress, section_of
 from fem_reference.verification import run
 from fem_reference.verification.rows import EXACT
-from fem_reference.verification.strain_laws import STRAINS, WAYS, stress
+from fem_reference.verification.strain_laws import LARGE, RUBBERS, STRAINS, WAYS, stress
 from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Scene, Sheet, Status
+from sheetbench.scenes.material import WORDS
 
 PLAN = np.array([[0, 0], [2, 0.1], [2.1, 1.2], [-0.1, 1], [1, 0.05], [2.05, 0.65], [1, 1.1], [-0.05, 0.5]])
 NODES = np.concatenate([PLAN, PLAN[4:].mean(axis=0, keepdims=True)])[None]
-
-
-def material(poisson: float = 0.3) -> Material:
-    return Material(young=2.0, poisson=poisson, density=1.0)
 
 
 @pytest.fixture
@@ -46,7 +45,7 @@ def slopes(function, at: np.ndarray, step: float = 1e-6) -> np.ndarray:
 
 
 def test_every_model_has_the_laws_that_the_command_line_lists() -> None:
-    assert list(STRAIN_LAWS) == list(LAWS) and set(STRAIN_LAWS) == set(SOLID_LAWS)
+    assert [*STRAIN_LAWS, *WORDS] == list(LAWS) == list(SOLID_LAWS)
     assert fem_reference.options("shell")["law"] == fem_reference.options("solid")["law"] == STRAIN_LAW
 
 
@@ -55,23 +54,24 @@ def test_every_model_has_the_laws_that_the_command_line_lists() -> None:
 def test_shell_laws_are_triads_with_hookes_law_at_small_strain(
     law: str, poisson: float, rng: np.random.Generator
 ) -> None:
-    function, strain = LAWS[law], rng.uniform(-0.1, 0.1, (4, 3))
-    found = function(material(poisson), strain)
-    by_energy = slopes(lambda e: function(material(poisson), e).energy, strain)
-    by_stress = slopes(lambda e: function(material(poisson), e).stress, strain)
+    of, strain = material(law, poisson), rng.uniform(-0.1, 0.1, (4, 3))
+    function = partial(LAWS[law].response, of)
+    found = function(strain)
+    by_energy = slopes(lambda e: function(e).energy, strain)
+    by_stress = slopes(lambda e: function(e).stress, strain)
     assert found.stress == pytest.approx(by_energy, abs=1e-9)
     assert found.tangent == pytest.approx(by_stress, abs=1e-9)
     tiny = 1e-10 * rng.uniform(-1.0, 1.0, (4, 3))  # to the last digits
-    expected = tiny @ plane_stress(material(poisson))
-    assert function(material(poisson), tiny).stress == pytest.approx(expected, rel=1e-8, abs=1e-17)
-    assert np.isnan(function(material(poisson), np.array([-0.6, 0.0, 0.0])).stress).any() or law == STRAIN_LAW
+    expected = tiny @ plane_stress(of)
+    assert function(tiny).stress == pytest.approx(expected, rel=1e-8, abs=1e-17)
+    assert np.isnan(function(np.array([-0.6, 0.0, 0.0])).stress).any() or law == STRAIN_LAW
 
 
 @pytest.mark.parametrize("law", LAWS)
 def test_elements_through_the_thickness_are_energies_with_their_tangents(
     law: str, rng: np.random.Generator
 ) -> None:
-    element = HyperelasticElement.of(NODES, material(), 0.2, LAWS[law])
+    element = HyperelasticElement.of(NODES, material(law), 0.2, LAWS[law])
     strain = 0.05 * rng.normal(size=(1, 54))
     energy = lambda e: np.array([sum(element.energies(e).values())])  # noqa: E731
     assert element.stress(strain) == pytest.approx(slopes(energy, strain), rel=1e-6, abs=1e-9)
@@ -82,8 +82,8 @@ def test_elements_through_the_thickness_are_energies_with_their_tangents(
 
 
 def test_the_same_integrals_with_st_venants_law_are_the_linear_element(rng: np.random.Generator) -> None:
-    linear = Element.build(NODES, section_of(material(), 0.2))
-    through = HyperelasticElement.of(NODES, material(), 0.2, LAWS[STRAIN_LAW])
+    linear = Element.build(NODES, section_of(material(STRAIN_LAW), 0.2))
+    through = HyperelasticElement.of(NODES, material(STRAIN_LAW), 0.2, LAWS[STRAIN_LAW])
     strain = rng.normal(size=(1, 54))
     assert through.stress(strain) == pytest.approx(linear.stress(strain), rel=1e-11)
     assert through.moduli(strain) == pytest.approx(linear.stiffness, rel=1e-11, abs=1e-13)
@@ -97,19 +97,44 @@ def test_strips_stretch_as_closed_forms_say_one_way_and_both_ways() -> None:
     assert {row.case for row in rows} == {"strain-laws"}
 
 
+def test_rubbers_stretch_to_twice_their_length_as_closed_forms_say() -> None:
+    rows = list(run(["rubber"]))
+    assert len(rows) == 2 * len(RUBBERS) * 3 * len(LARGE) and len(RUBBERS) == 1 + len(WORDS)
+    assert all(row.passed for row in rows), [row for row in rows if not row.passed]
+
+
+@pytest.mark.parametrize("model", ["shell", "solid"])
+@pytest.mark.parametrize("rubber", RUBBERS, ids=lambda rubber: rubber.law)
+def test_a_scenes_rubber_is_pulled_to_twice_its_length(rubber: Material, model: str) -> None:
+    """The material's law without being asked for, and no word of strains outside the model."""
+    pull = stress(rubber.law, "one way", 1.0, rubber) * rubber.young * 0.01
+    scene = pulled((pull, 0.0), material=rubber)
+    found = fem_reference.solve(scene, model, elements=(2, 1))
+    assert found.settings["law"] == rubber.law and (found.status, found.message) == (Status.CONVERGED, "")
+    moved = found.displacement(np.array([scene.sheet.lengths]))[0, 0]
+    assert moved == pytest.approx(scene.sheet.length_x, rel=1e-6)
+
+
+def test_a_law_without_its_constants_is_refused_with_what_to_write() -> None:
+    for model in ("shell", "solid"):
+        with pytest.raises(BadInput, match=r"'gent'.*no constants.*\[material\] law = 'gent' with shear and"):
+            fem_reference.solve(pulled((1.0, 0.0)), model, elements=2, law="gent")
+
+
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("poisson", [0.0, 0.3, 0.45])
 def test_forces_begin_with_hookes_law_and_bend_as_said(law: str, poisson: float) -> None:
+    of = material(law, poisson)
     for strain in (1e-3, 1e-2):
-        begins = strain * (1.0 + curving(law, poisson) * strain)
-        assert stress(law, "one way", strain, poisson) == pytest.approx(begins, rel=4.0 * strain**2)
+        begins = strain * (1.0 + curving(law, of) * strain)
+        assert stress(law, "one way", strain, of) == pytest.approx(begins, rel=4.0 * strain**2)
 
 
 @pytest.mark.parametrize("model", ["shell", "solid"])
 @pytest.mark.parametrize("law", LAWS)
 def test_a_patch_of_uneven_elements_is_stretched_evenly(model: str, law: str) -> None:
     even = {"graded": True} if model == "shell" else {"grading": "edges"}
-    scene = pulled((1000.0, 300.0))
+    scene = pulled((1000.0, 300.0), material=material(law, young=1e6))
     points = np.random.default_rng(1).uniform(0.0, 1.0, (9, 2)) * scene.sheet.lengths
     solution = fem_reference.solve(scene, model, elements=(5, 4), law=law, **even)
     corner = solution.displacement(np.array([scene.sheet.lengths]))[0, :2]
@@ -135,7 +160,7 @@ def test_large_rotations_at_small_strain_know_no_law() -> None:
     scene = bent()
     tips = {
         law: fem_reference.solve(scene, "shell", elements=3, law=law).displacement(scene.probe_points())
-        for law in LAWS
+        for law in STRAIN_LAWS
     }
     size = np.abs(tips[STRAIN_LAW]).max()
     assert size > 0.4 * scene.sheet.length_x
@@ -154,10 +179,10 @@ def test_what_a_lattice_and_each_law_differ_by_is_told_before_they_are_compared(
     lattice = Candidate("lumped", {"grid": 5, "calibration": calibration})
     corner, own = np.array([sheet.lengths]), strain_law.of_lattice(scene, lattice)
     found = solve(scene, "lumped", **lattice.settings).displacement(corner)[0, 0]
-    for law in LAWS:
+    for law in STRAIN_LAWS:
         shell = fem_reference.solve(scene, "shell", elements=2, law=law)
         assert shell.stretch is not None
-        told = (own - curving(law, 0.3)) * shell.stretch
+        told = (own - curving(law, scene.material)) * shell.stretch
         off = 1.0 - found / shell.displacement(corner)[0, 0]
         assert off == pytest.approx(told, abs=5.0 * strain**2)
 
@@ -190,5 +215,5 @@ def test_the_law_is_an_option_of_the_reference(capsys: pytest.CaptureFixture[str
             main([*asked, *wrong])
         assert ended.value.code == 2
     with pytest.raises(BadInput, match="section of its own"):
-        section = section_of(material(), 0.01)
+        section = section_of(material(STRAIN_LAW), 0.01)
         fem_reference.solve(bent(), "shell", elements=2, section=section, law="biot")

@@ -27,7 +27,7 @@ from fem_reference.verification import (
 from fem_reference.verification.rows import absolutely, relatively
 from sheetbench.answers.layout import blocks
 
-ELSEWHERE = ("locking-plate", "locking-shell", "strain-laws")  # test_locking, test_strain_laws
+ELSEWHERE = ("locking-plate", "locking-shell", "strain-laws", "rubber")  # test_locking, test_strain_laws
 QUICK = [name for name, case in CASES.items() if case.quick and name not in ELSEWHERE]
 VALUES = {  # case → how many values, beside the changes from half the mesh
     "end-shear": 16, "roll-up": 6, "slit-annulus": 10, "heavy-elastica": 24, "settling-strip": 2,

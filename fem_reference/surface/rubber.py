@@ -1,0 +1,48 @@
+"""The part f(I₁ − 3) of a rubber's energy (`sheetbench.scenes.material`): its slopes, and what is not linear.
+
+A law with constants of its own is a row of that table and its slopes here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from sheetbench.errors import BadInput, require_choice
+from sheetbench.scenes import Material
+from sheetbench.scenes.material import WORDS, Energy
+
+
+class Slopes(NamedTuple):
+    """f(x) − f′(0) x, f′(x) − f′(0) and f″(x), each (…) [Pa]."""
+
+    excess: np.ndarray
+    rise: np.ndarray
+    second: np.ndarray
+
+
+def slopes(energy: Energy, x: np.ndarray) -> Slopes:
+    """Return f of a law at x = I₁ − 3 (…); not a number beyond Gent's limit, which ends a step.
+
+    >>> slopes(Energy(1.0, limit=2.0), np.array([0.0, 1.0, 3.0])).rise
+    array([ 0.,  1., nan])
+    """
+    c10, _, c20, c30, limit = energy
+    if not limit:
+        second = 2.0 * c20 + 6.0 * c30 * x
+        return Slopes(x * x * (c20 + c30 * x), x * (2.0 * c20 + 3.0 * c30 * x), second)
+    left = np.where(x < limit, 1.0 - x / limit, np.nan)
+    return Slopes(-c10 * (limit * np.log(left) + x), c10 * x / (limit * left), c10 / (limit * left**2))
+
+
+def require_law(law: str, laws: Iterable[str], material: Material) -> None:
+    """Raise BadInput for a law that there is not, or one whose constants the material does not have."""
+    require_choice("law", law, laws)
+    if law in WORDS and material.law != law:
+        keys = " and ".join(WORDS[law].keys)
+        raise BadInput(
+            f"law = '{law}': the material has no constants of it; give the scene [material] law = '{law}' "
+            f"with {keys}, or take law = 'neo-hookean', which needs none"
+        )

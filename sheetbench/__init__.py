@@ -17,6 +17,9 @@ from typing import TYPE_CHECKING as _TYPE_CHECKING
 if _TYPE_CHECKING:
     import sheetbench.scenes as scenes
     from comparisons.advice.advisor import advise
+    from comparisons.cells.answer import homogenise
+    from comparisons.cells.cell import Cell
+    from comparisons.cells.meshes import cell_of as cell
     from comparisons.check.check import check
     from comparisons.comparison.comparison import error
     from comparisons.identification.identification import identify
@@ -53,14 +56,17 @@ if _TYPE_CHECKING:
     from sheetbench.verbs import crosscheck, export, report, schema, score, stability, verify
 
 _ELSEWHERE = {  # name: module and what it is called there; all else is of sheetbench.scenes
+    "Cell": ("comparisons.cells.cell", "Cell"),
     "Displacements": ("comparisons.identification.measurements", "Displacements"),
     "advise": ("comparisons.advice.advisor", "advise"),
     "calibrate": ("sheetbench.face", "calibrate"),
+    "cell": ("comparisons.cells.meshes", "cell_of"),
     "check": ("comparisons.check.check", "check"),
     "compare": ("sheetbench.face", "compare"),
     "crosscheck": ("sheetbench.verbs", "crosscheck"),
     "error": ("comparisons.comparison.comparison", "error"),
     "export": ("sheetbench.verbs", "export"),
+    "homogenise": ("comparisons.cells.answer", "homogenise"),
     "identify": ("comparisons.identification.identification", "identify"),
     "linearise": ("comparisons.linearisation.linearisation", "linearise"),
     "modes": ("comparisons.modes.spectra", "spectra"),
@@ -78,6 +84,7 @@ _ELSEWHERE = {  # name: module and what it is called there; all else is of sheet
 
 __all__ = [
     "BadInput",
+    "Cell",
     "Chain",
     "Clamped",
     "Curved",
@@ -101,11 +108,13 @@ __all__ = [
     "advise",
     "calibrate",
     "catalogue",
+    "cell",
     "check",
     "compare",
     "crosscheck",
     "error",
     "export",
+    "homogenise",
     "identify",
     "linearise",
     "load",

@@ -34,6 +34,7 @@ VERBS = (
     "scenes",
     "compare",
     "calibrate",
+    "homogenise",
     "identify",
     "simulate",
     "tradeoff",

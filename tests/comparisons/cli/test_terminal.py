@@ -82,6 +82,7 @@ SMALL = {
     "suite": ["suite", "--suite", "modes"],
     "score": ["score", "answers.csv", "--case", "thick"],
     "linearise": ["linearise", "one-edge-clamped", "--lumped", "3", "--modes", "3"],
+    "homogenise": ["homogenise", "equilateral"],
     "report": ["report", "stability"],
     "study": ["study"],
 }

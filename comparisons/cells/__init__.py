@@ -1,0 +1,1 @@
+"""Discrete sheets of any repeated cell: moduli, nearest coefficients, the error of fine meshes."""

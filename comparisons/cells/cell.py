@@ -1,0 +1,204 @@
+"""A repeated cell of a discrete sheet: nodes, and the triangles, hinges and springs between them.
+
+A node of the cell or of a neighbour is (node, i, j): the node's number and how many periods away. Energies of
+small displacements u, per element:
+
+    triangle  ½ A e:C:e, plane stress of λ and μ times thickness [N/m]   (constant strain; St Venant–Kirchhoff
+              and neo-Hookean triangles, and Delingette's (2008) triangle springs, have it at small strain)
+    hinge     ½ k w θ² over an edge that two triangles share, θ the angle between them; the weight w is 1
+              ("angle", k in N·m), the edge's length L ("length", k in N) or 3 L²/(A₁ + A₂) ("height", k in
+              N·m: discrete shells, Grinspun et al. 2003, quadratic bending, Bergou et al. 2006, but a factor)
+    spring    ½ k (change of length)²  [N/m]
+    brick     ½ ∫ e:C:e of λ and μ [Pa], eight corners, trilinear, integrated in full: the first
+              four below, in turn, the others above them
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sheetbench.errors import BadInput
+
+Place = tuple[int, int, int]  # node, periods along the first and the second
+HINGES: Mapping[str, Callable[[float, float], float]] = {
+    "angle": lambda length, area: 1.0,
+    "length": lambda length, area: length,
+    "height": lambda length, area: 3.0 * length**2 / area,
+}
+HINGE_UNITS = {"angle": "N·m", "length": "N", "height": "N·m"}
+KEYS = {"name", "periods", "nodes", "triangles", "hinge", "springs", "bricks"}
+CORNERS = np.array([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+
+
+@dataclass(frozen=True)
+class Element:
+    """The nodes of an element, and its stiffness (3 n, 3 n) for each coefficient that it has, at 1."""
+
+    places: tuple[Place, ...]
+    stiffness: Mapping[str, np.ndarray]
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell of a sheet that repeats.
+
+    periods (2, 2) [m]; nodes (n, 3) [m], z from the mid-surface; triangles of three places each; hinge: the
+    weight of the hinges between triangles, "" for none; springs: two places and the name of a coefficient;
+    bricks of eight places each.
+    Raises BadInput for what is no cell.
+    """
+
+    name: str
+    periods: np.ndarray
+    nodes: np.ndarray
+    triangles: tuple[tuple[Place, ...], ...] = ()
+    hinge: str = ""
+    springs: tuple[tuple[Place, Place, str], ...] = ()
+    bricks: tuple[tuple[Place, ...], ...] = ()
+
+    def __post_init__(self) -> None:
+        if abs(np.linalg.det(self.periods)) == 0.0 or not np.all(np.isfinite(self.nodes)):
+            raise BadInput(f"{self.name}: periods: two that span an area, and finite nodes")
+        if self.hinge and self.hinge not in HINGES:
+            raise BadInput(f"{self.name}: hinge = {self.hinge!r}: one of {', '.join(HINGES)}, or none")
+        if not self.triangles and not self.springs and not self.bricks:
+            raise BadInput(f"{self.name}: has no triangles, springs or bricks")
+        places = [p for element in (*self.triangles, *self.bricks) for p in element]
+        places += [p for a, b, _ in self.springs for p in (a, b)]
+        for node, *_ in places:
+            if not 0 <= node < len(self.nodes):
+                raise BadInput(f"{self.name}: node {node}: there are {len(self.nodes)}, counted from 0")
+        for triangle in self.triangles:
+            if abs(_area(self.at(triangle))) < 1e-12 * abs(np.linalg.det(self.periods)):
+                raise BadInput(f"{self.name}: triangle {list(triangle)}: has no area")
+        for a, b, _ in self.springs:
+            if a == b:
+                raise BadInput(f"{self.name}: spring {list(a)}: has no length")
+
+    @property
+    def area(self) -> float:
+        """The plan area of a cell [m²]."""
+        return float(abs(np.linalg.det(self.periods)))
+
+    def at(self, places: tuple[Place, ...]) -> np.ndarray:
+        """The positions (n, 3) of places [m]."""
+        shift = np.array([[i, j] for _, i, j in places]) @ self.periods
+        return self.nodes[[node for node, _, _ in places]] + np.column_stack([shift, np.zeros(len(places))])
+
+    def units(self) -> dict[str, str]:
+        """The coefficients that the cell has, with their units."""
+        membrane = {"lambda_h": "N/m", "mu_h": "N/m"} if self.triangles else {}
+        hinge = {"hinge": HINGE_UNITS[self.hinge]} if self.hinge else {}
+        solid = {"lambda": "Pa", "mu": "Pa"} if self.bricks else {}
+        return membrane | hinge | {name: "N/m" for _, _, name in self.springs} | solid
+
+    def elements(self) -> list[Element]:
+        """The elements that count once a cell."""
+        triangles = [Element(t, _triangle(self.at(t))) for t in self.triangles]
+        springs = [Element((a, b), {name: _spring(self.at((a, b)))}) for a, b, name in self.springs]
+        hinges = [Element(p, {"hinge": _hinge(self.at(p), HINGES[self.hinge])}) for p in self._hinges()]
+        return triangles + springs + hinges + [Element(b, _brick(self.at(b))) for b in self.bricks]
+
+    def _hinges(self) -> list[tuple[Place, ...]]:
+        """The ends of each shared edge and the corners opposite it, once a cell; none without hinges."""
+        if not self.hinge:
+            return []
+        sides: dict[tuple[Place, ...], list[Place]] = {}
+        for triangle in self.triangles:
+            for a, b in combinations(triangle, 2):
+                (opposite,) = (p for p in triangle if p not in (a, b))
+                first, second = sorted((a, b))
+                key, i, j = ((first[0], 0, 0), _moved(second, first)), first[1], first[2]
+                sides.setdefault(key, []).append(_moved(opposite, (0, i, j)))
+        for edge, corners in sides.items():
+            if len(corners) != 2:
+                raise BadInput(f"{self.name}: edge {list(edge)}: {len(corners)} triangles; a hinge has two")
+        return [(*edge, *corners) for edge, corners in sides.items()]
+
+
+def from_toml(path: Path) -> Cell:
+    """A cell of a file, with lengths in metres. Raises BadInput with the file and what is wrong."""
+    try:
+        data: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
+        if unknown := set(data) - KEYS:
+            raise BadInput(f"{path}: {', '.join(sorted(unknown))}: a cell has {', '.join(sorted(KEYS))}")
+        nodes = np.array([[*node, 0.0][:3] for node in data["nodes"]], dtype=float)
+        springs = tuple((tuple(a), tuple(b), str(name)) for a, b, name in data.get("springs", ()))
+        triangles = tuple(tuple(tuple(place) for place in t) for t in data.get("triangles", ()))
+        periods = np.array(data["periods"], dtype=float)
+        bricks = tuple(tuple(tuple(place) for place in b) for b in data.get("bricks", ()))
+        name, hinge = data.get("name", path.stem), data.get("hinge", "")
+        return Cell(name, periods, nodes, triangles, hinge, springs, bricks)
+    except (OSError, tomllib.TOMLDecodeError, KeyError, ValueError, TypeError, IndexError) as error:
+        raise BadInput(f"{path}: is no cell: {error}") from None
+
+
+def _moved(place: Place, origin: Place) -> Place:
+    return place[0], place[1] - origin[1], place[2] - origin[2]
+
+
+def _area(corners: np.ndarray) -> float:
+    (ax, ay, _), (bx, by, _) = corners[1] - corners[0], corners[2] - corners[0]
+    return float(0.5 * (ax * by - ay * bx))
+
+
+def _spring(ends: np.ndarray) -> np.ndarray:
+    along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
+    row = np.concatenate([-along, along])
+    return np.outer(row, row)
+
+
+def _triangle(corners: np.ndarray) -> dict[str, np.ndarray]:
+    """λ (∇·u)² + 2 μ e:e over the area; corners at one height."""
+    inverse = np.linalg.inv((corners[1:, :2] - corners[0, :2]).T)
+    slopes = np.vstack([-inverse.sum(axis=0), inverse])  # (corner, x or y)
+    strain = np.zeros((3, 9))  # xx, yy, 2xy
+    strain[0, 0::3], strain[1, 1::3] = slopes.T
+    strain[2, 0::3], strain[2, 1::3] = slopes[:, 1], slopes[:, 0]
+    volume = strain[0] + strain[1]
+    size = abs(_area(corners))
+    shear = strain.T @ np.diag([2.0, 2.0, 1.0]) @ strain
+    return {"lambda_h": size * np.outer(volume, volume), "mu_h": size * shear}
+
+
+def _brick(corners: np.ndarray) -> dict[str, np.ndarray]:
+    """λ (∇·u)² + 2 μ e:e over the volume, at 2 × 2 × 2 points."""
+    volume, shear = np.zeros((24, 24)), np.zeros((24, 24))
+    for point in CORNERS / 3.0**0.5:
+        shares = (1.0 + CORNERS * point) / 2.0  # (corner, direction)
+        others = [np.prod(np.delete(shares, q, axis=1), axis=1) for q in range(3)]
+        rates = 0.5 * CORNERS * np.column_stack(others)
+        jacobian = corners.T @ rates
+        slopes = rates @ np.linalg.inv(jacobian)
+        strain = np.zeros((6, 24))  # xx, yy, zz, 2yz, 2zx, 2xy
+        for q in range(3):
+            r, t = (q + 1) % 3, (q + 2) % 3
+            strain[q, q::3] = slopes[:, q]
+            strain[3 + q, r::3], strain[3 + q, t::3] = slopes[:, t], slopes[:, r]
+        size = abs(float(np.linalg.det(jacobian)))
+        grown = strain[:3].sum(axis=0)
+        volume += size * np.outer(grown, grown)
+        shear += size * strain.T @ np.diag([2.0, 2.0, 2.0, 1.0, 1.0, 1.0]) @ strain
+    return {"lambda": volume, "mu": shear}
+
+
+def _hinge(points: np.ndarray, weight: Callable[[float, float], float]) -> np.ndarray:
+    """points: both ends of the edge, then the corners opposite; θ is linear in their heights."""
+    start, end, *opposite = points
+    length = float(np.linalg.norm(end - start))
+    along = (end - start) / length
+    row, area = np.zeros(12), 0.0
+    for corner, point in enumerate(opposite, start=2):
+        share = float((point - start) @ along) / length
+        height = float(np.linalg.norm(point - start - share * length * along))
+        row[3 * corner + 2] = 1.0 / height
+        row[[2, 5]] -= np.array([1.0 - share, share]) / height
+        area += 0.5 * length * height
+    return weight(length, area) * np.outer(row, row)

@@ -1,0 +1,86 @@
+"""The coefficients of a cell nearest to a material, and the error that stays however fine the mesh."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.optimize import least_squares, minimize_scalar
+
+import fem_reference
+from comparisons.cells.cell import Cell
+from comparisons.cells.homogenise import Moduli, moduli_of
+from comparisons.comparison.differences import error
+from fem_reference.surface.materials import Section, section_of
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Material, Scene
+
+COARSE = 8  # elements of the shells of a search
+STIFF = 1e3  # times κGh, of a cell whose normals stay normal
+TURNED = np.array([[1.0, 1.0, 2.0**0.5], [1.0, 1.0, 2.0**0.5], [2.0**0.5, 2.0**0.5, 2.0]])
+
+
+def nearest(cell: Cell, material: Material, thickness: float) -> dict[str, float]:
+    """Coefficients, none negative, whose moduli come nearest to the sheet's.
+
+    Triangles have the membrane's λh = E ν h/(1 − ν²) and μh = E h/2(1 + ν), bricks Lamé's constants. The
+    others are found by least squares over A and D, each over its 11, in a norm that no turn of the axes
+    changes (Mandel's).
+    """
+    nu = material.poisson
+    stretching = material.young * thickness / (1.0 - nu**2)
+    exact = {"lambda_h": nu * stretching, "mu_h": 0.5 * (1.0 - nu) * stretching}
+    mu = 0.5 * material.young / (1.0 + nu)
+    exact |= {"lambda": 2.0 * mu * nu / (1.0 - 2.0 * nu), "mu": mu}
+    units = cell.units()
+    known = {name: value for name, value in exact.items() if name in units}
+    names = [name for name in units if name not in known]
+    asked = section_of(material, thickness)
+    # a value of the right size for each: of springs the membrane's, of hinges the plate's by its length
+    sizes = np.array([stretching if units[n] == "N/m" else asked.bending[0, 0] for n in names])
+    if "hinge" in names and units["hinge"] == "N":
+        sizes[names.index("hinge")] /= cell.area**0.5
+
+    def weighted(values: np.ndarray) -> np.ndarray:
+        got = moduli_of(cell, known | dict(zip(names, values * sizes, strict=True)))
+        pairs = ((got.membrane, asked.membrane), (got.bending, asked.bending))
+        return np.concatenate([(TURNED * (a - b) / b[0, 0]).ravel() for a, b in pairs])
+
+    if not names:
+        return known
+    found = least_squares(weighted, np.ones(len(names)), bounds=(0.0, np.inf), xtol=1e-14, ftol=1e-14)
+    return known | {n: float(v * s) for n, v, s in zip(names, found.x, sizes, strict=True)}
+
+
+def limit_error(scene: Scene, moduli: Moduli, elements: int = 16) -> float:
+    """The error in a scene of a mesh of this cell, however fine: that of a shell with the cell's moduli.
+
+    The shell takes large rotations, as such meshes do. Raises BadInput where bending and stretching are
+    coupled.
+    """
+    own = section_of(scene.material, scene.sheet.thickness)
+    size = (np.abs(moduli.membrane).max() * np.abs(moduli.bending).max()) ** 0.5
+    if np.abs(moduli.coupling).max() > 1e-9 * size:
+        raise BadInput("the cell couples bending and stretching: no shell here has such a section")
+    shear = STIFF * own.shear if moduli.shear is None else moduli.shear
+    section = Section(moduli.membrane, moduli.bending, shear)
+    true = fem_reference.solve(scene, model="shell", elements=elements)
+    found = fem_reference.solve(scene, model="shell", elements=elements, section=section)
+    points = scene.probe_points()
+    off = error(found.displacement(points), true.displacement(points))
+    if off is None:
+        raise BadInput("the probes do not move: there is no error to tell")
+    return off
+
+
+def best_hinge(scene: Scene, cell: Cell, coefficients: dict[str, float]) -> tuple[float, float] | None:
+    """The hinges' coefficient that leaves the least error in the limit in this scene, and that error; None
+    of a cell without hinges. Searched from a twentieth to ten times the coefficient given."""
+    if "hinge" not in coefficients:
+        return None
+    start = float(np.log(coefficients["hinge"]))
+
+    def off(logarithm: float) -> float:
+        return limit_error(scene, moduli_of(cell, coefficients | {"hinge": float(np.exp(logarithm))}), COARSE)
+
+    bounds = (start + np.log(0.05), start + np.log(10.0))
+    found = minimize_scalar(off, bounds=bounds, method="bounded", options={"xatol": 5e-3})
+    return float(np.exp(found.x)), float(found.fun)

@@ -1,0 +1,74 @@
+"""`sheetbench homogenise CELL [SCENE]`: what a mesh of triangles, hinges, springs or bricks is as a sheet."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from comparisons.cli.quantity import quantity_in
+from comparisons.cli.verb import OutputOptions
+
+SPACINGS = 8  # cells along the shorter side, unless a spacing is given
+
+
+def command(
+    cell: Annotated[
+        str,
+        typer.Argument(
+            metavar="CELL",
+            help="one-diagonal, alternate-diagonals, equilateral, unstructured: triangles with hinges; "
+            "bricks: one through the thickness; or a TOML file with periods, nodes and elements.",
+            show_default=False,
+        ),
+    ],
+    scene: Annotated[str, typer.Argument(metavar="[SCENE]", help="Whose sheet, and whose load.")] = (
+        "two-edges-clamped"
+    ),
+    spacing: Annotated[
+        float | None,
+        typer.Option(
+            parser=quantity_in("m"),
+            metavar="LENGTH",
+            help="Between nodes, in m or as 5mm; an eighth of the shorter side unless given.",
+            show_default=False,
+        ),
+    ] = None,
+    hinge: Annotated[
+        str,
+        typer.Option(
+            metavar="WEIGHT",
+            help="Energy of a hinge, ½ k w θ²: length, w the edge's; angle, w = 1; height, w = 3 length² "
+            "over the area of both triangles.",
+        ),
+    ] = "length",
+    coefficient: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=VALUE", help="Take this one, not the nearest. May be repeated.", show_default=False
+        ),
+    ] = None,
+    *,
+    output: OutputOptions,
+) -> None:
+    """Find the moduli of a discrete sheet, the coefficients nearest to a material, and the error that stays.
+
+    That error is of the mesh's limit: no finer mesh of the same cell is nearer to the sheet.
+    """
+    from comparisons.cells.answer import homogenise
+    from comparisons.cells.meshes import cell_of
+    from sheetbench import scenes
+    from sheetbench.errors import BadInput
+
+    of = scenes.load(scene)
+    length = min(of.sheet.length_x, of.sheet.length_y) / SPACINGS if spacing is None else spacing
+    given = {}
+    for text in coefficient or ():
+        name, _, value = text.partition("=")
+        try:
+            given[name] = float(value)
+        except ValueError:
+            raise BadInput(f"--coefficient {text}: NAME=VALUE, the value a number") from None
+    found = homogenise(of, cell_of(cell, length, of.sheet.thickness, hinge), given)
+    with output.open(scene=of) as out:
+        out.show(found.report())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -119,4 +120,5 @@ def command(
             )
         except NotReached as error:
             out.stop(f"no answer with the scene's own values: {error}")
-        out.show(found.report(str(measured)))
+        report = found.report()
+        out.show(replace(report, settings={**report.settings, "measured": str(measured)}))

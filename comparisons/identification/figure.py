@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.identification.found import Identification
+from comparisons.identification.answer import Identification
 from comparisons.identification.measurements import Displacements
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import COMPONENTS, DARK, GREY, plain

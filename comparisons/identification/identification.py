@@ -30,7 +30,7 @@ import numpy as np
 
 from comparisons.identification import law as strain_law
 from comparisons.identification import remarks
-from comparisons.identification.found import Found, Identification
+from comparisons.identification.answer import Found, Identification
 from comparisons.identification.measurements import Displacements, Measured, Surface, read
 from comparisons.identification.misfit import require_same_way
 from comparisons.identification.model import Model, lattice_model, reference_model

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from comparisons.identification.found import Found
+from comparisons.identification.answer import Found
 from comparisons.identification.outliers import Outlier
 from comparisons.identification.residual_test import POOR, Runs, explained
 from comparisons.identification.search import Nearest

@@ -6,10 +6,11 @@ import json
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
+from sheetbench.answers.table import PERCENT, Column
 from sheetbench.errors import require_choice
 from sheetbench.scenes import Scene
 
@@ -24,13 +25,13 @@ class Reference:
     frequencies (k,) [Hz]; bars of each; bar: the largest over the largest value; judges: which codes were
     asked, and how far each is off."""
 
-    name: str
+    name: Annotated[str, Column("case")]
     suite: str
-    why: str
+    why: Annotated[str, Column(prose=True)]
     scene: Scene
     values: np.ndarray
     bars: np.ndarray
-    bar: float
+    bar: Annotated[float, PERCENT(".2g")]
     judges: tuple[dict[str, Any], ...]
     time: np.ndarray | None = None
     duration: float | None = None

@@ -11,20 +11,21 @@ An answer within the reference's bar is not distinguishable from it.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
 from comparisons.models.candidate import Candidate, written
-from comparisons.scoring import tables
 from comparisons.scoring.answers import Answer, read_answers
 from comparisons.scoring.faults import faults
 from comparisons.scoring.reference import Reference, document
 from comparisons.scoring.verdict import stiffness, verdict
-from sheetbench.answers.report import Report
+from sheetbench.answers.answer import Answer as ShownAnswer
+from sheetbench.answers.report import Picture
+from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Table, number
 from sheetbench.choices import REFERENCES
 
 OWN = "answers"
@@ -38,23 +39,36 @@ class Row:
 
     case: str
     probe: str
-    error: float
+    error: Annotated[float, PERCENT(".3g")]
     distinguishable: bool
+
+
+@dataclass(frozen=True)
+class CaseRow:
+    """A case: its error, the reference's bar, whether that is less, and the time [s] where it was told."""
+
+    case: str
+    error: Annotated[float, PERCENT(".3g")]
+    bar: Annotated[float, PERCENT(".3g", "reference's bar")]
+    distinguishable: bool
+    seconds: Annotated[float | None, MILLISECONDS(".3g", "time")]
 
 
 @dataclass(frozen=True)
 class Standing:
     """A model's score and the geometric mean of its times [s], None where they are not told; whose: one of
-    `WHOSE`; worst: its case of the largest error, if there is one; refused: cases that it has no answer to.
+    `WHOSE`; worst: its case of the largest error, if there is one; refused: cases that it has no answer to;
+    on_the_front: whether none is both quicker and better.
     """
 
     model: str
-    score: float
-    seconds: float | None
+    score: Annotated[float, PERCENT(".3g")]
+    seconds: Annotated[float | None, MILLISECONDS(".3g", "time")]
     whose: str
-    worst: str = ""
-    worst_error: float | None = None
-    refused: int = 0
+    worst: Annotated[str, Column("where")] = ""
+    worst_error: Annotated[float | None, PERCENT(".3g", "worst")] = None
+    refused: Annotated[int, NUMBER("d")] = 0
+    on_the_front: bool = False
 
     @property
     def foreign(self) -> bool:
@@ -62,10 +76,11 @@ class Standing:
         return self.whose == OTHERS
 
 
-@dataclass(frozen=True, eq=False)
-class Score:
+@dataclass(frozen=True, eq=False, repr=False)
+class Score(ShownAnswer):
     """Answers to a suite with what they get wrong; unanswered: cases that were asked for and are open."""
 
+    file_name = "score"
     suite: str
     answers: tuple[Answer, ...]
     unanswered: tuple[str, ...] = ()
@@ -90,8 +105,21 @@ class Score:
         return mean([self.error(a) for a in self.answers], [a.reference for a in self.answers])
 
     @property
+    def cases(self) -> list[CaseRow]:
+        """One a case."""
+        found = ((a, self.error(a)) for a in self.answers)
+        return [
+            CaseRow(a.reference.name, e, a.reference.bar, e > a.reference.bar, a.seconds) for a, e in found
+        ]
+
+    @property
     def standing(self) -> list[Standing]:
         """These answers and other models on the same cases, the best first; the others on statics only."""
+        front = self.front
+        return [replace(one, on_the_front=one.model in front) for one in self._ranked]
+
+    @property
+    def _ranked(self) -> list[Standing]:
         times = [answer.seconds for answer in self.answers]
         known = [time for time in times if time]
         own = Standing(OWN, self.score, _geometric(known) if len(known) == len(times) else None, YOURS)
@@ -104,39 +132,74 @@ class Score:
         spoilt, or that are off by all of the displacement, are none however quick they are."""
         kept: list[Standing] = []
         wrong = self.faults or self.score >= 1.0
-        timed = [one for one in self.standing if one.seconds is not None and not (wrong and one.model == OWN)]
+        timed = [one for one in self._ranked if one.seconds is not None and not (wrong and one.model == OWN)]
         for one in sorted(timed, key=lambda one: (one.seconds, one.score)):
             if not kept or one.score < kept[-1].score:
                 kept.append(one)
         return [one.model for one in kept]
 
-    def as_dict(self) -> dict[str, Any]:
+    def document(self) -> dict[str, Any]:
         """The JSON document of `sheetbench score`."""
         return {
             "suite": self.suite,
             "version": document()["version"],
-            "rows": [vars(row) for row in self.rows],
-            "cases": [
-                {
-                    "case": a.reference.name,
-                    "error": self.error(a),
-                    "bar": a.reference.bar,
-                    "seconds": a.seconds,
-                }
-                for a in self.answers
-            ],
+            "rows": [asdict(row) for row in self.rows],
+            "cases": [asdict(row) for row in self.cases],
             "unanswered": list(self.unanswered),
-            "verdict": verdict(self),
-            "stiffer": stiffness(self),
+            "verdict": self._verdict,
+            "stiffer": stiffness(self.answers),
             "faults": self.faults,
             "score": self.score,
-            "standing": [vars(one) for one in self.standing],
+            "standing": [asdict(one) for one in self.standing],
             "front": self.front,
         }
 
-    def report(self) -> Report:
-        """What is shown of it."""
-        return tables.report(self)
+    @property
+    def _verdict(self) -> str:
+        return verdict(self.answers, [self.error(answer) for answer in self.answers], self.faults)
+
+    def heading(self) -> tuple[str, str, str]:
+        many, every = len(self.answers), len(self.answers) + len(self.unanswered)
+        of = "1 case" if every == 1 else f"{many} cases" if many == every else f"{many} of {every} cases"
+        title = f"score {number(100 * self.score, '.3g')} %"
+        return title, f"on {of} of {self.suite}, reference set {document()['version']}", self._verdict
+
+    def tables(self) -> tuple[Table, ...]:
+        cases, *place = self.printed()
+        return (cases, Table.of(Row, self.rows, "Errors by probe", "rows"), *place)
+
+    def printed(self) -> tuple[Table, ...]:
+        cases = Table.of(CaseRow, self.cases, "Errors by case", "cases")
+        caption = "Beside our own models and other programs on the same cases"
+        fields = ("model", "whose", "score", "seconds", "on_the_front")
+        place = Table.of(Standing, self.standing, caption, "place", fields=fields)
+        return (cases, place) if len(self.standing) > 1 else (cases,)
+
+    def figures(self) -> tuple[Picture, ...]:
+        return (Picture("score", "comparisons.scoring.figure:compose", (self,)),)
+
+    def notes(self) -> list[str]:
+        notes = [
+            "score: geometric mean of the cases' errors, none below the reference's bar, none above 100 %"
+        ]
+        if len(self.standing) > 1:
+            at = [one.model for one in self.standing].index(OWN)
+            made = document()["made_with"]["machine"].get("processor", "another machine")
+            notes.append(
+                f"place {at + 1} of {len(self.standing)} by score; times of the others are geometric means, "
+                f"measured on {made}"
+            )
+        return notes + ([f"not answered yet: {', '.join(self.unanswered)}"] if self.unanswered else [])
+
+    def complaints(self) -> list[str]:
+        return self.faults
+
+    def choices(self) -> dict[str, Any]:
+        return {"suite": self.suite}
+
+    @property
+    def succeeded(self) -> bool:
+        return not self.faults
 
 
 def score(path: Path, suite: str = "statics", case: str | Sequence[str] = ()) -> Score:

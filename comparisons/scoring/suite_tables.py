@@ -10,12 +10,12 @@ from typing import Any
 
 from comparisons.scoring.answers import HEADERS
 from comparisons.scoring.reference import Reference, document, references
-from comparisons.scoring.score import own_models
+from comparisons.scoring.score import Standing, own_models
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Report
-from sheetbench.answers.table import Column, Table
+from sheetbench.answers.table import Table
 
-AXES = "xyz"
+CASE = ("name", "suite", "bar", "agreeing", "why")
 LICENCE = """\
 The values of the reference set (suite.json, values-*.csv) are licensed under the Creative Commons Attribution
 4.0 International licence (CC-BY-4.0, https://creativecommons.org/licenses/by/4.0/): use them as you like, and
@@ -41,7 +41,10 @@ def report(suite: str | None = None) -> Report:
         title=f"reference set {whole['version']}",
         subtitle=f"{len(found)} cases, {whole['licence']}",
         document=kept,
-        tables=(cases(list(found.values())), *([standing(found)] if suite in (None, "statics") else [])),
+        tables=(
+            Table.of(Reference, found.values(), "Cases of the reference set", "cases", fields=CASE),
+            *([standing(found)] if suite in (None, "statics") else []),
+        ),
         notes=(
             "bar: what the reference's mesh leaves uncertain, of its largest value; agreeing: codes within "
             "that or 1 %",
@@ -52,41 +55,18 @@ def report(suite: str | None = None) -> Report:
     )
 
 
-def cases(found: Sequence[Reference]) -> Table:
-    """A row per case."""
-    rows = tuple((one.name, one.suite, one.bar, ", ".join(one.agreeing), one.why) for one in found)
-    columns = (
-        Column("case"),
-        Column("suite"),
-        Column("bar", "", "%", 100.0, ".2g"),
-        Column("agreeing"),
-        Column("why", prose=True),
-    )
-    return Table("Cases of the reference set", columns, rows, "cases")
-
-
 def standing(found: Mapping[str, Reference]) -> Table:
     """How our own models and other programs fare on the statics, the best first."""
     ours = own_models([case for case in found.values() if case.suite == "statics"])
-    rows = tuple(
-        (one.model, one.score, one.worst_error, one.worst, one.refused, one.seconds)
-        for one in sorted(ours, key=lambda one: one.score)
-    )
-    percent = ("", "%", 100.0, ".3g")
-    columns = (
-        Column("model"),
-        Column("score", *percent),
-        Column("worst", *percent),
-        Column("where"),
-        Column("refused", form="d"),
-        Column("time", "s", "ms", 1e3, ".3g"),
-    )
+    rows = sorted(ours, key=lambda one: one.score)
     said = (
         "score: geometric mean of the errors on the statics, 100 % for a case that is refused; worst: of "
         "those answered; time: of a solve, geometric mean, on "
         f"{document()['made_with']['machine'].get('processor', 'the machine that made the set')}"
     )
-    return Table("Our models and other programs on the statics", columns, rows, "standing", text=said)
+    fields = ("model", "score", "worst_error", "worst", "refused", "seconds")
+    caption = "Our models and other programs on the statics"
+    return Table.of(Standing, rows, caption, "standing", fields=fields, text=said)
 
 
 def _toml(case: Reference) -> str:

@@ -9,45 +9,42 @@ are prescribed knows nothing of E).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from statistics import median
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from comparisons.scoring.answers import Answer
 from sheetbench.answers.table import number
 
-if TYPE_CHECKING:
-    from comparisons.scoring.score import Score
-
 SHARE, LEAST = 0.8, 0.005  # of the cases; of the stiffness
 
 
-def verdict(found: Score) -> str:
-    """The sentence."""
-    if found.faults:
-        return f"Verdict: {'; '.join(found.faults)}."
-    cases = len(found.answers)
-    met = sum(found.error(answer) <= answer.reference.bar for answer in found.answers)
+def verdict(answers: Sequence[Answer], errors: Sequence[float], faults: Sequence[str]) -> str:
+    """The sentence; errors: of the answers, faults: sentences."""
+    if faults:
+        return f"Verdict: {'; '.join(faults)}."
+    cases = len(answers)
+    met = sum(error <= answer.reference.bar for answer, error in zip(answers, errors, strict=True))
     if met == cases:
         return f"Verdict: not distinguishable from the reference in {_all(cases)}."
-    worst = max(found.answers, key=found.error)
+    worst, off = max(zip(answers, errors, strict=True), key=lambda both: both[1])
     said = f"{met} of {cases} cases within the reference's bar"
-    stiffer = stiffness(found)
+    stiffer = stiffness(answers)
     if stiffer is not None:
         side = "stiff" if stiffer > 0.0 else "soft"
         which = _all(cases) if met == 0 else "most cases"
         said = f"{which} too {side} by about {_percent(abs(stiffer))}; {said}"
-    return f"Verdict: {said}; worst {worst.reference.name}, {_percent(found.error(worst))} off."
+    return f"Verdict: {said}; worst {worst.reference.name}, {_percent(off)} off."
 
 
-def stiffness(found: Score) -> float | None:
+def stiffness(answers: Sequence[Answer]) -> float | None:
     """How much stiffer than the reference the answers are throughout, a fraction; None where they are not."""
-    if found.suite == "settling":
+    if answers[0].reference.suite == "settling":
         return None
-    off = [_stiffer(answer) for answer in found.answers]
+    off = [_stiffer(answer) for answer in answers]
     for side in (1.0, -1.0):
-        both = zip(off, found.answers, strict=True)
+        both = zip(off, answers, strict=True)
         beyond = [one for one, answer in both if side * one > answer.reference.bar]
         if len(beyond) >= SHARE * len(off) and abs(median(beyond)) > LEAST:
             return float(median(beyond))

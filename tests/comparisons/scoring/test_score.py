@@ -222,7 +222,7 @@ def test_the_verdict_comes_first_and_says_what_is_off_throughout(
 def test_noise_is_no_stiffness(write: Write) -> None:
     noise = np.random.default_rng(0)
     found = score(write(change=lambda case, u: u * noise.uniform(0.6, 1.4)))
-    assert found.as_dict()["stiffer"] is None
+    assert found.document()["stiffer"] is None
     slipped = score(write(change=lambda case, u: 1e3 * u))
     assert "1000 times" in slipped.report().lead
 

@@ -1,0 +1,187 @@
+"""What an identification found: values with their intervals, what is left, and how the search ended."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from typing import Annotated, Any
+
+import numpy as np
+
+from comparisons.identification.measurements import Displacements, Measured
+from comparisons.identification.outliers import Outlier
+from comparisons.identification.residual_test import Runs
+from comparisons.models.grading import told
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import RASTER, Picture
+from sheetbench.answers.table import MILLIMETRES, NUMBER, SECONDS, Column, Table, Unit, unit
+from sheetbench.scenes import Scene
+
+SHOWN = 20  # residuals on the terminal; all of them are in the files
+
+
+@dataclass(frozen=True)
+class Found:
+    """An unknown's value, its 95 % interval, the value the search started from and the unit.
+
+    refined: about where a lattice with cells half as large would put it, None where that is not known;
+    noise_interval: that of the measurements' noise alone, without the error of the grid or mesh;
+    determined: whether the data see it by itself.
+    """
+
+    value: float
+    interval: tuple[float, float]
+    start: float
+    unit: str
+    refined: float | None
+    noise_interval: tuple[float, float]
+    determined: bool
+
+
+@dataclass(frozen=True)
+class UnknownRow:
+    """An unknown in its unit; nothing of what the data do not determine."""
+
+    unknown: str
+    unit: Unit
+    value: Annotated[float | None, NUMBER(".6g")]
+    low: Annotated[float | None, NUMBER(".6g", "from")]
+    high: Annotated[float | None, NUMBER(".6g", "to")]
+    refined: Annotated[float | None, NUMBER(".6g", "on finer cells")]
+    start: Annotated[float, NUMBER(".6g", "started at")]
+
+
+@dataclass(frozen=True)
+class ResidualRow:
+    """A measured point (and time), and what the model is off there: by component, or along the normal."""
+
+    at: Mapping[Column, float]
+    off: Annotated[Mapping[str, float], MILLIMETRES("z.4f")]
+
+
+@dataclass(frozen=True, repr=False)
+class Identification(Answer):
+    """unknowns: name → Found; residuals [m], model − measured: (n, 3) of displacements, nan where nothing
+    was measured, or (n,) along the normals at cloud points; noise: s [m]; relative: the largest residual over
+    the largest measurement; converged: whether the search ended at a minimum; runs: whether neighbouring
+    residuals have one sign; explained: whether what is left is small, or noise; starts: of the search; grids:
+    the lattices that were fitted; outliers: rows that do not fit, and the unknowns without them."""
+
+    file_name = "identification"
+    scene: Scene
+    measured: Measured
+    model: str
+    settings: dict[str, Any]
+    unknowns: dict[str, Found]
+    residuals: np.ndarray
+    noise: float
+    relative: float
+    evaluations: int
+    converged: bool
+    warnings: tuple[str, ...]
+    runs: Runs
+    explained: bool
+    starts: int
+    grids: tuple[tuple[int, ...], ...]
+    outliers: tuple[Outlier, ...]
+    without: dict[str, Found]
+
+    @property
+    def contains(self) -> str:
+        """What the intervals know of: the measurements' noise, and the error of the grid or mesh."""
+        if all(u.interval == u.noise_interval for u in self.unknowns.values()):
+            return "noise only"
+        return "noise and grid" if self.model == "lumped" else "noise and mesh"
+
+    def document(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench identify`: SI units, null where nothing was measured."""
+        return {
+            "scene": self.scene.name,
+            "model": self.model,
+            "settings": self.settings,
+            "unknowns": {name: asdict(u) for name, u in self.unknowns.items()},
+            "residuals": self.residuals,
+            "points": self.measured.points,
+            "noise": self.noise,
+            "relative": self.relative,
+            "evaluations": self.evaluations,
+            "converged": self.converged,
+            "explained": self.explained,
+            "runs": {**asdict(self.runs), "probability": self.runs.probability},
+            "starts": self.starts,
+            "grids": [list(grid) for grid in self.grids],
+            "outliers": [asdict(one) for one in self.outliers],
+            "without_outliers": {name: asdict(u) for name, u in self.without.items()},
+            "warnings": list(self.warnings),
+        }
+
+    def tables(self) -> tuple[Table, ...]:
+        """The unknowns, and what does not fit, by point."""
+        return self._unknowns(), self._residuals(
+            np.arange(len(self.residuals)), "Residuals: model − measurement"
+        )
+
+    def printed(self) -> tuple[Table, ...]:
+        """The unknowns, and the points that fit least, at most SHOWN of them, in the order of the file."""
+        if len(self.residuals) <= SHOWN:
+            return self.tables()
+        size = np.nan_to_num(np.abs(self.residuals)).reshape(len(self.residuals), -1).max(axis=1)
+        caption = f"Residuals (model − measurement): the {SHOWN} points of {len(size)} that fit least"
+        return self._unknowns(), self._residuals(np.sort(np.argsort(size)[-SHOWN:]), caption)
+
+    def _unknowns(self) -> Table:
+        rows = []
+        for name, u in self.unknowns.items():
+            row = UnknownRow(name, unit(u.unit), u.value, *u.interval, u.refined, u.start)
+            hidden = dict.fromkeys(("value", "low", "high", "refined"))
+            rows.append(row if u.determined else replace(row, **hidden))
+        return Table.of(UnknownRow, rows, f"Values and their 95 % intervals, of {self.contains}", "unknowns")
+
+    def _residuals(self, points: np.ndarray, caption: str) -> Table:
+        flat = isinstance(self.measured, Displacements)
+        names = [f"off in u{axis}" for axis in "xyz"] if flat else ["distance"]
+        columns = [MILLIMETRES("z.2f", axis) for axis in "xyz"]
+        at = self.measured.points
+        if isinstance(self.measured, Displacements) and self.measured.time is not None:
+            columns, at = [SECONDS(".4f", "t"), *columns], np.column_stack([self.measured.time, at])
+        off = self.residuals.reshape(len(self.residuals), -1)
+        rows = (
+            ResidualRow(dict(zip(columns, at[i], strict=False)), dict(zip(names, off[i], strict=True)))
+            for i in points
+        )
+        return Table.of(ResidualRow, rows, caption, "residuals")
+
+    def figures(self) -> tuple[Picture, ...]:
+        compose = "comparisons.identification.figure:compose"
+        return (Picture("identification", compose, (self,), formats=RASTER),)
+
+    def notes(self) -> tuple[str, ...]:
+        return *told(self.settings), self._explanation()
+
+    def _explanation(self) -> str:
+        """What was fitted with what, how well, and what the interval assumes."""
+        size = "×".join(map(str, self.settings.get("grid") or self.settings["elements"]))
+        tried = " → ".join("×".join(map(str, grid)) for grid in self.grids)
+        cells = f" (cells chosen by the fit: {tried})" if len(self.grids) > 1 else ""
+        contained = {
+            "noise only": "",
+            "noise and grid": "contains the grid's error, twice the step to finer cells, and ",
+            "noise and mesh": "contains the mesh's error, by a look at elements twice as large, and ",
+        }[self.contains]
+        return (
+            f"{self.model} {size}{cells}: residuals have a standard deviation of {1e3 * self.noise:.3g} mm, "
+            f"{100 * self.noise / self.measured.scale:.3g} % of the largest measurement, and reach "
+            f"{100 * self.relative:.3g} %. The interval assumes independent noise of equal variance and "
+            f"{contained}leaves out other model error."
+        )
+
+    def complaints(self) -> list[str]:
+        ended = f"the search did not end within {self.evaluations} evaluations"
+        return [*self.warnings, *([] if self.converged else [ended])]
+
+    def choices(self) -> dict[str, Any]:
+        return self.settings
+
+    @property
+    def succeeded(self) -> bool:
+        return self.converged

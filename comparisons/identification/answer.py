@@ -133,7 +133,7 @@ class Identification(Answer):
         rows = []
         for name, u in self.unknowns.items():
             row = UnknownRow(name, unit(u.unit), u.value, *u.interval, u.refined, u.start)
-            hidden = dict.fromkeys(("value", "low", "high", "refined"))
+            hidden: dict[str, Any] = dict.fromkeys(("value", "low", "high", "refined"))
             rows.append(row if u.determined else replace(row, **hidden))
         return Table.of(UnknownRow, rows, f"Values and their 95 % intervals, of {self.contains}", "unknowns")
 

@@ -13,12 +13,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
 from fem_reference.edge_layer import missed_by
 from fem_reference.uncertainty import ASSUMED_ORDER, OWN_ORDER, Uncertainty, estimate
+from sheetbench.answers.table import PERCENT, Column
 from sheetbench.scenes import Scene, Status, comparable
 
 DIGITS = 1e-5  # of the largest displacement
@@ -83,15 +84,20 @@ def _answered(row: dict[str, Any]) -> bool:
 
 @dataclass(frozen=True)
 class Pair:
-    """How far b is from a: the largest component of their difference, as a fraction of a's largest
+    """How far b is from a on a scene: the largest component of their difference, as a fraction of a's largest
     displacement; bars: both bars of that component, likewise; distinguishable_at: where
     they differ by more."""
 
-    a: str
-    b: str
-    difference: float
-    bars: float
-    distinguishable_at: tuple[str, ...]
+    scene: str
+    a: Annotated[str, Column("model")]
+    b: Annotated[str, Column("and")]
+    difference: Annotated[float, PERCENT("z.3f", "differ by")]
+    bars: Annotated[float, PERCENT(".2g")]
+    distinguishable_at: Annotated[tuple[str, ...], Column("told apart at", none="nowhere")]
+
+    def document(self) -> dict[str, Any]:
+        """For JSON."""
+        return {"apart" if key == "distinguishable_at" else key: value for key, value in vars(self).items()}
 
 
 def pair(a: Convergence, b: Convergence, probes: Sequence[str]) -> Pair | None:
@@ -107,4 +113,4 @@ def pair(a: Convergence, b: Convergence, probes: Sequence[str]) -> Pair | None:
     at = np.unravel_index(np.argmax(np.abs(off)), off.shape)
     bars = a.uncertainty.bar[at] + b.uncertainty.bar[at]
     names = tuple(name for name, differs in zip(probes, differ, strict=True) if differs)
-    return Pair(a.name, b.name, float(np.abs(off[at])) / size, float(bars) / size, names)
+    return Pair(a.scene, a.name, b.name, float(np.abs(off[at])) / size, float(bars) / size, names)

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import combinations
 from typing import Any
 
-from comparisons.crosscheck import tables
-from comparisons.crosscheck.convergence import Convergence, Pair, pair
+from comparisons.crosscheck.answer import Crosscheck
+from comparisons.crosscheck.convergence import Convergence
 from comparisons.external.installed import InstalledCode
 from comparisons.models import plugins
 from comparisons.models.candidate import Candidate
@@ -16,85 +14,8 @@ from comparisons.models.registry import check
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
-from sheetbench.answers.report import Report
-from sheetbench.choices import REFERENCE, REFERENCES
+from sheetbench.choices import REFERENCES
 from sheetbench.scenes import Scene, Status
-
-
-@dataclass(frozen=True)
-class Crosscheck:
-    """The convergence of every model, by scene; codes: the external ones, absent too."""
-
-    scenes: tuple[Scene, ...]
-    convergences: dict[str, tuple[Convergence, ...]]
-    codes: tuple[InstalledCode, ...]
-
-    def against(self, scene: str) -> Convergence | None:
-        """Return what the other models of a scene are compared with: the shell, else the first with a bar."""
-        with_bar = [one for one in self.convergences[scene] if one.uncertainty is not None]
-        return next((one for one in with_bar if one.name == REFERENCE), with_bar[0] if with_bar else None)
-
-    def pairs(self, scene: Scene) -> list[Pair]:
-        """Every two models of a scene that have bars."""
-        both = combinations(self.convergences[scene.name], 2)
-        every = (pair(a, b, list(scene.probes)) for a, b in both)
-        return [one for one in every if one is not None]
-
-    def as_dict(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench crosscheck`: metres, seconds, fractions."""
-        return {
-            "solutions": [
-                _document(scene, one) for scene in self.scenes for one in self.convergences[scene.name]
-            ],
-            "pairs": [
-                {
-                    "scene": scene.name,
-                    "a": one.a,
-                    "b": one.b,
-                    "difference": one.difference,
-                    "bars": one.bars,
-                    "apart": one.distinguishable_at,
-                }
-                for scene in self.scenes
-                for one in self.pairs(scene)
-            ],
-            "judges": [
-                {
-                    "name": one.code.name,
-                    "version": one.version,
-                    "status": "absent" if one.version is None else "found",
-                    "needs": one.code.needs,
-                }
-                for one in self.codes
-            ],
-            "failed": self.failures,
-        }
-
-    @property
-    def failures(self) -> list[str]:
-        """A sentence for every mesh that has no answer without having been refused."""
-        every = (one for of in self.convergences.values() for one in of)
-        return [f"{one.scene}, {one.name}: {failure}" for one in every for failure in one.failures]
-
-    def report(self) -> Report:
-        """Return the tables and notes of the cross-check."""
-        return tables.report(self)
-
-
-def _document(scene: Scene, one: Convergence) -> dict[str, Any]:
-    """A model's finest answer as `compare` has it, with its bars."""
-    row = {
-        key: value for key, value in one.finest.items() if key not in ("displacement", "size", "traceback")
-    }
-    row |= {"scene": scene.name, "model": one.name, "version": one.version, "meshes": one.meshes}
-    row |= {"failed": one.failures}
-    if "displacement" in one.finest:
-        row["probes"] = dict(zip(scene.probes, one.finest["displacement"], strict=True))
-    if (bar := one.uncertainty) is not None:
-        row["uncertainty"] = dict(zip(scene.probes, bar.bar, strict=True))
-        row["extrapolated"] = dict(zip(scene.probes, bar.extrapolated, strict=True))
-        row["order"] = bar.overall_order
-    return row
 
 
 def crosscheck(

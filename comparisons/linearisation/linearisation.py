@@ -1,132 +1,22 @@
-"""A scene's lattice, linear about its equilibrium: matrices, state space of the lowest modes or of the most
-important states, their files."""
+"""Linearise a scene's lattice about its equilibrium: the lowest modes or the most important states."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
 import numpy as np
 
-from comparisons.linearisation import tables
+from comparisons.linearisation.answer import Linearisation
 from comparisons.models.grading import Grading
 from comparisons.models.grids import GridLike
 from comparisons.models.registry import check
 from comparisons.models.sizes import size
 from comparisons.models.springs import LatticeSpec
 from comparisons.report.work import Progress, Work, silent
-from sheetbench.answers.report import Report
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.files import whole
-from sheetbench.scenes import AnyScene, Scene, scene_of
-
-if TYPE_CHECKING:
-    from lumped import Balanced, Linear, StateSpace
+from sheetbench.scenes import AnyScene, scene_of
 
 MODES = 20
 BALANCED = "balanced"
 ABOUT = ("deformed", "flat")
-
-
-@dataclass(frozen=True, eq=False)
-class Linearisation:
-    """matrices: of all unknowns; modal: state space of the modes asked for; balanced: what it was reduced to,
-    if it was; label: of the lattice."""
-
-    scene: Scene
-    label: str
-    about: str
-    matrices: Linear
-    modal: StateSpace
-    balanced: Balanced | None = None
-
-    @property
-    def space(self) -> StateSpace:
-        """The state space that is shown and written."""
-        return self.modal if self.balanced is None else self.balanced.space
-
-    @cached_property
-    def damping_ratios(self) -> np.ndarray:
-        """−Re s/|s| of the poles above the real axis, or on it."""
-        upper = self.upper
-        return -upper.real / np.abs(upper)
-
-    @property
-    def upper(self) -> np.ndarray:
-        """The poles of each pair above the real axis, and those on it [rad/s]."""
-        poles = self.space.poles
-        found: np.ndarray = poles[poles.imag >= 0.0]
-        return found
-
-    def as_dict(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench linearise`: SI units."""
-        poles, matrices = self.space.poles, self.matrices
-        return {
-            "scene": self.scene.document(),
-            "label": self.label,
-            "about": self.about,
-            "unknowns": matrices.mass.shape[0],
-            "poles": np.column_stack([poles.real, poles.imag]),
-            "frequencies_hz": self.space.frequencies,
-            "inputs": list(matrices.inputs),
-            "outputs": list(matrices.outputs),
-            "jacobian": matrices.jacobian,
-            **self._reduction,
-        }
-
-    @property
-    def _reduction(self) -> dict[str, Any]:
-        """Of the balanced truncation, where there is one."""
-        if self.balanced is None:
-            return {}
-        return {"hankel": self.balanced.hankel, "bound": self.balanced.bound, "scale": self.balanced.scale}
-
-    def arrays(self) -> dict[str, Any]:
-        """What `linear.mat` and `linear.npz` hold; matrices of all unknowns are sparse."""
-        matrices, space = self.matrices, self.space
-        return {
-            "M": matrices.mass,
-            "C": matrices.damping,
-            "K": matrices.stiffness,
-            "F": matrices.force,
-            "F_rate": matrices.force_rate,
-            "G": matrices.output,
-            "H": matrices.direct,
-            "jacobian": matrices.jacobian,
-            "ss_A": space.a,
-            "ss_B": space.b,
-            "ss_C": space.c,
-            "ss_D": space.d,
-            "frequencies_hz": space.frequencies,
-            "inputs": np.array(matrices.inputs),
-            "outputs": np.array(matrices.outputs),
-            **self._reduction,
-        }
-
-    def write_npz(self, path: Path) -> None:
-        """Write the arrays for NumPy, a sparse matrix M as M_data, M_indices, M_indptr of its columns."""
-        parts: dict[str, Any] = {}
-        for name, value in self.arrays().items():
-            if hasattr(value, "indptr"):
-                parts |= {f"{name}_{part}": getattr(value, part) for part in ("data", "indices", "indptr")}
-            else:
-                parts[name] = value
-        with whole(path) as partial:
-            np.savez(partial, **parts)
-
-    def write_mat(self, path: Path) -> None:
-        """Write the arrays for MATLAB and Octave: there ss(ss_A, ss_B, ss_C, ss_D)."""
-        from scipy.io import savemat
-
-        texts = {name: np.array(list(self.arrays()[name]), dtype=object) for name in ("inputs", "outputs")}
-        with whole(path) as partial:
-            savemat(partial, {**self.arrays(), **texts}, oned_as="column")
-
-    def report(self) -> Report:
-        """What is shown of it."""
-        return tables.report(self)
 
 
 def linearise(

@@ -32,6 +32,8 @@ def kinks(scene: Scene) -> list[float]:
         load.history for load in (scene.gravity, *scene.loads) if load is not None
     ]
     tables += [*(support.motion for support in scene.supports), *scene.motions().values()]
+    commands = (getattr(actuator, "curvature", None) for actuator in scene.actuators)
+    tables += [command for command in commands if isinstance(command, OverTime)]
     return sorted({time for table in tables if table is not None for time in table.time if time > 0.0})
 
 

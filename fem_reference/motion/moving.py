@@ -22,6 +22,7 @@ import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 
 from fem_reference.motion.loads import Factor, factor_at, single_loads
+from fem_reference.motion.rods import MovingRods, at_rest
 from fem_reference.shell.element import Element, weighed
 from fem_reference.solid.element import Bricks
 from fem_reference.surface.loads import Follower
@@ -56,7 +57,8 @@ class Energies(NamedTuple):
 class Moving(ABC):
     """A reference in motion: N coordinates q [m, -] of n plan nodes, unknowns x; times in s, forces in N.
 
-    conservative: whether the law of strain is linear in Green's strain.
+    conservative: whether the law of strain is linear in Green's strain. drag: what `damping_rate` acts on,
+    the sheet's mass without that of the chains, `rods`.
     """
 
     label: str
@@ -64,13 +66,15 @@ class Moving(ABC):
     settings: dict[str, Any]
     conservative: bool
     mass: csr_matrix
+    drag: csr_matrix
+    rods: MovingRods
     nodes: int
     unknowns: int
 
     def __init__(self, scene: Scene):
         require_no_branches(scene.material, "a moving reference")
         supports = tuple(support.replace(motion=None) for support in scene.supports)
-        self.still = scene.replace(loads=(), gravity=None, supports=supports)
+        self.still = at_rest(scene.replace(loads=(), gravity=None, supports=supports))
         self.tau, self.alpha = scene.material.dashpot_time, scene.material.damping_rate
         self.dead: list[tuple[np.ndarray, Factor]] = []
         self.followers: list[tuple[Follower, Factor]] = []
@@ -80,11 +84,18 @@ class Moving(ABC):
             if s.motion is not None
         ]
 
+    def carry(self, rods: MovingRods) -> None:
+        """Take up the chains, once the sheet has its mass."""
+        self.rods, self.drag = rods, self.mass
+        if rods:
+            self.mass = (self.mass + rods.mass()).tocsr()
+
     def load(self, scene: Scene, loaded: Callable[[Scene], Loaded]) -> None:
         """Take up a scene's loads; loaded: what a scene with one of them has."""
         for alone, factor in single_loads(scene):
-            dead, followers = loaded(alone)
-            self.dead += [(self.on_coordinates(dead), factor)] if dead.any() else []
+            nodal, followers = loaded(alone)
+            dead = self.on_coordinates(nodal) + self.rods.weight(alone)
+            self.dead += [(dead, factor)] if dead.any() else []
             self.followers += [(follower, factor) for follower in followers]
 
     def shift(self, edges: dict[str, tuple[np.ndarray, np.ndarray]], time: float, rate: bool) -> np.ndarray:
@@ -175,12 +186,13 @@ class Moving(ABC):
 
     def forces(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         """g (N,): internal and viscous less external forces."""
-        return self._loaded(self.internal(q, v), q, v, time)
+        return self._loaded(self.internal(q, v) + self.rods.forces(q, v, time), q, v, time)
 
     def mean_forces(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
         """g (N,) of the means of a step from one q to another: their strains' mean, not that of the mean."""
         q, v = 0.5 * (start + end), (end - start) / h
-        return self._loaded(self.mean_internal(start, end, h), q, v, time)
+        on_rods = self.rods.mean_forces(start, end, h, time)
+        return self._loaded(self.mean_internal(start, end, h) + on_rods, q, v, time)
 
     def _loaded(self, out: np.ndarray, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         """Internal forces (N,) less loads, and the drag."""
@@ -188,20 +200,24 @@ class Moving(ABC):
             out = out - factor_at(factor, time) * force
         for follower, factor in self.followers:
             out = out - factor_at(factor, time) * self.following(q, follower)
-        return out + self.alpha * (self.mass @ v) if self.alpha else out
+        return out + self.alpha * (self.drag @ v) if self.alpha else out
 
-    def energies(self, q: np.ndarray, v: np.ndarray) -> Energies:
+    def energies(self, q: np.ndarray, v: np.ndarray, time: float) -> Energies:
         """Energies of a state."""
         potential = -sum(float(force @ q) for force, factor in self.dead if factor is None)
-        return Energies(0.5 * float(v @ (self.mass @ v)), self.elastic(q), potential)
+        elastic = self.elastic(q) + self.rods.energy(q, time)
+        return Energies(0.5 * float(v @ (self.mass @ v)), elastic, potential)
 
     def spent(self, start: Motion, end: Motion) -> np.ndarray:
         """Energy [J] that dampers dissipate in a step, and work [J] of what moves or acts over time, (2,):
         mean forces times changes, which a rate that jumps at its start does not swell."""
         h, step, middle = end.time - start.time, end.q - start.q, 0.5 * (start.q + end.q)
-        damped = self.tau * self.stiffness_of(middle, step) + self.alpha * float(step @ (self.mass @ step))
+        damped = self.tau * self.stiffness_of(middle, step) + self.alpha * float(step @ (self.drag @ step))
+        damped += self.rods.dissipated(start.q, end.q)
         exerted, half_way = 0.5 * (start.exerted + end.exerted), 0.5 * (start.time + end.time)
         work = float(self.of_supports(exerted) @ step)
+        for q in (start.q, end.q):  # of commands, which bend the chains' shape at rest
+            work += 0.5 * (self.rods.energy(q, end.time) - self.rods.energy(q, start.time))
         for force, factor in self.dead:
             if factor is not None:
                 work += factor_at(factor, half_way) * float(force @ step)

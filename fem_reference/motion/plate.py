@@ -8,8 +8,11 @@ import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, identity
 
 from fem_reference.motion.moving import Moving
+from fem_reference.motion.rods import MovingRods
 from fem_reference.plate import statics as plate
-from fem_reference.surface import loads
+from fem_reference.plate.rods import PlateRods
+from fem_reference.surface import loads, rod
+from fem_reference.surface.bound_rods import BoundRods, on_surface
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
 from sheetbench.errors import BadInput
@@ -18,7 +21,8 @@ from sheetbench.scenes import EdgeMotion, FieldMesh, Scene
 
 
 class MovingPlate(Moving):
-    """The plate of a scene in motion; q: ux, uy, w and the director's tilts, (n, 5)."""
+    """The plate of a scene in motion; q: ux, uy, w and the director's tilts, (n, 5), then two
+    components of every m of the rods."""
 
     model, conservative = "plate", True
 
@@ -30,28 +34,38 @@ class MovingPlate(Moving):
         self.label = f"plate {counts[0]} × {counts[1]}"
         self.settings: dict[str, Any] = {"elements": list(counts), "graded": graded}
         self._plate = plate.Plate.on(mesh_of(scene, counts, graded))
-        self._supports, self._held, self._values = plate.constrain(self.still, self._plate)
-        self._stiffness = plate.stiffness_matrix(scene, self._plate)
-        self.mass = plate.mass_matrix(scene, self._plate)
+        mesh, nodes, on = self._plate.basis.mesh, self._plate.nodes, self._plate.elements.nodes
+        sides, self.nodes = rod.sides(scene, mesh, on, nodes), len(nodes)
+
+        def bound(alone: Scene) -> BoundRods:
+            return on_surface(rod.of_scene(alone, nodes, sides), len(nodes))
+
+        along = bound(self.still)
+        rods = PlateRods.on(along, len(nodes))
+        self._supports, held, values = plate.constrain(self.still, self._plate, rods=along.rods)
+        self._held = np.concatenate([held.ravel(), rods.held])
+        self._values = np.concatenate([values.ravel(), np.zeros(len(rods.held))])
+        size = self._held.size
+        self.mass = _widened(plate.mass_matrix(scene, self._plate), size)
+        self.carry(MovingRods(scene, bound, lambda _: rods.unknowns, size, linear=True))
+        self._stiffness = _widened(plate.stiffness_matrix(scene, self._plate), size)
         self._free = np.flatnonzero(~self._held)
-        self.nodes, self.unknowns = len(self._held), len(self._free)
-        self._basis = identity(self._held.size, format="csc")[:, self._free]
-        mesh, nodes = self._plate.basis.mesh, self._plate.nodes
-        self.load(scene, lambda alone: loads.of_scene(alone, mesh, self._plate.elements.nodes, nodes))
+        self.unknowns = len(self._free)
+        self._basis = identity(size, format="csc")[:, self._free]
+        self.load(scene, lambda alone: loads.of_scene(alone, mesh, on, nodes))
 
     def start(self) -> np.ndarray:
-        values = self._values.ravel()
-        return self.placed(solve_free(self._stiffness, np.zeros_like(values), values, self._free), 0.0)
+        stiffness = self._whole(0.0, 0.0)
+        return self.placed(solve_free(stiffness, np.zeros_like(self._values), self._values, self._free), 0.0)
 
     def placed(self, q: np.ndarray, time: float) -> np.ndarray:
-        target = self._values.copy()
-        target[:, :3] += self.shift(self._supports.edges, time, rate=False)
-        return np.where(self._held, target, q.reshape(-1, 5)).ravel()
+        return np.where(self._held, self._values + self._shift(time, rate=False), q)
 
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
-        target = np.zeros_like(self._values)
-        target[:, :3] = self.shift(self._supports.edges, time, rate=True)
-        return np.where(self._held, target, v.reshape(-1, 5)).ravel()
+        return np.where(self._held, self._shift(time, rate=True), v)
+
+    def _shift(self, time: float, rate: bool) -> np.ndarray:
+        return self.on_coordinates(self.shift(self._supports.edges, time, rate))
 
     def basis(self, q: np.ndarray) -> csc_matrix:
         return self._basis
@@ -59,21 +73,31 @@ class MovingPlate(Moving):
     def tangent(
         self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
     ) -> csr_matrix:
-        whole = (by_a + self.alpha * by_v) * self.mass + (1.0 + self.tau * by_v) * self._stiffness
-        return whole[self._free][:, self._free]
+        return self._whole(by_a, by_v)[self._free][:, self._free]
+
+    def _whole(self, by_a: float, by_v: float) -> csr_matrix:
+        """by_a M + by_v C + K of all coordinates."""
+        sheet = (by_a + self.alpha * by_v) * self.drag + (1.0 + self.tau * by_v) * self._stiffness
+        if not self.rods:
+            return sheet
+        flat = np.zeros(self._held.size)
+        return (sheet + self.rods.matrix(self.rods.tangent(flat, flat, 0.0, by_a, by_v))).tocsr()
 
     def solver(self) -> DirectSolver:
         return DirectSolver()
 
     def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
-        return np.column_stack([dead, np.zeros((len(dead), 2))]).ravel()
+        every = np.zeros(self._held.size)
+        self.displacement(every)[:] = dead
+        return every
 
     def internal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
         return np.asarray(self._stiffness @ (q + self.tau * v))
 
     def following(self, q: np.ndarray, load: Follower) -> np.ndarray:
         """On the flat sheet."""
-        return plate.on_flat_sheet(self._plate, [load]).ravel()
+        on_sheet = plate.on_flat_sheet(self._plate, [load]).ravel()
+        return np.pad(on_sheet, (0, self._held.size - on_sheet.size))
 
     def elastic(self, q: np.ndarray) -> float:
         return 0.5 * self.stiffness_of(q, q)
@@ -82,17 +106,23 @@ class MovingPlate(Moving):
         return float(step @ (self._stiffness @ step))
 
     def displacement(self, q: np.ndarray) -> np.ndarray:
-        return q.reshape(-1, 5)[:, :3]
+        return q[: 5 * self.nodes].reshape(-1, 5)[:, :3]
 
     def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
         return self._plate.sample(displacement, points)
 
     def reactions(self, exerted: np.ndarray) -> dict[str, np.ndarray]:
-        return self._supports.reactions(exerted.reshape(-1, 5)[:, :3])
+        return self._supports.reactions(self.displacement(exerted))
 
     def mesh(self, displacement: np.ndarray) -> FieldMesh:
         flat = np.column_stack([displacement, np.zeros((len(displacement), 2))])
         return plate.field_mesh(self._plate, flat, {})
+
+
+def _widened(matrix: csr_matrix, size: int) -> csr_matrix:
+    """A matrix with more rows and columns, zero."""
+    pointers = np.pad(matrix.indptr, (0, size - matrix.shape[0]), "edge")
+    return csr_matrix((matrix.data, matrix.indices, pointers), (size, size))
 
 
 def refuse_edge_motions(scene: Scene, model: str) -> None:

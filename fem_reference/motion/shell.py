@@ -9,14 +9,16 @@ from scipy.sparse import block_diag, csc_matrix, csr_matrix, kron
 
 from fem_reference.motion.loads import factor_at
 from fem_reference.motion.moving import MovingElements
+from fem_reference.motion.rods import MovingRods, components_of
 from fem_reference.shell.directors import multiplier
 from fem_reference.shell.element import Element, add_tangents
 from fem_reference.shell.reduction import projected
 from fem_reference.shell.state import State
 from fem_reference.shell.statics import discretise, field_mesh, trace_on
 from fem_reference.shell.structure import UP
-from fem_reference.surface import loads
+from fem_reference.surface import loads, rod
 from fem_reference.surface.biquadratic import AT_GAUSS
+from fem_reference.surface.bound_rods import BoundRods, on_surface
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
@@ -28,7 +30,8 @@ from sheetbench.scenes.kinematics import MovedEdge, bent_or_tilted
 
 
 class MovingShell(MovingElements):
-    """The shell of a scene in motion; q: displacements and changes of directors, (2, n, 3)."""
+    """The shell of a scene in motion; q: displacements and changes of directors d, then of the
+    rods' m, (2 n + p, 3)."""
 
     model = "shell"
     element: Element
@@ -43,11 +46,18 @@ class MovingShell(MovingElements):
         self._structure, self._nodes = discretise(self._plan, self.still, law=law)
         structure, thickness = self._structure, scene.sheet.thickness
         self.element, self._on, self.nodes = structure.element, structure.element_nodes, structure.count
-        self._held = np.array([structure.supports.position, np.zeros((self.nodes, 3), bool)])
-        self._held[1] = structure.supports.director[:, None]
+        turns = np.concatenate([structure.supports.director, structure.rods.held])
+        self._held = np.concatenate([structure.supports.position, np.tile(turns, (3, 1)).T])
+        self._upright = np.concatenate([np.tile(UP, (self.nodes, 1)), structure.rods.own])
         self._set_mass(scene.material.density * thickness, thickness**2 / 12.0)
         self.unknowns = structure.unknowns
         self._set_basis()
+        sides = rod.sides(scene, self._plan, self._on, self._nodes)
+
+        def bound(alone: Scene) -> BoundRods:
+            return on_surface(rod.of_scene(alone, self._nodes, sides), self.nodes)
+
+        self.carry(MovingRods(scene, bound, components_of, self._held.size))
         self.load(scene, lambda alone: loads.of_scene(alone, self._plan, self._on, self._nodes))
         moved = structure.supports.moved.values()
         self._edges = [(d.edge, d.nodes, d.points) for d in moved if isinstance(d.edge, MovedEdge)]
@@ -56,14 +66,16 @@ class MovingShell(MovingElements):
         value = AT_GAUSS[0]
         products = np.einsum("eg,gi,gj->eij", per_area * self.element.areas, value, value)
         by_axis = kron(Pattern(self._on, size=self.nodes).matrix(products), np.eye(3))
-        self.mass = block_diag([by_axis, rotary * by_axis], format="csr")
+        none = csr_matrix((self._held.size - 2 * by_axis.shape[0],) * 2)
+        self.mass = block_diag([by_axis, rotary * by_axis, none], format="csr")
         self._on_places = np.einsum("eij,ab->eiajb", products, np.eye(3)).reshape(-1, 27, 27)
         self._on_turns = rotary * products
 
     def _set_basis(self) -> None:
         """Where the entries of Z lie: a column has one of a displacement, three of a rotation."""
-        number = self._structure.number
-        node, field = np.nonzero(number >= 0)  # in the order of the unknowns
+        node, field = np.nonzero(self._structure.number >= 0)  # in the order of the unknowns
+        of_rod, tangent = np.nonzero(self._structure.turns[self.nodes :] >= 0)
+        node, field = np.append(node, self.nodes + of_rod), np.append(field, 3 + tangent)
         self._turn = node[field >= 3], field[field >= 3] - 3
         widths = np.where(field < 3, 1, 3)
         self._starts = np.concatenate([[0], np.cumsum(widths)])
@@ -75,48 +87,50 @@ class MovingShell(MovingElements):
         state = self._structure.rest()
         if bent_or_tilted(self.still.supports, self.still.sheet):
             state, _, _ = trace_on(self.still, self._structure)
-        return self.placed(state.change.ravel(), 0.0)
+        return self.placed(np.append(state.change, state.aside), 0.0)
 
     def placed(self, q: np.ndarray, time: float) -> np.ndarray:
         supports = self._structure.supports
-        target = supports.change(1.0)
-        target[0] += self.shift(supports.edges, time, rate=False)
+        target, n = np.zeros(self._held.shape), self.nodes
+        target[: 2 * n] = supports.change(1.0).reshape(-1, 3)
+        target[:n] += self.shift(supports.edges, time, rate=False)
         for edge, nodes, points in self._edges:
             placed = edge.placed(points, 1.0, time)
-            target[0, nodes], target[1, nodes] = placed.displacement, placed.director
+            target[nodes], target[n + nodes] = placed.displacement, placed.director
         return self._of_unit_directors(np.where(self._held, target, q.reshape(target.shape)))
 
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         rate = np.where(self._held, 0.0, v.reshape(self._held.shape))
-        rate[0] += self.shift(self._structure.supports.edges, time, rate=True)
+        rate[: self.nodes] += self.shift(self._structure.supports.edges, time, rate=True)
         for edge, nodes, points in self._edges:
             low, high = (edge.velocity(points, np.full(len(points), at), time) for at in (0.0, 1.0))
-            rate[0, nodes], rate[1, nodes] = low, high - low
-        directors = self._directors(q)
-        rate[1] -= np.einsum("nc,nc->n", rate[1], directors)[:, None] * directors
+            rate[nodes], rate[self.nodes + nodes] = low, high - low
+        directors, turns = self._directors(q), rate[self.nodes :]
+        turns -= np.einsum("nc,nc->n", turns, directors)[:, None] * directors
         return rate.ravel()
 
     def centripetal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
         """−|ḋ|² d of the directors that are free."""
-        rate = v.reshape(self._held.shape)[1]
+        rate = v.reshape(-1, 3)[self.nodes :]
         inward = -np.sum(rate**2, axis=1)[:, None] * self._directors(q)
-        return np.array([np.zeros_like(rate), np.where(self._held[1], 0.0, inward)]).ravel()
+        turns = np.where(self._held[self.nodes :], 0.0, inward)
+        return np.append(np.zeros((self.nodes, 3)), turns)
 
     def basis(self, q: np.ndarray) -> csc_matrix:
         data = np.ones(len(self._rows))
         node, tangent = self._turn
         data[self._turning] = self._frames(q)[node, :, tangent].ravel()
-        return csc_matrix((data, self._rows, self._starts), (6 * self.nodes, self.unknowns))
+        return csc_matrix((data, self._rows, self._starts), (self._held.size, self.unknowns))
 
     def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
         """Dead forces turn no director."""
-        return np.array([dead, np.zeros_like(dead)]).ravel()
+        return np.pad(dead.ravel(), (0, self._held.size - dead.size))
 
     def following(self, q: np.ndarray, load: Follower) -> np.ndarray:
         return self._structure.of_follower(self.element.reference + self.gather(q), load).ravel()
 
     def gather(self, q: np.ndarray) -> np.ndarray:
-        return self._structure.gather(q.reshape(2, -1, 3))
+        return self._structure.gather(q)
 
     def scatter(self, pull: np.ndarray) -> np.ndarray:
         return self._structure.scatter(pull).ravel()
@@ -131,11 +145,10 @@ class MovingShell(MovingElements):
         change = self.gather(q)
         vectors, (strain, rate) = self.element.reference + change, self.strained(change, v)
         moduli, frames = (1.0 + by_v * self.tau) * self.element.moduli(strain), self._frames(q)
-        along = multiplier(self._directors(q), residual.reshape(2, -1, 3)[1])
-        number, pattern = self._structure.number, self._structure.pattern
-        on_turns = np.zeros(number.shape)
-        on_turns[:, 3:] = along[:, None]
-        data, slots = pattern.zeros(on_turns[number >= 0]), pattern.slots[0]
+        along = multiplier(self._directors(q), residual.reshape(-1, 3)[self.nodes :])
+        pattern, on_turns = self._structure.pattern, np.zeros(self.unknowns)
+        on_turns[np.diff(self._starts) == 3] = along[self._turn[0]]
+        data, slots = pattern.zeros(on_turns), pattern.slots[0]
         add_tangents(data, slots, self.element, vectors, moduli, self.stress(strain, rate), self._on, frames)
         of_elements, inertia = frames[self._on], by_a + self.alpha * by_v
         blocks = np.zeros(slots.shape)
@@ -148,34 +161,39 @@ class MovingShell(MovingElements):
             by_shape = projected(follower.tangent(vectors[on]), of_elements[on])
             blocks[on] -= factor_at(factor, time) * by_shape
         add_blocks(data, slots, blocks)
+        if self.rods:
+            onto, sides = self._structure.onto_rods(frames), self.rods.tangent(q, v, time, by_a, by_v)
+            add_blocks(data, pattern.slots[1], onto.swapaxes(1, 2) @ sides @ onto)
         return pattern.with_data(data)
 
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
-        return self._of_unit_directors((q + step).reshape(2, -1, 3))
+        return self._of_unit_directors((q + step).reshape(-1, 3))
 
     def _of_unit_directors(self, change: np.ndarray) -> np.ndarray:
-        """q (N,) of changes (2, n, 3) with those directors that are free brought to unit length."""
-        directors = change[1] + UP
-        unit = directors / np.linalg.norm(directors, axis=1)[:, None] - UP
-        return np.array([change[0], np.where(self._held[1], change[1], unit)]).ravel()
+        """q (N,) of changes (2 n + p, 3) with those directors that are free brought to unit length."""
+        turns = change[self.nodes :]
+        directors = turns + self._upright
+        unit = directors / np.linalg.norm(directors, axis=1)[:, None] - self._upright
+        return np.append(change[: self.nodes], np.where(self._held[self.nodes :], turns, unit))
 
     def solver(self) -> DirectSolver:
         return DirectSolver(all(f.conservative for f, _ in self.followers), self._structure.fronts)
 
     def displacement(self, q: np.ndarray) -> np.ndarray:
-        return q.reshape(2, -1, 3)[0]
+        return q.reshape(-1, 3)[: self.nodes]
 
     def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
         return interpolate(self._plan, self._on, displacement, points)
 
     def reactions(self, exerted: np.ndarray) -> dict[str, np.ndarray]:
-        return self._structure.supports.reactions(exerted.reshape(2, -1, 3)[0])
+        return self._structure.supports.reactions(self.displacement(exerted))
 
     def mesh(self, displacement: np.ndarray) -> FieldMesh:
         return field_mesh(self._nodes, self._on, displacement, np.tile(UP, (self.nodes, 1)))
 
     def _directors(self, q: np.ndarray) -> np.ndarray:
-        return q.reshape(2, -1, 3)[1] + UP
+        return q.reshape(-1, 3)[self.nodes :] + self._upright
 
     def _frames(self, q: np.ndarray) -> np.ndarray:
-        return self._structure.frames(State(q.reshape(2, -1, 3)))
+        vectors, cut = q.reshape(-1, 3), 2 * self.nodes
+        return self._structure.frames(State(vectors[:cut].reshape(2, -1, 3), vectors[cut:]))

@@ -26,7 +26,7 @@ from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import AnyScene, Chain, History, Scene, Status, scene_of
+from sheetbench.scenes import AnyScene, History, Scene, Status, scene_of
 from sheetbench.scenes.quantities import require_positive
 
 MODELS: dict[str, Callable[..., Moving]] = {
@@ -121,9 +121,6 @@ def require_moving(scene: Scene, model: str) -> None:
     """Raise BadInput for a model that does not move, or a scene with what no reference moves."""
     if model not in MODELS:
         raise BadInput(f"reference = '{model}': {listed(MODELS)} can move")
-    for name, actuator in scene.named_actuators().items():
-        if isinstance(actuator, Chain):
-            raise BadInput(f"actuator {name}: a chain moves with the lattice only, with no reference")
 
 
 def _sample_times(scene: Scene, duration: float, every: float | None) -> np.ndarray:
@@ -205,7 +202,7 @@ class _Run:
                 break
             motion = between(start, end, time) if h else end
             so_far = self._spent + spent * ((motion.time - start.time) / h if h else 0.0)
-            self.energies.append([*self._model.energies(motion.q, motion.v), *so_far])
+            self.energies.append([*self._model.energies(motion.q, motion.v, motion.time), *so_far])
             displacement = self._model.displacement(motion.q)
             self.probes.append(self._model.sample(displacement, self._points))
             self.reactions.append(self._model.reactions(motion.exerted))

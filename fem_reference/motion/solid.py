@@ -5,16 +5,19 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csc_matrix, csr_matrix
+from scipy.sparse import block_diag, csc_matrix, csr_matrix, identity
 
 from fem_reference.motion.loads import factor_at
 from fem_reference.motion.moving import MovingElements
 from fem_reference.motion.plate import refuse_edge_motions
+from fem_reference.motion.rods import MovingRods, components_of
 from fem_reference.solid.element import Bricks, tangent
+from fem_reference.solid.rods import on_columns
 from fem_reference.solid.statics import discretise, plan_mesh
 from fem_reference.solid.supports import components, vectors
 from fem_reference.solving.equilibrium import trace
-from fem_reference.surface import loads
+from fem_reference.surface import loads, rod
+from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.choices import STRAIN_LAW
@@ -25,7 +28,8 @@ from sheetbench.scenes.kinematics import bent_or_tilted
 
 
 class MovingSolid(MovingElements):
-    """The solid of a scene in motion; q: displacements of all nodes, (n, levels, 3)."""
+    """The solid of a scene in motion; q: displacements of all nodes, (n, levels, 3), then changes
+    of the rods' own vectors."""
 
     model = "solid"
     element: Bricks
@@ -55,18 +59,31 @@ class MovingSolid(MovingElements):
         products = scene.material.density * self.element.products()
         self._inertia = structure.stack(np.einsum("eij,cd->eicjd", products, np.eye(3)))
         sites = (3 * self._columns.stacks[:, :, None] + np.arange(3)).reshape(len(self._inertia), -1)
-        self.mass = Pattern(sites, size=self._columns.positions.size).matrix(self._inertia)
+        self._cut = self._columns.positions.size
+        self.size = size = self._cut + structure.rods.own.size
+        self.mass = Pattern(sites, size=size).matrix(self._inertia)
         self._bases = structure.supports.bases(1.0)
-        self._basis = structure.supports.basis(1.0).tocsc()[:, np.flatnonzero(structure.free)]
-        plan = self._columns.plan
+        of_columns = structure.supports.basis(1.0).tocsc()[:, np.flatnonzero(structure.free)]
+        self._held_aside = np.repeat(structure.rods.held, 3)
+        aside = identity(len(self._held_aside), format="csc")[:, ~self._held_aside]
+        self._basis = block_diag([of_columns, aside], format="csc")
+        plan, levels = self._columns.plan, self._columns.levels
         of_plan = self._columns.plan_elements, self._columns.plan_nodes
+        sides = rod.sides(scene, plan.mesh, *of_plan)
+
+        def bound(alone: Scene) -> BoundRods:
+            return on_columns(rod.of_scene(alone, self._columns.plan_nodes, sides), self._columns)
+
+        middles = levels * np.arange(3) + self._columns.layers
+        places = np.concatenate([middles, 3 * levels + np.arange(6)])
+        self.carry(MovingRods(scene, bound, components_of, size, places))
         self.load(scene, lambda alone: loads.of_scene(alone, plan.mesh, *of_plan))
 
     def start(self) -> np.ndarray:
         if not bent_or_tilted(self.still.supports, self.still.sheet):
-            return self.placed(np.zeros(self._columns.positions.size), 0.0)
+            return self.placed(np.zeros(self.size), 0.0)
         path = trace(self._structure, DirectSolver(self._structure.symmetric))
-        return self.placed(path.state.displacement.ravel(), 0.0)
+        return self.placed(np.append(path.state.displacement, path.state.aside), 0.0)
 
     def placed(self, q: np.ndarray, time: float) -> np.ndarray:
         target = self._structure.supports.target(1.0) + self._shift(time, rate=False)
@@ -80,9 +97,18 @@ class MovingSolid(MovingElements):
 
     def _holding(self, q: np.ndarray, target: np.ndarray) -> np.ndarray:
         """q with the held components of a target (n, levels, 3)."""
-        gap = components(self._bases, target - q.reshape(self._shape))
+        gap = components(self._bases, target - self._on_sheet(q))
         step = vectors(self._bases, np.where(self._structure.free, 0.0, gap))
-        return q + step.ravel()
+        aside = np.where(self._held_aside, 0.0, q[self._cut :])
+        return np.append(self._on_sheet(q) + step, aside)
+
+    def _on_sheet(self, q: np.ndarray) -> np.ndarray:
+        """The sheet's part (n, levels, 3)."""
+        return q[: self._cut].reshape(self._shape)
+
+    def _padded(self, on_sheet: np.ndarray) -> np.ndarray:
+        """Forces (N,) of those on the sheet (n, levels, 3)."""
+        return np.pad(on_sheet.ravel(), (0, self.size - self._cut))
 
     def basis(self, q: np.ndarray) -> csc_matrix:
         return self._basis
@@ -95,36 +121,41 @@ class MovingSolid(MovingElements):
         moduli = (1.0 + by_v * self.tau) * self.element.moduli(strain)
         bricks = tangent(self.element.gradient(change), moduli, self.stress(strain, rate))
         stiffness = self._structure.stack(bricks) + (by_a + self.alpha * by_v) * self._inertia
-        places = self._structure.surface(self._columns.positions + q.reshape(self._shape))
+        places = self._structure.surface(self._columns.positions + self._on_sheet(q))
         for load, factor in self.followers:
             on = load.elements
             stiffness[on] -= factor_at(factor, time) * self._structure.of_surface(load.tangent(places[on]))
-        return self._structure.pattern.matrix(self._structure.turn(stiffness, self._bases))
+        stiffness = self._structure.turn(stiffness, self._bases)
+        if not self.rods:
+            return self._structure.pattern.matrix(stiffness)
+        onto = self._structure.onto_rods(self._bases)
+        on_rods = onto.swapaxes(1, 2) @ self.rods.tangent(q, v, time, by_a, by_v) @ onto
+        return self._structure.pattern.matrix(stiffness, on_rods)
 
     def solver(self) -> DirectSolver:
         return DirectSolver(not self.followers)
 
     def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
         """Uniform through the thickness."""
-        return (self._columns.averages[0][:, None] * dead[:, None, :]).ravel()
+        return self._padded(self._columns.averages[0][:, None] * dead[:, None, :])
 
     def gather(self, q: np.ndarray) -> np.ndarray:
-        return self._structure.of_bricks(q.reshape(self._shape))
+        return self._structure.of_bricks(self._on_sheet(q))
 
     def scatter(self, pull: np.ndarray) -> np.ndarray:
-        return self._structure.scatter(pull).ravel()
+        return self._padded(self._structure.scatter(pull))
 
     def following(self, q: np.ndarray, load: Follower) -> np.ndarray:
-        return self._structure.of_follower(q.reshape(self._shape), load).ravel()
+        return self._padded(self._structure.of_follower(self._on_sheet(q), load))
 
     def displacement(self, q: np.ndarray) -> np.ndarray:
-        return q.reshape(-1, 3)
+        return self._on_sheet(q).reshape(-1, 3)
 
     def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
         return self._columns.sample(displacement.reshape(self._shape), points)
 
     def reactions(self, exerted: np.ndarray) -> dict[str, np.ndarray]:
-        return self._structure.supports.reactions(exerted.reshape(self._shape), 1.0)
+        return self._structure.supports.reactions(self._on_sheet(exerted), 1.0)
 
     def mesh(self, displacement: np.ndarray) -> FieldMesh:
         return self._columns.field_mesh(displacement.reshape(self._shape))

@@ -213,7 +213,7 @@ class ShellStructure:
         total = residuals + self.scatter(pull)
         if self.rods.rods:
             full = self.rods.elements.tangent(forces.rods.gradient, rod_stress)
-            onto = self._onto_rods(frames)
+            onto = self.onto_rods(frames)
             on_rods = self.rods.elements.product(full, self.rods.gather(step))
             add_blocks(data, self.pattern.slots[1], onto.swapaxes(1, 2) @ full @ onto)
             total += self.rods.scatter(on_rods, self._vectors)
@@ -338,7 +338,7 @@ class ShellStructure:
         out[every[every >= 0]] = np.flatnonzero(every >= 0)
         return out
 
-    def _onto_rods(self, frames: np.ndarray) -> np.ndarray:
+    def onto_rods(self, frames: np.ndarray) -> np.ndarray:
         """∂Q/∂(unknowns) of the rods' sides, (k, 27, 21)."""
         directors = self.rods.sites[:, 3:] - self.count
         fixed = np.tile(np.eye(3), (len(directors), 1, 1))

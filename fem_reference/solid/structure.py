@@ -157,7 +157,7 @@ class SolidStructure:
 
         rod_stress = forces.rods.stress if last.rod_stress is None else last.rod_stress
         full = self.rods.elements.tangent(forces.rods.gradient, rod_stress)
-        onto = self._onto_rods(forces.bases)
+        onto = self.onto_rods(forces.bases)
         moved = self.rods.gather(np.concatenate([step.reshape(-1, 3), np.zeros_like(self.rods.own)]))
         on_rods = self.rods.elements.product(full, moved)
         on_columns, on_aside = self._split(self.rods.scatter(on_rods, len(self.number)))
@@ -202,7 +202,7 @@ class SolidStructure:
         """The change of the rods' vectors (k, 3 levels + 9, 3)."""
         return self.rods.gather(np.concatenate([state.displacement.reshape(-1, 3), state.aside]))
 
-    def _onto_rods(self, bases: np.ndarray) -> np.ndarray:
+    def onto_rods(self, bases: np.ndarray) -> np.ndarray:
         """Z of the columns of the rods' sides, the identity on directors, (k, 9 levels + 27, …)."""
         nodes = self.rods.sites[:, : -DIRECTORS : self.columns.levels] // self.columns.levels
         directors = np.tile(np.eye(3 * DIRECTORS), (len(nodes), 1, 1))

@@ -14,13 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fem_reference.surface.biquadratic import THREE, THREE_WEIGHTS, side_shape
+from fem_reference.surface.biquadratic import SIDE_MASS, THREE, THREE_WEIGHTS, side_shape
 from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.rod import Rod
 from fem_reference.surface.supports import Driven
 from sheetbench.scenes import Scene
-
-_MASS = np.array([[4.0, 2.0, -1.0], [2.0, 16.0, 2.0], [-1.0, 2.0, 4.0]]) / 15.0  # ∫ N N dξ
 
 
 class OnEdge(NamedTuple):
@@ -81,7 +79,7 @@ def line_force(rod: Rod, nodal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     count = len(rod.line)
     mass = np.zeros((count, count))
     half = 0.5 * np.linalg.norm(rod.elements.reference[:, 2] - rod.elements.reference[:, 0], axis=1)
-    np.add.at(mass, (rod.places[:, :, None], rod.places[:, None, :]), half[:, None, None] * _MASS)
+    np.add.at(mass, (rod.places[:, :, None], rod.places[:, None, :]), half[:, None, None] * SIDE_MASS)
     line = np.linalg.solve(mass, nodal)
     return line[:, :3], line[:, 3:]
 

@@ -16,6 +16,7 @@ NODES = 9
 TWO = np.array([-1.0, 1.0]) / np.sqrt(3.0)
 THREE = np.array([-1.0, 0.0, 1.0]) * np.sqrt(0.6)
 THREE_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 9.0
+SIDE_MASS = np.array([[4.0, 2.0, -1.0], [2.0, 16.0, 2.0], [-1.0, 2.0, 4.0]]) / 15.0  # ∫ N N dξ
 # Along r and s, the points between which a covariant strain is interpolated; rs is sampled at 3 × 3 first.
 TYING = {"rr": (TWO, THREE), "ss": (THREE, TWO), "rs": (TWO, TWO)}
 

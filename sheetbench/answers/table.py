@@ -55,7 +55,7 @@ class Column:
     """A column's name, the SI unit of its values, and how to show them: unit, scale and format.
 
     Numbers have a format; prose may be broken over lines. A detail is left out on terminals and in LaTeX.
-    words: for true and false.
+    words: for true and false; none: for an empty list.
     """
 
     name: str = ""
@@ -66,13 +66,15 @@ class Column:
     prose: bool = False
     detail: bool = False
     words: tuple[str, str] = ("yes", "no")
+    none: str = ""
 
     def of(self, value: Any) -> Any:
         """A value of a row as a cell: true and false in words, a grid as 9×9×2, texts with commas between."""
         if isinstance(value, bool | np.bool_):
             return self.words[not value]
         if isinstance(value, list | tuple) and not isinstance(value, Unit):
-            return ("×" if all(isinstance(part, int) for part in value) else ", ").join(map(str, value))
+            whole = ("×" if all(isinstance(part, int) for part in value) else ", ").join(map(str, value))
+            return whole or self.none
         return value.item() if isinstance(value, np.generic) else value
 
     @property
@@ -152,12 +154,13 @@ class Table:
     @classmethod
     def of(
         cls, kind: type, rows: Iterable[Any], caption: str, name: str = "", *, fields: Sequence[str] = (),
-        without: Sequence[str] = (), grouped: bool = False, text: str = "",
+        without: Sequence[str] = (), details: Sequence[str] = (), grouped: bool = False, text: str = "",
     ) -> Table:  # fmt: skip
         """The table of rows, dataclasses of one kind: a column a field, or those in `fields`, properties too.
 
         A field's column is in its annotation; without one it holds words under the field's name. A field that
-        holds a mapping is a column a key: a name, or a Column itself. without: fields that are left out.
+        holds a mapping is a column a key: a name, or a Column itself. without: fields that are left out;
+        details: fields for the files alone.
         """
         rows, declared = list(rows), _declared(kind)
         columns: list[Column] = []
@@ -165,7 +168,8 @@ class Table:
         for field in fields or (one.name for one in dataclass_fields(kind)):
             if field in without:
                 continue
-            own, values = [declared[field]], [(getattr(row, field),) for row in rows]
+            declared_one = replace(declared[field], detail=declared[field].detail or field in details)
+            own, values = [declared_one], [(getattr(row, field),) for row in rows]
             if values and isinstance(values[0][0], Mapping):
                 keys, values = list(values[0][0]), [tuple(value.values()) for (value,) in values]
                 own = [k if isinstance(k, Column) else replace(own[0], name=str(k)) for k in keys]

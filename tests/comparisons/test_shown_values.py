@@ -18,7 +18,7 @@ import lumped
 from comparisons.advice import probing
 from comparisons.calibration.tables import moduli
 from comparisons.cli import modes
-from comparisons.linearisation.tables import poles
+from comparisons.linearisation.answer import Linearisation
 from comparisons.models.candidate import Candidate
 from comparisons.modes.spectra import spectra
 from comparisons.reproduction import figure
@@ -117,7 +117,7 @@ def test_unless_told_otherwise_functions_and_commands_ask_for_as_many_modes() ->
 
 def test_a_pole_is_shown_in_hertz_and_its_damping_in_percent() -> None:
     found = SimpleNamespace(upper=np.array([-3.0 + 4.0j]), damping_ratios=np.array([0.6]))
-    row = shown(poles(found))  # type: ignore[arg-type]
+    row = shown(Linearisation._poles(found))  # type: ignore[arg-type]
     assert float(row["frequency"]) == pytest.approx(5.0 / (2.0 * np.pi), rel=1e-4)
     assert (float(row["damping ratio"]), float(row["imaginary"])) == (60.0, 4.0)
 

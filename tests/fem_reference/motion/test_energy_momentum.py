@@ -47,7 +47,11 @@ def test_a_sheet_thrown_and_spinning_keeps_both_momenta_and_its_energy():
     def kept() -> list[np.ndarray]:
         momentum = (model.mass @ motion.v).reshape(2, -1, 3)
         angular = np.cross(rest + motion.q.reshape(2, -1, 3), momentum).sum(axis=(0, 1))
-        return [momentum[0].sum(axis=0), angular, np.array(sum(model.energies(motion.q, motion.v)))]
+        return [
+            momentum[0].sum(axis=0),
+            angular,
+            np.array(sum(model.energies(motion.q, motion.v, motion.time))),
+        ]
 
     before = kept()
     for _ in range(100):

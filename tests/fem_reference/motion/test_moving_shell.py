@@ -10,7 +10,7 @@ from fem_reference.motion.generalised_alpha import GeneralisedAlpha
 from fem_reference.motion.shell import MovingShell
 from fem_reference.verification import settling_strip
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Chain, Gravity, History, Scene, load
+from sheetbench.scenes import Gravity, History, Scene, load
 from sheetbench.scenes.supports import Clamped, Motion
 from sheetbench.scenes.tables import FactorTable
 
@@ -116,9 +116,6 @@ def test_a_sheet_thrown_and_spinning_keeps_its_momentum(strip):
 
 
 def test_what_does_not_move_yet_is_refused(strip):
-    chain = Chain(edge="x1", segments=4, bending_stiffness=1e-3, line_density=0.01, radius=1e-3)
-    with pytest.raises(BadInput, match="chain"):
-        fem_reference.simulate(strip.replace(actuators=(chain,)), "shell", 0.1, elements=2)
     with pytest.raises(BadInput, match="duration"):
         fem_reference.simulate(strip, "shell", -1.0)
     with pytest.raises(BadInput, match="beam"):

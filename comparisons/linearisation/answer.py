@@ -1,0 +1,215 @@
+"""A scene's lattice, linear about its equilibrium: matrices, state space of the lowest modes or of the most
+important states, their files: the answer of `sheetbench linearise`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import numpy as np
+
+from comparisons.linearisation.units import unit_of
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.table import HERTZ, MILLIMETRES, PERCENT, Table, Unit
+from sheetbench.files import whole
+from sheetbench.scenes import Scene
+
+if TYPE_CHECKING:
+    from lumped import Balanced, Linear, StateSpace
+
+ROUNDING = 1e-6  # of what an input moves most
+EXPLANATION = (
+    "at rest: displacement of a probe per unit of an input, by the adjoint of K; factor: of a load or of "
+    "gravity as the scene has it",
+    "files: M, C, K, F, F_rate, G, H and ss_A to ss_D in linear.npz and linear.mat",
+)
+
+
+@dataclass(frozen=True)
+class PoleRow:
+    """A pair of poles."""
+
+    frequency: Annotated[float, HERTZ(".5g")]
+    damping_ratio: Annotated[float, PERCENT("z.3g")]
+    real: Annotated[float, Unit("1/s", "1/s")("z.5g")]
+    imaginary: Annotated[float, Unit("rad/s", "rad/s")(".5g")]
+
+
+@dataclass(frozen=True)
+class InputRow:
+    """What an input moves the probes by at rest, by output."""
+
+    input: str
+    unit: str
+    moved: Annotated[Mapping[str, float], MILLIMETRES("z.4g")]
+
+
+@dataclass(frozen=True)
+class HeightRow(InputRow):
+    """The same along z alone."""
+
+    moved: Annotated[Mapping[str, float], MILLIMETRES("z.3g")]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Linearisation(Answer):
+    """matrices: of all unknowns; modal: state space of the modes asked for; balanced: what it was reduced to,
+    if it was; label: of the lattice."""
+
+    file_name = "linear"
+    scene: Scene
+    label: str
+    about: str
+    matrices: Linear
+    modal: StateSpace
+    balanced: Balanced | None = None
+
+    @property
+    def space(self) -> StateSpace:
+        """The state space that is shown and written."""
+        return self.modal if self.balanced is None else self.balanced.space
+
+    @cached_property
+    def damping_ratios(self) -> np.ndarray:
+        """−Re s/|s| of the poles above the real axis, or on it."""
+        upper = self.upper
+        return -upper.real / np.abs(upper)
+
+    @property
+    def upper(self) -> np.ndarray:
+        """The poles of each pair above the real axis, and those on it [rad/s]."""
+        poles = self.space.poles
+        found: np.ndarray = poles[poles.imag >= 0.0]
+        return found
+
+    def document(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench linearise`: SI units."""
+        poles, matrices = self.space.poles, self.matrices
+        return {
+            "scene": self.scene.document(),
+            "label": self.label,
+            "about": self.about,
+            "unknowns": matrices.mass.shape[0],
+            "poles": np.column_stack([poles.real, poles.imag]),
+            "frequencies_hz": self.space.frequencies,
+            "inputs": list(matrices.inputs),
+            "outputs": list(matrices.outputs),
+            "jacobian": matrices.jacobian,
+            **self._reduction,
+        }
+
+    @property
+    def _reduction(self) -> dict[str, Any]:
+        """Of the balanced truncation, where there is one."""
+        if self.balanced is None:
+            return {}
+        return {"hankel": self.balanced.hankel, "bound": self.balanced.bound, "scale": self.balanced.scale}
+
+    def arrays(self) -> dict[str, Any]:
+        """What `linear.mat` and `linear.npz` hold; matrices of all unknowns are sparse."""
+        matrices, space = self.matrices, self.space
+        return {
+            "M": matrices.mass,
+            "C": matrices.damping,
+            "K": matrices.stiffness,
+            "F": matrices.force,
+            "F_rate": matrices.force_rate,
+            "G": matrices.output,
+            "H": matrices.direct,
+            "jacobian": matrices.jacobian,
+            "ss_A": space.a,
+            "ss_B": space.b,
+            "ss_C": space.c,
+            "ss_D": space.d,
+            "frequencies_hz": space.frequencies,
+            "inputs": np.array(matrices.inputs),
+            "outputs": np.array(matrices.outputs),
+            **self._reduction,
+        }
+
+    def write_npz(self, path: Path) -> None:
+        """Write the arrays for NumPy, a sparse matrix M as M_data, M_indices, M_indptr of its columns."""
+        parts: dict[str, Any] = {}
+        for name, value in self.arrays().items():
+            if hasattr(value, "indptr"):
+                parts |= {f"{name}_{part}": getattr(value, part) for part in ("data", "indices", "indptr")}
+            else:
+                parts[name] = value
+        with whole(path) as partial:
+            np.savez(partial, **parts)
+
+    def write_mat(self, path: Path) -> None:
+        """Write the arrays for MATLAB and Octave: there ss(ss_A, ss_B, ss_C, ss_D)."""
+        from scipy.io import savemat
+
+        texts = {name: np.array(list(self.arrays()[name]), dtype=object) for name in ("inputs", "outputs")}
+        with whole(path) as partial:
+            savemat(partial, {**self.arrays(), **texts}, oned_as="column")
+
+    def heading(self) -> tuple[str, str, str]:
+        """The scene, and how large the system is."""
+        about = "flat sheet" if self.about == "flat" else "equilibrium"
+        inputs, outputs = len(self.matrices.inputs), len(self.matrices.outputs)
+        lead = (
+            f"{self.label}, about the {about}: {self.matrices.mass.shape[0]} unknowns, a state space of "
+            f"{len(self.space.a)} states, {inputs} inputs, {outputs} outputs"
+        )
+        return self.scene.name, self.scene.title, lead
+
+    def tables(self) -> tuple[Table, ...]:
+        """The poles, and what every input moves the probes by at rest."""
+        inputs = zip(self.matrices.inputs, self.matrices.jacobian.T, strict=True)
+        rows = (InputRow(n, unit_of(n), dict(zip(self.matrices.outputs, u, strict=True))) for n, u in inputs)
+        return self._poles(), Table.of(InputRow, rows, "Displacement at rest per unit of input", "jacobian")
+
+    def printed(self) -> tuple[Table, ...]:
+        """The poles, and heights alone."""
+        return self._poles(), self._heights()
+
+    def _poles(self) -> Table:
+        """A row per pair of poles: the slowest first."""
+        pairs = zip(self.upper, self.damping_ratios, strict=True)
+        rows = [PoleRow(abs(p) / (2.0 * np.pi), ratio, p.real, p.imag) for p, ratio in pairs]
+        undamped = not any(self.damping_ratios)
+        caption = "Poles (nothing damps them)" if undamped else "Poles"
+        details = ("damping_ratio", "real") if undamped else ()
+        return Table.of(PoleRow, rows, caption, "poles", details=details)
+
+    def _heights(self) -> Table:
+        """Along z alone, of loads, commands and moved edges, these per millimetre; rounding as 0."""
+        rows = []
+        for name, column in zip(self.matrices.inputs, self.matrices.jacobian.T, strict=True):
+            unit = unit_of(name)
+            scale, shown = (1e-3, "mm") if unit == "m" else (1.0, unit)
+            values = scale * np.where(np.abs(column) > ROUNDING * np.abs(column).max(), column, 0.0)
+            if unit != "N":
+                moved = zip(self.matrices.outputs, values, strict=True)
+                rows.append(HeightRow(name, shown, {at: u for at, u in moved if at.endswith(" uz")}))
+        return Table.of(HeightRow, rows, "Height at rest per unit of input")
+
+    def figures(self) -> tuple[Picture, ...]:
+        """Frequency responses."""
+        return (Picture("responses", "comparisons.linearisation.figure:compose", (self,)),)
+
+    def files(self) -> dict[str, Write]:
+        """The matrices."""
+        return {"linear.npz": self.write_npz, "linear.mat": self.write_mat}
+
+    def choices(self) -> dict[str, Any]:
+        """The lattice, and how many states."""
+        return {"label": self.label, "about": self.about, "states": len(self.space.a)}
+
+    def notes(self) -> tuple[str, ...]:
+        """What a balanced truncation promises, and what the numbers mean."""
+        if self.balanced is None:
+            return EXPLANATION
+        return (
+            f"balanced: {self.balanced.order} of {len(self.modal.a)} states; no input is answered wrong, "
+            f"at any frequency, by more than {self.balanced.bound:.2g} of what it does at rest; exactly "
+            "when slow",
+            *EXPLANATION,
+        )

@@ -71,7 +71,7 @@ class Loads:
             acceleration = np.array(scene.gravity.acceleration)
             dead = self._part(scene.gravity.history).dead
             held = scene.supports or any(getattr(a, "base", "held") != "free" for a in scene.actuators)
-            weighed = masses(scene, lattice, "tributary" if held else assembly.inertia)
+            weighed = masses(scene, lattice, "tributary" if held else assembly.inertia, assembly.cells)
             dead[: lattice.mass_count] += weighed[:, None] * acceleration
             if assembly.coupling is not None:
                 dead[lattice.mass_count :] += assembly.coupling.weight(acceleration)

@@ -52,18 +52,27 @@ import scipy.sparse as sp
 from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene
+from sheetbench.scenes import Cells, Scene
 from sheetbench.scenes.springs import Distribution
 from sheetbench.scenes.supports import held_axes
 
 Inertia = Distribution | Literal["higher-order"]
 
 
-def masses(scene: Scene, lattice: Lattice, distribution: Distribution = "tributary") -> np.ndarray:
-    """Mass of every lumped mass, (n,) [kg]; they add up to the sheet's.
+def masses(
+    scene: Scene, lattice: Lattice, distribution: Distribution = "tributary", cells: Cells | None = None
+) -> np.ndarray:
+    """Mass of every lumped mass, (n,) [kg]; they add up to the sheet's. cells: what they are made of where
+    they differ, of whose masses each corner has a quarter.
 
-    Raises BadInput for an unknown distribution.
+    Raises BadInput for an unknown distribution, and for one that is not tributary of cells that differ.
     """
+    if cells is not None:
+        if distribution != "tributary":
+            raise BadInput(f"masses = {distribution!r}: of cells that differ masses are tributary")
+        quarter = 0.25 * cells.per_area * lattice.cell_areas / lattice.grid[2]
+        plan = sum(np.pad(quarter, ((1 - j, j), (1 - i, i))) for j in range(2) for i in range(2))
+        return np.repeat(np.ravel(plan), lattice.grid[2])
     lx, ly, _ = lattice.spacing
     layers = lattice.grid[2]
     per_area = scene.material.density * scene.sheet.thickness / layers
@@ -75,13 +84,14 @@ def masses(scene: Scene, lattice: Lattice, distribution: Distribution = "tributa
     return per_area * np.repeat(np.outer(y, x).ravel(), layers)
 
 
-def mass_matrix(scene: Scene, lattice: Lattice, distribution: Inertia) -> sp.coo_array:
+def mass_matrix(
+    scene: Scene, lattice: Lattice, distribution: Inertia, cells: Cells | None = None
+) -> sp.coo_array:
     """The masses and what neighbours share, (n, n) [kg], alike for motions along x, y and z; its entries add
     up to the sheet's mass. Raises BadInput as `masses`."""
-    if distribution != "higher-order":
-        return sp.dia_array(
-            (masses(scene, lattice, distribution)[None], [0]), shape=2 * (lattice.mass_count,)
-        ).tocoo()
+    if distribution != "higher-order" or cells is not None:
+        own = masses(scene, lattice, distribution, cells)  # type: ignore[arg-type]  # refuses higher-order
+        return sp.dia_array((own[None], [0]), shape=2 * (lattice.mass_count,)).tocoo()
     x, y = (
         _corrected(lines, axis, lattice.twisting, _free(scene, lattice))
         for axis, lines in zip("xy", lattice.lines, strict=True)

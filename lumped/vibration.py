@@ -96,7 +96,8 @@ def modes(
     unknowns = problem.system.unknowns
     if not 1 <= count <= unknowns - rigid:
         raise BadInput(f"count = {count}: 1 to {unknowns - rigid} on this lattice")
-    inertia = mass_matrix(scene, problem.assembly.lattice, distribution or usual_masses(calibration))
+    shared = distribution or usual_masses(calibration)
+    inertia = mass_matrix(scene, problem.assembly.lattice, shared, calibration.cells)
     mass = sp.csc_array(transform.T @ sp.kron(inertia, sp.eye_array(3)) @ transform)
     blocks = problem.assembly.tangent(at)
     stiffness = problem.system.matrix(blocks)
@@ -118,7 +119,8 @@ def modes(
 
 def usual_masses(calibration: Calibration) -> Inertia:
     """The distribution that springs vibrate with unless another is asked for."""
-    return "higher-order" if calibration.masses == "tributary" else calibration.masses
+    plain = calibration.masses == "tributary" and calibration.cells is None
+    return "higher-order" if plain else calibration.masses
 
 
 def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, np.ndarray]:
@@ -148,7 +150,7 @@ def frequency_slopes(
     found = modes(scene, calibration, count, calibration.masses)
     problem = build_problem(scene, calibration)
     rest = np.zeros_like(problem.loads.dead)
-    weight = masses(scene, problem.assembly.lattice, calibration.masses)
+    weight = masses(scene, problem.assembly.lattice, calibration.masses, calibration.cells)
     modal = np.einsum("n,knq,knq->k", weight, found.shapes, found.shapes)
     slopes = {}
     for name in parameters:

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
-Option = Literal["k", "layer_distance", "grading", "targets"]
+Option = Literal["k", "layer_distance", "grading", "targets", "cells"]
 
 
 @dataclass(frozen=True)
@@ -29,11 +29,14 @@ class Method:
 CALIBRATION = "consistent"  # unless asked for another
 AUTO = "auto"  # a calibration or a grading by what the scene is
 GRADED: tuple[Option, ...] = ("layer_distance", "grading")
+CELL_BY_CELL: tuple[Option, ...] = (*GRADED, "cells")
 CALIBRATIONS: dict[str, Method] = {
-    "consistent": Method("every modulus met, and the twist that free edges let go", GRADED),
-    "consistent-interior": Method("the moduli alone, edges like the interior", GRADED),
-    "consistent-membrane": Method("consistent, and cells bend in their plane as the sheet", GRADED),
-    "consistent-oblique": Method("consistent, and waves oblique to the grid right in second order", GRADED),
+    "consistent": Method("every modulus met, and the twist that free edges let go", CELL_BY_CELL),
+    "consistent-interior": Method("the moduli alone, edges like the interior", CELL_BY_CELL),
+    "consistent-membrane": Method("consistent, and cells bend in their plane as the sheet", CELL_BY_CELL),
+    "consistent-oblique": Method(
+        "consistent, and waves oblique to the grid right in second order", CELL_BY_CELL
+    ),
     "neo-hookean": Method("layers as neo-Hookean membranes, for rubbers at any strain", ("grading",)),
     "hyperelastic": Method("the same of the law of the scene's material", ("grading",)),
     "moduli": Method("bounded least squares on the moduli"),

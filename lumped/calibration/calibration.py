@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from lumped.springs import by_cell, constants
-from sheetbench.scenes import PerDirection, Sheet, SpringSet, summary
+from sheetbench.scenes import Cells, PerDirection, Sheet, SpringSet, summary
 from sheetbench.scenes.grading import Graded, as_settings
 from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.springs import Distribution, Either
@@ -22,7 +22,7 @@ class Calibration(summary.Summarised):
     (A, S [N/m], D [N·m]; S is asked as MacNeal's S* of the grid), of unequal cells that of the one that
     misses it most; notes: what the method could not meet; masses: how the sheet's mass is shared out
     (`lumped.masses`) when it vibrates or moves; grading: of the grid's lines (`lumped.grid_lines`); half:
-    the axes along which they end at a plane of symmetry.
+    the axes along which they end at a plane of symmetry; cells: what they are made of, where they differ.
     """
 
     method: str
@@ -33,6 +33,7 @@ class Calibration(summary.Summarised):
     masses: Distribution = "tributary"
     grading: Graded = 0.0
     half: tuple[bool, bool] = (False, False)
+    cells: Cells | None = None
 
     @property
     def layer_distance(self) -> float:

@@ -17,7 +17,7 @@ from lumped.calibration.least_squares import bounded_least_squares
 from lumped.calibration.report import report
 from lumped.lattice import Grid
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, Sheet, SpringSet
+from sheetbench.scenes import Cells, Material, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
 
 
@@ -27,12 +27,13 @@ def consistent(
     grid: Grid,
     layer_distance: float | None = None,
     grading: Graded = 0.0,
+    cells: Cells | None = None,
 ) -> Calibration:
     """The moduli of the sheet, and the twist of its edges: of second order in the size of the cells.
 
     Raises BadInput as `consistent_interior`.
     """
-    found = consistent_interior(sheet, material, grid, layer_distance, grading)
+    found = consistent_interior(sheet, material, grid, layer_distance, grading, cells)
     return _with_twist("consistent", sheet, found, grading)
 
 
@@ -42,12 +43,13 @@ def consistent_membrane(
     grid: Grid,
     layer_distance: float | None = None,
     grading: Graded = 0.0,
+    cells: Cells | None = None,
 ) -> Calibration:
     """As `consistent`, with layers so far apart that a cell bends in its own plane as the sheet does.
 
     Raises BadInput as `consistent_interior`.
     """
-    found = consistent_interior(sheet, material, grid, layer_distance, grading, gradients=True)
+    found = consistent_interior(sheet, material, grid, layer_distance, grading, cells, gradients=True)
     return _with_twist("consistent-membrane", sheet, found, grading)
 
 
@@ -57,17 +59,18 @@ def consistent_oblique(
     grid: Grid,
     layer_distance: float | None = None,
     grading: Graded = 0.0,
+    cells: Cells | None = None,
 ) -> Calibration:
     """As `consistent`, with waves oblique to the grid right in l² too.
 
     Raises BadInput as `consistent_interior`.
     """
-    found = consistent_interior(sheet, material, grid, layer_distance, grading, waves=True)
+    found = consistent_interior(sheet, material, grid, layer_distance, grading, cells, waves=True)
     return _with_twist("consistent-oblique", sheet, found, grading)
 
 
 def _with_twist(method: str, sheet: Sheet, found: Calibration, grading: Graded) -> Calibration:
-    springs, notes = with_edges(sheet, found.grid, found.springs, grading)
+    springs, notes = with_edges(sheet, found.grid, found.springs, grading, found.cells)
     return replace(found, method=method, springs=springs, notes=(*found.notes, *notes))
 
 
@@ -77,20 +80,23 @@ def consistent_interior(
     grid: Grid,
     layer_distance: float | None = None,
     grading: Graded = 0.0,
+    cells: Cells | None = None,
     gradients: bool = False,
     waves: bool = False,
 ) -> Calibration:
     """The moduli alone, cells along edges like those inside: the closed form; with a given layer distance, or
     where it would need a negative link, bounded least squares on the same moduli. grading: of the grid
-    (`lumped.grid_lines`), gradients: whether layers are so far apart that strains in the plane that vary
+    (`lumped.grid_lines`), cells: what they are made of where they differ, gradients: whether layers are so far apart that strains in the plane that vary
     across a cell cost what they cost the sheet, waves: whether oblique ones are right in the second power of
     the cells (`lumped.calibration.closed_form`), all in closed form only.
 
     Raises BadInput where area springs would leave a cell without positive energy, and for a graded grid whose
     cells have no closed form.
     """
-    if grading:
-        springs: SpringSet | None = _graded(sheet, material, grid, layer_distance, grading, gradients, waves)
+    if grading or cells is not None:
+        springs: SpringSet | None = _by_cell(
+            sheet, material, grid, layer_distance, grading, cells, gradients, waves
+        )
     elif layer_distance is None:
         spacing = plan_spacing(sheet, grid)
         springs = closed_form(
@@ -100,20 +106,21 @@ def consistent_interior(
         springs = None
     if springs is None:
         springs = bounded_least_squares(sheet, material, grid, layer_distance)
-    return report("consistent-interior", sheet, material, grid, springs, grading)
+    return report("consistent-interior", sheet, material, grid, springs, grading, cells)
 
 
-def _graded(
+def _by_cell(
     sheet: Sheet,
     material: Material,
     grid: Grid,
     layer_distance: float | None,
     grading: Graded,
+    cells: Cells | None,
     gradients: bool,
     waves: bool,
 ) -> SpringSet:
-    def of_cell(cell: Sheet, distance: float | None) -> SpringSet:
-        asked = moduli.of_sheet(cell, material, cell.lengths)
+    def of_cell(cell: Sheet, own: Material, distance: float | None) -> SpringSet:
+        asked = moduli.of_sheet(cell, own, cell.lengths)
         springs = closed_form(asked, cell.lengths, grid[2], distance, gradients, waves)
         if springs is None:
             given = f"{grid[2]} layers" if distance is None else f"layer_distance = {distance:g} m"
@@ -123,4 +130,4 @@ def _graded(
             )
         return springs
 
-    return cell_by_cell(of_cell, sheet, grid, grading, layer_distance)
+    return cell_by_cell(of_cell, sheet, material, grid, grading, cells, layer_distance)

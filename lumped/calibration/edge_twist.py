@@ -35,7 +35,7 @@ from lumped import moduli
 from lumped.calibration.calibration import either
 from lumped.grid_lines import Lines, grid_lines
 from lumped.springs import by_cell, constants
-from sheetbench.scenes import Sheet, SpringSet
+from sheetbench.scenes import Cells, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 
@@ -50,7 +50,7 @@ def layer_width(thickness: float) -> float:
 
 
 def with_edges(
-    sheet: Sheet, grid: Grid, springs: SpringSet, grading: Graded = 0.0
+    sheet: Sheet, grid: Grid, springs: SpringSet, grading: Graded = 0.0, cells: Cells | None = None
 ) -> tuple[SpringSet, list[str]]:
     """The springs with `edge_shear` and `strip_shear`, and a note for edges where no factor will do.
 
@@ -61,9 +61,13 @@ def with_edges(
     """
     lines = grid_lines(sheet, grid, grading)
     notes: list[str] = []
-    edges = _of_edges(sheet, lines, springs, grid[2], False, notes)
-    if not all(_alike(side) for side in lines):
-        far = _of_edges(sheet, lines, springs, grid[2], True, notes)
+    thickness: np.ndarray = np.broadcast_to(
+        cells.thickness if cells else sheet.thickness, (grid[1] - 1, grid[0] - 1)
+    )
+    alike = cells is None and all(_alike(side) for side in lines)
+    edges = _of_edges(thickness, lines, springs, grid[2], False, alike, notes)
+    if not alike:
+        far = _of_edges(thickness, lines, springs, grid[2], True, alike, notes)
         edges |= {f"far_{name}": value for name, value in far.items()}
     return springs.model_copy(update=edges), list(dict.fromkeys(notes))
 
@@ -74,11 +78,17 @@ def _alike(lines: Lines) -> bool:
 
 
 def _of_edges(
-    sheet: Sheet, lines: tuple[Lines, Lines], springs: SpringSet, layers: int, far: bool, notes: list[str]
+    thickness: np.ndarray,
+    lines: tuple[Lines, Lines],
+    springs: SpringSet,
+    layers: int,
+    far: bool,
+    alike: bool,
+    notes: list[str],
 ) -> dict[str, Any]:
-    """edge_shear and strip_shear of x0 and y0, or of x1 and y1 (`far`); adds to the notes."""
+    """edge_shear and strip_shear of x0 and y0, or of x1 and y1 (`far`); adds to the notes. thickness: of the
+    cells (rows, columns) [m]; alike: whether the cells are the same from either edge."""
     square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * springs.layer_distance**2
-    lost = layer_width(sheet.thickness)
     unequal = by_cell.varies(springs)
     found: dict[bool, list[Any]] = {False: [], True: []}
     for axis in range(2):
@@ -87,12 +97,15 @@ def _of_edges(
         places = range(len(along.widths)) if unequal else range(1)
         strips = [_strip(springs, lines, axis, place, layers, far) for place in places]
         widths = across.widths[::-1] if far else across.widths
+        along_edge = np.moveaxis(thickness, 1 - axis, 0)[-int(far)]
         for both, values in found.items():
             taken = []
-            mirrored = both and not _alike(across)
+            mirrored = both and not (alike or (_alike(across) and np.all(thickness == thickness[0, 0])))
             for place, strip in zip(places, strips, strict=True):
                 width, twisting, shear, shares = (_with_image(row, mirrored) for row in (widths, *strip))
-                factor = edge_factor(len(width), width, twisting, shear, shares, lost, both)
+                factor = edge_factor(
+                    len(width), width, twisting, shear, shares, layer_width(along_edge[place]), both
+                )
                 if factor is None:
                     notes.append(f"no twisting stiffness of the cells along {edge} makes their edge right")
                     factor = MOST if unequal else 1.0

@@ -8,30 +8,37 @@ import numpy as np
 
 from lumped import moduli
 from lumped.calibration.calibration import Calibration, shown
+from lumped.calibration.cell_by_cell import kinds_of_cells
 from lumped.grid_lines import grid_lines
 from lumped.springs import by_cell, constants
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, Sheet, SpringSet
+from sheetbench.scenes import Cells, Material, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 
-Cell = tuple[tuple[float, float], SpringSet]  # sides along x and y [m], springs
+Cell = tuple[Sheet, Material, SpringSet]  # a sheet of its size
 
 
 def report(
-    method: str, sheet: Sheet, material: Material, grid: Grid, springs: SpringSet, grading: Graded = 0.0
+    method: str,
+    sheet: Sheet,
+    material: Material,
+    grid: Grid,
+    springs: SpringSet,
+    grading: Graded = 0.0,
+    cells: Cells | None = None,
 ) -> Calibration:
     """The calibration with its moduli report, and notes on what it misses and why. Of unequal cells each
     modulus is reported of the cell that misses it most.
 
     Raises BadInput where area springs leave a cell without positive energy.
     """
-    cells = _cells(sheet, grid, springs, grading)
-    square = all(abs(lx - ly) < 1e-9 * lx for (lx, ly), _ in cells)
+    kinds = _kinds(sheet, material, grid, springs, grading, cells)
+    square = all(abs(cell.length_x - cell.length_y) < 1e-9 * cell.length_x for cell, _, _ in kinds)
     worst: dict[str, dict[str, Any]] = {}
-    for sides, own in cells:
-        whole = moduli.of_springs(own, (*sides, own.layer_distance), grid[2])
-        for row in _rows(moduli.of_sheet(sheet, material, sides).named(square), whole.named(square)):
+    for cell, made_of, own in kinds:
+        whole = moduli.of_springs(own, (*cell.lengths, own.layer_distance), grid[2])
+        for row in _rows(moduli.of_sheet(cell, made_of, cell.lengths).named(square), whole.named(square)):
             if row["name"] not in worst or abs(row["miss"]) > abs(worst[row["name"]]["miss"]):
                 worst[row["name"]] = row
         if constants.value_of(own, "area") < 0.0 or constants.value_of(own, "mid_area") < 0.0:
@@ -47,7 +54,8 @@ def report(
     if missed and not np.any(springs.area) and not np.any(springs.shear):
         missed.append("central links alone obey Cauchy's relation C12 = C66: no k meets D12 and D66 both")
     rows = tuple(worst.values())
-    return Calibration(method, grid, springs, rows, (*missed, *_admissible(springs)), grading=grading)
+    said = (*missed, *_admissible(springs))
+    return Calibration(method, grid, springs, rows, said, grading=grading, cells=cells)
 
 
 def homogenised(sheet: Sheet, grid: Grid, springs: SpringSet) -> moduli.Moduli:
@@ -56,17 +64,20 @@ def homogenised(sheet: Sheet, grid: Grid, springs: SpringSet) -> moduli.Moduli:
     return moduli.of_springs(springs, (x.mean, y.mean, springs.layer_distance), grid[2])
 
 
-def _cells(sheet: Sheet, grid: Grid, springs: SpringSet, grading: Graded) -> list[Cell]:
+def _kinds(
+    sheet: Sheet, material: Material, grid: Grid, springs: SpringSet, grading: Graded, cells: Cells | None
+) -> list[Cell]:
     """The kinds of cells: one where all are alike, else each that differs from the others."""
-    x, y = grid_lines(sheet, grid, grading)
     if not grading and not by_cell.varies(springs):
-        return [((x.mean, y.mean), springs)]
-    kinds: dict[Any, Cell] = {}
-    for row, ly in enumerate(y.widths.tolist()):
-        for column, lx in enumerate(x.widths.tolist()):
+        x, y = grid_lines(sheet, grid)
+        return [(sheet.model_copy(update={"length_x": x.mean, "length_y": y.mean}), material, springs)]
+    which, made_of = kinds_of_cells(sheet, material, grid, grading, cells)
+    found: dict[Any, Cell] = {}
+    for row, numbers in enumerate(which):
+        for column, number in enumerate(numbers):
             own = by_cell.of_cell(springs, row, column)
-            kinds.setdefault((f"{lx:.9g}", f"{ly:.9g}", own), ((lx, ly), own))
-    return list(kinds.values())
+            found.setdefault((number, own), (*made_of[number], own))
+    return list(found.values())
 
 
 def _rows(asked: dict[str, float], got: dict[str, float]) -> list[dict[str, Any]]:

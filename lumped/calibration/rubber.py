@@ -54,7 +54,7 @@ def _rubber(method: str, sheet: Sheet, material: Material, grid: Grid, grading: 
     layers, energy = grid[2], material.energy
     thickness = sheet.thickness / layers
 
-    def of_cell(cell: Sheet, _: float | None = None) -> SpringSet:
+    def of_cell(cell: Sheet, material: Material, _: float | None = None) -> SpringSet:
         lx, ly = cell.lengths
         asked = moduli.of_sheet(cell, material, cell.lengths)
         side = material.young * thickness / 3.0
@@ -80,10 +80,10 @@ def _rubber(method: str, sheet: Sheet, material: Material, grid: Grid, grading: 
         )
 
     if grading:
-        springs = cell_by_cell(of_cell, sheet, grid, grading)
+        springs = cell_by_cell(of_cell, sheet, material, grid, grading, None)
     else:
         lx, ly = plan_spacing(sheet, grid)
-        springs = of_cell(sheet.model_copy(update={"length_x": lx, "length_y": ly}))
+        springs = of_cell(sheet.model_copy(update={"length_x": lx, "length_y": ly}), material)
     springs, notes = with_edges(sheet, grid, springs, grading)
     found = report(method, sheet, material, grid, springs, grading)
     return replace(found, notes=(*found.notes, *notes))

@@ -45,7 +45,7 @@ class System:
         self.coupling = problem.assembly.coupling
         self.transform = problem.constraints.transform
         size, lattice = self.assembly.pattern.size, self.assembly.lattice
-        shared = masses(scene, lattice, self.assembly.inertia)
+        shared = masses(scene, lattice, self.assembly.inertia, self.assembly.cells)
         self.lattice_mass = shared if mass is None else mass
         self.damping = Damping(scene, self.assembly, self.lattice_mass)
         self.packing = pack(lattice, self.assembly.springs, self.damping.dampers)

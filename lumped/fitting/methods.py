@@ -12,7 +12,7 @@ from lumped.fitting.targets import Target
 from sheetbench import choices
 from sheetbench.errors import BadInput
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import Material, Sheet
+from sheetbench.scenes import Cells, Material, Sheet
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import MASSES, grid_of
 from sheetbench.scenes.quantities import require_positive
@@ -30,12 +30,14 @@ def calibrate(
     layer_distance: float | None = None,
     targets: Sequence[Target] = (),
     grading: Graded = 0.0,
+    cells: Cells | None = None,
 ) -> Calibration:
     """Springs of a grid for a sheet of this material, by a named method.
 
     grid: masses along the shorter side, (nx, ny) or (nx, ny, layers), see `sheetbench.scenes.grid`.
     k [N/m] and layer_distance [m] are for the methods that take them; the fitted methods need targets.
-    grading: how much smaller the cells are at the edges, 0 to 1 (`lumped.grid_lines`). Raises BadInput for an
+    grading: how much smaller the cells are at the edges, 0 to 1 (`lumped.grid_lines`). cells: what each is
+    made of, where they differ. Raises BadInput for an
     unknown method, a grid too small, an option that the method does not take or that is out of its bounds.
 
     >>> import lumped
@@ -49,13 +51,13 @@ def calibrate(
         raise BadInput(f"calibration = {method!r}: unknown; choose from {', '.join(CALIBRATIONS)}")
     chosen = CALIBRATIONS[method]
     asked: dict[str, Any] = {"k": k, "layer_distance": layer_distance, "targets": tuple(targets) or None}
-    asked["grading"] = grading or None
+    asked |= {"grading": grading or None, "cells": cells}
     options = {name: value for name, value in asked.items() if value is not None}
     for name, value in options.items():
         if name not in chosen.takes:
             others = " and ".join(f"'{other}'" for other, one in CALIBRATIONS.items() if name in one.takes)
             unit = f" {UNITS[name]}" if name in UNITS else ""
-            given = "" if name == "targets" else f"{name} = {value:g}{unit}: "
+            given = "" if name in ("targets", "cells") else f"{name} = {value:g}{unit}: "
             raise BadInput(f"{given}calibration '{method}' takes no {name}; {name} goes with {others}")
         if name in UNITS:
             require_positive(name, value, UNITS[name])

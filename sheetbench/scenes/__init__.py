@@ -3,6 +3,7 @@
 from sheetbench.errors import BadInput, Implausible, SceneError
 from sheetbench.scenes.actuators import Actuator, Chain, CurvatureTable, EdgeMotion
 from sheetbench.scenes.balance import Balance, dead_force
+from sheetbench.scenes.cells import Cells
 from sheetbench.scenes.files import AnyScene, catalogue, load, scene_of
 from sheetbench.scenes.history import History
 from sheetbench.scenes.loads import EdgeLoad, Load, PointLoad, Pressure
@@ -37,6 +38,7 @@ __all__ = [
     "BadInput",
     "Balance",
     "Branches",
+    "Cells",
     "Chain",
     "Clamped",
     "CurvatureTable",

@@ -1,0 +1,95 @@
+"""Sheets whose cells differ, by a table set from Python."""
+
+import numpy as np
+import pytest
+
+import lumped
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Cells, Material, Scene, Sheet, Status, load
+
+LENGTH, WIDTH, THICK, THIN, YOUNG, DENSITY = 0.2, 0.02, 3e-3, 1e-3, 5e6, 1000.0
+SHEET, MATERIAL = Sheet(LENGTH, WIDTH, THICK), Material(YOUNG, 0.0, DENSITY)
+FORCE = 1e-6  # N: small rotations
+
+
+def cantilever(**others):
+    clamped = [{"edge": "x0", "kind": "clamped"}]
+    return Scene(name="taper", sheet=SHEET, material=MATERIAL, supports=clamped, **others)
+
+
+def tapered(grid):
+    """A strip from 3 to 1 mm: of every cell the thickness in its middle."""
+    middles = (np.arange(grid[0] - 1) + 0.5) / (grid[0] - 1)
+    thickness = np.tile(THICK + (THIN - THICK) * middles, (grid[1] - 1, 1))
+    return Cells.of(SHEET, MATERIAL).replace(thickness=thickness)
+
+
+def deflection():
+    """At the end of a tapered cantilever by bending, F/E ∫ (L − x)² 12/(b h³) dx, and by shear, ∫ F/(κ G b h) dx,
+    at 1e4 midpoints."""
+    x = (np.arange(10_000) + 0.5) / 10_000 * LENGTH
+    h, dx = THICK + (THIN - THICK) * x / LENGTH, LENGTH / 10_000
+    bent = np.sum(12.0 * (LENGTH - x) ** 2 / (YOUNG * WIDTH * h**3)) * dx
+    return FORCE * (bent + np.sum(1.0 / (5.0 / 12.0 * YOUNG * WIDTH * h)) * dx)
+
+
+def test_a_tapered_cantilever_bends_as_its_closed_form():
+    """Constant thickness within a cell, that of its middle: an error of second order."""
+    load_ = {"kind": "edge", "edge": "x1", "force_per_length": [0.0, 0.0, FORCE / WIDTH]}
+    scene, off = cantilever(loads=[load_]), []
+    for grid in ((9, 3), (17, 3), (33, 3)):
+        springs = lumped.calibrate(SHEET, MATERIAL, grid=grid, cells=tapered(grid))
+        assert max(abs(row["miss"]) for row in springs.moduli) < 1e-9
+        solution = lumped.solve(scene, springs)
+        assert solution.status is Status.CONVERGED
+        off.append(solution.displacement([[LENGTH, WIDTH / 2.0]])[0, 2] / deflection() - 1.0)
+    orders = np.log2(np.abs(off[:-1]) / np.abs(off[1:]))
+    assert abs(off[-1]) < 2e-3 and np.all(np.abs(orders - 2.0) < 0.3), (off, orders)
+
+
+def test_masses_and_weight_are_the_cells():
+    grid = (9, 3)
+    springs = lumped.calibrate(SHEET, MATERIAL, grid=grid, cells=tapered(grid))
+    scene = cantilever(gravity={"acceleration": [0.0, 0.0, -9.81]})
+    problem = lumped.build_problem(scene, springs)
+    weight = -problem.loads.dead[:, 2]
+    whole = DENSITY * WIDTH * LENGTH * (THICK + THIN) / 2.0
+    assert weight.sum() == pytest.approx(9.81 * whole, rel=1e-12)
+    centre = weight @ problem.assembly.lattice.positions[:, 0] / weight.sum()
+    # of cells with the thickness of their middle: (t₁ + 2 t₂)/3(t₁ + t₂) L less a rest of second order
+    assert centre == pytest.approx(LENGTH * (THICK + 2.0 * THIN) / (3.0 * (THICK + THIN)), rel=5e-3)
+    assert lumped.System(scene, problem).lattice_mass.sum() == pytest.approx(whole, rel=1e-12)
+    assert lumped.modes(scene, springs, 2).frequencies[0] > 0.0
+
+
+@pytest.mark.parametrize("method", ["consistent", "consistent-membrane", "consistent-oblique"])
+def test_cells_that_are_all_the_same_are_the_sheet(method):
+    scene = load("two-edges-clamped")
+    cells = Cells.of(scene.sheet, scene.material)
+    table = cells.replace(thickness=np.full((4, 4), cells.thickness), young=np.full((4, 4), cells.young))
+    plain, listed = (
+        lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, 5, method, cells=each))
+        for each in (None, table)
+    )
+    moved = [each.mesh.point_data["displacement"] for each in (plain, listed)]
+    assert np.allclose(*moved, rtol=0.0, atol=1e-9 * np.abs(moved[0]).max())
+
+
+def test_a_stiff_patch_is_felt():
+    scene = load("one-edge-clamped")
+    young = np.full((8, 8), scene.material.young)
+    young[:, :4] *= 10.0
+    cells = Cells.of(scene.sheet, scene.material).replace(young=young)
+    soft, stiff = (
+        lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, 9, cells=each))
+        for each in (None, cells)
+    )
+    at = [[0.188, 0.094]]
+    assert abs(stiff.displacement(at)[0, 2]) < 0.5 * abs(soft.displacement(at)[0, 2])
+
+
+def test_tables_of_other_grids_and_methods_without_cells_are_refused():
+    with pytest.raises(BadInput, match="cells.thickness: 2 × 8 values; 5x3 masses have 2 rows of 4 cells"):
+        lumped.calibrate(SHEET, MATERIAL, grid=(5, 3), cells=tapered((9, 3)))
+    with pytest.raises(BadInput, match="calibration 'uniform' takes no cells; cells goes with 'consistent'"):
+        lumped.calibrate(SHEET, MATERIAL, grid=(9, 3), method="uniform", cells=tapered((9, 3)))

@@ -1,4 +1,4 @@
-"""Springs of cells that differ, in size or by a table: each as if all were like it, one layer distance for all.
+"""Springs of cells that differ, in size or by a table: each as if all were like it, one layer distance.
 
 The layer distance is the largest that any cell asks for. What a cell that asks for less is then missing in
 its membrane, its layers being softer, is the mid-surface's (`lumped.calibration.closed_form`).
@@ -16,9 +16,8 @@ from sheetbench.scenes import Cells, Material, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import Grid
 
-OfCell = Callable[
-    [Sheet, Material, float | None], SpringSet
-]  # a cell as a sheet, and its layer distance if given
+# of a cell as a sheet, and its layer distance if that is given
+OfCell = Callable[[Sheet, Material, float | None], SpringSet]
 DIGITS = 12  # to which cells of one size are told
 
 

@@ -86,9 +86,10 @@ def consistent_interior(
 ) -> Calibration:
     """The moduli alone, cells along edges like those inside: the closed form; with a given layer distance, or
     where it would need a negative link, bounded least squares on the same moduli. grading: of the grid
-    (`lumped.grid_lines`), cells: what they are made of where they differ, gradients: whether layers are so far apart that strains in the plane that vary
-    across a cell cost what they cost the sheet, waves: whether oblique ones are right in the second power of
-    the cells (`lumped.calibration.closed_form`), all in closed form only.
+    (`lumped.grid_lines`), cells: what they are made of, where they differ, gradients: whether layers are so
+    far apart that strains in the plane that vary across a cell cost what they cost the sheet, waves: whether
+    oblique ones are right in the second power of the cells (`lumped.calibration.closed_form`), all in closed
+    form only.
 
     Raises BadInput where area springs would leave a cell without positive energy, and for a graded grid whose
     cells have no closed form.

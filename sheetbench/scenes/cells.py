@@ -17,8 +17,8 @@ PerCell = float | np.ndarray
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """thickness [m], young [Pa], poisson [-], density [kg/m³]: numbers, or (rows, columns) of cells from y0 to
-    y1, each row from x0 to x1.
+    """thickness [m], young [Pa], poisson [-], density [kg/m³]: numbers, or (rows, columns) of cells from y0
+    to y1, each row from x0 to x1.
 
     >>> import numpy as np
     >>> from sheetbench.scenes import Cells, load
@@ -54,8 +54,8 @@ class Cells:
             shape = np.shape(getattr(self, one.name))
             if shape not in ((), (rows, columns)):
                 raise BadInput(
-                    f"cells.{one.name}: {' × '.join(map(str, shape))} values; {grid[0]}x{grid[1]} masses have "
-                    f"{rows} rows of {columns} cells"
+                    f"cells.{one.name}: {' × '.join(map(str, shape))} values; {grid[0]}x{grid[1]} masses "
+                    f"have {rows} rows of {columns} cells"
                 )
 
     def cell(

@@ -25,7 +25,7 @@ def tapered(grid):
 
 
 def deflection():
-    """At the end of a tapered cantilever by bending, F/E ∫ (L − x)² 12/(b h³) dx, and by shear, ∫ F/(κ G b h) dx,
+    """At a tapered cantilever's end by bending, F/E ∫ (L − x)² 12/(b h³) dx, and by shear, ∫ F/(κ G b h) dx,
     at 1e4 midpoints."""
     x = (np.arange(10_000) + 0.5) / 10_000 * LENGTH
     h, dx = THICK + (THIN - THICK) * x / LENGTH, LENGTH / 10_000
@@ -89,7 +89,7 @@ def test_a_stiff_patch_is_felt():
 
 
 def test_tables_of_other_grids_and_methods_without_cells_are_refused():
-    with pytest.raises(BadInput, match="cells.thickness: 2 × 8 values; 5x3 masses have 2 rows of 4 cells"):
+    with pytest.raises(BadInput, match=r"cells\.thickness: 2 × 8 values; 5x3 masses have 2 rows of 4 cells"):
         lumped.calibrate(SHEET, MATERIAL, grid=(5, 3), cells=tapered((9, 3)))
     with pytest.raises(BadInput, match="calibration 'uniform' takes no cells; cells goes with 'consistent'"):
         lumped.calibrate(SHEET, MATERIAL, grid=(9, 3), method="uniform", cells=tapered((9, 3)))

@@ -17,6 +17,8 @@ and the next begins with new accelerations; velocities that a motion changes at 
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from fem_reference.motion.moving import Motion, Moving
@@ -69,7 +71,8 @@ class GeneralisedAlpha:
             fastest = float(np.abs(model.displacement(a)).max())
             allowed = self._error * self._largest
             self.step = min(self._first, np.sqrt(2.0 * allowed / max(fastest, 1e-30)))
-        return Motion(time, q, rate, a, a, model.mass @ a + forces)
+        remembered = model.memory.after(model.strains(q))
+        return Motion(time, q, rate, a, a, model.mass @ a + forces, remembered)
 
     def advance(self, motion: Motion, at_most: float) -> Motion:
         """One step of at most so long [s]. Raises StepFailed."""
@@ -108,6 +111,7 @@ class GeneralisedAlpha:
 
     def _advanced(self, motion: Motion, h: float) -> Motion:
         model, time = self._model, motion.time + h
+        model.memory.since(motion.time, motion.memory)
         am, af, beta, gamma = self._am, self._af, self._beta, self._gamma
         old = self._shifted(motion, h)
         by_a, by_v = (1.0 - am) / ((1.0 - af) * beta * h * h), gamma / (beta * h)
@@ -138,7 +142,11 @@ class GeneralisedAlpha:
             found = at(model.moved(found.q, step))
             share = length / last if last is not None else 1.0
             if length * min(share, 1.0) <= enough:
-                return found
+                return (
+                    replace(found, memory=model.memory.after(model.strains(found.q)))
+                    if model.memory
+                    else found
+                )
             if last is not None and share > QUICK:
                 self._factor = None
             last = length

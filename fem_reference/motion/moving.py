@@ -15,19 +15,20 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 
 from fem_reference.motion.loads import Factor, factor_at, single_loads
+from fem_reference.motion.relaxation import Memory, Strained
 from fem_reference.motion.rods import MovingRods, at_rest
 from fem_reference.shell.element import Element, weighed
 from fem_reference.solid.element import Bricks
 from fem_reference.surface.loads import Follower
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import FieldMesh, Scene, require_no_branches
+from sheetbench.scenes import FieldMesh, Scene
 from sheetbench.scenes.supports import held_axes
 from sheetbench.scenes.tables import PiecewiseLinear
 
@@ -36,7 +37,8 @@ Loaded = tuple[np.ndarray, list[Follower]]  # dead nodal forces (n, 3) and follo
 
 @dataclass(frozen=True)
 class Motion:
-    """Coordinates, their rates, accelerations and the algorithm's (N,) at a time [s]; exerted: M a + g."""
+    """Coordinates, their rates, accelerations and the algorithm's (N,) at a time [s]; exerted: M a + g;
+    memory: of the material's branches."""
 
     time: float
     q: np.ndarray
@@ -44,6 +46,7 @@ class Motion:
     a: np.ndarray
     algorithm: np.ndarray
     exerted: np.ndarray
+    memory: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
 
 class Energies(NamedTuple):
@@ -72,7 +75,7 @@ class Moving(ABC):
     unknowns: int
 
     def __init__(self, scene: Scene):
-        require_no_branches(scene.material, "a moving reference")
+        self.memory = Memory(scene.material.branches)
         supports = tuple(support.replace(motion=None) for support in scene.supports)
         self.still = at_rest(scene.replace(loads=(), gravity=None, supports=supports))
         self.tau, self.alpha = scene.material.dashpot_time, scene.material.damping_rate
@@ -153,6 +156,10 @@ class Moving(ABC):
         """Forces (N,) of dead ones on the mid-surface (n, 3)."""
 
     @abstractmethod
+    def strains(self, q: np.ndarray) -> Strained:
+        """Strains, and the elastic stresses that go with them, as `memory` takes them."""
+
+    @abstractmethod
     def internal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
         """Elastic and viscous forces (N,)."""
 
@@ -186,6 +193,7 @@ class Moving(ABC):
 
     def forces(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         """g (N,): internal and viscous less external forces."""
+        self.memory.now = time
         return self._loaded(self.internal(q, v) + self.rods.forces(q, v, time), q, v, time)
 
     def mean_forces(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
@@ -204,9 +212,11 @@ class Moving(ABC):
 
     def energies(self, q: np.ndarray, v: np.ndarray, time: float) -> Energies:
         """Energies of a state."""
+        self.memory.now = time
         potential = -sum(float(force @ q) for force, factor in self.dead if factor is None)
         elastic = self.elastic(q) + self.rods.energy(q, time)
-        return Energies(0.5 * float(v @ (self.mass @ v)), elastic, potential)
+        stored = self.memory.stored(self.strains(q)) if self.memory else 0.0
+        return Energies(0.5 * float(v @ (self.mass @ v)), elastic + stored, potential)
 
     def spent(self, start: Motion, end: Motion) -> np.ndarray:
         """Energy [J] that dampers dissipate in a step, and work [J] of what moves or acts over time, (2,):
@@ -214,6 +224,9 @@ class Moving(ABC):
         h, step, middle = end.time - start.time, end.q - start.q, 0.5 * (start.q + end.q)
         damped = self.tau * self.stiffness_of(middle, step) + self.alpha * float(step @ (self.drag @ step))
         damped += self.rods.dissipated(start.q, end.q)
+        self.memory.since(start.time, start.memory)
+        self.memory.now = end.time
+        relaxed = self.memory.dissipated(self.strains(end.q)) if self.memory else 0.0
         exerted, half_way = 0.5 * (start.exerted + end.exerted), 0.5 * (start.time + end.time)
         work = float(self.of_supports(exerted) @ step)
         for q in (start.q, end.q):  # of commands, which bend the chains' shape at rest
@@ -223,7 +236,7 @@ class Moving(ABC):
                 work += factor_at(factor, half_way) * float(force @ step)
         for follower, factor in self.followers:
             work += factor_at(factor, half_way) * float(self.following(middle, follower) @ step)
-        return np.array([damped / h, work])
+        return np.array([damped / h + relaxed, work])
 
 
 class MovingElements(Moving):
@@ -238,6 +251,10 @@ class MovingElements(Moving):
     @abstractmethod
     def scatter(self, pull: np.ndarray) -> np.ndarray:
         """Sums (N,) of what pulls at the elements' vectors (m, a, 3)."""
+
+    def strains(self, q: np.ndarray) -> Strained:
+        strain = self.element.strain(self.gather(q))
+        return strain, self.element.stress(strain)
 
     def internal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
         change = self.gather(q)
@@ -261,6 +278,7 @@ class MovingElements(Moving):
         return self.element.strain(change), self.element.step(change, self.gather(v))
 
     def stress(self, strain: np.ndarray, rate: np.ndarray) -> np.ndarray:
-        """s + τ D ė (m, k)."""
+        """s + τ D ė (m, k) and what the branches add."""
         elastic = self.element.stress(strain)
-        return elastic + self.tau * weighed(self.element.moduli(strain), rate) if self.tau else elastic
+        stress = elastic + self.memory.added(elastic) if self.memory else elastic
+        return stress + self.tau * weighed(self.element.moduli(strain), rate) if self.tau else stress

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, identity
 
 from fem_reference.motion.moving import Moving
+from fem_reference.motion.relaxation import Strained
 from fem_reference.motion.rods import MovingRods
 from fem_reference.plate import statics as plate
 from fem_reference.plate.rods import PlateRods
@@ -73,11 +74,14 @@ class MovingPlate(Moving):
     def tangent(
         self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
     ) -> csr_matrix:
+        self.memory.now = time
         return self._whole(by_a, by_v)[self._free][:, self._free]
 
     def _whole(self, by_a: float, by_v: float) -> csr_matrix:
         """by_a M + by_v C + K of all coordinates."""
-        sheet = (by_a + self.alpha * by_v) * self.drag + (1.0 + self.tau * by_v) * self._stiffness
+        sheet = (by_a + self.alpha * by_v) * self.drag + (
+            1.0 + self.tau * by_v + self.memory.gain
+        ) * self._stiffness
         if not self.rods:
             return sheet
         flat = np.zeros(self._held.size)
@@ -92,7 +96,12 @@ class MovingPlate(Moving):
         return every
 
     def internal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
-        return np.asarray(self._stiffness @ (q + self.tau * v))
+        elastic = self._stiffness @ q
+        added = self.memory.added(elastic) if self.memory else 0.0
+        return np.asarray(elastic + added + self.tau * (self._stiffness @ v))
+
+    def strains(self, q: np.ndarray) -> Strained:
+        return q, self._stiffness @ q
 
     def following(self, q: np.ndarray, load: Follower) -> np.ndarray:
         """On the flat sheet."""

@@ -142,9 +142,12 @@ class MovingShell(MovingElements):
     def tangent(
         self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
     ) -> csr_matrix:
-        change = self.gather(q)
+        self.memory.now, change = time, self.gather(q)
         vectors, (strain, rate) = self.element.reference + change, self.strained(change, v)
-        moduli, frames = (1.0 + by_v * self.tau) * self.element.moduli(strain), self._frames(q)
+        moduli, frames = (
+            (1.0 + by_v * self.tau + self.memory.gain) * self.element.moduli(strain),
+            self._frames(q),
+        )
         along = multiplier(self._directors(q), residual.reshape(-1, 3)[self.nodes :])
         pattern, on_turns = self._structure.pattern, np.zeros(self.unknowns)
         on_turns[np.diff(self._starts) == 3] = along[self._turn[0]]

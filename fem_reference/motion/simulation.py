@@ -26,7 +26,7 @@ from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import AnyScene, History, Scene, Status, scene_of
+from sheetbench.scenes import AnyScene, History, Scene, Status, require_no_branches, scene_of
 from sheetbench.scenes.quantities import require_positive
 
 MODELS: dict[str, Callable[..., Moving]] = {
@@ -81,6 +81,7 @@ def simulate(
     moving = MODELS[model](asked, **options)
     times = _sample_times(asked, duration, every)
     if integrator == "energy-momentum":
+        require_no_branches(asked.material, f"the integrator {integrator}")
         if not moving.conservative:
             raise BadInput(f"integrator = '{integrator}': the strain law '{STRAIN_LAW}' alone is conserved")
         longest = step or _lowest_period(asked) / STEPS_PER_PERIOD

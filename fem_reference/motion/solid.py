@@ -116,9 +116,9 @@ class MovingSolid(MovingElements):
     def tangent(
         self, q: np.ndarray, v: np.ndarray, time: float, residual: np.ndarray, by_a: float, by_v: float
     ) -> csr_matrix:
-        change = self.gather(q)
+        self.memory.now, change = time, self.gather(q)
         strain, rate = self.strained(change, v)
-        moduli = (1.0 + by_v * self.tau) * self.element.moduli(strain)
+        moduli = (1.0 + by_v * self.tau + self.memory.gain) * self.element.moduli(strain)
         bricks = tangent(self.element.gradient(change), moduli, self.stress(strain, rate))
         stiffness = self._structure.stack(bricks) + (by_a + self.alpha * by_v) * self._inertia
         places = self._structure.surface(self._columns.positions + self._on_sheet(q))

@@ -1,0 +1,74 @@
+"""Maxwell branches of the references in motion: relaxation under a held strain, decay, energy."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fem_reference
+from sheetbench import scenes
+from sheetbench.scenes import Clamped, Held, Material, Motion, Relaxation, Scene, Sheet, Status
+
+BRANCHES = (Relaxation(0.25, 0.02), Relaxation(0.15, 0.3))
+RAMP, PULL = 0.01, 1e-9
+
+
+@pytest.mark.parametrize("model", ["plate", "shell", "solid"])
+def test_a_held_strain_relaxes_as_its_prony_series(model: str) -> None:
+    """A strip of next to no mass, pulled in 10 ms and held: R(t) = R∞ (1 + Σ a g e^(−(t−T)/τ)), g of the ramp.
+    The update is exact for it; what is left is inertia, damped by the integrator."""
+    material = Material(1e6, 0.0, 1e-3, relaxation=BRANCHES)
+    pull = Motion(time=(0.0, RAMP), displacement=((0.0, 0.0, 0.0), (PULL, 0.0, 0.0)))
+    supports = (Clamped("x0"), Held("x1", ("x", "y", "z"), motion=pull))
+    strip = Scene("strip", Sheet(0.1, 0.02, 0.002), material, supports=supports)
+    run = fem_reference.simulate(strip, model, 0.4, elements=1, step=1e-3, every=0.01)
+    assert run.status is Status.CONVERGED
+    found, time = run.reactions["x1"][:, 0], run.time
+    branches, held = material.branches, time > 2.0 * RAMP
+    ramp = [t / RAMP * -np.expm1(-RAMP / t) for t in branches.times]
+    series = 1.0 + sum(
+        a * g * np.exp(-(time - RAMP) / t)
+        for a, t, g in zip(branches.stiffness, branches.times, ramp, strict=True)
+    )
+    at_rest = 1e6 * PULL / 0.1 * 0.02 * 0.002
+    assert np.abs(found)[held] == pytest.approx(at_rest * series[held], rel=1e-6)
+
+
+def decay(scene: Scene, model: str, duration: float) -> tuple[float, float]:
+    """Frequency [Hz] and damping ratio of the swing about the sheet's rest, by its peaks."""
+    run = fem_reference.simulate(scene, model, duration, elements=2, every=duration / 2000, error=1e-4)
+    u = run.probes["P4"][:, 2]
+    rest = fem_reference.solve(scene, model=model, elements=2).displacement(scene.probe_points())[3, 2]
+    off = u - rest
+    tops = np.flatnonzero((off[1:-1] > off[:-2]) & (off[1:-1] > off[2:])) + 1
+    tops = tops[off[tops] > 0.02 * np.abs(off).max()]
+    falls = np.log(off[tops[0]] / off[tops[-1]]) / (len(tops) - 1)
+    return (len(tops) - 1) / (run.time[tops[-1]] - run.time[tops[0]]), falls / np.hypot(2.0 * np.pi, falls)
+
+
+def test_a_swing_decays_as_its_pole_has_it() -> None:
+    """The lowest mode of the linear plate let go under its weight; what is allowed is of the other modes."""
+    scene = scenes.load("one-edge-clamped").replace(loss_factor=0.12, band=(0.5, 20.0))
+    lowest = float(fem_reference.modes(scene, "plate", elements=2, count=1).frequencies[0])
+    pole = scene.material.branches.pole(2.0 * np.pi * lowest)
+    frequency, ratio = decay(scene, "plate", 6.0 / lowest)
+    assert frequency == pytest.approx(pole.imag / (2.0 * np.pi), rel=0.02)
+    assert ratio == pytest.approx(-pole.real / abs(pole), rel=0.05)
+    assert ratio == pytest.approx(0.06, rel=0.12)
+
+
+@pytest.mark.parametrize("model", ["plate", "shell"])
+def test_energy_is_kept_in_books_with_branches(model: str) -> None:
+    """Within the step's error, as without branches; branches dissipate."""
+    scene = scenes.load("one-edge-clamped").replace(relaxation=BRANCHES)
+    run = fem_reference.simulate(scene, model, 0.1, elements=2)
+    assert run.status is Status.CONVERGED
+    kinetic, dissipated = run.energies["kinetic"].max(), run.energies["dissipated"]
+    assert np.abs(run.balance - run.balance[0]).max() < 2e-3 * kinetic
+    assert dissipated[-1] > 0.05 * kinetic and np.diff(dissipated).min() > -1e-6 * kinetic
+
+
+def test_the_conserving_rule_refuses_branches() -> None:
+    scene = scenes.load("one-edge-clamped").replace(relaxation=BRANCHES)
+    with pytest.raises(scenes.BadInput, match="energy-momentum has no Maxwell branches"):
+        fem_reference.simulate(scene, "shell", 0.1, elements=2, integrator="energy-momentum")

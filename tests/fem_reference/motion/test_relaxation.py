@@ -15,7 +15,7 @@ RAMP, PULL = 0.01, 1e-9
 
 @pytest.mark.parametrize("model", ["plate", "shell", "solid"])
 def test_a_held_strain_relaxes_as_its_prony_series(model: str) -> None:
-    """A strip of next to no mass, pulled in 10 ms and held: R(t) = R∞ (1 + Σ a g e^(−(t−T)/τ)), g of the ramp.
+    """A strip of next to no mass, pulled in 10 ms and held: R = R∞ (1 + Σ a g e^(−(t−T)/τ)), g of the ramp.
     The update is exact for it; what is left is inertia, damped by the integrator."""
     material = Material(1e6, 0.0, 1e-3, relaxation=BRANCHES)
     pull = Motion(time=(0.0, RAMP), displacement=((0.0, 0.0, 0.0), (PULL, 0.0, 0.0)))

@@ -48,11 +48,16 @@ def require(elements: Any, layers: Any, grading: str, gradings: Collection[str])
     require_choice("grading", grading, gradings)
 
 
-def refusal(scene: Scene, chains: str, moments: str) -> str:
+def refusal(scene: Scene, chains: str, moments: str, laws: Collection[str] = ()) -> str:
     """Return why an external code cannot solve a scene, "" if it can.
 
-    chains, moments: the reasons of this code against actuator chains and edge moments.
+    chains, moments: the reasons of this code against actuator chains and edge moments; laws: the laws of
+    rubber that it is given.
     """
+    law = scene.material.law
+    if law is not None and law not in laws:
+        known = f"those given to it are {', '.join(laws)}" if laws else "it is given linear materials only"
+        return f"it is not given the material's law '{law}': {known}"
     if any(isinstance(actuator, Chain) for actuator in scene.actuators):
         return chains
     if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):

@@ -1,4 +1,4 @@
-"""FElupe as a model: 20-node bricks with reduced integration and St Venant–Kirchhoff's law.
+"""FElupe as a model: 20-node bricks with reduced integration and St Venant–Kirchhoff's or a rubber's law.
 
 FElupe interpolates, integrates and assembles; law and supports (`comparisons.external.bricks`) are given to
 it, as its boundary conditions know no turned axes: u = T q + u₀ with the free components q, and Newton's
@@ -27,6 +27,10 @@ from sheetbench.scenes import Material, Pressure, Scene, Solution, Status
 
 CORRECTION = 1e-9  # of the displacement: where a step ends
 ITERATIONS, LEAST = 15, 1.0 / 64.0  # of a step, and the smallest step
+
+LAWS = ("neo-hookean", "mooney-rivlin", "yeoh", "gent")
+ONE = np.eye(3)
+EACH = 0.5 * (np.einsum("ik,jl->ijkl", ONE, ONE) + np.einsum("il,jk->ijkl", ONE, ONE))
 
 CHAINS = "FElupe is given no chains: its points do not turn, so that no joint could want an angle"
 
@@ -59,7 +63,7 @@ class FElupe:
         if self.version() is None:
             raise BadInput(f"model = 'felupe': needs {self.needs}")
         bricks = Bricks.of(scene.sheet, settings["elements"], settings["layers"], settings["grading"])
-        began, note = perf_counter(), refusal(scene, CHAINS, BRICK_MOMENTS)
+        began, note = perf_counter(), refusal(scene, CHAINS, BRICK_MOMENTS, LAWS)
         path = _Path(np.zeros_like(bricks.positions), 0.0, 0)
         ready, status = began, Status.REFUSED
         if not note:
@@ -82,27 +86,63 @@ class FElupe:
 
 
 def _law(material: Material) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
-    """First Piola–Kirchhoff stress P = F S, S = λ tr E + 2 μ E, of F (3, 3, …), and dP/dF (3, 3, 3, 3, …)."""
-    young, poisson, one = material.young, material.poisson, np.eye(3)
-    shear = young / (2.0 * (1.0 + poisson))
-    first = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson))
-
-    def second(gradient: np.ndarray) -> np.ndarray:
-        strain = 0.5 * (np.einsum("mi...,mj...->ij...", gradient, gradient) - one[..., None, None])
-        trace = np.einsum("mm...->...", strain)
-        return first * np.einsum("ij,...->ij...", one, trace) + 2.0 * shear * strain
+    """First Piola–Kirchhoff stress P = F S of F (3, 3, …), and dP/dF (3, 3, 3, 3, …)."""
+    response = _linear(material) if material.law is None else _rubber(material)
 
     def stress(x: Any) -> Any:
-        return [np.einsum("im...,mj...->ij...", x[0], second(x[0])), x[-1]]
+        return [np.einsum("im...,mj...->ij...", x[0], response(x[0])[0]), x[-1]]
 
     def elasticity(x: Any) -> Any:
-        f = x[0]
-        left = np.einsum("im...,km...->ik...", f, f)
-        out = np.einsum("ik,jl...->ijkl...", one, second(f)) + first * np.einsum("ij...,kl...->ijkl...", f, f)
-        out += shear * np.einsum("ik...,jl->ijkl...", left, one)
-        return [out + shear * np.einsum("il...,kj...->ijkl...", f, f)]
+        second, moduli = response(x[0])
+        out = np.einsum("im...,kp...,mjpl...->ijkl...", x[0], x[0], moduli, optimize=True)
+        return [out + np.einsum("ik,jl...->ijkl...", ONE, second)]
 
     return stress, elasticity
+
+
+Response = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]  # F → S (3, 3, …), ∂S/∂E (3, 3, 3, 3, …)
+
+
+def _linear(material: Material) -> Response:
+    """S = λ tr E + 2 μ E."""
+    young, poisson = material.young, material.poisson
+    shear = young / (2.0 * (1.0 + poisson))
+    first = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson))
+    moduli = first * np.einsum("ij,kl->ijkl", ONE, ONE) + 2.0 * shear * EACH
+
+    def response(f: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        strain = 0.5 * (np.einsum("mi...,mj...->ij...", f, f) - ONE[(...,) + (None,) * (f.ndim - 2)])
+        constant = np.broadcast_to(moduli[(...,) + (None,) * (f.ndim - 2)], (3, 3, 3, 3, *f.shape[2:]))
+        return np.einsum("ijkl,kl...->ij...", moduli, strain), constant
+
+    return response
+
+
+def _rubber(material: Material) -> Response:
+    """S = 2 (f′ + c₀₁ I₁) − 2 c₀₁ C + (Λ ln J − m) C⁻¹ of the energy of `sheetbench.scenes.material`."""
+    energy, bulk = material.energy, material.energy.volume(material.poisson)
+
+    def response(f: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        c = np.einsum("mi...,mj...->ij...", f, f)
+        last = np.moveaxis(c, (0, 1), (-2, -1))
+        inverse, first = np.moveaxis(np.linalg.inv(last), (-2, -1), (0, 1)), np.einsum("mm...->...", c)
+        pull = 0.5 * bulk * np.log(np.linalg.det(last)) - 2.0 * energy.c10 - 4.0 * energy.c01
+        x = first - 3.0
+        if energy.limit:
+            left = np.where(x < energy.limit, 1.0 - x / energy.limit, np.nan)
+            slope, bend = energy.c10 / left, energy.c10 / (energy.limit * left**2)
+        else:
+            slope = energy.c10 + 2.0 * energy.c20 * x + 3.0 * energy.c30 * x**2
+            bend = 2.0 * energy.c20 + 6.0 * energy.c30 * x
+        even = np.einsum("ij,...->ij...", ONE, slope + energy.c01 * first)
+        stress = 2.0 * even - 2.0 * energy.c01 * c + pull * inverse
+        moduli = 4.0 * np.einsum("ij,kl,...->ijkl...", ONE, ONE, bend + energy.c01)
+        moduli -= 4.0 * energy.c01 * EACH[(...,) + (None,) * (f.ndim - 2)]
+        moduli += bulk * np.einsum("ij...,kl...->ijkl...", inverse, inverse)
+        across = np.einsum("ik...,jl...->ijkl...", inverse, inverse)
+        return stress, moduli - pull * (across + across.swapaxes(2, 3))
+
+    return response
 
 
 Equilibrium = Callable[[np.ndarray, float], tuple[np.ndarray, csr_matrix]]
@@ -196,6 +236,8 @@ def _newton(
     u, jump = start.displacement, (load_factor - start.load_factor) * fixed.ravel()
     for iteration in range(1, ITERATIONS + 1):
         residual, tangent = equilibrium(u, load_factor)
+        if not np.isfinite(residual).all():  # as beyond Gent's limit
+            return None, iteration
         held = jump if iteration == 1 else np.zeros_like(jump)
         step = held - free @ splu((free.T @ tangent @ free).tocsc()).solve(
             free.T @ (residual + tangent @ held)

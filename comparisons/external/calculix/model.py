@@ -21,7 +21,7 @@ import numpy as np
 from comparisons.external.answer import BRICK_MOMENTS, refusal, require, solution_on_bricks
 from comparisons.external.bricks import GRADINGS, Bricks
 from comparisons.external.calculix import results
-from comparisons.external.calculix.deck import deck
+from comparisons.external.calculix.deck import INCOMPRESSIBLE, LAWS, deck
 from comparisons.external.process import Failed, output_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Solution, Status
@@ -65,7 +65,7 @@ class CalculiX:
             raise BadInput(f"model = 'calculix': needs {self.needs}")
         bricks = Bricks.of(scene.sheet, settings["elements"], settings["layers"], settings["grading"])
         began = perf_counter()
-        note = refusal(scene, CHAINS, BRICK_MOMENTS)
+        note = refusal(scene, CHAINS, BRICK_MOMENTS, LAWS) or _of_volume(scene, settings["linear"])
         displacement, load_factor, iterations = np.zeros_like(bricks.positions), 0.0, 0
         ready, status = began, Status.REFUSED
         if not note:
@@ -87,6 +87,19 @@ class CalculiX:
         return solution_on_bricks(
             self, scene, settings, bricks, displacement, status, load_factor, note, iterations, seconds
         )
+
+
+def _of_volume(scene: Scene, linear: bool) -> str:
+    """Why a rubber is none of CalculiX', "" if it is."""
+    material = scene.material
+    if material.law is None or (material.poisson >= INCOMPRESSIBLE and not linear):
+        return ""
+    if linear:
+        return f"linear = true: the law '{material.law}' is not linear"
+    return (
+        f"poisson = {material.poisson:g}: its rubbers take volume apart and are those of a scene near ν = ½ "
+        f"only; from {INCOMPRESSIBLE:g} on it is given them"
+    )
 
 
 def _read(folder: Path, ending: str) -> str:

@@ -15,10 +15,13 @@ from comparisons.comparison.comparison import error
 from comparisons.external import installed
 from comparisons.external.answer import ExternalCode
 from comparisons.external.calculix import results
+from comparisons.external.calculix.deck import LAWS as CALCULIX_LAWS
 from comparisons.external.calculix.model import MODEL as CALCULIX
+from comparisons.external.felupe import LAWS as FELUPE_LAWS
 from comparisons.external.felupe import MODEL as FELUPE
 from comparisons.external.kratos.model import MODEL as KRATOS
 from comparisons.external.process import Failed, output_of
+from fem_reference.verification.strain_laws import RUBBERS
 from sheetbench.errors import BadInput
 from sheetbench.scenes import (
     Chain,
@@ -28,9 +31,11 @@ from sheetbench.scenes import (
     EdgeMotion,
     Held,
     Hinged,
+    Material,
     PointLoad,
     Pressure,
     Scene,
+    Sheet,
     Status,
     Symmetric,
     load,
@@ -275,3 +280,36 @@ def test_the_thin_shell_of_kratos_becomes_ours_as_the_sheet_gets_thinner() -> No
     thick, thin = off
     assert thick is not None and thin is not None
     assert thin < 0.004 < 0.006 < thick, off
+
+
+def pulled_rubber(rubber: Material) -> Scene:
+    """A clamped strip pulled by some 60 %."""
+    sheet = Sheet(length_x=0.1, length_y=0.05, thickness=0.004)
+    pull = EdgeLoad(edge="x1", force_per_length=(0.4 * rubber.young * sheet.thickness, 0.0, 0.0))
+    return Scene(name="pulled", sheet=sheet, material=rubber, supports=(Clamped(edge="x0"),), loads=(pull,))
+
+
+@pytest.mark.parametrize("judge", JUDGES, ids=lambda judge: judge.name)
+@pytest.mark.parametrize("rubber", RUBBERS, ids=lambda rubber: rubber.law)
+def test_stretched_rubber_is_our_solid_s_or_refused_by_name(
+    judge: ExternalCode, rubber: Material
+) -> None:
+    """FElupe has our energy; CalculiX' differs by the compressibility, some 0.7 (1 − 2 ν) of the stretch."""
+    needed(judge)
+    scene = pulled_rubber(rubber.replace(poisson=0.49 if judge is FELUPE else 0.499))
+    found = judge.solve(scene, {**judge.settings, "elements": 3})
+    known = {"felupe": FELUPE_LAWS, "calculix": CALCULIX_LAWS}.get(judge.name, ())
+    if rubber.law not in known:
+        assert found.status is Status.REFUSED and f"law '{rubber.law}'" in found.message
+        return
+    end = np.array([[0.1, 0.025]])
+    ours = fem_reference.solve(scene, "solid", elements=4).displacement(end)[0, 0]
+    assert found.status is Status.CONVERGED and ours > 0.5 * scene.sheet.length_x
+    assert found.displacement(end)[0, 0] == pytest.approx(ours, rel=1e-3 if judge is FELUPE else 3e-3)
+
+
+def test_rubber_that_is_not_nearly_incompressible_is_none_of_calculix() -> None:
+    needed(CALCULIX)
+    for settings, why in (({}, "near ν = ½"), ({"linear": True}, "not linear")):
+        found = CALCULIX.solve(pulled_rubber(RUBBERS[0]), {**CALCULIX.settings, **settings})
+        assert found.status is Status.REFUSED and why in found.message

@@ -156,8 +156,8 @@ def tradeoff(
     from comparisons.runs.campaign import campaign
     from comparisons.tradeoff.statics import tradeoff
 
-    asked = scene_of(scene)
-    candidates, reasons = springs.resolve_each(asked, lattices(asked, lumped, calibration), grading)
+    loaded = scene_of(scene)
+    candidates, reasons = springs.resolve_each(loaded, lattices(loaded, lumped, calibration), grading)
     for name, meshes in zip(REFERENCES, (plate, shell, solid), strict=True):
         candidates += [Candidate(name, {"elements": count}) for count in meshes]
     with ExitStack() as stack:
@@ -165,7 +165,7 @@ def tradeoff(
         folder.mkdir(parents=True, exist_ok=True)
         store = stack.enter_context(campaign(folder))
         return tradeoff(
-            asked,
+            loaded,
             [*candidates, *models],
             store,
             repeats=repeats,

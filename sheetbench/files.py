@@ -49,8 +49,8 @@ def writing(path: Path) -> Iterator[None]:
     except OSError as error:
         if error.errno not in REMEDIES or _elsewhere(error.filename, path):
             raise
-        said = (error.strerror or str(error)).lower()
-        raise BadInput(f"{path}: cannot be written, {said}: {REMEDIES[error.errno]}") from error
+        reason = (error.strerror or str(error)).lower()
+        raise BadInput(f"{path}: cannot be written, {reason}: {REMEDIES[error.errno]}") from error
 
 
 @contextmanager
@@ -117,9 +117,9 @@ def _elsewhere(named: object, path: Path) -> bool:
 def _clear(path: Path) -> None:
     """Remove what killed writers left beside a name."""
     for name in os.listdir(path.parent):
-        found = PARTIAL.fullmatch(name)
-        same = found and (found["stem"], found["suffix"] or "") == (path.stem, path.suffix)
-        if found and same and not _lives(int(found["process"])):
+        match = PARTIAL.fullmatch(name)
+        same = match and (match["stem"], match["suffix"] or "") == (path.stem, path.suffix)
+        if match and same and not _lives(int(match["process"])):
             (path.parent / name).unlink(missing_ok=True)
 
 

@@ -103,12 +103,12 @@ class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]  # numba 
         if not _ours(file):
             return None
         _make(Path(os.environ["NUMBA_CACHE_DIR"]))
-        found: Locator | None = super().from_function(function, file)
-        if found is not None:
-            folder = Path(found.get_cache_path())
+        locator: Locator | None = super().from_function(function, file)
+        if locator is not None:
+            folder = Path(locator.get_cache_path())
             require_own(folder.parent)
             require_own(folder)
-        return found
+        return locator
 
 
 @cache
@@ -123,8 +123,8 @@ def require_own(folder: Path) -> None:
     """Raise BadInput for a folder that another user may write to: numba unpickles what lies there, and that
     may do anything."""
     with suppress(FileNotFoundError):
-        found = folder.stat()
-        if found.st_uid not in (0, os.geteuid()) or found.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+        status = folder.stat()
+        if status.st_uid not in (0, os.geteuid()) or status.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
             raise BadInput(
                 f"{folder}: other users may write here, and what is kept here is run: remove the folder (its "
                 "kernels are compiled anew), or name one of your own in NUMBA_CACHE_DIR"
@@ -164,12 +164,12 @@ def made_of(path: Path) -> set[Path]:
 @cache
 def _imported(path: Path) -> set[Path]:
     """Our files with kernels that a file imports."""
-    found = set()
+    files = set()
     for module, names in IMPORTS.findall(_text(path)):
         parts = ROOT.joinpath(*module.split("."))
         inside = [parts / name for name in re.findall(r"\w+", names)]
-        found |= {file for place in (parts, *inside) if _compiled(file := place.with_suffix(".py"))}
-    return found
+        files |= {file for place in (parts, *inside) if _compiled(file := place.with_suffix(".py"))}
+    return files
 
 
 @cache
@@ -240,8 +240,8 @@ def _load(self: caching.FunctionCache, signature: object, target_context: object
     with clock.stopped():
         rtsys.initialize(target_context)
         with self._guard_against_spurious_io_errors():
-            found = _load_shipped(self, signature, target_context) if SHIPPED.is_dir() else None
-            return found if found is not None else self._load_overload(signature, target_context)
+            kernel = _load_shipped(self, signature, target_context) if SHIPPED.is_dir() else None
+            return kernel if kernel is not None else self._load_overload(signature, target_context)
 
 
 def _load_shipped(self: caching.FunctionCache, signature: object, target_context: Any) -> object:

@@ -52,8 +52,8 @@ def export(
     from comparisons.export.export import export as write
 
     scene = scene_of(scene)
-    found = springs or LatticeSpec(grid, calibration, k, layer_distance, grading).springs(scene)[0]
-    write(folder, scene, found, ["sheetbench.export"], overwrite, simulators)
+    lattice = springs or LatticeSpec(grid, calibration, k, layer_distance, grading).springs(scene)[0]
+    write(folder, scene, lattice, ["sheetbench.export"], overwrite, simulators)
     return Path(folder)
 
 

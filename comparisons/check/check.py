@@ -1,4 +1,4 @@
-"""What a scene asks, in words: its parts, whether it can rest, and what the models make of it unless told.
+"""A scene in words: its parts, whether it can rest, and what the models do with it by default.
 
 Nothing is solved. What is hardly meant (`sheetbench.scenes.plausibility`) stands among the complaints.
 """
@@ -25,7 +25,7 @@ def check(scene: AnyScene, called: str | None = None) -> Report:
     with catch_warnings():
         simplefilter("ignore", Implausible)  # they stand in the report
         scene = scene_of(scene)
-    warnings = [f"{called}: {said}" for said in slips(scene)]
+    warnings = [f"{called}: {slip}" for slip in slips(scene)]
     parts = [*in_words(scene), ("lattice", _lattice(scene)), ("shell", _shell(scene))]
     free, foretold = free_rigid_motions(scene), _foretold(scene)
     return Report(
@@ -57,7 +57,7 @@ def _foretold(scene: Scene) -> list[str]:
         return []
     from lumped import polygons
 
-    return [said] if (said := polygons(scene, scene_grid(scene))) else []
+    return [warning] if (warning := polygons(scene, scene_grid(scene))) else []
 
 
 def _lattice(scene: Scene) -> str:

@@ -20,7 +20,7 @@ def command(
     budget: Annotated[
         float | None,
         typer.Option(
-            metavar="SECONDS", parser=quantity_in("s"), help="Time that a solve may take; setting up apart."
+            metavar="SECONDS", parser=quantity_in("s"), help="Time that a solve may take, without setting up."
         ),
     ] = None,
     grading: Annotated[
@@ -45,22 +45,22 @@ def command(
 ) -> None:
     """Name the cheapest model that meets a tolerance, or the most accurate one within a budget.
 
-    A few quick solves measure this machine and this scene. Exit status 3 where what is asked cannot be had.
+    A few quick solves measure this machine and this scene. Exit status 3 where no model meets it.
     """
     from comparisons.advice.advisor import advise, checked_tolerance
     from comparisons.comparison.comparison import load_static
     from sheetbench.errors import BadInput
 
-    asked = load_static(scene)
+    loaded = load_static(scene)
     if budget is not None and not budget > 0.0:
         raise BadInput(f"--budget = {budget:g}: seconds, more than 0")
     if tolerance is None and budget is None:
         tolerance = 0.01
     if tolerance is not None:
         checked_tolerance(tolerance)
-    with output.open(scene=asked) as out:
-        found = advise(
-            asked,
+    with output.open(scene=loaded) as out:
+        advice = advise(
+            loaded,
             tolerance,
             budget,
             grading=grading,
@@ -68,4 +68,4 @@ def command(
             large=large,
             progress=out.progress,
         )
-        out.show(found.report(scene))
+        out.show(advice.report(scene))

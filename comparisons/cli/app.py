@@ -3,7 +3,7 @@
 A verb is a module of this package named like the verb, with a function `command`. Importing it must stay
 quick, so a verb imports what it works with inside that function.
 
-Exit status: 0 done; 1 a fault of the program, with its traceback; 2 bad input, said in one line; 3 a solver
+Exit status: 0 done; 1 a fault of the program, with its traceback; 2 bad input, in one line; 3 a solver
 did not converge; 130 interrupted.
 """
 
@@ -112,11 +112,11 @@ def main(arguments: list[str] | None = None) -> None:
     of_process = arguments == sys.argv[1:]
     try:
         arguments = defaults.with_defaults(arguments, VERBS)
-        said = removed.refusal(arguments)
+        refusal = removed.refusal(arguments)
     except defaults.Refused as refused:
-        said = str(refused)
-    if said is not None:
-        print(f"sheetbench: {said}", file=sys.stderr)
+        refusal = str(refused)
+    if refusal is not None:
+        print(f"sheetbench: {refusal}", file=sys.stderr)
         raise SystemExit(BAD_INPUT)
     if of_process:  # which is kept beside the results
         sys.argv[1:] = arguments
@@ -127,7 +127,7 @@ def main(arguments: list[str] | None = None) -> None:
                 status = verbs(args=arguments, prog_name="sheetbench", standalone_mode=False)
                 raise SystemExit(status or 0)
             finally:
-                if sys.stdout is not None:  # what cannot be written is said here, and not as the process ends
+                if sys.stdout is not None:  # an error of writing appears here, and not as the process ends
                     sys.stdout.flush()
         except SystemExit as leaving:
             if leaving.code == interruption.STATUS:
@@ -141,7 +141,7 @@ def main(arguments: list[str] | None = None) -> None:
 
 
 def _make_sound(environment: MutableMapping[str, str]) -> None:
-    """Leave out sizes of a terminal that cannot be, and draw without a window whatever matplotlib is told."""
+    """Drop impossible sizes of a terminal, and draw without a window whatever matplotlib is set to."""
     for name in ("COLUMNS", "LINES"):
         if not SIZE.fullmatch(environment.get(name, "")):
             environment.pop(name, None)
@@ -149,7 +149,7 @@ def _make_sound(environment: MutableMapping[str, str]) -> None:
 
 
 def _in_the_system(error: OSError) -> str | None:
-    """What is said of a name that is too long and of an output that cannot be written; None of all else."""
+    """Return the message for a name that is too long or an output that cannot be written, else None."""
     if error.errno == errno.ENAMETOOLONG:
         return f"{str(error.filename)[:SHOWN]}…: a name that is too long; choose a shorter one"
     if error.filename is None and error.errno in OUTPUT_FAULTS:
@@ -159,17 +159,17 @@ def _in_the_system(error: OSError) -> str | None:
 
 def _explained(error: Exception) -> int:
     """Say what the user did wrong, or that we did; the exit status."""
-    if isinstance(error, OSError) and (said := _in_the_system(error)) is not None:
+    if isinstance(error, OSError) and (message := _in_the_system(error)) is not None:
         with suppress(OSError):  # what is left to be written has no place to go
             os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-        print(f"sheetbench: {said}", file=sys.stderr)
+        print(f"sheetbench: {message}", file=sys.stderr)
         return BAD_INPUT
     from sheetbench.answers.escape import terminal
 
     if isinstance(error, UsageError):
         of = error.ctx.command_path if error.ctx else "sheetbench"
-        said = terminal(" ".join(error.format_message().split()).rstrip("."))
-        print(f"sheetbench: {said}; see {of} --help", file=sys.stderr)
+        message = terminal(" ".join(error.format_message().split()).rstrip("."))
+        print(f"sheetbench: {message}; see {of} --help", file=sys.stderr)
         return BAD_INPUT
     from sheetbench.errors import BadInput  # with numpy and pydantic: help must not wait for them
 

@@ -141,13 +141,13 @@ def command(
         if export is not None and not large:
             require_room(of, Candidate("lumped", {"grid": grid}), "--grid")
         lattice = LatticeSpec(grid, method, k, layer_distance, grading)
-        found = calibrate(of, lattice, scene is not None, large, out.progress)
+        springs = calibrate(of, lattice, scene is not None, large, out.progress)
         foretold = scene is not None and k is None and layer_distance is None
-        off = expected(of, found, out.progress) if foretold else None
-        swinging = damping.ratios(of, found)
-        report = tables.report(found, of.sheet, of.material, off, swinging)
+        off = expected(of, springs, out.progress) if foretold else None
+        swinging = damping.ratios(of, springs)
+        report = tables.report(springs, of.sheet, of.material, off, swinging)
         if export is not None:
-            report = out.export(export, of, found, report, simulators or ())
+            report = out.export(export, of, springs, report, simulators or ())
         out.show(
-            report, instead=tables.to_toml(found.as_dict()) + damping.to_toml(of.material) if toml else None
+            report, instead=tables.to_toml(springs.as_dict()) + damping.to_toml(of.material) if toml else None
         )

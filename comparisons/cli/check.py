@@ -15,6 +15,6 @@ def command(scene: Scene, *, output: OutputOptions) -> None:
 
     with catch_warnings():
         simplefilter("ignore")  # the report has them
-        asked = load(scene)
-    with output.open(scene=asked) as out:
-        out.show(check(asked, called=scene))
+        loaded = load(scene)
+    with output.open(scene=loaded) as out:
+        out.show(check(loaded, called=scene))

@@ -96,14 +96,14 @@ def command(
             )
             out.show(both.report())
         return
-    asked = load_static(scene)
+    loaded = load_static(scene)
     size, others = parse_elements(elements or str(ELEMENTS)), [parse_model(text) for text in model or ()]
     named = lattice["calibration"] is not None or lattice["k"] is not None
     models = {"--reference": reference, "--calibration": "named" if named else "open"}
     models |= {"--model": " ".join(model)} if model else {}
-    with output.open(scene=asked, variant=models) as out:
-        found = compare(
-            asked,
+    with output.open(scene=loaded, variant=models) as out:
+        comparison = compare(
+            loaded,
             **lattice,
             reference=reference,
             elements=size,
@@ -116,8 +116,8 @@ def command(
             progress=out.progress,
             finished=lambda s: out.keep(f"{s.model}.vtu", lambda path: write_solution(path, s)),
         )
-        report = found.report()
+        report = comparison.report()
         if export is not None:
-            springs, _ = LatticeSpec(**lattice).springs(asked)
-            report = out.export(export, asked, springs, report)
+            springs, _ = LatticeSpec(**lattice).springs(loaded)
+            report = out.export(export, loaded, springs, report)
         out.show(report)

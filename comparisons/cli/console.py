@@ -35,7 +35,7 @@ def quietly() -> Iterator[None]:
         _quiet = False
 
 
-def _said(text: str, keep: str = "") -> str:
+def printable(text: str, keep: str = "") -> str:
     """A text without control characters but those in `keep`, in characters that the output's encoding has."""
     return spelled(terminal(text, keep), out.encoding)
 
@@ -115,8 +115,8 @@ def document(content: Mapping[str, Any]) -> None:
 
 def heading(title: str, subtitle: str = "") -> None:
     """What the output is about."""
-    said, bold = _said(title), len(_said(title))
-    for i, line in enumerate(_fitted(f"{said}  {_said(subtitle)}" if subtitle else said)):
+    shown, bold = printable(title), len(printable(title))
+    for i, line in enumerate(_fitted(f"{shown}  {printable(subtitle)}" if subtitle else shown)):
         text = Text(line)
         text.stylize("bold", 0, bold if i == 0 else 0)
         out.print(text, soft_wrap=True)
@@ -127,21 +127,21 @@ def show(table: Table) -> None:
     from sheetbench.answers.layout import blocks
 
     out.print()
-    for line in _fitted(_said(table.caption)):
+    for line in _fitted(printable(table.caption)):
         out.print(Text(line, style="bold"), soft_wrap=True)
-    for i, block in enumerate(blocks(table, out.width if out.is_terminal else None, _said)):
+    for i, block in enumerate(blocks(table, out.width if out.is_terminal else None, printable)):
         if i > 0:
             out.print()
         for line in block.head:
             out.print(Text(line, style="bold"), soft_wrap=True)
-        for line in [_said(block.rule), *block.rows]:
+        for line in [printable(block.rule), *block.rows]:
             out.print(Text(line), soft_wrap=True)
     out.print()
 
 
 def note(text: str) -> None:
     """A remark under the tables; its lines are broken between words, but a command to copy is not."""
-    for line in _said(text, keep="\n").split("\n"):
+    for line in printable(text, keep="\n").split("\n"):
         for part in [line] if line.startswith("sheetbench ") else _fitted(line):
             out.print(Text(part, style="dim"), soft_wrap=True)
 
@@ -155,6 +155,6 @@ def _fitted(line: str, console: Console = out) -> list[str]:
 
 def warn(text: str) -> None:
     """A warning on standard error: one line, on a terminal broken between words."""
-    said = spelled(terminal(text), err.encoding)
-    for line in _fitted(said, err) if err.is_terminal else [said]:
+    shown = spelled(terminal(text), err.encoding)
+    for line in _fitted(shown, err) if err.is_terminal else [shown]:
         err.print(Text(line, style="yellow"), soft_wrap=True)

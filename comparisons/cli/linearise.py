@@ -45,11 +45,11 @@ def command(
     from sheetbench import scenes
     from sheetbench.errors import NoEquilibrium
 
-    asked = scenes.load(scene)
-    with output.open(scene=asked) as out:
+    loaded = scenes.load(scene)
+    with output.open(scene=loaded) as out:
         try:
-            found = linearise(
-                asked,
+            linearisation = linearise(
+                loaded,
                 **lattice,
                 modes=modes or None,
                 reduce=reduce,
@@ -59,4 +59,4 @@ def command(
             )
         except NoEquilibrium as error:
             out.stop(f"no linear form about the equilibrium: {error}; --about flat has one")
-        out.show(found.report())
+        out.show(linearisation.report())

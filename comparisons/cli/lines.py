@@ -52,7 +52,7 @@ class Lines:
             self._print(text)
 
     def look(self) -> None:
-        """Print what is being done, if it is time and it has not been said."""
+        """Print what is being done, if it is time and it has not been printed."""
         with self._lock:
             if self._clock() >= self._due and self._now not in ("", self._printed):
                 self._print(self._now)

@@ -47,13 +47,13 @@ def command(
 
     if not 0 <= port <= 65535:
         raise BadInput(f"--port = {port}: from 0 to 65535")
-    asked = load_static(scene)
+    loaded = load_static(scene)
     lattice = LatticeSpec(lumped, calibration, grading=grading)
-    check(asked, lattice.candidate)
-    meant = resolve(asked, lattice)
+    check(loaded, lattice.candidate)
+    meant = resolve(loaded, lattice)
     if not isinstance(meant.grading, float | None):
         raise BadInput(f"grading = {meant.grading}: this page grades towards all edges; give a number")
-    panel = Panel(asked, elements, grid=lumped, grading=meant.grading, calibration=meant.calibration)
+    panel = Panel(loaded, elements, grid=lumped, grading=meant.grading, calibration=meant.calibration)
 
     with redirection.kept() as leads_to:
 

@@ -49,11 +49,11 @@ def command(
     from sheetbench.errors import NoEquilibrium
     from sheetbench.scenes import load
 
-    asked = load(scene)
-    with output.open(scene=asked) as out:
+    loaded = load(scene)
+    with output.open(scene=loaded) as out:
         try:
-            found = spectra(
-                asked,
+            modes = spectra(
+                loaded,
                 count=count,
                 **lattice,
                 masses=masses,
@@ -65,4 +65,4 @@ def command(
             )
         except NoEquilibrium as error:
             out.stop(f"no modes about the deformed sheet: {error}")
-        out.show(found.report())
+        out.show(modes.report())

@@ -67,12 +67,12 @@ def command(
     values = {key: value for key, value in {**given, **sides(side)}.items() if value is not None}
     pressure, asking = 0.0, False
     if not values and clamped is None and _at_a_terminal():
-        values, clamped, pressure = _asked()
+        values, clamped, pressure = _answers_from_terminal()
         asking = True
     loads = [Pressure(pressure)] if pressure else []
     text = template(file.stem, *_made({**USUAL, **values}), _edges(clamped or "x0"), loads)
-    for said in slips(Scene.model_validate(tomllib.loads(text))):
-        warn(Implausible(f"{file}: {said}"), stacklevel=2)
+    for slip in slips(Scene.model_validate(tomllib.loads(text))):
+        warn(Implausible(f"{file}: {slip}"), stacklevel=2)
         if asking and not typer.confirm("Write it all the same?", default=True):
             return
     write_text(file, text)
@@ -104,9 +104,8 @@ def _edges(text: str) -> list[str]:
     return edges
 
 
-def _asked() -> tuple[dict[str, float], str, float]:
-    """Values, clamped edges and a pressure [Pa] of whoever sits at the terminal, each asked until it makes
-    sense."""
+def _answers_from_terminal() -> tuple[dict[str, float], str, float]:
+    """Return values, clamped edges and a pressure [Pa] from the terminal, each prompted until it is valid."""
     from comparisons.cli import console
     from sheetbench import scenes
     from sheetbench.errors import BadInput

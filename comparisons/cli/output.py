@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from sheetbench.scenes import Scene
 
 NOT_CONVERGED = 3
-COMPILED = 5.0  # s from which on it is said: loading takes less
+COMPILED = 5.0  # s, above which it is noted: loading takes less
 
 
 def command_line() -> list[str]:

@@ -36,7 +36,7 @@ def command(
         require_choice("--part", name, PARTS)
     parts = [name for name in PARTS if name in (part or PARTS)]
     with output.open(variant={"--part": parts}) as out:
-        found = reproduce(parts, elements=parse_elements(elements), progress=out.progress)
-        for name in found.folders:
+        reproduction = reproduce(parts, elements=parse_elements(elements), progress=out.progress)
+        for name in reproduction.folders:
             out.reserve(name)
-        out.show(found.report())
+        out.show(reproduction.report())

@@ -69,19 +69,19 @@ def command(
     from sheetbench import scenes
     from sheetbench.errors import BadInput
 
-    asked = scenes.load(scene)
+    loaded = scenes.load(scene)
     if animate and output.out is None:
         raise BadInput("--animate: needs --out, a folder to draw into")
     if animate and output.no_pictures:
         raise BadInput("--animate: draws, and --no-pictures says to draw nothing; leave one of them out")
     truth = {}
     if measured is not None:
-        truth = read_measured(measured, list(asked.probes))
+        truth = read_measured(measured, list(loaded.probes))
         require_within(truth, duration, measured)
     model = Candidate("lumped", lattice)
-    check(asked, model, large)
+    check(loaded, model, large)
     run = {"--integrator": integrator, **given(lattice), "--step": step, "--every": every}
-    with output.open(scene=asked, variant=run, alone=True) as out:
+    with output.open(scene=loaded, variant=run, alone=True) as out:
         pace = Pace(duration)
 
         def reached(time: float) -> None:
@@ -89,9 +89,9 @@ def command(
             soon = "" if left is None else f", {amounts.duration(left)} left"
             out.progress(f"simulated {time:.3g} of {duration:g} s ({100 * time / duration:.0f} %{soon})")
 
-        out.progress(Work("setting up", size(asked, model)))
+        out.progress(Work("setting up", size(loaded, model)))
         history = simulate(
-            asked,
+            loaded,
             duration,
             **lattice,
             large=large,
@@ -103,8 +103,8 @@ def command(
             progress=reached,
         )
         out.reserve("frames/")
-        shown = Simulation(history, asked, truth, animate).report()
+        shown = Simulation(history, loaded, truth, animate).report()
         if export is not None:
-            springs, _ = LatticeSpec(**lattice).springs(asked)
-            shown = out.export(export, asked, springs, shown)
+            springs, _ = LatticeSpec(**lattice).springs(loaded)
+            shown = out.export(export, loaded, springs, shown)
         out.show(shown)

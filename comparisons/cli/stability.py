@@ -50,11 +50,11 @@ def command(
 
     if parse_figure(output.figure).narrow:
         raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")
-    asked = load(scene)
-    with output.open(scene=asked) as out:
+    loaded = load(scene)
+    with output.open(scene=loaded) as out:
         with out.campaign(campaign) as run:
-            found = stability(
-                asked,
+            maps = stability(
+                loaded,
                 **run,
                 varied=vary or VARIED,
                 lattice=LatticeSpec(**lattice),
@@ -62,4 +62,4 @@ def command(
                 elements=elements,
                 large=large,
             )
-        out.show(found.report())
+        out.show(maps.report())

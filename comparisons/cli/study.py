@@ -56,8 +56,8 @@ def _studies() -> dict[str, str]:
     """Every study with what it is about; none where these packages do not stand in a checkout."""
     if not (CHECKOUT / LABORATORY / "__init__.py").is_file():
         return {}
-    found: dict[str, str] = import_module(LABORATORY).STUDIES
-    return found
+    studies: dict[str, str] = import_module(LABORATORY).STUDIES
+    return studies
 
 
 def _no_checkout() -> str:

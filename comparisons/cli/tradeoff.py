@@ -122,13 +122,13 @@ def command(
 
     measure: Callable[..., Tradeoff | DynamicTradeoff]
     if duration is not None:
-        asked = load(scene)
+        loaded = load(scene)
         lattice = LatticeSpec(lumped, calibration, k, layer_distance, grading)
-        measure = of_motion(asked, duration, lattice, integrator)
+        measure = of_motion(loaded, duration, lattice, integrator)
     else:
         if k is not None or layer_distance is not None:
             raise BadInput("--k, --layer-distance: go with --duration; else give --model lumped:k=550")
-        asked = load_static(scene)
+        loaded = load_static(scene)
         calibration = calibration or USUAL
         grids = GRIDS if lumped is None else lumped
         if lumped_pair is None:
@@ -136,12 +136,21 @@ def command(
             lumped_pair = PAIRS if usual else ""
         meshes = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
         measure = of_statics(
-            asked, grids, calibration, meshes, model or (), symmetry, elements, repeats, grading, lumped_pair
+            loaded,
+            grids,
+            calibration,
+            meshes,
+            model or (),
+            symmetry,
+            elements,
+            repeats,
+            grading,
+            lumped_pair,
         )
-    with output.open(scene=asked) as out:
+    with output.open(scene=loaded) as out:
         with out.campaign(campaign) as run:
-            found = measure(
+            trade = measure(
                 **run,
                 large=large,
             )
-        out.show(found.report())
+        out.show(trade.report())

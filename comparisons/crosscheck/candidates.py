@@ -20,7 +20,7 @@ def load_scenes(names: Sequence[str]) -> list[Scene]:
 
     Raises BadInput for one that does not exist, has no static answer, or shares its name with another.
     """
-    found: dict[str, Scene] = {}
+    scenes: dict[str, Scene] = {}
     for name in names:
         for each in catalogue() if name == ALL else [name]:
             scene = load(each)
@@ -28,9 +28,9 @@ def load_scenes(names: Sequence[str]) -> list[Scene]:
                 require_static(scene)
             except SceneError as error:
                 raise SceneError(f"{each}: {error}") from None
-            if found.setdefault(scene.name, scene) != scene:
+            if scenes.setdefault(scene.name, scene) != scene:
                 raise BadInput(f"{each}: another scene has its name, '{scene.name}', already")
-    return list(found.values())
+    return list(scenes.values())
 
 
 def candidates(
@@ -45,21 +45,21 @@ def candidates(
 
     code_meshes: in place of each code's own. Raises BadInput for what cannot be read and for nothing at all.
     """
-    found: dict[str, list[Candidate]] = {}
+    models: dict[str, list[Candidate]] = {}
     own = {"calibration": calibration, "grading": grading}
     lattice = {key: value for key, value in own.items() if value is not None}
     if sizes := _numbers("--lumped", grids, 3):
-        found["lumped"] = [Candidate("lumped", {"grid": n, **lattice}) for n in sizes]
+        models["lumped"] = [Candidate("lumped", {"grid": n, **lattice}) for n in sizes]
     for name, text in meshes.items():
         if sizes := _numbers(f"--{name}", text, 1):
-            found[name] = [Candidate(name, {"elements": n}) for n in sizes]
+            models[name] = [Candidate(name, {"elements": n}) for n in sizes]
     for one in codes:
         if one.version is not None:
             sizes = list(one.code.meshes) if code_meshes is None else _numbers("--meshes", code_meshes, 1)
-            found[one.code.name] = [Candidate(one.model, {"elements": n}) for n in sizes]
-    if not found:
+            models[one.code.name] = [Candidate(one.model, {"elements": n}) for n in sizes]
+    if not models:
         raise BadInput("no model left to check")
-    return found
+    return models
 
 
 def _numbers(option: str, text: str, least: int) -> list[int]:

@@ -47,9 +47,9 @@ class Convergence:
         bar = None
         if len(usable) >= 2:
             sizes = [float(row["size"]) for row in usable[:3]]
-            found = [np.array(row["displacement"], dtype=float) for row in usable[:3]]
+            displacements = [np.array(row["displacement"], dtype=float) for row in usable[:3]]
             layers = [missed_by(scene, row["settings"]) for row in usable[:3]] if layered else ()
-            bar = estimate(found, sizes, layers, OWN_ORDER if layered else ASSUMED_ORDER)
+            bar = estimate(displacements, sizes, layers, OWN_ORDER if layered else ASSUMED_ORDER)
         return cls(scene.name, name, version, tuple(rows), bar)
 
     @property

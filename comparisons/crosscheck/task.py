@@ -23,9 +23,9 @@ def answer(
 
     version, digest: of an external code and of its plug-in, under which the row is kept.
     """
-    question, candidate = Scene.model_validate(scene), Candidate(model, settings)
-    check(question, candidate, large=True)
-    solution = solve(question, candidate)
+    parsed, candidate = Scene.model_validate(scene), Candidate(model, settings)
+    check(parsed, candidate, large=True)
+    solution = solve(parsed, candidate)
     counts = solution.settings.get("elements") or [n - 1 for n in solution.settings["grid"]]
     return {
         "model": solution.model,
@@ -39,7 +39,7 @@ def answer(
         "iterations": solution.iterations,
         "solve_seconds": solution.solve_seconds,
         "setup_seconds": solution.setup_seconds,
-        "displacement": solution.displacement(question.probe_points()),
+        "displacement": solution.displacement(parsed.probe_points()),
         "reactions": solution.reactions,
-        "size": float(np.sqrt(np.prod(question.sheet.lengths) / np.prod(counts[:2]))),
+        "size": float(np.sqrt(np.prod(parsed.sheet.lengths) / np.prod(counts[:2]))),
     }

@@ -136,9 +136,9 @@ class Bricks:
         """Eight nodes of every brick's face on an edge (f, 8): corners in turn, mid-edges after them."""
         on = np.isin(self.elements, self.edge(name))
         rows = np.flatnonzero(on.sum(axis=1) == 8)
-        found = self.elements[rows][on[rows]].reshape(-1, 8)
-        odd = np.any(self.sites[found] % 2 == 1, axis=2)
-        return np.take_along_axis(found, np.argsort(odd, axis=1, kind="stable"), axis=1)
+        nodes = self.elements[rows][on[rows]].reshape(-1, 8)
+        odd = np.any(self.sites[nodes] % 2 == 1, axis=2)
+        return np.take_along_axis(nodes, np.argsort(odd, axis=1, kind="stable"), axis=1)
 
     def weights(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Nodes of the mid-surface's faces at plan points (p, 2) [m], and their shape functions, (p, 8)."""

@@ -194,18 +194,18 @@ class _Path:
 
 
 def _traced(equilibrium: Equilibrium, supports: Held) -> _Path:
-    """The equilibrium under the whole load, or the last that was found on the way."""
+    """The equilibrium under the whole load, or the last converged on the way."""
     free = _free(supports)
     fixed = np.einsum("nrc,nr->nc", supports.axes, np.where(supports.fixed, supports.value, 0.0))
     path, step = _Path(np.zeros_like(fixed), 0.0, 0), 1.0
     while path.load_factor < 1.0 and step >= LEAST:
         target = min(path.load_factor + step, 1.0)
-        found, iterations = _newton(equilibrium, free, path, fixed, target)
+        displacement, iterations = _newton(equilibrium, free, path, fixed, target)
         path = _Path(path.displacement, path.load_factor, path.iterations + iterations)
-        if found is None:
+        if displacement is None:
             step /= 2.0
         else:
-            path = _Path(found, target, path.iterations)
+            path = _Path(displacement, target, path.iterations)
     return path
 
 
@@ -229,7 +229,7 @@ def _free(supports: Held) -> csr_matrix:
 def _newton(
     equilibrium: Equilibrium, free: csr_matrix, start: _Path, fixed: np.ndarray, load_factor: float
 ) -> tuple[np.ndarray | None, int]:
-    """The displacement at a load factor, None where it was not found; and iterations.
+    """The displacement at a load factor, None where it did not converge; and iterations.
 
     The first step goes along the tangent of the start, and takes the held components to where they belong.
     """

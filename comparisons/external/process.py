@@ -31,13 +31,13 @@ MOST = 2**24  # bytes of standard output
 TAIL = 2000  # bytes of standard error that are kept
 LATE = "late"
 DRAIN = 1.0  # s for reading what is in the pipes at its end; others may go on to fill them
-LOOK = 0.05  # s between looks whether it has ended, where nothing is said
+LOOK = 0.05  # s between checks whether it has ended, where nothing is written
 BLOCK = 2**16  # bytes read at once
 
 
 @dataclass(frozen=True)
 class Ended:
-    """How a program ended: its exit status, negative for a signal, what it said, why it was stopped."""
+    """How a program ended: its exit status, negative for a signal, its output, why it was stopped."""
 
     code: int
     answer: bytes
@@ -107,7 +107,9 @@ def _hear(process: subprocess.Popen[bytes], until: float) -> tuple[bytes, bytes,
         waiting.register(process.stderr, selectors.EVENT_READ, complaint)
         stopped = ""
         while not stopped:
-            ended = process.poll() is not None  # before reading: what it has said by its end is in the pipes
+            ended = (
+                process.poll() is not None
+            )  # before reading: what it has written by its end is in the pipes
             if ended:
                 until = min(until, perf_counter() + DRAIN)
             left = max(0.0, until - perf_counter())

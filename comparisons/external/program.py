@@ -1,6 +1,6 @@
 """Models that are programs: any executable that reads a scene's JSON and writes an answer's JSON.
 
-It is asked for as `exec:PATH`, with settings after it: `exec:./mysim:seconds=5,n=9` runs `./mysim --n=9` for
+It is named `exec:PATH`, with settings after it: `exec:./mysim:seconds=5,n=9` runs `./mysim --n=9` for
 five seconds at most. On standard input it gets the scene, as "scene" in `compare --json` has it, its probes
 always there; on standard output it answers with one JSON object:
 
@@ -48,11 +48,11 @@ class Program:
 
     def __init__(self, path: str) -> None:
         """Raises BadInput for what is not there or cannot be run."""
-        found = shutil.which(path) or shutil.which(path, path=os.curdir)
-        if found is None:
+        executable = shutil.which(path) or shutil.which(path, path=os.curdir)
+        if executable is None:
             there = Path(path).is_file()
             raise BadInput(f"{path}: " + ("not executable, see chmod +x" if there else "no such program"))
-        self.path = Path(found)
+        self.path = Path(executable)
         self.name = Path(path).stem
 
     def digest(self) -> str:
@@ -74,17 +74,17 @@ class Program:
         if ended.code == REFUSED and not ended.stopped:
             raise BadInput(f"{self.name}: {ended.complaint or 'refused, without a reason'}")
         label = " ".join([self.name, *options])
-        found, why = {}, ended.fault
+        document, why = {}, ended.fault
         if not why:
             try:
-                found = _read(scene, ended.answer)
+                document = _read(scene, ended.answer)
             except BadInput as error:
                 why = f"its answer cannot be read: {error}"
-        return _solution(scene, label, self.name, own, found, ended.seconds, why)
+        return _solution(scene, label, self.name, own, document, ended.seconds, why)
 
 
 def _limits(settings: Mapping[str, Any]) -> tuple[float, int | None]:
-    """Seconds, and megabytes of memory: as much as is free unless said."""
+    """Seconds, and megabytes of memory: as much as is free unless set."""
     seconds, most = settings["seconds"], settings["memory_mb"]
     for name, value in (("seconds", seconds), ("memory_mb", most)):
         usual = value is None and name == "memory_mb"
@@ -99,12 +99,12 @@ def _limits(settings: Mapping[str, Any]) -> tuple[float, int | None]:
 def _read(scene: Scene, answer: bytes) -> dict[str, Any]:
     """The answer, its vectors as arrays. Raises BadInput that says what is wrong with it."""
     try:
-        found = json.loads(answer)
+        document = json.loads(answer)
     except (ValueError, RecursionError):
         raise BadInput("not one JSON document") from None
-    if not isinstance(found, dict):
+    if not isinstance(document, dict):
         raise BadInput("not a JSON object")
-    probes, status = found.get("probes"), found.get("status", str(Status.CONVERGED))
+    probes, status = document.get("probes"), document.get("status", str(Status.CONVERGED))
     if status not in [str(known) for known in Status]:
         raise BadInput(f"status = {status!r}: choose from {', '.join(Status)}")
     probes = probes if isinstance(probes, dict) else {}
@@ -112,12 +112,12 @@ def _read(scene: Scene, answer: bytes) -> dict[str, Any]:
     if missing:
         raise BadInput(f"probes: {', '.join(missing)} missing")
     read = {"probes": {name: _vector(probes[name], f"probes.{name}") for name in scene.probes}}
-    reactions = found.get("reactions") or {}
+    reactions = document.get("reactions") or {}
     edges = dict(reactions) if isinstance(reactions, dict) else {}
-    told = {"reactions": {edge: _vector(force, f"reactions.{edge}") for edge, force in edges.items()}}
-    numbers = {name: _number(found[name], name) for name in NUMBERS if found.get(name) is not None}
-    texts = {name: str(found[name]) for name in ("label", "message") if found.get(name)}
-    return {**read, **told, **numbers, **texts, "status": status}
+    forces = {"reactions": {edge: _vector(force, f"reactions.{edge}") for edge, force in edges.items()}}
+    numbers = {name: _number(document[name], name) for name in NUMBERS if document.get(name) is not None}
+    texts = {name: str(document[name]) for name in ("label", "message") if document.get(name)}
+    return {**read, **forces, **numbers, **texts, "status": status}
 
 
 def _vector(value: Any, name: str) -> np.ndarray:
@@ -138,35 +138,35 @@ def _solution(
     label: str,
     name: str,
     settings: dict[str, Any],
-    found: dict[str, Any],
+    document: dict[str, Any],
     seconds: float,
     why: str,
 ) -> Solution:
     """The answer at the probes, none elsewhere; `why` there is none at all."""
     nowhere = np.full(3, np.nan)
-    at = {scene.probes[probe]: u for probe, u in found.get("probes", {}).items()}
-    solving = float(found.get("solve_seconds", seconds))
+    at = {scene.probes[probe]: u for probe, u in document.get("probes", {}).items()}
+    solving = float(document.get("solve_seconds", seconds))
     points = scene.probe_points()
     values = np.array([at.get(tuple(point), nowhere) for point in points.tolist()]).reshape(-1, 3)
     return Solution(
         model=name,
-        label=found.get("label", label),
+        label=document.get("label", label),
         settings=settings,
-        status=Status(found["status"]) if found else Status.FAILED,
-        unknowns=int(found.get("unknowns", 0)),
-        iterations=int(found.get("iterations", 0)),
+        status=Status(document["status"]) if document else Status.FAILED,
+        unknowns=int(document.get("unknowns", 0)),
+        iterations=int(document.get("iterations", 0)),
         setup_seconds=max(0.0, seconds - solving),
         solve_seconds=solving,
-        sample=lambda asked: np.array([at.get(tuple(p), nowhere) for p in asked.tolist()]).reshape(-1, 3),
-        reactions=found.get("reactions", {}),
+        sample=lambda wanted: np.array([at.get(tuple(p), nowhere) for p in wanted.tolist()]).reshape(-1, 3),
+        reactions=document.get("reactions", {}),
         energies={},
         mesh=FieldMesh(
             np.column_stack([points, np.zeros(len(points))]),
             [("vertex", np.arange(len(points))[:, None])],
             {"displacement": values},
         ),
-        load_factor=float(found.get("load_factor", 1.0)) if found else 0.0,
-        notes=tuple(filter(None, [why, found.get("message", "")])),
+        load_factor=float(document.get("load_factor", 1.0)) if document else 0.0,
+        notes=tuple(filter(None, [why, document.get("message", "")])),
     )
 
 

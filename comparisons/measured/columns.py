@@ -146,8 +146,8 @@ def _header(lines: list[tuple[int, list[str]]], units: Mapping[str, str]) -> int
 
 
 def _headed(cell: str) -> tuple[str, str]:
-    found = _HEADED.fullmatch(cell.strip())
-    name, unit = (found[1], found[2] or "") if found else (cell.strip(), "")
+    match = _HEADED.fullmatch(cell.strip())
+    name, unit = (match[1], match[2] or "") if match else (cell.strip(), "")
     return "_".join(name.lower().split()), unit.strip()
 
 

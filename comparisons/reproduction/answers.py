@@ -36,7 +36,7 @@ def bending_stiffness() -> float:
     return float(given["young"] * given["thickness"] ** 3 / (12.0 * (1.0 - given["poisson"] ** 2)))
 
 
-def asked_layer_distance() -> float:
+def matched_layer_distance() -> float:
     """√(D/k) [m], with which a lattice of the published k bends like the published sheet."""
     return sqrt(bending_stiffness() / seed_inputs()["k"])
 
@@ -68,15 +68,15 @@ def answers(elements: Elements, progress: Progress = silent) -> list[Answer]:
 
 def answer(test: int, sense: int, elements: Elements, progress: Progress = silent) -> Answer:
     """A test by every model."""
-    asked = scene(test, sense or 1)
-    found = compare(asked, grid=masses(), calibration="consistent", elements=elements, progress=progress)
+    case = scene(test, sense or 1)
+    comparison = compare(case, grid=masses(), calibration="consistent", elements=elements, progress=progress)
     of_seed = []
-    for distance in (seed_inputs()["thickness"], asked_layer_distance()):
+    for distance in (seed_inputs()["thickness"], matched_layer_distance()):
         name = seed_lattice(distance)
         progress(Work(f"solving {name}"))
         springs = seed_springs(distance)
-        of_seed.append(replace(lumped.solve(asked, springs, weights="full"), model=name))
-    return Answer(test, sense, replace(found, solutions=(*found.solutions, *of_seed)))
+        of_seed.append(replace(lumped.solve(case, springs, weights="full"), model=name))
+    return Answer(test, sense, replace(comparison, solutions=(*comparison.solutions, *of_seed)))
 
 
 def seed_lattice(distance: float) -> str:
@@ -86,9 +86,9 @@ def seed_lattice(distance: float) -> str:
 
 def seed_springs(distance: float) -> lumped.Calibration:
     """The published k for every spring, with a layer distance [m]."""
-    asked, k = scene(1), seed_inputs()["k"]
+    first, k = scene(1), seed_inputs()["k"]
     return lumped.calibrate(
-        asked.sheet, asked.material, grid=masses(), method="uniform", k=k, layer_distance=distance
+        first.sheet, first.material, grid=masses(), method="uniform", k=k, layer_distance=distance
     )
 
 

@@ -28,17 +28,17 @@ class Finding:
     finding: str
 
 
-def all_of(found: Reproduction) -> list[Finding]:
+def all_of(reproduction: Reproduction) -> list[Finding]:
     """Every finding of the parts there are."""
     parts = (_tables, _settling)
-    return [Finding(about, said) for part in parts for about, said in part(found)]
+    return [Finding(about, finding) for part in parts for about, finding in part(reproduction)]
 
 
-Said = Iterator[tuple[str, str]]
+Findings = Iterator[tuple[str, str]]
 
 
-def _tables(found: Reproduction) -> Said:
-    for one in found.answers:
+def _tables(reproduction: Reproduction) -> Findings:
+    for one in reproduction.answers:
         comparison = one.comparison
         off = comparison.error(comparison.solutions[0])
         if off is not None and comparison.bar is not None:
@@ -59,12 +59,12 @@ def _tables(found: Reproduction) -> Said:
         )
         table = published(one.test, "model")
         for solution in comparison.solutions[2:]:
-            apart = np.nanmax(np.abs(_moved(one, solution.model) - table)) / np.nanmax(np.abs(table))
+            distance = np.nanmax(np.abs(_moved(one, solution.model) - table)) / np.nanmax(np.abs(table))
             how = "" if solution.status is Status.CONVERGED else f" (its answer is {solution.status})"
             yield (
                 one.title,
                 f"A lattice of the published k with layers {_layers(solution)} "
-                f"apart{how} is off the published model by up to {percent(float(apart), '.0f')} of its "
+                f"apart{how} is off the published model by up to {percent(float(distance), '.0f')} of its "
                 "largest displacement.",
             )
 
@@ -81,8 +81,8 @@ def _who(model: str) -> str:
     return "Consistent springs" if model == "lumped" else f"The published k, {model}"
 
 
-def _settling(found: Reproduction) -> Said:
-    if (settling := found.settling) is None:
+def _settling(reproduction: Reproduction) -> Findings:
+    if (settling := reproduction.settling) is None:
         return
     for model, run in settling.runs.items():
         settled = settling.settled(model)

@@ -25,8 +25,8 @@ _MIRRORED = [0, 2, 1, 3]  # the probes of test 1 beyond its diagonal
 def scene(test: int, sense: int = 1) -> Scene:
     """The scene of a test with the published inputs; sense: 1 where the rod of test 2 lifts its ends, or -1:
     only the size of its curvature is published."""
-    found = load(SCENES[test])
-    return put(found, "curvature_x0", sense * seed_inputs()["curvature"]) if test == 2 else found
+    loaded = load(SCENES[test])
+    return put(loaded, "curvature_x0", sense * seed_inputs()["curvature"]) if test == 2 else loaded
 
 
 @cache
@@ -38,8 +38,8 @@ def printed(test: int, source: str) -> np.ndarray:
 
 def published(test: int, source: str) -> np.ndarray:
     """Displacements (4, 3) [m] of the probes in the scene's axes, nan where the print cannot be meant."""
-    found = printed(test, source).copy()
+    table = printed(test, source).copy()
     if test == 1:
-        found[:, 1] *= -1.0
-        found[found[:, 1] * found[_MIRRORED, 0] < 0.0, 1] = np.nan
-    return found
+        table[:, 1] *= -1.0
+        table[table[:, 1] * table[_MIRRORED, 0] < 0.0, 1] = np.nan
+    return table

@@ -77,9 +77,9 @@ def reproduce(
     progress: Callable[[str | Work], None] = silent,
 ) -> Reproduction:
     """These parts of the seed's study; elements: of the shell; progress: told what is being done."""
-    found: dict[str, Any] = {}
+    parts_done: dict[str, Any] = {}
     if "tables" in parts:
-        found["answers"] = tuple(answers(elements, progress))
+        parts_done["answers"] = tuple(answers(elements, progress))
     if "settling" in parts:
-        found["settling"] = settling(progress=progress)
-    return Reproduction(tuple(part for part in PARTS if part in parts), elements, **found)
+        parts_done["settling"] = settling(progress=progress)
+    return Reproduction(tuple(part for part in PARTS if part in parts), elements, **parts_done)

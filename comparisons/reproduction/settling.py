@@ -15,7 +15,7 @@ from typing import Any, Literal
 import numpy as np
 
 import lumped
-from comparisons.reproduction.answers import asked_layer_distance, masses, seed_lattice, seed_springs
+from comparisons.reproduction.answers import masses, matched_layer_distance, seed_lattice, seed_springs
 from sheetbench.scenes import History, Scene, load
 from sheetbench.scenes.seed import seed_inputs
 
@@ -81,7 +81,7 @@ class Settling:
 
 def settling(duration: float = DURATION, progress: Callable[[str], None] = lambda what: None) -> Settling:
     """Both runs, and where they ought to end."""
-    scene, distance = load(SCENE), asked_layer_distance()
+    scene, distance = load(SCENE), matched_layer_distance()
     consistent = lumped.calibrate(scene.sheet, scene.material, grid=masses(), method="consistent")
     lattices: dict[str, tuple[lumped.Calibration, Literal["tributary", "full"]]] = {
         "lumped": (consistent, "tributary"),

@@ -36,29 +36,29 @@ def length(name: str, form: str = "z.2f", detail: bool = False) -> Column:
     return Column(name, "m", "mm", 1e3, form, detail=detail)
 
 
-def report(found: Reproduction) -> Report:
+def report(reproduction: Reproduction) -> Report:
     """What `sheetbench reproduce` shows."""
-    drawn: list[tuple[Table, str, Any]] = [(displacements(one), "test", one) for one in found.answers]
-    if found.settling is not None:
-        drawn.append((runs(found), "motion", found.settling))
+    drawn: list[tuple[Table, str, Any]] = [(displacements(one), "test", one) for one in reproduction.answers]
+    if reproduction.settling is not None:
+        drawn.append((runs(reproduction), "motion", reproduction.settling))
     return Report(
         name="reproduction",
         title="The study of Habibi et al., reproduced",
         subtitle="what was published, and what the same inputs give",
-        lead=_asked(),
-        document=found.as_dict(),
-        tables=(findings_table(findings.all_of(found)), *(table for table, *_ in drawn)),
-        complaints=tuple(_complaints(found)),
+        lead=_question(),
+        document=reproduction.as_dict(),
+        tables=(findings_table(findings.all_of(reproduction)), *(table for table, *_ in drawn)),
+        complaints=tuple(_complaints(reproduction)),
         pictures=tuple(
             Picture(table.name, f"comparisons.reproduction.figure:{kind}", (of,)) for table, kind, of in drawn
         ),
-        attachments=_attachments(found),
-        settings={"parts": list(found.parts), "elements": found.elements},
-        met=found.converged,
+        attachments=_attachments(reproduction),
+        settings={"parts": list(reproduction.parts), "elements": reproduction.elements},
+        met=reproduction.converged,
     )
 
 
-def _asked() -> str:
+def _question() -> str:
     """What was published, its tests and its sheet."""
     first, second = scene(1), scene(2)
     points = (
@@ -67,9 +67,9 @@ def _asked() -> str:
     return f"{SEED}. {first.title}. {second.title}. {sheet_in_words(first.sheet, first.material)}. {points}"
 
 
-def findings_table(found: Sequence[findings.Finding]) -> Table:
+def findings_table(every: Sequence[findings.Finding]) -> Table:
     """A row per finding."""
-    rows = tuple((one.about, one.finding) for one in found)
+    rows = tuple((one.about, one.finding) for one in every)
     return Table("Findings", (Column("about"), Column("finding", prose=True)), rows, "findings", grouped=True)
 
 
@@ -107,9 +107,9 @@ def displacements(one: Answer) -> Table:
     return Table(one.title, columns, tuple(rows), one.name, grouped=True, text=text)
 
 
-def runs(found: Reproduction) -> Table:
+def runs(reproduction: Reproduction) -> Table:
     """A row per run: what it took beside what is published, how far it swings and when it is at rest."""
-    settling = found.settling
+    settling = reproduction.settling
     assert settling is not None
     rows: list[tuple[Any, ...]] = [("published", "MATLAB R2016a", seed_inputs()["run_time"], *5 * (None,))]
     for model, run in settling.runs.items():
@@ -138,25 +138,25 @@ def runs(found: Reproduction) -> Table:
     return Table("The settling run", columns, tuple(rows), "settling", text=text)
 
 
-def _complaints(found: Reproduction) -> list[str]:
+def _complaints(reproduction: Reproduction) -> list[str]:
     """A sentence for every model of ours without an answer."""
     return [
         f"{one.title}, {s.model}: {s.status}: {s.status.advice}"
-        for one in found.answers
+        for one in reproduction.answers
         for s in one.comparison.solutions
         if s.status is not Status.CONVERGED
     ]
 
 
-def _attachments(found: Reproduction) -> dict[str, Write]:
+def _attachments(reproduction: Reproduction) -> dict[str, Write]:
     """The sheets of every test as VTU, and the histories."""
     files: dict[str, Write] = {}
-    for one in found.answers:
+    for one in reproduction.answers:
         files[f"{one.name}.vtu"] = one.comparison.write_plan
         for solution in one.comparison.solutions:
             files[f"{one.name}-{solution.model}.vtu"] = partial(write_solution, solution=solution)
-    if found.settling is not None:
-        for model, run in found.settling.runs.items():
+    if reproduction.settling is not None:
+        for model, run in reproduction.settling.runs.items():
             files[f"settling-{model}.csv"] = partial(write_text, text=run.series().to_csv())
             files[f"settling-{model}.pvd"] = partial(write_series, shown=frames(run))
     return files

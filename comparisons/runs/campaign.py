@@ -1,7 +1,7 @@
 """Campaigns: many runs, each carried out once, kept as soon as it is done, resumed after any interruption.
 
 A run is a task's name and JSON arguments. What it finds is kept in the folder's `campaign.sqlite` under a
-hash of name, arguments, version and source; asked again of the same code, it is read and not run. Nothing of
+hash of name, arguments, version and source; repeated by the same code, it is read and not run. Nothing of
 a finished run is ever changed. A run that raises is a row with its status, and so is one that takes its
 process down.
 
@@ -40,7 +40,7 @@ LOOK = 1.0  # s between looks at who carries out the runs
 
 @dataclass(frozen=True)
 class Run:
-    """What is asked: the function that `task` names (see `comparisons.runs.tasks`), called with `arguments`.
+    """The function that `task` names (see `comparisons.runs.tasks`), called with `arguments`.
 
     The arguments are plain JSON data, and so is the dictionary that the function returns; its "status" and
     "message", if any, become those of the run. label: what people read while it runs.
@@ -54,13 +54,13 @@ class Run:
     @property
     def key(self) -> str:
         """The hash under which the run is kept."""
-        asked = {
+        inputs = {
             "task": self.task,
             "arguments": plain(self.arguments),
             "version": version(),
             "source": source(),
         }
-        return hashlib.sha256(json.dumps(asked, sort_keys=True, allow_nan=False).encode()).hexdigest()
+        return hashlib.sha256(json.dumps(inputs, sort_keys=True, allow_nan=False).encode()).hexdigest()
 
 
 @dataclass(frozen=True)
@@ -99,20 +99,20 @@ def carry_out(
 ) -> list[Finished]:
     """Every run's outcome, in the order of `runs`; those that the store has are not run again.
 
-    retry: but those that failed or were lost are. progress: told of every run as it begins and as it ends.
+    retry: but those that failed or were lost are. progress: called as every run begins and ends.
     """
-    asked = list(runs)
-    for run in asked if retry else ():
+    queue = list(runs)
+    for run in queue if retry else ():
         store.forget(run.key)
-    missing = {run.key: run for run in asked if store.get(run.key) is None}
-    session = _Session(store, len({run.key for run in asked}), len(missing), progress)
+    missing = {run.key: run for run in queue if store.get(run.key) is None}
+    session = _Session(store, len({run.key for run in queue}), len(missing), progress)
     for timed, width in ((False, max(workers, 1)), (True, 1)):
         waiting = deque(run for run in missing.values() if run.timed is timed)
         if waiting:
             with single_threaded():
                 session.carry_out(waiting, pool, width)
-    found = [store.get(run.key) for run in asked]
-    return [outcome for outcome in found if outcome is not None]
+    stored = [store.get(run.key) for run in queue]
+    return [outcome for outcome in stored if outcome is not None]
 
 
 class _Session:
@@ -211,7 +211,7 @@ def execute(key: str, task: str, arguments: dict[str, Any]) -> Finished:
     try:
         if Run(task, arguments).key != key:
             raise RuntimeError(
-                "the code changed since this was asked, or the worker has another version of it"
+                "the code changed since this run was queued, or the worker has another version of it"
             )
         row = function(task)(**arguments)
         status, message = str(row.get("status", "done")), str(row.get("message", ""))
@@ -226,8 +226,8 @@ def execute(key: str, task: str, arguments: dict[str, Any]) -> Finished:
 
 
 def _lost(run: Run, error: BaseException | None = None) -> Finished:
-    said = "" if error is None else f": {error}"
-    return Finished(run.key, "lost", {}, f"the process that ran it died{said}", _now(), _now(), 0.0)
+    reason = "" if error is None else f": {error}"
+    return Finished(run.key, "lost", {}, f"the process that ran it died{reason}", _now(), _now(), 0.0)
 
 
 def _now() -> str:

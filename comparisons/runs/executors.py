@@ -51,10 +51,10 @@ class Processes(ProcessPoolExecutor):
         start = multiprocessing.get_context("spawn")
         super().__init__(workers, mp_context=start, initializer=_join, initargs=(theirs,))
 
-    def submit(self, *asked: Any, **named: Any) -> Future[Any]:
+    def submit(self, *arguments: Any, **keywords: Any) -> Future[Any]:
         """As usual; a process that this starts inherits that the interrupt is held back."""
         with _interrupt_held_back():
-            return super().submit(*asked, **named)
+            return super().submit(*arguments, **keywords)
 
     def watch(self) -> None:
         """A process that dies breaks the pool, which says so by itself."""
@@ -107,11 +107,11 @@ def pool_of(
     if scheduler is None:
         yield processes
         return
-    found = Cluster(scheduler, patient, say)
+    cluster = Cluster(scheduler, patient, say)
     try:
-        yield found.workers
+        yield cluster.workers
     finally:
-        found.close()
+        cluster.close()
 
 
 class Cluster:
@@ -129,7 +129,7 @@ class Cluster:
             import distributed
         except ImportError:
             raise BadInput("--scheduler: needs dask.distributed; pip install 'sheetbench[cluster]'") from None
-        for name in ("distributed", "distributed.client"):  # what matters of it is said here
+        for name in ("distributed", "distributed.client"):  # its own warnings are repeated here
             logging.getLogger(name).setLevel(logging.CRITICAL)
         self.address, self._patient, self._say = address, patient, say
         self._connect: Callable[[], distributed.Client] = lambda: distributed.Client(address, timeout=10)
@@ -164,12 +164,12 @@ class Cluster:
             self._missing_since = now
         if now - self._missing_since < PATIENCE or self._said:
             return
-        said = f"--scheduler = '{self.address}': no {missing} for {PATIENCE:g} s"
+        refusal = f"--scheduler = '{self.address}': no {missing} for {PATIENCE:g} s"
         if not self._patient:
             raise BadInput(
-                f"{said}; what was done is kept: the same command goes on, and with --wait waits for one"
+                f"{refusal}; what was done is kept: the same command goes on, and with --wait waits for one"
             )
-        self._say(f"{said}; waiting")
+        self._say(f"{refusal}; waiting")
         self._said = True
 
     def close(self) -> None:

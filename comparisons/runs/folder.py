@@ -1,11 +1,11 @@
 """The folder that a verb's files go to, and its manifest: what is there, of which scene, made with what.
 
 A folder holds answers about one scene. Files of another scene, of another verb that is about no scene or
-sheet in common, or of the same verb asked in another way that leaves other files, would stand side by side
+sheet in common, or of the same verb with options that leave other files, would stand side by side
 with new ones as if they belonged together: such a folder is refused, and with `overwrite` cleared first, of
 the files that its manifest lists and of nothing else.
 
-The manifest says what the latest run was made with, and under "runs", for every verb, what it was asked and
+The manifest says what the latest run was made with, and under "runs", for every verb, its options and
 which files are its own. It is written before the first file is whole, so that what an interrupted run leaves
 is known too.
 """
@@ -52,12 +52,16 @@ class Folder:
         self._record = record(list(command))
         self._about, self._variant = plain(dict(about or {})), plain(dict(variant or {}))
         self._runs = _runs(self.path, option)
-        mixed = {name: said for name, run in self._runs.items() if (said := self._differences(name, run))}
+        mixed = {
+            name: difference
+            for name, run in self._runs.items()
+            if (difference := self._differences(name, run))
+        }
         if mixed and not overwrite:
-            name, said = next(iter(mixed.items()))
+            name, difference = next(iter(mixed.items()))
             raise BadInput(
-                f"{option} = '{path}': holds files of another '{name}' ({said}); choose another folder, "
-                "or --overwrite"
+                f"{option} = '{path}': holds files of another '{name}' ({difference}); choose another "
+                "folder, or --overwrite"
             )
         self._stale = [name for name in {**mixed, verb: ""} if name in self._runs] if overwrite else []
 
@@ -82,8 +86,8 @@ class Folder:
         missing = []
         for picture in report.pictures:
             progress(f"drawing {picture.names[0]} …")
-            if said := picture.write(self.path):
-                missing.append(said)
+            if reason := picture.write(self.path):
+                missing.append(reason)
             else:
                 self.written += picture.names
         self.finish(report.settings, report.words())
@@ -122,12 +126,12 @@ class Folder:
             **self._about,
             **({} if words is None else {"words": words, "settings": settings}),
         }
-        said = {} if settings is None else {"settings": settings}
-        whole = {**self._record, **said, **self._about, "runs": {**of_others, self._verb: mine}}
+        made_with_settings = {} if settings is None else {"settings": settings}
+        whole = {**self._record, **made_with_settings, **self._about, "runs": {**of_others, self._verb: mine}}
         write_text(self.path / MANIFEST, to_json(whole))
 
     def _differences(self, verb: str, run: Mapping[str, Any]) -> str:
-        """What a run that left files here was about or asked, where that is not what this one is."""
+        """Return how the scene or options of a run that left files here differ from this run's."""
         there, here = (
             of if "scene" in run and "scene" in self._about else {**of, **of.get("scene", {})}
             for of in (run, self._about)
@@ -135,18 +139,20 @@ class Folder:
         shared = [key for key in ABOUT if key in there and key in here]
         if not shared and verb != self._verb:
             return "about something else"
-        said = _differing({key: there[key] for key in shared}, {key: here[key] for key in shared})
+        phrases = _differing({key: there[key] for key in shared}, {key: here[key] for key in shared})
         if verb == self._verb:
-            said += _differing(run.get("asked", {}), self._variant)
-        more = f" and {len(said) - NAMED} more" if len(said) > NAMED else ""
-        return "; ".join(said[:NAMED]) + more
+            phrases += _differing(run.get("asked", {}), self._variant)
+        more = f" and {len(phrases) - NAMED} more" if len(phrases) > NAMED else ""
+        return "; ".join(phrases[:NAMED]) + more
 
 
 def _runs(path: Path, option: str) -> dict[str, Any]:
     """What the manifest of a folder lists, by verb. Raises BadInput for a file that is none of ours."""
     try:
-        found = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
-        runs = found.get("runs") or {found["command"][1]: {key: found[key] for key in ABOUT if key in found}}
+        manifest = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
+        runs = manifest.get("runs") or {
+            manifest["command"][1]: {key: manifest[key] for key in ABOUT if key in manifest}
+        }
         return {verb: {"files": [], **run} for verb, run in runs.items()}
     except FileNotFoundError:
         return {}
@@ -161,13 +167,13 @@ def _differing(there: Any, here: Any, at: str = "") -> list[str]:
     if isinstance(there, dict) and isinstance(here, dict):
         keys = dict.fromkeys([*there, *here])
         return [
-            said
+            phrase
             for key in keys
-            for said in _differing(there.get(key), here.get(key), f"{at}.{key}" if at else key)
+            for phrase in _differing(there.get(key), here.get(key), f"{at}.{key}" if at else key)
         ]
     if isinstance(there, list) and isinstance(here, list) and len(there) == len(here):
         pairs = enumerate(zip(there, here, strict=True), start=1)
-        return [said for i, (a, b) in pairs for said in _differing(a, b, f"{at}.{i}")]
+        return [phrase for i, (a, b) in pairs for phrase in _differing(a, b, f"{at}.{i}")]
     return [] if there == here else [f"{at} is {_short(there)} there, {_short(here)} here"]
 
 

@@ -22,18 +22,18 @@ def warnings(loads: Iterable[float | None], samples: Iterable[Sequence[float]] =
     cores = os.cpu_count() or 1
     known = [load for load in loads if load is not None]
     busy = [load for load in known if load > cores]
-    found = []
+    sentences = []
     if busy:
         times = "these times" if len(known) == 1 else f"{len(busy)} of {len(known)} times"
-        found.append(
+        sentences.append(
             f"{times} were taken under a load of up to {max(busy):.3g} on {cores} "
             "processors: they are longer than on an idle machine; measure again there"
         )
     ratios = [max(times) / min(times) for times in samples if len(times) > 1 and min(times) > 0.0]
     wide = [ratio for ratio in ratios if ratio > SCATTER]
     if wide:
-        found.append(
+        sentences.append(
             f"samples of {len(wide)} of {len(ratios)} times scatter by more than {SCATTER:g}, by up to "
             f"{max(wide):.3g}: something else ran beside them"
         )
-    return found
+    return sentences

@@ -65,13 +65,13 @@ def versions() -> dict[str, str]:
     names = sorted(
         {re.split(r"[^\w.-]", line, maxsplit=1)[0] for line in metadata.requires("sheetbench") or []}
     )
-    found = {}
+    installed = {}
     for name in names:
         try:
-            found[name] = metadata.version(name)
+            installed[name] = metadata.version(name)
         except metadata.PackageNotFoundError:
             continue
-    return found
+    return installed
 
 
 def machine() -> dict[str, Any]:

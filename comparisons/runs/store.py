@@ -2,8 +2,8 @@
 
 Runs that failed or were lost may be forgotten, to be done again.
 
-Table `runs`: key (hash of what was asked of which code, see `campaign.Run`), task and arguments (JSON),
-status, row (JSON, what the run found), message, started and finished (UTC, ISO 8601), seconds, and a digest
+Table `runs`: key (hash of arguments and code, see `campaign.Run`), task and arguments (JSON),
+status, row (JSON, the run's answer), message, started and finished (UTC, ISO 8601), seconds, and a digest
 of all these. A row is committed, and synchronised to disk, before the next run's result is looked at: killing
 the process loses only runs that had not finished. A file that is damaged, locked or cannot be written is
 refused, and left as it is.
@@ -46,7 +46,7 @@ _MOVE = "move it away to start over"
 
 @dataclass(frozen=True)
 class Finished:
-    """A finished run: its key, how it ended, what it found (plain JSON data), when (UTC) and in how long [s].
+    """A finished run: its key, how it ended, its answer (plain JSON data), when (UTC) and in how long [s].
 
     status: the solver's where the run is a solve, else `done`; `refused` where its input was refused (it
     raised BadInput), `failed` where it raised anything else, a fault whose "traceback" is all the row holds;
@@ -85,17 +85,17 @@ class Store:
             if health == "ok":
                 with self._database:
                     self._database.execute(f"create table if not exists runs ({columns})")
-            found = [name for _, name, *_ in self._database.execute("pragma table_info(runs)")]
+            present = [name for _, name, *_ in self._database.execute("pragma table_info(runs)")]
         if health != "ok":
             raise BadInput(f"{self.path}: is damaged ({' '.join(health.split())}); {_MOVE}")
-        if found != list(COLUMNS):
+        if present != list(COLUMNS):
             raise BadInput(f"{self.path}: is of another program or version; {_MOVE}")
 
     def add(self, task: str, arguments: dict[str, Any], run: Finished) -> None:
         """Keep a finished run. Raises BadInput where the file cannot be written."""
-        asked, found = (json.dumps(plain(part), allow_nan=False) for part in (arguments, run.row))
+        inputs, outputs = (json.dumps(plain(part), allow_nan=False) for part in (arguments, run.row))
         values = (
-            *(run.key, task, asked, run.status, found, run.message),
+            *(run.key, task, inputs, run.status, outputs, run.message),
             *(run.started, run.finished, float(run.seconds)),
         )
         places = ", ".join("?" for _ in COLUMNS)
@@ -105,17 +105,17 @@ class Store:
     def get(self, key: str) -> Finished | None:
         """The finished run of a key, if there is one. Raises BadInput for a row that was changed since."""
         with self._said():
-            found = self._database.execute("select * from runs where key = ?", (key,)).fetchone()
-        if found is None:
+            record = self._database.execute("select * from runs where key = ?", (key,)).fetchone()
+        if record is None:
             return None
-        *values, digest = found
+        *values, digest = record
         if _digest(values) != digest:
             raise BadInput(f"{self.path}: the row of a run of '{values[1]}' is damaged; {_MOVE}")
         key, _, _, status, row, *rest = values
         return Finished(key, status, json.loads(row), *rest)
 
     def forget(self, key: str) -> None:
-        """Take out a run that found nothing, so that it can be done again."""
+        """Remove a run without an answer, so that it can be repeated."""
         with self._said(), self._database:
             self._database.execute("delete from runs where key = ? and status in ('failed', 'lost')", (key,))
 

@@ -21,5 +21,5 @@ TASKS = {
 def function(task: str) -> Callable[..., dict[str, Any]]:
     """What a task is carried out by: of a name in `TASKS`, or of "module:function" for one of your own."""
     module, _, name = TASKS.get(task, task).partition(":")
-    found: Callable[..., dict[str, Any]] = getattr(import_module(module), name)
-    return found
+    carried_out: Callable[..., dict[str, Any]] = getattr(import_module(module), name)
+    return carried_out

@@ -29,7 +29,7 @@ HEADERS = {
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """values: as in the reference; seconds: of the solve, None where it is not told."""
+    """values: as in the reference; seconds: of the solve, None where it is not given."""
 
     reference: Reference
     values: np.ndarray
@@ -42,7 +42,7 @@ def read_answers(path: Path, suite: str, chosen: Sequence[str] = ()) -> tuple[li
     Raises BadInput naming a case that there is not, what is missing of one, or is there twice.
     """
     known = references(suite)
-    asked = [reference(name, suite) for name in dict.fromkeys(chosen)] or list(known.values())
+    wanted = [reference(name, suite) for name in dict.fromkeys(chosen)] or list(known.values())
     columns = read_columns(path)
     header = HEADERS[suite]
     if not set(header) <= set(columns.names):
@@ -53,12 +53,12 @@ def read_answers(path: Path, suite: str, chosen: Sequence[str] = ()) -> tuple[li
             raise row.refused("case", _unknown(row.cells["case"], suite))
         rows.setdefault(row.cells["case"], []).append(row)
     closed = [
-        one for one in asked if one.name in rows and not any(_open(suite, row) for row in rows[one.name])
+        one for one in wanted if one.name in rows and not any(_open(suite, row) for row in rows[one.name])
     ]
     if not closed:
-        names = ", ".join(one.name for one in asked[:4])
+        names = ", ".join(one.name for one in wanted[:4])
         raise BadInput(f"{path}: no answer yet to {names}: fill in the numbers of a case")
-    unanswered = [one for one in asked if one not in closed]
+    unanswered = [one for one in wanted if one not in closed]
     return [_answer(path, one, rows[one.name]) for one in closed], unanswered
 
 
@@ -79,22 +79,24 @@ def _unknown(name: str, suite: str) -> str:
 
 def _answer(path: Path, reference: Reference, rows: list[Row]) -> Answer:
     timed = [row.measured("seconds") for row in rows if "seconds" in row.cells]
-    told = [value for value in timed if value == value]
+    seconds = [value for value in timed if value == value]
     read = {"statics": _probes, "settling": _histories, "modes": _frequencies}[reference.suite]
-    return Answer(reference, read(path, reference, rows), float(np.mean(told)) if told else None)
+    return Answer(reference, read(path, reference, rows), float(np.mean(seconds)) if seconds else None)
 
 
 def _probes(path: Path, reference: Reference, rows: list[Row]) -> np.ndarray:
-    return np.array([_only(path, reference, name, found)[1:] for name, found in _by_probe(reference, rows)])
+    return np.array(
+        [_only(path, reference, name, of_probe)[1:] for name, of_probe in _by_probe(reference, rows)]
+    )
 
 
 def _histories(path: Path, reference: Reference, rows: list[Row]) -> np.ndarray:
     assert reference.time is not None
     values = []
-    for name, found in _by_probe(reference, rows):
-        if not found:
+    for name, of_probe in _by_probe(reference, rows):
+        if not of_probe:
             raise BadInput(f"{path}: case {reference.name}: probe {name} is missing")
-        table = np.array(sorted([row.number("time"), *_vector(row)] for row in found))
+        table = np.array(sorted([row.number("time"), *_vector(row)] for row in of_probe))
         if table[0, 0] > reference.time[0] or table[-1, 0] < reference.time[-1]:
             raise BadInput(
                 f"{path}: case {reference.name}: probe {name} from {table[0, 0]:g} to {table[-1, 0]:g} s; "
@@ -107,11 +109,11 @@ def _histories(path: Path, reference: Reference, rows: list[Row]) -> np.ndarray:
 
 
 def _frequencies(path: Path, reference: Reference, rows: list[Row]) -> np.ndarray:
-    found = {int(row.number("mode")): row.number("frequency") for row in rows}
-    missing = [n for n in range(1, len(reference.values) + 1) if n not in found]
+    frequencies = {int(row.number("mode")): row.number("frequency") for row in rows}
+    missing = [n for n in range(1, len(reference.values) + 1) if n not in frequencies]
     if missing:
         raise BadInput(f"{path}: case {reference.name}: mode {missing[0]} is missing")
-    return np.array([found[n] for n in range(1, len(reference.values) + 1)])
+    return np.array([frequencies[n] for n in range(1, len(reference.values) + 1)])
 
 
 def _by_probe(reference: Reference, rows: list[Row]) -> list[tuple[str, list[Row]]]:

@@ -51,8 +51,8 @@ class Case:
 
 def cases(suite: str | None = None) -> tuple[Case, ...]:
     """All cases, or those of one suite."""
-    found = (*_statics(), *_settling(), *_modes())
-    return tuple(case for case in found if suite in (None, case.suite))
+    every = (*_statics(), *_settling(), *_modes())
+    return tuple(case for case in every if suite in (None, case.suite))
 
 
 def _scene(

@@ -25,14 +25,14 @@ AXES = ("ux", "uy", "uz")
 
 def faults(answers: Sequence[Answer]) -> list[str]:
     """Sentences, one a fault, that name the cases."""
-    found: dict[str, list[str]] = {}
+    cases: dict[str, list[str]] = {}
     for answer in answers:
         values = answer.values
         for mend in (_unit, _sign, _swap):
-            said, values = mend(answer, values)
-            for sentence in said:
-                found.setdefault(sentence, []).append(answer.reference.name)
-    return [f"{sentence} in {_named(names, len(answers))}" for sentence, names in found.items()]
+            sentences, values = mend(answer, values)
+            for sentence in sentences:
+                cases.setdefault(sentence, []).append(answer.reference.name)
+    return [f"{sentence} in {_named(names, len(answers))}" for sentence, names in cases.items()]
 
 
 def _named(names: list[str], of: int) -> str:
@@ -51,12 +51,12 @@ def _unit(answer: Answer, values: np.ndarray) -> Mended:
         if abs(ratio / (2.0 * np.pi) - 1.0) < 0.1:
             return ["frequencies are 2π times too large, as in rad/s for Hz,"], values / (2.0 * np.pi)
         return [], values
-    for factor, said in (
+    for factor, size in (
         (FACTOR, "1000 times too large, as in mm for m,"),
         (1.0 / FACTOR, "1000 times too small"),
     ):
         if 1.0 / NEAR < ratio / factor < NEAR:
-            return [f"displacements are {said}"], values / factor
+            return [f"displacements are {size}"], values / factor
     return [], values
 
 

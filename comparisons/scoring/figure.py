@@ -19,25 +19,25 @@ NAME = 5.5  # points, of a model's name
 LEAST = 1e-3  # percent, where an error of nothing is drawn
 
 
-def compose(found: Score, style: FigureStyle = PLAIN) -> Figure:
+def compose(score: Score, style: FigureStyle = PLAIN) -> Figure:
     """The figure: cases on the left; on the right time and score, where other models were measured."""
-    beside = len(found.standing) > 1
-    cases = 1.2 + 0.17 * max(8, len(found.answers))
+    beside = len(score.standing) > 1
+    cases = 1.2 + 0.17 * max(8, len(score.answers))
     below = 2.8 if beside and style.narrow else 0.0
     figure = Figure(figsize=(style.width, cases + below), layout="constrained")
     heights = (cases, below) if below else None
     axes = figure.subplots(*style.panels(1 + beside), squeeze=False, height_ratios=heights).ravel()
-    _cases(axes[0], found)
+    _cases(axes[0], score)
     if beside:
-        _place(axes[1], found)
+        _place(axes[1], score)
     return figure
 
 
-def _cases(axis: Axes, found: Score) -> None:
-    names = [plain(answer.reference.name, longest=24) for answer in found.answers]
+def _cases(axis: Axes, score: Score) -> None:
+    names = [plain(answer.reference.name, longest=24) for answer in score.answers]
     at = np.arange(len(names))[::-1]
-    errors = [max(LEAST, 100.0 * found.error(answer)) for answer in found.answers]
-    bars = [max(LEAST, 100.0 * answer.reference.bar) for answer in found.answers]
+    errors = [max(LEAST, 100.0 * score.error(answer)) for answer in score.answers]
+    bars = [max(LEAST, 100.0 * answer.reference.bar) for answer in score.answers]
     axis.barh(at, bars, height=0.7, color="#e4e4e4")
     axis.plot(errors, at, "o", ms=4, color=OWN)
     axis.set_yticks(at, names)
@@ -47,14 +47,14 @@ def _cases(axis: Axes, found: Score) -> None:
     axis.set_title("Errors by case", fontsize=8, fontweight="bold", loc="left")
 
 
-def _place(axis: Axes, found: Score) -> None:
-    timed = [one for one in found.standing if one.seconds is not None]
+def _place(axis: Axes, score: Score) -> None:
+    timed = [one for one in score.standing if one.seconds is not None]
     for one in timed:
         colour = OWN if one.model == "answers" else DARK
-        kept = colour if one.model in found.front else "white"
+        kept = colour if one.model in score.front else "white"
         marker = "s" if one.foreign else "o"
         axis.plot(1e3 * (one.seconds or 0.0), 100.0 * one.score, marker, ms=5, color=colour, mfc=kept)
-    for one in found.standing:
+    for one in score.standing:
         if one.seconds is None:
             axis.axhline(100.0 * one.score, color=OWN, lw=1.0, ls="--")
             axis.annotate(

@@ -22,8 +22,8 @@ LICENCE = "CC-BY-4.0"
 @dataclass(frozen=True, eq=False)
 class Reference:
     """A case with its values: displacements (probes, 3) [m], with times (t,) [s] (probes, t, 3), or natural
-    frequencies (k,) [Hz]; bars of each; bar: the largest over the largest value; judges: which codes were
-    asked, and how far each is off."""
+    frequencies (k,) [Hz]; bars of each; bar: the largest over the largest value; judges: codes that solved
+    the case, and how far each is off."""
 
     name: Annotated[str, Column("case")]
     suite: str
@@ -46,15 +46,15 @@ class Reference:
 @cache
 def document() -> dict[str, Any]:
     """The whole set as plain data."""
-    found: dict[str, Any] = json.loads(FILE.read_text(encoding="utf-8"))
-    return found
+    content: dict[str, Any] = json.loads(FILE.read_text(encoding="utf-8"))
+    return content
 
 
 @cache
 def references(suite: str | None = None) -> dict[str, Reference]:
     """The cases of a suite, or all of them, by name."""
-    found = (_reference(case) for case in document()["cases"])
-    return {case.name: case for case in found if suite in (None, case.suite)}
+    every = (_reference(case) for case in document()["cases"])
+    return {case.name: case for case in every if suite in (None, case.suite)}
 
 
 def reference(name: str, suite: str | None = None) -> Reference:

@@ -123,8 +123,8 @@ def stability(
     cells = [cell for name in VARIED if name in varied for cell in maker.cells(name)]
     runs = [run for cell in cells for run in (cell.run, cell.truth) if run is not None]
     done = carry_out(runs, store, workers=workers, pool=pool, retry=retry, progress=progress)
-    found = {run.key: outcome for run, outcome in zip(runs, done, strict=True)}
-    return Stability(scene, reference, maker.period, tuple(_row(cell, found) for cell in cells))
+    outcomes = {run.key: outcome for run, outcome in zip(runs, done, strict=True)}
+    return Stability(scene, reference, maker.period, tuple(_row(cell, outcomes) for cell in cells))
 
 
 class _Maker:
@@ -240,17 +240,17 @@ def _times(acting: Loading, factor: float) -> Any:
     return acting.replace(history=table.replace(factor=tuple(factor * sample for sample in table.factor)))
 
 
-def _row(cell: _Cell, found: Mapping[str, Finished]) -> Row:
+def _row(cell: _Cell, outcomes: Mapping[str, Finished]) -> Row:
     """A cell's row: how it ended, and its error where its reference has an answer too."""
     row: Row = {"study": cell.study, "cell": cell.cell, "error": None, "iterations": None, "seconds": None}
     if cell.run is None:
         return {**row, "status": str(Status.REFUSED), "message": cell.refusal}
-    outcome = found[cell.run.key]
+    outcome = outcomes[cell.run.key]
     row |= {"status": outcome.status, "message": outcome.message, "seconds": outcome.seconds}
     kept = ("iterations", "computed", "measured", "advised")
     row |= {name: outcome.row[name] for name in kept if name in outcome.row}
     row["iterations"] = row["iterations"] or outcome.row.get("steps")
-    truth = found[cell.truth.key] if cell.truth is not None else None
+    truth = outcomes[cell.truth.key] if cell.truth is not None else None
     if truth is None or truth is outcome or any(one.status != Status.CONVERGED for one in (outcome, truth)):
         return row
     if "displacement" in outcome.row:

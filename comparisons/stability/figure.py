@@ -11,9 +11,11 @@ from comparisons.stability.rows import VARIED, Row, place, who
 from sheetbench.answers.figure_style import FigureStyle
 
 
-def compose(found: Stability, style: FigureStyle) -> Figure:
+def compose(stability: Stability, style: FigureStyle) -> Figure:
     """The figure."""
-    by_study = {name: [r for r in found.rows if r["study"] == name] for name in VARIED if name != "damping"}
+    by_study = {
+        name: [r for r in stability.rows if r["study"] == name] for name in VARIED if name != "damping"
+    }
     panels = {name: rows for name, rows in by_study.items() if rows}
     models = {name: list(dict.fromkeys(map(who, rows)))[::-1] for name, rows in panels.items()}
     heights = [1.0 + len(of) for of in models.values()]
@@ -37,7 +39,7 @@ def compose(found: Stability, style: FigureStyle) -> Figure:
                 axis.set_xticks(at, [f"{x:g}" for x in at])
                 axis.set_xticks([], minor=True)
         if style.titled:
-            title = f"Where each model of {found.scene.name} holds; errors in %"
+            title = f"Where each model of {stability.scene.name} holds; errors in %"
             figure.suptitle(title, x=0.01, ha="left", fontsize=9, fontweight="bold")
         maps.key(figure, [maps.outcome(row) for rows in panels.values() for row in rows])
     return figure

@@ -73,5 +73,5 @@ def measured_limit(equations: System, guess: float, integrator: str = "verlet") 
 
 def energy(equations: System, state: State) -> float:
     """Kinetic and elastic energy [J]."""
-    found, _ = equations.balance(state)
-    return found["kinetic"] + found["elastic"]
+    balance, _ = equations.balance(state)
+    return balance["kinetic"] + balance["elastic"]

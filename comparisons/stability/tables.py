@@ -16,34 +16,34 @@ if TYPE_CHECKING:
 ERROR = Column("error", "", "%", 100.0, ".3g")
 
 
-def report(found: Stability) -> Report:
+def report(maps: Stability) -> Report:
     """What `sheetbench stability` shows."""
-    broken = [row for row in found.rows if row["status"] in ("failed", "lost")]
-    steps = [] if not _limits(found) else [limits(found)]
-    drawn = any(row["study"] != "damping" for row in found.rows)
+    broken = [row for row in maps.rows if row["status"] in ("failed", "lost")]
+    steps = [] if not _limits(maps) else [limits(maps)]
+    drawn = any(row["study"] != "damping" for row in maps.rows)
     return Report(
         name="stability",
         title="stability",
-        subtitle=f"where each model of {found.scene.name} holds",
-        document=found.as_dict(),
-        tables=(summary(found), *steps, *map(cells, _studies(found))),
-        printed=(summary(found), *steps),
+        subtitle=f"where each model of {maps.scene.name} holds",
+        document=maps.as_dict(),
+        tables=(summary(maps), *steps, *map(cells, _studies(maps))),
+        printed=(summary(maps), *steps),
         notes=(
-            f"holds: converged and within {100.0 * LARGE:g} % of the {found.reference} on the same sheet, in "
+            f"holds: converged and within {100.0 * LARGE:g} % of the {maps.reference} on the same sheet, in "
             "motion of a run with a fine step.",
         ),
         complaints=tuple(f"{r['study']} {r['cell']}: {r['status']}: {r['message']}" for r in broken),
-        pictures=(Picture("stability", "comparisons.stability.figure:compose", (found,)),) if drawn else (),
-        settings={"studies": list(dict.fromkeys(row["study"] for row in found.rows))},
+        pictures=(Picture("stability", "comparisons.stability.figure:compose", (maps,)),) if drawn else (),
+        settings={"studies": list(dict.fromkeys(row["study"] for row in maps.rows))},
         met=not broken,
     )
 
 
-def summary(found: Stability) -> Table:
+def summary(maps: Stability) -> Table:
     """A row per study and model: over what it holds, degrades, refuses and fails, the worst error held."""
     rows = []
     for (study, name), some in groupby(
-        sorted(found.rows, key=lambda r: (list(VARIED).index(r["study"]), _order(found, r))),
+        sorted(maps.rows, key=lambda r: (list(VARIED).index(r["study"]), _order(maps, r))),
         key=lambda r: (r["study"], who(r)),
     ):
         of = [row for row in some if place(row) is not None]
@@ -62,27 +62,27 @@ def summary(found: Stability) -> Table:
     return Table("Where each model holds", columns, tuple(rows), "holds", grouped=True)
 
 
-def _order(found: Stability, row: Row) -> int:
-    return list(dict.fromkeys(map(who, found.rows))).index(who(row))
+def _order(maps: Stability, row: Row) -> int:
+    return list(dict.fromkeys(map(who, maps.rows))).index(who(row))
 
 
 def _ranges(rows: Iterable[Row], end: str) -> str:
     """The places of the cells that ended so, neighbours as a range."""
     ordered = sorted(rows, key=place)
-    said = []
+    sentences = []
     for here, some in groupby(ordered, key=lambda row: verdict(row) == end):
         places = [place(row) * (1e3 if row["study"] == "time-step" else 1.0) for row in some]
         if here:
             ends = [number(at, ".4g") for at in dict.fromkeys((places[0], places[-1]))]
-            said.append(" to ".join(ends))
-    return ", ".join(said) or "–"
+            sentences.append(" to ".join(ends))
+    return ", ".join(sentences) or "–"
 
 
-def _limits(found: Stability) -> list[Row]:
-    return [row for row in found.rows if row["study"] == "damping" and row.get("computed") is not None]
+def _limits(maps: Stability) -> list[Row]:
+    return [row for row in maps.rows if row["study"] == "damping" and row.get("computed") is not None]
 
 
-def limits(found: Stability) -> Table:
+def limits(maps: Stability) -> Table:
     """A row per explicit integrator and damping: its largest stable step, computed and measured."""
     rows = tuple(
         (
@@ -93,7 +93,7 @@ def limits(found: Stability) -> Table:
             row["advised"],
             row["status"],
         )
-        for row in sorted(_limits(found), key=lambda row: _order(found, row))
+        for row in sorted(_limits(maps), key=lambda row: _order(maps, row))
     )
     columns = (
         Column("integrator"),
@@ -106,8 +106,8 @@ def limits(found: Stability) -> Table:
     return Table("Largest stable steps", columns, rows, "steps", grouped=True)
 
 
-def _studies(found: Stability) -> list[tuple[str, list[Row]]]:
-    return [(study, list(rows)) for study, rows in groupby(found.rows, key=lambda row: row["study"])]
+def _studies(maps: Stability) -> list[tuple[str, list[Row]]]:
+    return [(study, list(rows)) for study, rows in groupby(maps.rows, key=lambda row: row["study"])]
 
 
 def cells(study: tuple[str, list[Row]]) -> Table:

@@ -22,22 +22,22 @@ def run(scene: dict[str, Any], lattice: dict[str, Any], integrator: str, period:
     """
     import lumped
 
-    asked = Scene.model_validate(scene)
-    springs, _ = LatticeSpec(**lattice).springs(asked)
-    duration, found = PERIODS * period, dict.fromkeys(("computed", "measured", "advised"))
+    parsed = Scene.model_validate(scene)
+    springs, _ = LatticeSpec(**lattice).springs(parsed)
+    duration, limits = PERIODS * period, dict.fromkeys(("computed", "measured", "advised"))
     if lumped.INTEGRATORS[integrator].explicit:
-        equations = system(asked.replace(gravity=None, loads=()), springs)
+        equations = system(parsed.replace(gravity=None, loads=()), springs)
         kind = lumped.INTEGRATORS[integrator]
         limit = kind.limit(equations, np.zeros_like(equations.problem.loads.dead))
         assert limit is not None
-        found |= {"computed": limit.step, "advised": limit.advised}
-        if rests_flat(asked):
+        limits |= {"computed": limit.step, "advised": limit.advised}
+        if rests_flat(parsed):
             with suppress(ArithmeticError):  # damped so much that the energy of no step grows
-                found["measured"] = measured_limit(equations, limit.step, integrator)
+                limits["measured"] = measured_limit(equations, limit.step, integrator)
         duration = min(duration, STEPS * limit.advised)
-    history = lumped.simulate(asked, springs, duration, integrator=integrator, every=duration)
+    history = lumped.simulate(parsed, springs, duration, integrator=integrator, every=duration)
     return {
-        **found,
+        **limits,
         "status": str(history.status),
         "message": history.message,
         "iterations": history.steps,

@@ -14,7 +14,7 @@ from comparisons.stability.rows import LARGE, Row, percent
 from sheetbench.answers.style import GREY, STYLE
 
 MAP_STYLE = {**STYLE, "axes.titlesize": 8, "axes.titleweight": "bold", "axes.titlelocation": "left"}
-# Light enough to write on; told apart in grey and by those who do not see red and green alike.
+# Light enough to write on; distinct in grey and without telling red from green.
 OUTCOMES = {
     "within 1 %": "#a8d5c2",
     "within 5 %": "#d9ecd2",
@@ -68,9 +68,9 @@ def tiles(
         i, j = int(np.searchsorted(xs, x(row))), int(np.searchsorted(ys, y(row)))
         corner, size = (across[i], up[j]), (across[i + 1] - across[i], up[j + 1] - up[j])
         axis.add_patch(Rectangle(corner, *size, facecolor=OUTCOMES[of(row)], edgecolor="white", lw=0.8))
-        said = text(row) if text is not None else percent(row.get("error"))
+        label = text(row) if text is not None else percent(row.get("error"))
         axis.text(
-            _mid(across, i, scale[0]), _mid(up, j, scale[1]), said, fontsize=5.2, ha="center", va="center"
+            _mid(across, i, scale[0]), _mid(up, j, scale[1]), label, fontsize=5.2, ha="center", va="center"
         )
     axis.set_xscale(scale[0])
     axis.set_yscale(scale[1])
@@ -84,9 +84,11 @@ def _mid(edges: np.ndarray, i: int, scale: str) -> float:
     return float(np.sqrt(edges[i] * edges[i + 1]) if scale == "log" else 0.5 * (edges[i] + edges[i + 1]))
 
 
-def key(figure: Figure, found: Sequence[str], *lines: Any, columns: int = 4) -> None:
+def key(figure: Figure, outcomes: Sequence[str], *lines: Any, columns: int = 4) -> None:
     """The colours that occur, and the theory's lines, below the panels."""
-    patches = [Patch(facecolor=c, edgecolor=GREY, lw=0.4, label=n) for n, c in OUTCOMES.items() if n in found]
+    patches = [
+        Patch(facecolor=c, edgecolor=GREY, lw=0.4, label=n) for n, c in OUTCOMES.items() if n in outcomes
+    ]
     figure.legend(
         handles=[*patches, *lines],
         loc="outside lower center",

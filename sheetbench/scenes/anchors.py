@@ -26,7 +26,7 @@ def held_twice(actuators: Sequence[Chain | EdgeMotion], supports: Sequence[AnySu
     for number, chain in enumerate(actuators, start=1):
         if not isinstance(chain, Chain):
             continue
-        places = {end: said for end in (0, 1) if (said := _holder(chain, end, chains, fixed))}
+        places = {end: holder for end in (0, 1) if (holder := _holder(chain, end, chains, fixed))}
         if chain.base != "free":
             places[{"start": 0, "middle": -1, "end": 1}[chain.base]] = f'by its own base = "{chain.base}"'
         if len(places) > 1:

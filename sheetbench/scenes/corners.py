@@ -35,9 +35,9 @@ def conflict(
         earlier = [other for other in actuators[:i] if isinstance(other, Chain)]
         for other in (*supports, *earlier, *actuators[i + 1 :]):
             if EDGES[other.edge].normal_axis != EDGES[motion.edge].normal_axis:
-                said = _between(motion, other, sheet)
-                if said is not None:
-                    return said
+                reason = _between(motion, other, sheet)
+                if reason is not None:
+                    return reason
     return None
 
 
@@ -57,16 +57,16 @@ def _between(motion: EdgeMotion, other: Neighbour | Chain, sheet: Sheet) -> str 
             f"motion on edge {motion.edge} holds"
         )
     axes, turns = _held(other)
-    apart, turned = [], ""
+    differences, turned = [], ""
     for time in _moments(motion, other):
         when = f"at t = {time:.3g} s"
         u, director = _pose(motion, corner, sheet, time)
         place, normal = _place(other, corner, sheet, time)
         gaps = [(abs(u[axis] - place[axis]), axis, when) for axis in axes]
-        apart.append(max(gaps))
+        differences.append(max(gaps))
         if any(abs(director[axis] - normal[axis]) > EXACT for axis in turns):
             turned = when
-    gap, axis, when = max(apart)
+    gap, axis, when = max(differences)
     if gap > EXACT * max(sheet.lengths):
         return (
             f"the motion on edge {motion.edge} moves the corner that {_named(other)} holds: "

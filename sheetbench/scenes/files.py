@@ -25,9 +25,9 @@ def catalogue() -> dict[str, Path]:
 AnyScene = Scene | str | Path
 
 
-def scene_of(asked: AnyScene) -> Scene:
+def scene_of(scene: AnyScene) -> Scene:
     """The scene itself, or that of a catalogue name or a TOML file."""
-    return asked if isinstance(asked, Scene) else load(asked)
+    return scene if isinstance(scene, Scene) else load(scene)
 
 
 def load(scene: str | Path) -> Scene:
@@ -58,6 +58,6 @@ def load(scene: str | Path) -> Scene:
         loaded = Scene.model_validate(data)
     except ValidationError as error:
         raise SceneError(f"{scene}: {in_one_line(error, Scene)}") from None
-    for said in slips(loaded):
-        warn(Implausible(f"{scene}: {said}"), stacklevel=2)
+    for slip in slips(loaded):
+        warn(Implausible(f"{scene}: {slip}"), stacklevel=2)
     return loaded

@@ -26,14 +26,14 @@ def near_square(sheet: Sheet, cells: int) -> tuple[int, int]:
     return along_x, along_y
 
 
-def grid_of(sheet: Sheet, asked: int | Sequence[int] = MASSES) -> Grid:
+def grid_of(sheet: Sheet, masses: int | Sequence[int] = MASSES) -> Grid:
     """The grid that is asked for by a number, or by two or three.
 
     Raises BadInput below two masses a side or two layers, and for anything else than such numbers.
     """
-    counts = np.atleast_1d(asked)
+    counts = np.atleast_1d(masses)
     if counts.dtype.kind not in "iu" or counts.shape not in ((1,), (2,), (3,)):
-        raise BadInput(f"grid = {asked!r}: write 9, (9, 13) or (9, 13, 2)")
+        raise BadInput(f"grid = {masses!r}: write 9, (9, 13) or (9, 13, 2)")
     numbers = counts.tolist()
     if len(numbers) == 1:
         numbers = [cells + 1 for cells in near_square(sheet, numbers[0] - 1)]

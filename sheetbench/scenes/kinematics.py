@@ -127,13 +127,13 @@ DrivenEdge = BentEdge | TiltedEdge | MovedEdge
 
 def bent_or_tilted(supports: tuple[AnySupport, ...], sheet: Sheet) -> list[BentEdge | TiltedEdge]:
     """The edges that supports bend or tilt."""
-    found: list[BentEdge | TiltedEdge] = []
+    edges: list[BentEdge | TiltedEdge] = []
     for support in supports:
         if isinstance(support, Curved) and support.curvature != 0.0:
-            found.append(BentEdge(support, supports, sheet))
+            edges.append(BentEdge(support, supports, sheet))
         elif isinstance(support, Clamped) and support.tilt != 0.0:
-            found.append(TiltedEdge(support))
-    return found
+            edges.append(TiltedEdge(support))
+    return edges
 
 
 @dataclass(frozen=True)
@@ -147,13 +147,13 @@ class Shift:
 
 def shifts(supports: tuple[AnySupport, ...]) -> list[Shift]:
     """The supports' displacements at the last sample of their motion, as statics take it."""
-    found = []
+    moves = []
     for support in supports:
         if support.motion is not None:
             axes = held_axes(support)
             last = np.array(support.motion.displacement[-1])[list(axes)]
-            found.append(Shift(support.edge, axes, last))
-    return found
+            moves.append(Shift(support.edge, axes, last))
+    return moves
 
 
 def _middle(rod: Curved, supports: tuple[AnySupport, ...], sheet: Sheet) -> float:

@@ -31,16 +31,18 @@ LAYERS = 5.0  # times thicker or thinner than the sheet
 
 def slips(scene: Scene) -> tuple[str, ...]:
     """Sentences about what was hardly meant; for most scenes none."""
-    said = [*sheet_slips(scene.sheet), *material_slips(scene.material)]
+    warnings = [*sheet_slips(scene.sheet), *material_slips(scene.material)]
     if scene.gravity is not None:
-        said += _gravity(scene.gravity)
+        warnings += _gravity(scene.gravity)
     if scene.springs is not None:
-        said += layer_slips(scene.sheet, scene.springs.layer_distance, "springs.layer_distance")
-    if not said:  # else that may be why
-        said = _strains(scene)
+        warnings += layer_slips(scene.sheet, scene.springs.layer_distance, "springs.layer_distance")
+    if not warnings:  # else that may be why
+        warnings = _strains(scene)
     if _unmoved(scene):
-        said.append("no gravity, load, actuator or bent support: nothing moves the sheet, all stays at zero")
-    return tuple(said)
+        warnings.append(
+            "no gravity, load, actuator or bent support: nothing moves the sheet, all stays at zero"
+        )
+    return tuple(warnings)
 
 
 def sheet_slips(sheet: Sheet) -> list[str]:
@@ -61,25 +63,25 @@ def sheet_slips(sheet: Sheet) -> list[str]:
 
 def material_slips(material: Material) -> list[str]:
     """A modulus that is not in pascals, a density that is not in kilograms a cubic metre."""
-    said = []
+    warnings = []
     young, density = material.young, material.density
     if young < SOFTEST:
-        said.append(
+        warnings.append(
             f"young = {young:g} Pa is softer than any solid sheet; "
             f'it is in pascals: {young:g} MPa is written {young:g}e6 or "{young:g} MPa"'
         )
     elif young > STIFFEST:
-        said.append(
+        warnings.append(
             f"young = {young:g} Pa is {young / 1e9:g} GPa, stiffer than any soft sheet; it is in pascals"
         )
     if density < LIGHTEST:
-        said.append(
+        warnings.append(
             f"density = {density:g} kg/m³ is lighter than foam; "
             f'it is in kg/m³: {density:g} g/cm³ is written {1e3 * density:g} or "{density:g} g/cm³"'
         )
     elif density > HEAVIEST:
-        said.append(f"density = {density:g} kg/m³ is heavier than any metal; water's is 1000 kg/m³")
-    return said
+        warnings.append(f"density = {density:g} kg/m³ is heavier than any metal; water's is 1000 kg/m³")
+    return warnings
 
 
 def layer_slips(sheet: Sheet, distance: float, key: str = "layer_distance") -> list[str]:
@@ -93,20 +95,20 @@ def layer_slips(sheet: Sheet, distance: float, key: str = "layer_distance") -> l
 
 def _strains(scene: Scene) -> list[str]:
     """A weight or loads that would tear the sheet."""
-    said = []
+    warnings = []
     sheet, young = scene.sheet, scene.material.young
     if (weight := weight_strain(scene)) > WEIGHT_LIMIT:
-        said.append(
+        warnings.append(
             f"the weight alone stretches the sheet: ρ g a/E = {_three_digits(weight)}, and above "
             f"{WEIGHT_LIMIT:g} no linear model means anything"
         )
     pull = sum(_size(load, sheet) for load in scene.loads) / (young * sheet.thickness * min(sheet.lengths))
     if pull > STRETCH_LIMIT:
-        said.append(
+        warnings.append(
             f"the loads are {_three_digits(pull)} times E · thickness · shorter side and would tear the "
             "sheet; forces are in N, forces per length in N/m, pressures in Pa"
         )
-    return said
+    return warnings
 
 
 def _size(load: PointLoad | EdgeLoad | Pressure, sheet: Sheet) -> float:

@@ -143,8 +143,8 @@ class Frozen(BaseModel, frozen=True):
         schema = handler(core)
         keys = handler.resolve_ref_schema(schema).get("properties", {})
         for name, field in cls.model_fields.items():  # pydantic would read the sources at every import
-            if name in (said := sentences(cls)):
-                keys[field.validation_alias or name]["description"] = said[name]
+            if name in (texts := sentences(cls)):
+                keys[field.validation_alias or name]["description"] = texts[name]
         return schema
 
 

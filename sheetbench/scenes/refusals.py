@@ -27,10 +27,10 @@ MANY_DIGITS = 30
 def in_one_line(error: ValidationError, model: type[BaseModel]) -> str:
     """The faults of data for `model`, separated by semicolons."""
     faults = [fault for fault in error.errors(include_url=False) if not _follows(fault)]
-    said = [_sentence(fault, json_schema(model)) for fault in faults[:TOLD]]
+    faults_in_words = [_sentence(fault, json_schema(model)) for fault in faults[:TOLD]]
     if len(faults) > TOLD:
-        said.append(f"and {len(faults) - TOLD} more")
-    return "; ".join(said)
+        faults_in_words.append(f"and {len(faults) - TOLD} more")
+    return "; ".join(faults_in_words)
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str | None:
@@ -197,10 +197,10 @@ _FORMS = {"constant", "each joint", "over time", "one number", "per direction", 
 def _inside(node: dict[str, Any], part: int | str, schema: dict[str, Any]) -> list[dict[str, Any]]:
     """What the schema says about an entry of a list or a key of a table."""
     if isinstance(part, int):
-        found = (node.get("prefixItems") or [])[part : part + 1] or [node.get("items")]
+        items = (node.get("prefixItems") or [])[part : part + 1] or [node.get("items")]
     else:
-        found = [node.get("properties", {}).get(part, node.get("additionalProperties"))]
-    return [branch for below in found if isinstance(below, dict) for branch in branches(schema, below)]
+        items = [node.get("properties", {}).get(part, node.get("additionalProperties"))]
+    return [branch for below in items if isinstance(below, dict) for branch in branches(schema, below)]
 
 
 def _path(where: list[int | str]) -> str:

@@ -103,8 +103,8 @@ def _fit(loss_factor: float, frequency: np.ndarray, count: int, beyond: float) -
     x = 2.0 * pi * frequency[:, None] * times
     rows, weight = (x - loss_factor * x * x) / (1.0 + x * x), np.ones(len(frequency))
     for _ in range(SWEEPS):
-        found, _ = nnls(rows * weight[:, None], loss_factor * weight)
-        branches = Branches(tuple(map(float, found)), tuple(map(float, times)))
+        shares, _ = nnls(rows * weight[:, None], loss_factor * weight)
+        branches = Branches(tuple(map(float, shares)), tuple(map(float, times)))
         storage, loss = branches.storage_and_loss(frequency)
         weight = 1.0 / storage
     return float(np.abs(loss / storage / loss_factor - 1.0).max()), branches

@@ -51,12 +51,12 @@ def _left_free(sheet: Sheet, supports: tuple[Support, ...]) -> tuple[str, ...]:
     free = motions[rank:]
     fixed = np.eye(6) - free.T @ free  # what of a motion is not free
     sliding = np.linalg.norm(fixed[:, :3], axis=0) < ROUND_OFF
-    found = [f"translation along {name}" for name, slides in zip("xyz", sliding, strict=True) if slides]
+    in_words = [f"translation along {name}" for name, slides in zip("xyz", sliding, strict=True) if slides]
     for axis, name in enumerate("xyz"):
         moved = np.linalg.lstsq(fixed[:, :3], -fixed[:, 3 + axis], rcond=ROUND_OFF)[0]
         if np.linalg.norm(fixed[:, :3] @ moved + fixed[:, 3 + axis]) < ROUND_OFF:
-            found.append(f"rotation about {_resting(sheet, axis, scale * moved) or name}")
-    return (*found, *["a screw"] * (len(free) - len(found)))
+            in_words.append(f"rotation about {_resting(sheet, axis, scale * moved) or name}")
+    return (*in_words, *["a screw"] * (len(free) - len(in_words)))
 
 
 def _resting(sheet: Sheet, axis: int, moved: np.ndarray) -> str:

@@ -87,7 +87,7 @@ class Scene(Frozen):
             supports = _edges(data.get("support") or data.get("supports") or ())
             moved = _edges(data.get("actuator") or data.get("actuators") or ())
             held = [edge for edge, part in supports if _holds_height(part)]
-            held += [edge for edge, part in moved if _said(part, "kind") == "motion"]
+            held += [edge for edge, part in moved if _value_of(part, "kind") == "motion"]
             data = {**data, "probes": default_probes(sheet, [edge for edge, _ in supports], held)}
         return data
 
@@ -103,14 +103,14 @@ class Scene(Frozen):
             raise ValueError(
                 f"springs: of a material with law = '{self.material.law}' they are calibrated; leave one out"
             )
-        if said := contradiction(self.supports):
-            raise ValueError(f"support: {said}")
-        if said := disagreement(self.actuators, {support.edge for support in self.supports}):
-            raise ValueError(f"actuator: {said}")
-        if said := held_twice(self.actuators, self.supports):
-            raise ValueError(f"actuator {said}")
-        if said := corners.conflict(self.actuators, self.supports, self.sheet):
-            raise ValueError(f"actuator: {said}")
+        if reason := contradiction(self.supports):
+            raise ValueError(f"support: {reason}")
+        if reason := disagreement(self.actuators, {support.edge for support in self.supports}):
+            raise ValueError(f"actuator: {reason}")
+        if reason := held_twice(self.actuators, self.supports):
+            raise ValueError(f"actuator {reason}")
+        if reason := corners.conflict(self.actuators, self.supports, self.sheet):
+            raise ValueError(f"actuator: {reason}")
         return self
 
     def _on_sheet(self, point: PlanPoint) -> bool:
@@ -163,11 +163,11 @@ class Scene(Frozen):
 
     def chains(self) -> dict[str, dict[str, Chain]]:
         """The chains by their names, of every edge with some."""
-        found: dict[str, dict[str, Chain]] = {}
+        by_edge: dict[str, dict[str, Chain]] = {}
         for name, actuator in self.named_actuators().items():
             if isinstance(actuator, Chain):
-                found.setdefault(str(actuator.edge), {})[name] = actuator
-        return found
+                by_edge.setdefault(str(actuator.edge), {})[name] = actuator
+        return by_edge
 
     def twisting_edges(self) -> frozenset[str]:
         """The edges along which nothing holds the director: free, hinged and held ones."""
@@ -193,9 +193,9 @@ def _warn_author(scene: Scene, known: Scene | None = None) -> None:
     if sys._getframe(2).f_globals.get("__name__", "").partition(".")[0] in OURS:
         return
     before = () if known is None else slips(known)
-    for said in slips(scene):
-        if said not in before:
-            warn(Implausible(f"scene '{scene.name}': {said}"), stacklevel=3)
+    for slip in slips(scene):
+        if slip not in before:
+            warn(Implausible(f"scene '{scene.name}': {slip}"), stacklevel=3)
 
 
 def default_probes(sheet: Sheet, supported: list[str], held: list[str]) -> dict[str, PlanPoint]:
@@ -232,15 +232,15 @@ def _edges(parts: Any) -> list[tuple[str, Any]]:
     """The supports or actuators as they are asked for, as far as they name an edge, with their edges."""
     if not isinstance(parts, list | tuple):
         return []
-    named = [(_said(part, "edge"), part) for part in parts]
+    named = [(_value_of(part, "edge"), part) for part in parts]
     return [(edge, part) for edge, part in named if isinstance(edge, str) and edge in EDGES]
 
 
-def _said(part: Any, key: str) -> Any:
+def _value_of(part: Any, key: str) -> Any:
     return part.get(key) if isinstance(part, dict) else getattr(part, key, None)
 
 
 def _holds_height(support: Any) -> bool:
     """Whether a support, as it is asked for, holds the mid-surface along z."""
-    kind, components = _said(support, "kind"), _said(support, "components")
+    kind, components = _value_of(support, "kind"), _value_of(support, "components")
     return "z" in (components or ()) if kind == "held" else kind != "symmetric"

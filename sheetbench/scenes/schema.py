@@ -76,7 +76,7 @@ def _ask_for_kind(table: dict[str, Any]) -> None:
 @cache
 def sentences(table: type[BaseModel]) -> dict[str, str]:
     """What stands below each key of a class and of its bases, from their source."""
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
     for each in reversed(table.__mro__):
         if not (issubclass(each, BaseModel) and each.model_fields):
             continue
@@ -88,8 +88,8 @@ def sentences(table: type[BaseModel]) -> dict[str, str]:
         for key, below in pairwise(body):
             match key, below:
                 case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=str(text))):
-                    found[name] = " ".join(text.split())
-    return found
+                    texts[name] = " ".join(text.split())
+    return texts
 
 
 def resolved(schema: dict[str, Any], node: dict[str, Any]) -> dict[str, Any]:

@@ -23,9 +23,9 @@ class PiecewiseLinear:
 
     def __init__(self, time: Sequence[float], values: Sequence[float] | Sequence[Sequence[float]]):
         self._time, self._values = np.array(time, dtype=float), np.array(values, dtype=float)
-        apart = np.diff(self._time).reshape(-1, *(1,) * (self._values.ndim - 1))
+        spacing = np.diff(self._time).reshape(-1, *(1,) * (self._values.ndim - 1))
         outside = np.zeros_like(self._values[:1])
-        self._slopes = np.concatenate([outside, np.diff(self._values, axis=0) / apart, outside])
+        self._slopes = np.concatenate([outside, np.diff(self._values, axis=0) / spacing, outside])
 
     def at(self, time: float | np.ndarray | None = None) -> np.ndarray:
         """The value at a time [s], or those at times (k,), (k, …); without one the last, as statics take

@@ -55,10 +55,10 @@ def template(
         '# What else there may be: take away the "# " of a block\'s lines.\n'
         "# All keys: sheetbench schema --markdown\n",
     ]
-    told = {"[[support]]", *(["[[load]]"] if loads else [])}
+    shown = {"[[support]]", *(["[[load]]"] if loads else [])}
     for heading, table in _offered(sheet, _free_edge(clamped)):
-        parts.append(_commented(_block(heading, table, about=heading not in told)))
-        told.add(heading)
+        parts.append(_commented(_block(heading, table, about=heading not in shown)))
+        shown.add(heading)
     return "\n".join(parts)
 
 
@@ -95,9 +95,11 @@ def _block(heading: str, table: Mapping[str, Any], about: bool = True) -> str:
     )
     lines = [*(_comment(node["description"]) if about else ()), heading] if top else []
     for key, value in table.items():
-        if said := of_kind.get("properties", {}).get(key):
+        if sentence := of_kind.get("properties", {}).get(key):
             lines += _comment(
-                f"[{said['unit']}] {said['description']}" if "unit" in said else said["description"]
+                f"[{sentence['unit']}] {sentence['description']}"
+                if "unit" in sentence
+                else sentence["description"]
             )
         lines.append(line(key, value))
     return "\n".join([*lines, ""])

@@ -73,18 +73,18 @@ def quantity(text: str, unit: str) -> float:
     Raises BadInput, in a sentence, for what is no number, no unit or a unit of something else.
     """
     example = NAMES.get(unit, ("", f"1 {unit}"))[1]
-    found = NUMBER.fullmatch(text)
+    match = NUMBER.fullmatch(text)
     if len(text) > LONGEST:
-        found, text = None, f"{text[:LONGEST]}…"
-    if found is None or "," in text:
-        why = "with a decimal point" if found else f"[{unit}], or with a unit: {example}"
+        match, text = None, f"{text[:LONGEST]}…"
+    if match is None or "," in text:
+        why = "with a decimal point" if match else f"[{unit}], or with a unit: {example}"
         why = f"write a number {why}"
         raise BadInput(f"'{text}' is no quantity; {why}")
-    value = Fraction(found[1].replace("−", "-"))
-    if found[2]:
-        size, dimension = _unit(found[2])
+    value = Fraction(match[1].replace("−", "-"))
+    if match[2]:
+        size, dimension = _unit(match[2])
         if dimension != _unit(unit)[1]:
-            raise BadInput(f"'{text}' is {_named(dimension, found[2])}; needed is {_called(unit)}: {example}")
+            raise BadInput(f"'{text}' is {_named(dimension, match[2])}; needed is {_called(unit)}: {example}")
         value *= size / _unit(unit)[0]
     if abs(value) > LARGEST:
         raise BadInput(f"'{text}' is too large")
@@ -110,8 +110,8 @@ def converted(value: object, unit: str) -> object:
 
 def _bare(text: str) -> bool:
     """Whether a text is a number without a unit, which needs no quotes."""
-    found = NUMBER.fullmatch(text)
-    return found is not None and not found[2]
+    match = NUMBER.fullmatch(text)
+    return match is not None and not match[2]
 
 
 @cache
@@ -124,12 +124,12 @@ def _unit(text: str) -> tuple[Fraction, Dimension]:
         if part.strip() == "/":
             sign = -1
             continue
-        found = FACTOR.fullmatch(part)
-        if found is None or found[1] not in SPELLED:
+        match = FACTOR.fullmatch(part)
+        if match is None or match[1] not in SPELLED:
             known = ", ".join(list(UNITS)[:-1])
             raise BadInput(f"'{part}' is no unit known here; known are {known}, with prefixes G to µ")
-        power = sign * int((found[2] or "1").translate(POWERS))
-        one, of = SPELLED[found[1]]
+        power = sign * int((match[2] or "1").translate(POWERS))
+        one, of = SPELLED[match[1]]
         size *= one**power
         dimension = [have + power * more for have, more in zip(dimension, of, strict=True)]
         sign = 1

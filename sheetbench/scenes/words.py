@@ -26,7 +26,7 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
     sheet, material = scene.sheet, scene.material
     shorter = min(sheet.lengths)
     mass = material.density * sheet.length_x * sheet.length_y * sheet.thickness
-    said = [
+    sentences = [
         (
             "sheet",
             f"{_mm(sheet.length_x)} × {_mm(sheet.length_y)} mm, {_mm(sheet.thickness)} mm thick "
@@ -46,25 +46,27 @@ def in_words(scene: Scene) -> list[tuple[str, str]]:
         ),
         ("weight", _weight(scene, mass)),
     ]
-    said += [(f"edge {support.edge}", _support(support, sheet)) for support in scene.supports]
-    said += [(f"load {n}", _load(load, sheet)) for n, load in enumerate(scene.loads, start=1)]
-    said += [(f"actuator {n}", _actuator(one, sheet)) for n, one in enumerate(scene.actuators, start=1)]
+    sentences += [(f"edge {support.edge}", _support(support, sheet)) for support in scene.supports]
+    sentences += [(f"load {n}", _load(load, sheet)) for n, load in enumerate(scene.loads, start=1)]
+    sentences += [(f"actuator {n}", _actuator(one, sheet)) for n, one in enumerate(scene.actuators, start=1)]
     if scene.springs is not None:
-        said.append(("springs", "the lattice takes the scene's own constants instead of calibrated ones"))
+        sentences.append(
+            ("springs", "the lattice takes the scene's own constants instead of calibrated ones")
+        )
     points = ", ".join(f"{name} {_point(point)}" for name, point in scene.probes.items())
-    said.append(("probes", f"{points} mm"))
+    sentences.append(("probes", f"{points} mm"))
     free = free_rigid_motions(scene)
-    said.append(
+    sentences.append(
         ("at rest", f"not solved: nothing stops {', '.join(free)}" if free else "held: it has an answer")
     )
-    return said
+    return sentences
 
 
 def _constants(material: Material) -> str:
     """The constants of its law."""
     given = {key: value for key in CONSTANTS if (value := getattr(material, key)) is not None}
-    said = [f"{key} = {v:g}" if key == "limit" else f"{key} = {_pascals(v)}" for key, v in given.items()]
-    return f" ({', '.join(said)})" if said else ""
+    texts = [f"{key} = {v:g}" if key == "limit" else f"{key} = {_pascals(v)}" for key, v in given.items()]
+    return f" ({', '.join(texts)})" if texts else ""
 
 
 def _relaxation(material: Material) -> str:

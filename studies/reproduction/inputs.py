@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import lumped
-from comparisons.reproduction.answers import asked_layer_distance, bending_stiffness
+from comparisons.reproduction.answers import bending_stiffness, matched_layer_distance
 from comparisons.reproduction.published import scene
 from sheetbench.scenes.seed import seed_inputs
 from studies.reproduction.printed_errors import cells, means
@@ -58,7 +58,7 @@ def checks() -> list[Check]:
         *_links(),
         Check("mean of the errors", "", given["mean_error"], means(cells())["printed"], "its cells"),
         *(Check("k", "N/m", k, value, formula) for formula, value in stiffnesses.items()),
-        Check("layer distance", "m", None, asked_layer_distance(), "√(D/k)"),
+        Check("layer distance", "m", None, matched_layer_distance(), "√(D/k)"),
     ]
 
 

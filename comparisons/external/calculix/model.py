@@ -1,7 +1,7 @@
 """CalculiX as a model: the sheet as 20-node bricks, two layers through the thickness.
 
-A program of its own (Debian: calculix-ccx), found as `ccx` on the PATH, given a deck and asked for its
-results in a folder that is gone afterwards. Everything of a scene but chains and edge moments.
+A program of its own (Debian: calculix-ccx), `ccx` on the PATH, which reads a deck and writes its
+results in a temporary folder. Everything of a scene but chains and edge moments.
 """
 
 from __future__ import annotations
@@ -117,8 +117,8 @@ def _version(program: str | None) -> str | None:
         printed = output_of([program, "-v"], Path.cwd(), 10.0, fine=(0, SAYS_ITS_VERSION))
     except Failed:
         return None
-    found = re.search(r"Version +(\S+)", printed, re.IGNORECASE)
-    return found.group(1) if found else "of unknown version"
+    match = re.search(r"Version +(\S+)", printed, re.IGNORECASE)
+    return match.group(1) if match else "of unknown version"
 
 
 MODEL = CalculiX()

@@ -73,13 +73,13 @@ class Kratos:
         for steps in () if note else STEPS:
             given = problem(scene, mesh, np.arange(1, steps + 1) / steps)
             try:
-                found = _solved(given, settings["time_limit"])
+                answer = _solved(given, settings["time_limit"])
             except Failed as error:
                 status, note = Status.DIVERGED, f"Kratos: {error}"
                 break
-            displacement, load_factor = found["displacement"], float(found["load_factor"])
-            iterations += int(found["iterations"])
-            seconds += float(found["seconds"])
+            displacement, load_factor = answer["displacement"], float(answer["load_factor"])
+            iterations += int(answer["iterations"])
+            seconds += float(answer["seconds"])
             status = Status.CONVERGED if load_factor == 1.0 else Status.DIVERGED
             if not np.isfinite(displacement).all():
                 status, displacement = Status.NON_FINITE, np.nan_to_num(displacement)
@@ -112,8 +112,8 @@ def _solved(given: Mapping[str, Any], limit: float) -> dict[str, np.ndarray]:
         module = "comparisons.external.kratos.process"
         output_of([sys.executable, "-m", module, str(question), str(answer)], Path(kept), limit)
         try:
-            with np.load(answer) as found:
-                return dict(found)
+            with np.load(answer) as arrays:
+                return dict(arrays)
         except (OSError, ValueError) as error:
             raise Failed(f"left no answer that can be read ({error})") from None
 

@@ -73,11 +73,11 @@ class Triangles:
 
     def weights(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Corners of the cells at plan points (p, 2) [m], and their bilinear shares, (p, 4)."""
-        found = []
+        places = []
         for lines, at in zip((self.x, self.y), points.T, strict=True):
             i = np.clip(np.searchsorted(lines, at, side="right") - 1, 0, len(lines) - 2)
-            found.append((i, (at - lines[i]) / (lines[i + 1] - lines[i])))
-        (i, s), (j, t) = found
+            places.append((i, (at - lines[i]) / (lines[i + 1] - lines[i])))
+        (i, s), (j, t) = places
         a = i * len(self.y) + j
         nodes = np.column_stack([a, a + len(self.y), a + len(self.y) + 1, a + 1])
         return nodes, np.column_stack([(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t])

@@ -107,5 +107,5 @@ def solve(problem: Any) -> dict[str, Any]:
 
 if __name__ == "__main__":
     with np.load(sys.argv[1]) as given:
-        found = solve(dict(given))
-    np.savez(sys.argv[2], **found)
+        arrays = solve(dict(given))
+    np.savez(sys.argv[2], **arrays)

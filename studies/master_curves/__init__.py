@@ -1,0 +1,1 @@
+"""Curves without units that any code of sheets can be laid over."""

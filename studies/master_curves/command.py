@@ -1,0 +1,16 @@
+"""`sheetbench study master-curves`: the heavy cantilever and lateral buckling, without units."""
+
+from __future__ import annotations
+
+from comparisons.cli.verb import PictureOptions
+from studies.master_curves.study import measure
+
+
+def command(*, output: PictureOptions) -> None:
+    """Lay lattice and shell over two curves without units.
+
+    A cantilever under its own weight has one number, Γ = ρ_A g L³/B; so has a strip that stands on edge and
+    buckles sideways. A code of other units can be laid over both.
+    """
+    with output.open() as out:
+        out.show(measure(out.progress).report())

@@ -1,0 +1,25 @@
+"""Curves without units: the elastica beside published values, a lattice on it, strips on edge."""
+
+import pytest
+
+import sheetbench as sb
+from studies.master_curves import study
+
+
+@pytest.mark.parametrize(("load", "drop"), [(0.1, 0.01249), (1.0, 0.12456), (10.0, 1.0668), (100.0, 5.8881)])
+def test_the_elastica_is_the_published_one(load, drop):
+    assert -study.elastica(load) == pytest.approx(drop, rel=1e-3)
+
+
+def test_a_lattice_lies_on_the_curve(monkeypatch):
+    monkeypatch.setattr(study, "LOADS", (1.0,))
+    monkeypatch.setattr(study, "WIDTHS", ())
+    drops = {drop.model: drop.error for drop in study.measure(lambda _: None).drops}
+    assert abs(drops["lattice 9"]) < 0.01 > 10 * abs(drops["shell 16"])
+
+
+@pytest.mark.parametrize("settings", [{"model": "shell", "elements": (16, 2)}, {"grid": (33, 5)}])
+def test_a_narrow_strip_on_edge_buckles_where_timoshenko_has_it(settings):
+    """Wider by a tenth of its length it holds a tenth more."""
+    below, above = (sb.solve(study.on_edge(load, 0.1), **settings).status for load in (13.7, 15.8))
+    assert below == "converged" and above == "unstable"

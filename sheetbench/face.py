@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from comparisons.comparison.answer import Comparison
     from comparisons.motion.comparison import MotionComparison
     from comparisons.runs.campaign import Progress
-    from comparisons.tradeoff.statics import Tradeoff
+    from comparisons.tradeoff.answer import Tradeoff
     from lumped import Calibration
 
 

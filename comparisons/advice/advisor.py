@@ -14,112 +14,21 @@ stiffening" where they hold a share of the energy; "large displacements" where t
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Any
-
-from comparisons.advice import tables
+from comparisons.advice.answer import Advice
 from comparisons.advice.probing import Probing, Trial
-from comparisons.comparison.model_error import ModelError
-from comparisons.models.candidate import Candidate, written
+from comparisons.models.candidate import Candidate
 from comparisons.models.grading import Grading
 from comparisons.models.scales import Scales, scales
 from comparisons.report.work import Progress, silent
 from comparisons.runs import load
-from sheetbench.answers.report import Report
 from sheetbench.choices import CALIBRATION
 from sheetbench.errors import BadInput
-from sheetbench.scenes import AnyScene, Scene, require_static, scene_of, summary
+from sheetbench.scenes import AnyScene, require_static, scene_of
 from sheetbench.scenes.grid import MASSES
-from sheetbench.scenes.summary import few
 
 NEGLIGIBLE = 0.25  # of the tolerance: an effect smaller than that is left out
 LINEAR_LOAD_NUMBER = 2.0  # beyond which no linear model is worth trying
 STEEP = 0.1  # of the tolerance: the finest error bar a decision may hang on
-
-
-@dataclass(frozen=True, repr=False)
-class Advice(summary.Summarised):
-    """What to solve, and why. error, seconds: predicted for the choice; bar: of the judge, by its mesh;
-    model: what the judge leaves out on every mesh.
-
-    choice is None, with `message` saying why, where no model converges or none in `budget` is known. grading,
-    calibration: what was made of graded lattices and of other springs, where they were asked for. warnings:
-    of times that are doubtful, taken on a busy machine.
-    """
-
-    scene: Scene
-    tolerance: float | None
-    budget: float | None
-    choice: Candidate | None
-    error: float | None
-    bar: float
-    seconds: float | None
-    needs: tuple[str, ...]
-    left_out: tuple[str, ...]
-    scales: Scales
-    probing_seconds: float
-    tried: tuple[dict[str, Any], ...] = field(repr=False)
-    message: str = ""
-    grading: str = ""
-    calibration: str = ""
-    model: ModelError | None = None
-    warnings: tuple[str, ...] = ()
-
-    @property
-    def reason(self) -> str:
-        """The advice in a sentence."""
-        if self.error is None or self.seconds is None:
-            return self.message
-        size = f"{few(100 * self.error, 3)} % ± {few(100 * self.bar)} %"
-        said = f"predicted error {size} in {_time(self.seconds)}"
-        said += f", {self.model}" if self.model else ""
-        return f"{said}; {self.message}" if self.message else said
-
-    @property
-    def met(self) -> bool:
-        """Whether what was asked can be had: the tolerance, within the budget if there is one."""
-        if self.choice is None or self.error is None or self.seconds is None:
-            return False
-        model = self.model.value if self.model else 0.0
-        accurate = self.tolerance is None or self.error + self.bar + model <= self.tolerance
-        return accurate and (self.budget is None or self.seconds <= self.budget)
-
-    def as_dict(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench advise`."""
-        choice = None
-        if self.choice is not None:
-            choice = {"model": self.choice.model, "settings": self.choice.settings}
-        return {
-            "scene": self.scene.name,
-            "tolerance": self.tolerance,
-            "budget": self.budget,
-            "choice": choice,
-            "predicted": {
-                "error": self.error,
-                "uncertainty": self.bar,
-                **(self.model.as_dict() if self.model else {"model": None}),
-                "solve_seconds": self.seconds,
-            },
-            "met": self.met,
-            "needs": list(self.needs),
-            "left_out": list(self.left_out),
-            "scales": self.scales.as_dict(),
-            "probing_seconds": self.probing_seconds,
-            "tried": list(self.tried),
-            "message": self.message,
-            **{name: said for name in ("grading", "calibration") if (said := getattr(self, name))},
-            "warnings": list(self.warnings),
-        }
-
-    def _summary(self) -> tuple[str, summary.Facts]:
-        chosen = "no model" if self.choice is None else written(self.choice)
-        facts = [("choice", chosen), ("why", self.reason), ("needs", ", ".join(self.needs))]
-        facts += [("leaves out", ", ".join(self.left_out)), ("met", "yes" if self.met else "no")]
-        return f"Advice for {self.scene.name}; .report() has all that was tried", facts
-
-    def report(self, named: str = "") -> Report:
-        """What is shown of it; named: how the scene was asked for, its name unless said."""
-        return tables.report(self, named)
 
 
 def advise(
@@ -324,7 +233,3 @@ def _effects(
         part = "a quarter" if len(probing.planes) == 2 else "half"
         left_out.append(f"all but {part} of the sheet: the scene is symmetric")
     return tuple(needs), tuple(left_out)
-
-
-def _time(seconds: float) -> str:
-    return f"{few(1e3 * seconds)} ms" if seconds < 1.0 else f"{few(seconds)} s"

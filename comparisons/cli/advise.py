@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 import typer
@@ -68,4 +69,4 @@ def command(
             large=large,
             progress=out.progress,
         )
-        out.show(advice.report(scene))
+        out.show(replace(advice, called=scene).report())

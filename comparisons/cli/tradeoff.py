@@ -14,8 +14,8 @@ from comparisons.cli.verb import ClusterOptions, PictureOptions
 from sheetbench.choices import AUTO, CALIBRATION, CALIBRATIONS, INTEGRATORS, REFERENCES, listed
 
 if TYPE_CHECKING:
+    from comparisons.tradeoff.answer import Tradeoff
     from comparisons.tradeoff.motion import DynamicTradeoff
-    from comparisons.tradeoff.statics import Tradeoff
 
 GRIDS, PAIRS = "3,5,9,17,33", "5:9,9:17"
 USUAL = f"{CALIBRATION},uniform"

@@ -9,8 +9,9 @@ from comparisons.models.candidate import Candidate, items, lattices, pairs, pars
 from comparisons.models.grading import Grading
 from comparisons.models.grids import parse_elements
 from comparisons.models.springs import LatticeSpec, resolve_each
+from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.motion import DynamicTradeoff, dynamic_tradeoff
-from comparisons.tradeoff.statics import Tradeoff, tradeoff
+from comparisons.tradeoff.statics import tradeoff
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene

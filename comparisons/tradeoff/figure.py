@@ -11,10 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation, Text
 
+from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.axes import logarithmic
 from comparisons.tradeoff.pareto import grouped
 from comparisons.tradeoff.row import TradeoffRow
-from comparisons.tradeoff.statics import Tradeoff
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import GREY, SERIES, plain
 

@@ -19,7 +19,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Any
@@ -33,14 +33,15 @@ from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
 from comparisons.tradeoff.motion_row import MotionRow, measured_row
-from comparisons.tradeoff.pareto import error_order, front, grouped
-from sheetbench.answers.report import Picture, Report
-from sheetbench.answers.table import Column, Table
+from comparisons.tradeoff.pareto import cheapest, error_order, front, grouped
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import Picture
+from sheetbench.answers.table import Table
 from sheetbench.choices import INTEGRATORS
 from sheetbench.errors import NoEquilibrium
 from sheetbench.scenes import Scene, SceneError, Status
 from sheetbench.scenes.quantities import require_positive
-from sheetbench.scenes.summary import few
+from sheetbench.scenes.summary import few, milliseconds
 
 if TYPE_CHECKING:
     from lumped import Calibration
@@ -48,14 +49,26 @@ if TYPE_CHECKING:
 DIVISIONS = (20, 40, 100, 200, 400)  # steps in the lowest period
 SHARES = (0.9, 0.45)  # of the explicit integrator's limit
 REFERENCE = 3200
+SHOWN = (
+    "integrator",
+    "step",
+    "steps",
+    "seconds_per_second",
+    "error",
+    "period_error",
+    "damping",
+    "front",
+    "status",
+)
 SAMPLES = 20  # in the lowest period; no step is longer than the time between samples
 
 
-@dataclass(frozen=True)
-class DynamicTradeoff:
+@dataclass(frozen=True, repr=False)
+class DynamicTradeoff(Answer):
     """A row per integrator and step, the reference that they are measured against; lowest_period [s]: about
     the flat sheet or its equilibrium, the shorter; lattice: what all runs are of."""
 
+    file_name = "motion"
     scene: Scene
     duration: float
     lowest_period: float
@@ -85,7 +98,7 @@ class DynamicTradeoff:
             found[name] = error_order([r.step for r in rows], [r.error for r in rows], self.uncertainty)
         return found
 
-    def as_dict(self) -> dict[str, Any]:
+    def document(self) -> dict[str, Any]:
         """For JSON."""
         return {
             "scene": self.scene.document(),
@@ -99,60 +112,35 @@ class DynamicTradeoff:
             "reference": {**self.reference.as_dict(), "uncertainty": self.uncertainty},
         }
 
-    def report(self) -> Report:
-        """What `sheetbench tradeoff --duration` shows."""
-        known = "unknown" if self.uncertainty is None else f"{few(100 * self.uncertainty)} %"
-        return Report(
-            name="motion",
-            title=self.scene.name,
-            subtitle=self.scene.title,
-            document=self.as_dict(),
-            tables=(self.table(),),
-            notes=(
-                f"{self.lattice}; lowest period {self.lowest_period:.4g} s; uncertainty of the reference "
-                f"{known}",
-                *self.reasons,
-                *self.warnings,
-            ),
-            pictures=(Picture("motion", "comparisons.tradeoff.motion_figure:compose", (self,)),)
-            if any(r.error for r in self.rows)
-            else (),
-            complaints=folded([*self.rows, self.reference]),
-            settings={"duration": self.duration},
-        )
-
-    def table(self) -> Table:
+    def tables(self) -> tuple[Table, ...]:
         """A row per integrator and step."""
-        chosen = set(self.front)
-        found = tuple(
-            (
-                row.integrator,
-                row.step,
-                row.steps,
-                row.seconds_per_second,
-                row.error,
-                row.period_error,
-                row.damping,
-                "yes" if i in chosen else "",
-                row.status,
-            )
-            for i, row in enumerate(self.rows)
-        )
-        columns = (
-            Column("integrator"),
-            Column("step", "s", "ms", 1e3, ".4g"),
-            Column("steps", form="d", detail=True),
-            Column("cost", "s/s", "s/s", 1.0, ".3g"),
-            Column("error", "", "%", 100.0, ".3g"),
-            Column("period", "", "%", 100.0, "z.3f"),
-            Column("damping", "", "%", 100.0, "z.3f"),
-            Column("front"),
-            Column("status", detail=True),
-        )
+        front = self.front
+        rows = [replace(row, front=i in front) for i, row in enumerate(self.rows)]
         caption = (
             f"Over {self.duration:g} s. cost: per simulated second; period: off by; damping: of critical"
         )
-        return Table(caption, columns, found, "motion")
+        return (Table.of(MotionRow, rows, caption, "motion", fields=SHOWN),)
+
+    def figures(self) -> tuple[Picture, ...]:
+        drawn = Picture("motion", "comparisons.tradeoff.motion_figure:compose", (self,))
+        return (drawn,) if any(row.error for row in self.rows) else ()
+
+    def notes(self) -> list[str]:
+        known = "unknown" if self.uncertainty is None else f"{few(100 * self.uncertainty)} %"
+        names = [f"{row.integrator} with steps of {milliseconds(row.step)}" for row in self.rows]
+        seconds = [row.seconds_per_second for row in self.rows]
+        return [
+            f"{self.lattice}; lowest period {self.lowest_period:.4g} s; uncertainty of the reference {known}",
+            *self.reasons,
+            *cheapest(names, [row.error for row in self.rows], seconds, " a simulated second"),
+            *self.warnings,
+        ]
+
+    def complaints(self) -> tuple[str, ...]:
+        return folded([*self.rows, self.reference])
+
+    def choices(self) -> dict[str, Any]:
+        return {"duration": self.duration}
 
 
 def folded(rows: Sequence[MotionRow]) -> tuple[str, ...]:

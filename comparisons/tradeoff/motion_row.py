@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from itertools import pairwise
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
 from comparisons.runs.campaign import Run
 from comparisons.runs.store import Finished
+from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Unit
 from sheetbench.scenes import Status
 
 
@@ -24,23 +25,25 @@ class MotionRow:
     """
 
     integrator: str
-    step: float
-    status: str
+    step: Annotated[float, MILLISECONDS(".4g")]
+    status: Annotated[str, Column(detail=True)]
     message: str
-    steps: int | None = None
-    seconds_per_second: float | None = None
-    error: float | None = None
+    steps: Annotated[int | None, NUMBER("d", detail=True)] = None
+    seconds_per_second: Annotated[float | None, Unit("s/s", "s/s")(".3g", "cost")] = None
+    error: Annotated[float | None, PERCENT(".3g")] = None
     period: float | None = None
-    period_error: float | None = None
-    damping: float | None = None
+    period_error: Annotated[float | None, PERCENT("z.3f", "period")] = None
+    damping: Annotated[float | None, PERCENT("z.3f")] = None
     damping_error: float | None = None
     load_average: float | None = None
     machine: Mapping[str, Any] | None = None
     versions: Mapping[str, Any] | None = None
+    front: Annotated[bool, Column(words=("yes", ""))] = False
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON; machine and versions where there is an answer."""
         found = asdict(self)
+        del found["front"]  # the document has the rows' numbers
         if self.machine is None:
             del found["machine"], found["versions"]
         return found

@@ -12,6 +12,9 @@ from math import isfinite
 
 import numpy as np
 
+from sheetbench.scenes.summary import few, milliseconds
+
+TOLERANCES = (0.05, 0.01, 0.001)  # that are asked most
 FLOOR_FACTOR = 3.0  # errors closer to the reference's uncertainty than this say nothing about an order
 
 
@@ -26,6 +29,21 @@ def front(errors: Sequence[float | None], seconds: Sequence[float], floor: float
             kept.append(i)
             best = error
     return kept
+
+
+def cheapest(
+    names: Sequence[str], errors: Sequence[float | None], seconds: Sequence[float | None], per: str = ""
+) -> list[str]:
+    """The quickest row within every tolerance that one meets, a sentence each."""
+    known = [(e, s, name) for e, s, name in zip(errors, seconds, names, strict=True) if e is not None and s]
+    notes: dict[str, str] = {}
+    for tolerance in TOLERANCES:
+        within = [row for row in known if row[0] <= tolerance]
+        if within:
+            error, time, name = min(within, key=lambda row: row[1])
+            said = f"{name}, {few(100.0 * error)} % off in {milliseconds(time)}{per}."
+            notes.setdefault(said, f"Cheapest within {few(100.0 * tolerance)} %: {said}")
+    return list(notes.values())
 
 
 def order(x: Sequence[float], y: Sequence[float]) -> float | None:

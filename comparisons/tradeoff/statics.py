@@ -13,117 +13,25 @@ rows of a family whose errors are well above the uncertainty.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, replace
-from math import inf
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 
 from comparisons.comparison.comparison import error as probe_error
 from comparisons.models.candidate import Candidate
 from comparisons.models.registry import check
-from comparisons.runs import load
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
-from comparisons.tradeoff import tables, timing
-from comparisons.tradeoff.pareto import error_order, front, grouped, order
-from comparisons.tradeoff.row import TradeoffRow, measured_row
+from comparisons.tradeoff import timing
+from comparisons.tradeoff.answer import Tradeoff
+from comparisons.tradeoff.row import measured_row
 from fem_reference.edge_layer import missed_by
 from fem_reference.uncertainty import coarser, estimate, mesh_size
-from sheetbench.answers.report import Report
 from sheetbench.choices import ELEMENTS
-from sheetbench.scenes import Scene, comparable, require_static, summary
+from sheetbench.scenes import Scene, comparable, require_static
 
-SHOWN = 8  # rows of the front at a prompt
 REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the rows
-
-
-@dataclass(frozen=True)
-class Orders:
-    """Of a family: the rows that have errors, the orders of both errors in h, of the time in the unknowns."""
-
-    series: str
-    rows: int
-    error_order: float | None
-    field_error_order: float | None
-    time_order: float | None
-
-
-@dataclass(frozen=True, repr=False)
-class Tradeoff(summary.Summarised):
-    """The rows of a scene with their errors, and the reference they are measured against.
-
-    uncertainty, field_uncertainty: of the reference, fractions, None where it did not converge on both
-    meshes.
-    """
-
-    scene: Scene
-    rows: tuple[TradeoffRow, ...]
-    reference: TradeoffRow
-    uncertainty: float | None
-    field_uncertainty: float | None
-    reasons: tuple[str, ...] = ()
-
-    @property
-    def front(self) -> list[int]:
-        """Numbers of the rows on the Pareto front of error and time, the quickest first."""
-        seconds = [inf if row.seconds is None else row.seconds for row in self.rows]
-        return front([row.error for row in self.rows], seconds, self.uncertainty or 0.0)
-
-    @property
-    def orders(self) -> list[Orders]:
-        """The orders of every family."""
-        families = grouped([row.series for row in self.rows])
-        return [self._orders(name, [self.rows[i] for i in numbers]) for name, numbers in families.items()]
-
-    def _orders(self, name: str, family: list[TradeoffRow]) -> Orders:
-        rows = [row for row in family if row.error is not None]
-        sizes = [row.cell_size for row in rows]
-        return Orders(
-            series=name,
-            rows=len(rows),
-            error_order=error_order(sizes, [row.error for row in rows], self.uncertainty),
-            field_error_order=error_order(sizes, [row.field_error for row in rows], self.field_uncertainty),
-            time_order=order([row.unknowns or 0 for row in rows], [row.seconds or 0.0 for row in rows]),
-        )
-
-    @property
-    def warnings(self) -> list[str]:
-        """What to hold against the times."""
-        return load.warnings(
-            [row.load_average for row in self.rows], [row.solve_seconds for row in self.rows]
-        )
-
-    def _summary(self) -> tuple[str, summary.Facts]:
-        best = [self.rows[i] for i in self.front]
-        facts = [
-            ("rows", f"{len(self.rows)}, against {self.reference.label}"),
-            ("front", f"{len(best)} rows"),
-        ]
-        for row in best[:SHOWN]:
-            error, seconds = 100.0 * (row.error or 0.0), row.seconds or 0.0
-            facts.append((row.label, f"{summary.few(error)} % in {summary.milliseconds(seconds)}"))
-        return f"Error against time of {self.scene.name}; .report() has all rows", facts
-
-    def as_dict(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench tradeoff`."""
-        return {
-            "warnings": self.warnings,
-            "scene": self.scene.document(),
-            "rows": [row.as_dict() for row in self.rows],
-            "front": self.front,
-            "orders": [asdict(orders) for orders in self.orders],
-            "reference": {
-                **self.reference.as_dict(),
-                "uncertainty": self.uncertainty,
-                "field_uncertainty": self.field_uncertainty,
-            },
-        }
-
-    def report(self) -> Report:
-        """What is shown of it."""
-        return tables.report(self)
 
 
 def tradeoff(

@@ -92,7 +92,7 @@ def text(table: Table, most: int | None = None) -> str:
     left_out = len(table.rows[most:]) if most else 0
     table = replace(table, rows=table.rows[:most])
     lines = [line for block in blocks(table, width) for line in (*block.head, block.rule, *block.rows, "")]
-    more = [f"… and {left_out} more rows", ""] if left_out else []
+    more = [f"… and {left_out} more {'row' if left_out == 1 else 'rows'}", ""] if left_out else []
     return "\n".join([terminal(table.caption), *lines[: -1 if more else None], *more])
 
 

@@ -112,7 +112,7 @@ def advice(scene: dict[str, Any], tolerance: float) -> dict[str, Any]:
     if given.choice is None:
         return {"status": "none", "message": given.message}
     solution = solve(asked, given.choice.model, **given.choice.settings)
-    document = given.as_dict()
+    document = given.document()
     return {
         "status": str(solution.status),
         "displacement": solution.displacement(asked.probe_points()),

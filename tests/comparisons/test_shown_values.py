@@ -26,8 +26,9 @@ from comparisons.runs.store import Finished
 from comparisons.stability import tiles as stability_figure
 from comparisons.tradeoff import figure as tradeoff_figure
 from comparisons.tradeoff import statics
+from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.motion import DynamicTradeoff
-from comparisons.tradeoff.tables import rows as statics_rows
+from comparisons.tradeoff.row import TradeoffRow
 from sheetbench import scenes
 from sheetbench.answers.figure_style import PLAIN, WIDTHS
 from sheetbench.answers.table import Table
@@ -50,7 +51,8 @@ def test_a_modulus_is_off_its_target_by_the_difference() -> None:
 
 
 def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front() -> None:
-    table = statics_rows(SimpleNamespace(rows=[], front=[]))  # type: ignore[arg-type]
+    row = TradeoffRow("shell", "", {}, "converged", "", "shell", None, "", "")
+    table, _ = Tradeoff(scenes.load("two-edges-clamped"), (), row, None, None).tables()
     assert [column.name for column in table.brief().columns] == [
         "row", "model", "size", "unknowns", "solve", "memory", "error", "field error", "front",
     ]  # fmt: skip

@@ -16,7 +16,8 @@ from commands import one_line, run
 
 import fem_reference
 from comparisons.advice import probing
-from comparisons.advice.advisor import Advice, advise
+from comparisons.advice.advisor import advise
+from comparisons.advice.answer import Advice
 from comparisons.comparison import comparison
 from comparisons.comparison.comparison import error
 from comparisons.models import registry
@@ -91,7 +92,7 @@ def test_a_busy_machine_and_all_digits_are_shown(monkeypatch: pytest.MonkeyPatch
     advice = advise("one-edge-clamped", 0.2)
     assert len(advice.warnings) == 1 or "scatter" in advice.warnings[1]
     assert "under a load of up to 100 on" in advice.warnings[0]
-    assert advice.as_dict()["warnings"] == list(advice.warnings)
+    assert advice.document()["warnings"] == list(advice.warnings)
     report = advice.report()
     assert advice.warnings[0] in report.notes
     column = next(c for c in report.tables[0].columns if c.name == "error")
@@ -135,8 +136,8 @@ def test_lattices_are_tried_with_what_auto_chooses() -> None:
     assert all(errors[grid, 0.0] < usual[grid] for grid in both if grid[0] > 3)
     assert curved.calibration.endswith("ν = 0.48 is above 0.4")
     assert curved.calibration.startswith("calibration consistent-membrane")
-    assert curved.as_dict()["calibration"] == curved.calibration
-    assert "bent by 4 1/m" in curved.grading and curved.as_dict()["grading"] == curved.grading
+    assert curved.document()["calibration"] == curved.calibration
+    assert "bent by 4 1/m" in curved.grading and curved.document()["grading"] == curved.grading
     taken = Candidate("lumped", {"grid": [9, 9, 2], "calibration": "consistent", "grading": 0.3})
     line = replace(curved, choice=taken).report().document["command"]
     assert line == "sheetbench compare curved-edge --lumped 9x9x2 --grading 0.3"

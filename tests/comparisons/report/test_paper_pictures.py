@@ -23,8 +23,8 @@ from comparisons.linearisation.linearisation import linearise
 from comparisons.modes import figure as swinging
 from comparisons.modes.spectra import spectra
 from comparisons.tradeoff import figure as trading
+from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
-from comparisons.tradeoff.statics import Tradeoff
 from comparisons.verification import locking
 from fem_reference.uncertainty import Uncertainty
 from fem_reference.verification.rows import relatively

@@ -23,12 +23,12 @@ from comparisons.runs import load
 from comparisons.runs.campaign import campaign
 from comparisons.runs.store import FILE
 from comparisons.tradeoff import timing
+from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.figure import compose
 from comparisons.tradeoff.motion import SHARES, dynamic_tradeoff, explicit_limit, folded
 from comparisons.tradeoff.motion_row import MotionRow, oscillation
 from comparisons.tradeoff.pareto import front, grouped, order
 from comparisons.tradeoff.row import TradeoffRow
-from comparisons.tradeoff.statics import Tradeoff
 from sheetbench import scenes
 from sheetbench.answers import table as tables
 from sheetbench.answers.figure_style import PLAIN, parse_figure
@@ -173,7 +173,7 @@ def test_asked_again_nothing_is_run_and_the_document_is_the_same(
     assert run(*SMALL, "--json", "--out", str(finished)) == 0
     printed = capsys.readouterr()
     assert json.loads(printed.out) == written
-    drawing = {"drawing tradeoff.png …"}  # said where it lasts, as on a busy machine
+    drawing = {"drawing tradeoff.svg …"}  # said where it lasts, as on a busy machine
     assert set(printed.err.splitlines()) <= drawing
     assert rows_in(finished / FILE) == before
 
@@ -207,7 +207,7 @@ def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path: Path
     assert all(row.error < 1e-3 for row in found.rows if row.step < found.lowest_period / 150)
     assert found.reference.damping == pytest.approx(found.rows[-1].damping, rel=1e-2)
     assert all(row.seconds_per_second > 0.0 for row in found.rows)
-    assert found.front and json.loads(to_json(found.as_dict()))["rows"]
+    assert found.front and json.loads(to_json(found.document()))["rows"]
 
 
 def test_labels_of_close_points_do_not_lie_on_each_other(scene: Scene) -> None:

@@ -1,0 +1,176 @@
+"""What to solve, and why: the answer of `sheetbench advise`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from shlex import join
+from typing import Annotated, Any
+
+from comparisons.comparison.model_error import ModelError
+from comparisons.models.candidate import Candidate, series, written
+from comparisons.models.grading import read
+from comparisons.models.scales import Scales
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.table import MILLISECONDS, PERCENT, Column, Table, number, quantity
+from sheetbench.choices import CALIBRATION
+from sheetbench.scenes import Scene
+from sheetbench.scenes.summary import few
+
+
+@dataclass(frozen=True)
+class TrialRow:
+    """A probing solve."""
+
+    model: Annotated[str, Column(prose=True)]
+    size: list[int]
+    seconds: Annotated[float, MILLISECONDS(".2f", "solve")]
+    error: Annotated[float | None, PERCENT(".3g")]
+    choice: Annotated[bool, Column(words=("yes", ""))]
+    status: Annotated[str, Column(prose=True)]
+
+
+@dataclass(frozen=True, repr=False)
+class Advice(Answer):
+    """What to solve, and why. error, seconds: predicted for the choice; bar: of the judge, by its mesh;
+    model: what the judge leaves out on every mesh.
+
+    choice is None, with `message` saying why, where no model converges or none in `budget` is known. grading,
+    calibration: what was made of graded lattices and of other springs, where they were asked for. warnings:
+    of times that are doubtful, taken on a busy machine. called: how the scene was asked for, its name unless
+    given.
+    """
+
+    file_name = "advice"
+    scene: Scene
+    tolerance: float | None
+    budget: float | None
+    choice: Candidate | None
+    error: float | None
+    bar: float
+    seconds: float | None
+    needs: tuple[str, ...]
+    left_out: tuple[str, ...]
+    scales: Scales
+    probing_seconds: float
+    tried: tuple[dict[str, Any], ...] = field(repr=False)
+    message: str = ""
+    grading: str = ""
+    calibration: str = ""
+    model: ModelError | None = None
+    warnings: tuple[str, ...] = ()
+    called: str = ""
+
+    @property
+    def reason(self) -> str:
+        """The advice in a sentence."""
+        if self.error is None or self.seconds is None:
+            return self.message
+        size = f"{few(100 * self.error, 3)} % ± {few(100 * self.bar)} %"
+        said = f"predicted error {size} in {_time(self.seconds)}"
+        said += f", {self.model}" if self.model else ""
+        return f"{said}; {self.message}" if self.message else said
+
+    @property
+    def met(self) -> bool:
+        """Whether what was asked can be had: the tolerance, within the budget if there is one."""
+        if self.choice is None or self.error is None or self.seconds is None:
+            return False
+        model = self.model.value if self.model else 0.0
+        accurate = self.tolerance is None or self.error + self.bar + model <= self.tolerance
+        return accurate and (self.budget is None or self.seconds <= self.budget)
+
+    def document(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench advise`."""
+        choice = None
+        if self.choice is not None:
+            choice = {"model": self.choice.model, "settings": self.choice.settings}
+        return {
+            "scene": self.scene.name,
+            "tolerance": self.tolerance,
+            "budget": self.budget,
+            "choice": choice,
+            "predicted": {
+                "error": self.error,
+                "uncertainty": self.bar,
+                **(self.model.as_dict() if self.model else {"model": None}),
+                "solve_seconds": self.seconds,
+            },
+            "met": self.met,
+            "needs": list(self.needs),
+            "left_out": list(self.left_out),
+            "scales": self.scales.as_dict(),
+            "probing_seconds": self.probing_seconds,
+            "tried": list(self.tried),
+            "message": self.message,
+            **{name: said for name in ("grading", "calibration") if (said := getattr(self, name))},
+            "warnings": list(self.warnings),
+            "command": self.command,
+        }
+
+    def tables(self) -> tuple[Table, ...]:
+        """A row per probing solve, the quickest first; the choice is marked."""
+        chosen = None if self.choice is None else (self.choice.model, self.choice.settings)
+        rows = [
+            TrialRow(
+                series(row["model"], row["settings"]),
+                row["settings"].get("grid") or row["settings"]["elements"],
+                row["solve_seconds"],
+                row["error"],
+                (row["model"], row["settings"]) == chosen,
+                row["status"],
+            )
+            for row in sorted(self.tried, key=lambda row: float(row["solve_seconds"]))
+        ]
+        return (Table.of(TrialRow, rows, "Quick solves; errors are distances from the finest one", "tried"),)
+
+    def notes(self) -> list[str]:
+        """The advice and its reasons, a sentence a line, and the command that solves the choice."""
+        scales, command = self.scales, self.command
+        return [
+            f"load number q L³/D = {number(scales.span_load_number, '.3g')}, "
+            f"L = {quantity(scales.span, 'm', '.4g')} from the edges that hold the sheet",
+            f"h/a = {number(scales.slenderness, '.3g')}, q a/(E h) = {number(scales.strain, '.2g')}, "
+            "a the shorter side",
+            f"needs {', '.join(self.needs)}",
+            *(f"leaves out {left}" for left in self.left_out),
+            *(choice for choice in (self.grading, self.calibration) if choice),
+            *self.warnings,
+            f"{self.reason} (probing took {few(self.probing_seconds)} s)",
+            *([] if command is None else ["Solve it with:", command]),
+        ]
+
+    def complaints(self) -> list[str]:
+        return [] if self.met else [self.reason]
+
+    @property
+    def succeeded(self) -> bool:
+        return self.met
+
+    @property
+    def command(self) -> str | None:
+        """The command line that solves the choice; None without one."""
+        if self.choice is None:
+            return None
+        model, settings = self.choice.model, dict(self.choice.settings)
+        mirrored = ["--symmetry"] if settings.pop("symmetry", False) else []
+        graded = settings.pop("grading", 0.0) if model == "lumped" and "linear" not in settings else 0.0
+        mirrored += ["--grading", f"{read(graded):g}"] if graded else []
+        if model == "lumped" and settings.keys() == {"grid", "calibration"}:
+            named_too = settings["calibration"] != CALIBRATION
+            springs = ["--calibration", settings["calibration"]] if named_too else []
+            options = ["--lumped", "x".join(map(str, settings["grid"])), *springs, *mirrored]
+        elif model != "lumped" and settings.keys() == {"elements"}:
+            options = [
+                "--reference",
+                model,
+                "--elements",
+                "x".join(map(str, settings["elements"])),
+                *mirrored,
+            ]
+        else:
+            options = ["--model", written(self.choice)]
+        return join(["sheetbench", "compare", self.called or self.scene.name, *options])
+
+
+def _time(seconds: float) -> str:
+    return f"{few(1e3 * seconds)} ms" if seconds < 1.0 else f"{few(seconds)} s"

@@ -104,8 +104,8 @@ def command(
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="Young's modulus and branches from a CSV of frequency [Hz], storage, loss (or tan_delta), "
-            "or of time [s], modulus; moduli in Pa or as the header has it, storage [MPa].",
+            help="Young's modulus and branches from a CSV of frequency \\[Hz], storage, loss (or tan_delta), "
+            "or of time \\[s], modulus; moduli in Pa or as the header has it, storage \\[MPa].",
             show_default=False,
         ),
     ] = None,

@@ -30,8 +30,8 @@ def command(
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="CSV with the columns x,y,ux,uy,uz or x,y,uz (metres; with a column time [s], a motion), or "
-            "x,y,z of the deformed surface; or a VTP or PLY point cloud of it.",
+            help="CSV with the columns x,y,ux,uy,uz or x,y,uz (metres; with a column time \\[s], a motion), "
+            "or x,y,z of the deformed surface; or a VTP or PLY point cloud of it.",
             show_default=False,
         ),
     ] = None,
@@ -81,7 +81,7 @@ def command(
 
     The search starts from the scene's own values, and from others where these lead to no fit. Unless --lumped
     is given, the fit makes the lattice's cells smaller until they move the values less than the noise does.
-    Lengths are in metres unless a column's header says otherwise (uz [mm]), in the scene's axes.
+    Lengths are in metres unless a column's header says otherwise (uz \\[mm]), in the scene's axes.
     --tensile finds the law of rubber and its constants instead.
     """
     if tensile:

@@ -12,12 +12,13 @@ from typing import Any
 
 import pytest
 import terminals
+import typer
 from commands import run
 from rich.console import Console
 from terminals import CONTROL, Terminal
 
 from comparisons.cli import characters, console
-from comparisons.cli.app import VERBS
+from comparisons.cli.app import VERBS, app
 from comparisons.runs.campaign import Progress
 
 
@@ -157,6 +158,13 @@ def test_a_help_page_cuts_nothing_off(
     assert run(verb, "--help") == 0
     page = capsys.readouterr().out
     assert "--help" in page and "…" not in page.replace("N,N,…", "")
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_a_help_page_keeps_its_brackets(verb: str) -> None:
+    command = typer.main.get_command(app).commands[verb]  # type: ignore[attr-defined]
+    for text in (command.help, *(getattr(option, "help", None) for option in command.params)):
+        assert not re.search(r"(?<!\\)\[[a-z/@#]", text or "", re.IGNORECASE)  # it would be rich's markup
 
 
 @pytest.mark.parametrize("way", ["wide", *WAYS])

@@ -11,11 +11,11 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
-from comparisons.models.grading import Grading
-from comparisons.models.grids import GridLike
-from comparisons.models.springs import LatticeSpec
+from comparisons.models.context import large_in_context
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Lattice, LatticeKeywords, SpringKeywords
 from sheetbench.choices import REFERENCE, REFERENCES
 from sheetbench.errors import require_choice
 from sheetbench.scenes import AnyScene, Scene, scene_of
@@ -33,15 +33,12 @@ if TYPE_CHECKING:
 def export(
     scene: AnyScene,
     folder: str | Path,
+    lattice: Lattice | None = None,
     *,
-    grid: GridLike = None,
-    calibration: str | None = None,
-    k: float | None = None,
-    layer_distance: float | None = None,
-    grading: Grading = None,
     springs: Calibration | None = None,
     simulators: Sequence[str] = (),
     overwrite: bool = False,
+    **keywords: Unpack[LatticeKeywords],
 ) -> Path:
     """Write the scene's lattice into a folder, for another simulator, and return the folder.
 
@@ -52,17 +49,18 @@ def export(
     from comparisons.export.export import export as write
 
     scene = scene_of(scene)
-    lattice = springs or LatticeSpec(grid, calibration, k, layer_distance, grading).springs(scene)[0]
-    write(folder, scene, lattice, ["sheetbench.export"], overwrite, simulators)
+    found = springs or resolve(scene, Lattice.given(lattice, keywords), "springs").springs
+    write(folder, scene, found, ["sheetbench.export"], overwrite, simulators)
     return Path(folder)
 
 
+@large_in_context
 def crosscheck(
     scenes: AnyScene | Sequence[AnyScene],
+    lattice: Lattice | None = None,
     *,
-    lumped: Sequence[int] = (9, 13, 17),
+    grid: Sequence[int] = (9, 13, 17),
     calibration: str | None = None,
-    grading: Grading = None,
     plate: Sequence[int] = (8, 12, 16),
     shell: Sequence[int] = (8, 12, 16),
     solid: Sequence[int] = (6, 8, 12),
@@ -71,10 +69,11 @@ def crosscheck(
     workers: int = 1,
     out: str | Path | None = None,
     large: bool = False,
+    **keywords: Unpack[SpringKeywords],
 ) -> Crosscheck:
     """Solve scenes by every model and by the other finite-element programs that are installed.
 
-    lumped: masses, plate to solid: elements along the shorter side, rising; none leaves a model out.
+    grid: masses, plate to solid: elements along the shorter side, rising; none leaves a model out.
     programs: names of other programs, all that are found unless given; meshes: their elements. out: a folder
     that keeps the rows, so that the same call goes on where an earlier one was stopped.
     """
@@ -85,31 +84,29 @@ def crosscheck(
     def listed(numbers: Sequence[int] | None) -> str:
         return ",".join(map(str, numbers or ()))
 
+    usual = Lattice.given(lattice, keywords)
+    usual = usual if calibration is None else usual.but(calibration=calibration)
     many = [scenes] if isinstance(scenes, Scene | str | Path) else list(scenes)
     codes = find_codes(programs)
     counts = dict(zip(REFERENCES, map(listed, (plate, shell, solid)), strict=True))
     of_programs = None if meshes is None else listed(meshes)
-    models = candidates(listed(lumped), calibration, grading, counts, codes, of_programs)
+    models = candidates(listed(grid), usual, counts, codes, of_programs)
     with _store(out) as store:
-        return check(
-            [scene_of(one) for one in many], store, models=models, codes=codes, workers=workers, large=large
-        )
+        return check([scene_of(one) for one in many], store, models=models, codes=codes, workers=workers)
 
 
+@large_in_context
 def stability(
     scene: AnyScene,
+    lattice: Lattice | None = None,
     *,
     varied: Sequence[str] | None = None,
-    grid: GridLike = None,
-    calibration: str | None = None,
-    k: float | None = None,
-    layer_distance: float | None = None,
-    grading: Grading = None,
     reference: str = REFERENCE,
     elements: int = 12,
     workers: int = 1,
     out: str | Path | None = None,
     large: bool = False,
+    **keywords: Unpack[LatticeKeywords],
 ) -> Stability:
     """Map where each model of a scene holds, degrades, refuses or fails, as its sheet goes to extremes.
 
@@ -119,17 +116,15 @@ def stability(
     from comparisons.stability.extremes import VARIED
     from comparisons.stability.extremes import stability as measure
 
-    lattice = LatticeSpec(grid, calibration, k, layer_distance, grading)
     with _store(out) as store:
         return measure(
             scene_of(scene),
             store,
             varied=varied or VARIED,
-            lattice=lattice,
+            lattice=Lattice.given(lattice, keywords),
             reference=reference,
             elements=elements,
             workers=workers,
-            large=large,
         )
 
 

@@ -15,13 +15,13 @@ from matrix_options import scene_files
 from matrix_rows import Tally, check, tally
 
 from comparisons.comparison import comparison as displacement
-from comparisons.models.candidate import Candidate
+from comparisons.models.resolve import Resolved
 from comparisons.report import offscreen
 from comparisons.runs import executors
 from comparisons.runs.campaign import campaign, carry_out
 from comparisons.runs.store import Store
 from sheetbench.answers import style
-from sheetbench.scenes import Scene, Solution
+from sheetbench.scenes import Solution
 
 
 def pytest_configure() -> None:
@@ -41,11 +41,12 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> dict[str, Solution]:
     """Answers without a solver; a test may put its own in."""
     answers: dict[str, Solution] = {}
 
-    def answer(scene: Scene, candidate: Candidate, name: str = "", **_: object) -> Solution:
-        size = -0.01 if candidate.model == "lumped" else -0.0101
-        return answers.get(candidate.model) or fake_solutions.solution(scene, name or candidate.model, size)
+    def answer(asked: Resolved[Any], name: str = "") -> Solution:
+        model = asked.spec.model
+        size = -0.01 if model == "lumped" else -0.0101
+        return answers.get(model) or fake_solutions.solution(asked.scene, name or model, size)
 
-    monkeypatch.setattr(displacement, "answer", answer)
+    monkeypatch.setattr(displacement, "solve", answer)
     return answers
 
 

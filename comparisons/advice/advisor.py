@@ -14,11 +14,11 @@ stiffening" where they hold a share of the energy; "large displacements" where t
 
 from __future__ import annotations
 
-from comparisons.advice.answer import Advice
+from comparisons.advice.answer import Advice, Tried
 from comparisons.advice.probing import Probing, Trial
-from comparisons.models.candidate import Candidate
-from comparisons.models.grading import Grading
+from comparisons.models.context import in_context
 from comparisons.models.scales import Scales, scales
+from comparisons.models.spec import Grading, Lattice, Spec
 from comparisons.report.work import Progress, silent
 from comparisons.runs import load
 from sheetbench.choices import CALIBRATION
@@ -31,6 +31,7 @@ LINEAR_LOAD_NUMBER = 2.0  # beyond which no linear model is worth trying
 STEEP = 0.1  # of the tolerance: the finest error bar a decision may hang on
 
 
+@in_context
 def advise(
     scene: AnyScene,
     tolerance: float | None = 0.01,
@@ -53,7 +54,7 @@ def advise(
     """
     scene = scene_of(scene)
     require_static(scene)
-    probing = Probing(scene, large, progress, grading, calibration)
+    probing = Probing(scene, grading, calibration)
     sizes = scales(scene)
     resolution = tolerance or 0.01
     for _ in range(3):
@@ -69,8 +70,8 @@ def advise(
     for candidate in candidates[:3]:
         probing.trial(candidate)
     if linear:  # each family's rate
-        probing.trial(probing.candidate("lumped", 4, linear=True))
-        probing.trial(probing.candidate("plate", 4))
+        probing.trial(probing.lattice(4, linear=True))
+        probing.trial(probing.elements("plate", 4))
     model = probing.model_error.value if probing.model_error else 0.0
     chosen, message = None, ""
     if tolerance is not None:
@@ -101,7 +102,7 @@ def checked_tolerance(tolerance: float) -> float:
     return tolerance
 
 
-def _cheapest(probing: Probing, candidates: list[Candidate], tolerance: float) -> Trial | None:
+def _cheapest(probing: Probing, candidates: list[Spec], tolerance: float) -> Trial | None:
     """The quickest candidate that is certainly within the tolerance."""
     found: Trial | None = None
     left = list(candidates)
@@ -128,7 +129,7 @@ def _adequate(probing: Probing, trial: Trial, tolerance: float) -> bool:
             return False
 
 
-def _most_accurate(probing: Probing, candidates: list[Candidate], budget: float) -> Trial | None:
+def _most_accurate(probing: Probing, candidates: list[Spec], budget: float) -> Trial | None:
     """The candidate of least error among those that take no longer than the budget [s]."""
     found: Trial | None = None
     for candidate in candidates:
@@ -152,13 +153,12 @@ def _advice(
 ) -> Advice:
     needs, left_out = _effects(probing, chosen, resolution)
     tried = tuple(
-        {
-            "model": trial.candidate.model,
-            "settings": trial.candidate.settings,
-            "status": str(trial.solution.status),
-            "error": probing.error(trial) if trial.usable else None,
-            "solve_seconds": trial.seconds,
-        }
+        Tried(
+            trial.candidate,
+            str(trial.solution.status),
+            probing.error(trial) if trial.usable else None,
+            trial.seconds,
+        )
         for trial in probing.trials.values()
     )
     return Advice(
@@ -186,12 +186,12 @@ def _grading(probing: Probing, chosen: Trial | None) -> str:
     """What was made of graded lattices: of the choice, or of the usual grid where that is no lattice."""
     if probing.grading is None:
         return ""
-    lattice = probing.candidate("lumped", MASSES - 1)
-    if chosen is not None and chosen.candidate.model == "lumped":
-        lattice = chosen.candidate
+    lattice = chosen.candidate if chosen is not None else None
+    if not isinstance(lattice, Lattice):
+        lattice = probing.lattice(MASSES - 1)
     value, why = probing.grading_of(lattice)
-    masses = " × ".join(map(str, lattice.settings["grid"][:2]))
-    taken = "taken" if lattice.settings.get("grading") else "not taken"
+    masses = " × ".join(lattice.size.split("×")[:2])
+    taken = "taken" if lattice.grading else "not taken"
     said = f"grading {value:g} {taken}" if value else "no grading"
     return f"{said}, {masses} masses" + (f": {why}" if why else "")
 
@@ -200,7 +200,7 @@ def _calibration(probing: Probing, chosen: Trial | None) -> str:
     """What was made of the springs that were asked for."""
     if probing.method == CALIBRATION and not probing.because:
         return ""
-    taken = chosen is not None and chosen.candidate.settings.get("calibration") == probing.method
+    taken = chosen is not None and getattr(chosen.candidate, "calibration", None) == probing.method
     said = f"calibration {probing.method} {'taken' if taken else 'not taken'}"
     return f"{said}: {probing.because}" if probing.because else said
 
@@ -219,12 +219,12 @@ def _effects(
             needs.append(name)
         else:
             left_out.append(f"{name}: {100 * share:.1g} % of the energy")
-    linear = probing.trial(probing.candidate("plate", 4))
+    linear = probing.trial(probing.elements("plate", 4))
     off = probing.error(linear)
     if off > tolerance:
         needs.append("large displacements")
     elif chosen is not None and (
-        chosen.candidate.settings.get("linear") or chosen.candidate.model == "plate"
+        getattr(chosen.candidate, "linear", False) or chosen.candidate.model == "plate"
     ):
         left_out.append(f"nonlinearity: the linear answer is {100 * off:.1g} % off")
     if probing.scene.actuators:

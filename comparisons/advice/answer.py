@@ -7,9 +7,9 @@ from shlex import join
 from typing import Annotated, Any
 
 from comparisons.comparison.model_error import ModelError
-from comparisons.models.candidate import Candidate, series, written
 from comparisons.models.grading import read
 from comparisons.models.scales import Scales
+from comparisons.models.spec import Elements, Lattice, Spec, counted
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import MILLISECONDS, PERCENT, Column, Table, number, quantity
 from sheetbench.choices import CALIBRATION
@@ -22,11 +22,26 @@ class TrialRow:
     """A probing solve."""
 
     model: Annotated[str, Column(prose=True)]
-    size: list[int]
+    size: str
     seconds: Annotated[float, MILLISECONDS(".2f", "solve")]
     error: Annotated[float | None, PERCENT(".3g")]
     choice: Annotated[bool, Column(words=("yes", ""))]
     status: Annotated[str, Column(prose=True)]
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A quick solve: its error is the distance from the finest one, None where it has no answer."""
+
+    spec: Spec
+    status: str
+    error: float | None
+    solve_seconds: float
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        own = {name: value for name, value in vars(self).items() if name != "spec"}
+        return {"model": self.spec.model, "settings": self.spec.settings, **own}
 
 
 @dataclass(frozen=True, repr=False)
@@ -44,7 +59,7 @@ class Advice(Answer):
     scene: Scene
     tolerance: float | None
     budget: float | None
-    choice: Candidate | None
+    choice: Spec | None
     error: float | None
     bar: float
     seconds: float | None
@@ -52,7 +67,7 @@ class Advice(Answer):
     left_out: tuple[str, ...]
     scales: Scales
     probing_seconds: float
-    tried: tuple[dict[str, Any], ...] = field(repr=False)
+    tried: tuple[Tried, ...] = field(repr=False)
     message: str = ""
     grading: str = ""
     calibration: str = ""
@@ -100,7 +115,7 @@ class Advice(Answer):
             "left_out": list(self.left_out),
             "scales": self.scales.as_dict(),
             "probing_seconds": self.probing_seconds,
-            "tried": list(self.tried),
+            "tried": [one.as_dict() for one in self.tried],
             "message": self.message,
             **{name: said for name in ("grading", "calibration") if (said := getattr(self, name))},
             "warnings": list(self.warnings),
@@ -109,17 +124,16 @@ class Advice(Answer):
 
     def tables(self) -> tuple[Table, ...]:
         """A row per probing solve, the quickest first; the choice is marked."""
-        chosen = None if self.choice is None else (self.choice.model, self.choice.settings)
         rows = [
             TrialRow(
-                series(row["model"], row["settings"]),
-                row["settings"].get("grid") or row["settings"]["elements"],
-                row["solve_seconds"],
-                row["error"],
-                (row["model"], row["settings"]) == chosen,
-                row["status"],
+                one.spec.series,
+                one.spec.size,
+                one.solve_seconds,
+                one.error,
+                one.spec == self.choice,
+                one.status,
             )
-            for row in sorted(self.tried, key=lambda row: float(row["solve_seconds"]))
+            for one in sorted(self.tried, key=lambda one: one.solve_seconds)
         ]
         return (Table.of(TrialRow, rows, "Quick solves; errors are distances from the finest one", "tried"),)
 
@@ -149,26 +163,18 @@ class Advice(Answer):
     @property
     def command(self) -> str | None:
         """The command line that solves the choice; None without one."""
-        if self.choice is None:
+        spec = self.choice
+        if spec is None:
             return None
-        model, settings = self.choice.model, dict(self.choice.settings)
-        mirrored = ["--symmetry"] if settings.pop("symmetry", False) else []
-        graded = settings.pop("grading", 0.0) if model == "lumped" and "linear" not in settings else 0.0
-        mirrored += ["--grading", f"{read(graded):g}"] if graded else []
-        if model == "lumped" and settings.keys() == {"grid", "calibration"}:
-            named_too = settings["calibration"] != CALIBRATION
-            springs = ["--calibration", settings["calibration"]] if named_too else []
-            options = ["--lumped", "x".join(map(str, settings["grid"])), *springs, *mirrored]
-        elif model != "lumped" and settings.keys() == {"elements"}:
-            options = [
-                "--reference",
-                model,
-                "--elements",
-                "x".join(map(str, settings["elements"])),
-                *mirrored,
-            ]
-        else:
-            options = ["--model", written(self.choice)]
+        options = ["--model", str(spec)]
+        symmetry = ["--symmetry"] if spec.settings.get("symmetry") else []
+        if isinstance(spec, Lattice) and not spec.linear:
+            options = ["--lumped", counted(spec.grid).replace("×", "x")]
+            options += [] if spec.calibration == CALIBRATION else ["--calibration", str(spec.calibration)]
+            options += symmetry
+            options += ["--grading", f"{read(spec.grading):g}"] if spec.grading else []
+        elif isinstance(spec, Elements):
+            options = ["--reference", spec.kind, "--elements", spec.size.replace("×", "x"), *symmetry]
         return join(["sheetbench", "compare", self.called or self.scene.name, *options])
 
 

@@ -11,20 +11,20 @@ from dataclasses import dataclass
 from functools import cached_property
 from statistics import median
 from time import perf_counter
-from typing import Any
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from comparisons.comparison.comparison import error
 from comparisons.comparison.model_error import ModelError, model_error
-from comparisons.models import registry as models
-from comparisons.models.candidate import Candidate, series
-from comparisons.models.grading import Grading, plain
+from comparisons.models.context import running
+from comparisons.models.grading import fixed
+from comparisons.models.resolve import resolve
 from comparisons.models.sizes import has_room, require_room
-from comparisons.models.springs import LatticeSpec, resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Elements, Grading, Lattice, Spec
 from comparisons.models.symmetry import planes
-from comparisons.report.work import Progress, silent
+from comparisons.report.work import silent
 from comparisons.runs import load
 from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import Scene, Solution, Status
@@ -43,7 +43,7 @@ REPEATS = 3
 class Trial:
     """A candidate that was solved: its answer and its median time [s]."""
 
-    candidate: Candidate
+    candidate: Spec
     solution: Solution
     seconds: float
 
@@ -56,89 +56,81 @@ class Trial:
 class Probing:
     """The solves of a scene so far."""
 
-    def __init__(
-        self,
-        scene: Scene,
-        large: bool = False,
-        progress: Progress = silent,
-        grading: Grading = None,
-        calibration: str | None = None,
-    ) -> None:
-        """large: whether to try what takes more memory than there is; grading: by how much lattices may be
-        graded too; calibration: which springs they may have too, by `comparisons.models.method`. Raises
-        BadInput where these are none or do not go together and where the first judges take too much memory,
-        otherwise the larger models are left out."""
-        self.scene, self.large, self.progress = scene, large, progress
-        usual = resolve(scene, LatticeSpec(MASSES, calibration, grading=grading), own=False)
-        self.grading, self.method = grading, usual.calibration or CALIBRATION
+    def __init__(self, scene: Scene, grading: Grading = None, calibration: str | None = None) -> None:
+        """grading: by how much lattices may be graded too; calibration: which springs they may have too, by
+        `comparisons.models.method`. Raises BadInput where these are none or do not go together and where the
+        first judges take too much memory, otherwise the larger models are left out."""
+        self.scene = scene
+        usual = resolve(scene, Lattice(MASSES, calibration, grading=grading), "springs", own=False)
+        self.grading, self.method = grading, usual.spec.calibration or CALIBRATION
         self.because = usual.reasons.get("calibration_reason", "")
         self.points = scene.probe_points()
         self.planes = planes(scene)
-        self.trials: dict[str, Trial] = {}
+        self.trials: dict[Spec, Trial] = {}
         self.judges: list[int] = []
         self.seconds = 0.0
         self.loads: list[float | None] = []
         self.samples: list[list[float]] = []
-        if not large:
-            instead = "advise has no coarser one"
-            require_room(scene, self._judge(JUDGES[FIRST - 1]), instead=instead)
+        require_room(scene, self._judge(JUDGES[FIRST - 1]), instead="advise has no coarser one")
 
-    def candidate(self, model: str, cells: int, **settings: Any) -> Candidate:
-        """A model with that many cells along the shorter side, cut where the scene is symmetric."""
+    def lattice(self, cells: int, linear: bool = False) -> Lattice:
+        """A lattice of that many cells along the shorter side, cut where the scene is symmetric."""
+        nx, ny = self._along(cells)
+        return Lattice((nx + 1, ny + 1, 2), CALIBRATION, linear=linear, symmetry=bool(self.planes))
+
+    def elements(self, kind: str, cells: int) -> Elements:
+        """A reference of that many elements along the shorter side, cut likewise."""
+        return Elements(kind, self._along(cells), symmetry=bool(self.planes))
+
+    def _along(self, cells: int) -> tuple[int, int]:
         along = list(near_square(self.scene.sheet, cells))
         for axis in self.planes:
             along[axis] += along[axis] % 2
-        if model == "lumped":
-            settings |= {"grid": [along[0] + 1, along[1] + 1, 2], "calibration": CALIBRATION}
-        else:
-            settings["elements"] = along
-        if self.planes:
-            settings["symmetry"] = True
-        return Candidate(model, settings)
+        return along[0], along[1]
 
-    def candidates(self, linear: bool) -> list[Candidate]:
+    def candidates(self, linear: bool) -> list[Spec]:
         """What may be chosen: lattices and shells; the linear lattice and the plate where `linear`."""
-        found = [self.candidate("lumped", n) for n in CELLS["lumped"]]
-        others = [one.but(calibration=self.method) for one in found] if self.method != CALIBRATION else []
-        found += others + self.graded(others or found)
-        found += [self.candidate("shell", n) for n in CELLS["shell"]]
+        usual = [self.lattice(n) for n in CELLS["lumped"]]
+        others = [one.but(calibration=self.method) for one in usual] if self.method != CALIBRATION else []
+        found: list[Spec] = [*usual, *others, *self.graded(others or usual)]
+        found += [self.elements("shell", n) for n in CELLS["shell"]]
         if linear:
-            found += [self.candidate("lumped", n, linear=True) for n in CELLS["lumped"]]
-            found += [self.candidate("plate", n) for n in CELLS["plate"]]
-        return [one for one in found if self.large or has_room(self.scene, one)]
+            found += [self.lattice(n, linear=True) for n in CELLS["lumped"]]
+            found += [self.elements("plate", n) for n in CELLS["plate"]]
+        return [one for one in found if has_room(self.scene, one)]
 
-    def graded(self, lattices: list[Candidate]) -> list[Candidate]:
+    def graded(self, lattices: list[Lattice]) -> list[Lattice]:
         """Those of these lattices that are to be graded too, as asked or by the scene's layers."""
         found = [(one, self.grading_of(one)[0]) for one in lattices]
-        return [one.but(grading=plain(value)) for one, value in found if value]
+        return [one.but(grading=value) for one, value in found if value]
 
-    def grading_of(self, lattice: Candidate) -> tuple[Graded | None, str]:
+    def grading_of(self, lattice: Lattice) -> tuple[Graded | None, str]:
         """The grading that a lattice may have, and why where that is chosen."""
-        found = resolve(self.scene, LatticeSpec.of({**lattice.settings, "grading": self.grading}))
-        return found.grading, found.reasons.get("grading_reason", "")
+        found = resolve(self.scene, lattice.but(grading=self.grading), "springs")
+        return fixed(found.spec.grading), found.reasons.get("grading_reason", "")
 
-    def trial(self, candidate: Candidate, repeats: int = REPEATS) -> Trial:
+    def trial(self, candidate: Spec, repeats: int = REPEATS) -> Trial:
         """The candidate's answer and time; solved once, whoever asks."""
-        key = repr(candidate)
-        if key not in self.trials:
+        if candidate not in self.trials:
             began = perf_counter()
             with threadpool_limits(1):  # as campaigns measure
-                solution = models.answer(self.scene, candidate, progress=self.progress)
+                solution = solve(model := resolve(self.scene, candidate))
                 times = [solution.solve_seconds]
-                while solution.solve_seconds < 0.2 and len(times) < repeats:
-                    times.append(models.answer(self.scene, candidate).solve_seconds)
+                with running(progress=silent):
+                    while solution.solve_seconds < 0.2 and len(times) < repeats:
+                        times.append(solve(model).solve_seconds)
             self.loads.append(load.average())
             self.samples.append(times)
-            self.trials[key] = Trial(candidate, solution, median(times))
+            self.trials[candidate] = Trial(candidate, solution, median(times))
             self.seconds += perf_counter() - began
-        return self.trials[key]
+        return self.trials[candidate]
 
     def refine(self) -> bool:
         """Solve the judge on its next mesh. False where none is left or has room, or it does not converge."""
         if len(self.judges) == len(JUDGES):
             return False
         cells = JUDGES[len(self.judges)]
-        if not (self.large or has_room(self.scene, self._judge(cells))):
+        if not has_room(self.scene, self._judge(cells)):
             return False
         self.judges.append(cells)
         return self.trial(self._judge(cells), repeats=1).usable
@@ -174,10 +166,10 @@ class Probing:
         found = error(trial.solution.displacement(self.points), self.judge.solution.displacement(self.points))
         return 0.0 if found is None else found
 
-    def predicted_seconds(self, candidate: Candidate) -> float:
+    def predicted_seconds(self, candidate: Spec) -> float:
         """Time of a candidate: as measured, or by the rates of its family."""
-        if repr(candidate) in self.trials:
-            return self.trials[repr(candidate)].seconds
+        if candidate in self.trials:
+            return self.trials[candidate].seconds
         family = [t for t in self.trials.values() if _rate(t.candidate) == _rate(candidate)]
         size = unknowns(candidate)
         if not family:
@@ -191,17 +183,16 @@ class Probing:
             exponent = float(np.clip(np.log(near.seconds / others[0].seconds) / np.log(ratio), 0.3, 1.6))
         return near.seconds * float(size / unknowns(near.candidate)) ** exponent
 
-    def _judge(self, cells: int) -> Candidate:
-        return self.candidate("shell", cells)
+    def _judge(self, cells: int) -> Elements:
+        return self.elements("shell", cells)
 
 
-def _rate(candidate: Candidate) -> str:
+def _rate(candidate: Spec) -> str:
     """What stays the same in time as the grid is refined: graded cells take no longer than even ones."""
-    return series(candidate.model, {k: v for k, v in candidate.settings.items() if k != "grading"})
+    return (candidate.but(grading=None) if isinstance(candidate, Lattice) else candidate).series
 
 
-def unknowns(candidate: Candidate) -> float:
+def unknowns(candidate: Spec) -> float:
     """Unknowns of a candidate, about."""
-    size = candidate.settings.get("grid") or candidate.settings["elements"]
-    cells = (size[0] - 1) * (size[1] - 1) if "grid" in candidate.settings else size[0] * size[1]
-    return UNKNOWNS[candidate.model] * cells
+    nx, ny = candidate.settings.get("elements") or [n - 1 for n in candidate.settings["grid"][:2]]
+    return UNKNOWNS[candidate.model] * nx * ny

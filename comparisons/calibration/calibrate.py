@@ -10,14 +10,13 @@ from warnings import warn
 
 import lumped
 from comparisons.calibration.damping import UNDAMPED
-from comparisons.models.candidate import Candidate
 from comparisons.models.expected_error import MOST, ExpectedError, expected_error
 from comparisons.models.grading import told
 from comparisons.models.quantities import checked
-from comparisons.models.registry import answer
-from comparisons.models.springs import LatticeSpec, resolve
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Lattice
 from comparisons.models.training import training_scenes
-from comparisons.report.work import Progress, silent
 from sheetbench.choices import AUTO, EXTRAPOLATED
 from sheetbench.errors import BadInput, Implausible
 from sheetbench.scenes import AnyScene, Material, Scene, SceneError, Sheet, Solution, require_static, scene_of
@@ -58,27 +57,23 @@ def subject(scene: AnyScene | None, values: Mapping[str, Any], option: str = "")
     return loaded.replace(sheet=sheet, material=material, probes=probes)
 
 
-def calibrate(
-    scene: Scene, lattice: LatticeSpec, named: bool = True, large: bool = False, progress: Progress = silent
-) -> lumped.Calibration:
+def calibrate(scene: Scene, lattice: Lattice, named: bool = True) -> lumped.Calibration:
     """Return the springs of a lattice for a scene's sheet and material, whatever [springs] the scene has.
 
     named: whether the user named the scene: a fitted method trains on it, "auto" goes by it, and what is
     known before solving of how far its answer will be off is among the notes. Raises BadInput for a lattice
-    that cannot be had, and unless `large` for a fit that takes more memory than there is.
+    that cannot be had, and for a fit that takes more memory than there is.
     """
     for name, what in (("method", lattice.calibration), ("grading", lattice.grading)):
         if what == AUTO and not named:
             raise BadInput(f"{name} = auto: goes by a SCENE's edges and load; name one, or choose yourself")
-    found = resolve(scene, lattice, own=False)
-    if not large:
-        found.require_room_to_fit(scene)
-    springs = found.springs(scene, [scene] if named else None, progress)
+    found = resolve(scene, lattice, "springs", own=False)
+    springs = found.calibrated([scene] if named else None)
     known = [said] if named and (said := lumped.polygons(scene, found.grid)) else []
     return replace(springs, notes=(*told(found.settings), *known, *springs.notes))
 
 
-def expected(scene: Scene, springs: lumped.Calibration, progress: Progress = silent) -> ExpectedError | None:
+def expected(scene: Scene, springs: lumped.Calibration) -> ExpectedError | None:
     """The grid error to expect of these springs in a scene, from two solves of it; None too where the scene
     has no static answer or the lattice is too large to be solved for a remark."""
     if prod(springs.grid[:2]) > MOST or springs.method not in EXTRAPOLATED:
@@ -87,11 +82,9 @@ def expected(scene: Scene, springs: lumped.Calibration, progress: Progress = sil
         require_static(scene)
     except SceneError:
         return None
-    lattice = Candidate(
-        "lumped", {"grid": springs.grid, "calibration": springs.method, "grading": springs.grading or None}
-    )
+    lattice = Lattice(springs.grid, springs.method, grading=springs.grading or None)
 
-    def solve(candidate: Candidate) -> Solution:
-        return answer(scene, candidate, progress=progress)
+    def answer(spec: Lattice) -> Solution:
+        return solve(resolve(scene, spec))
 
-    return expected_error(scene, lattice, solve(lattice), solve)
+    return expected_error(scene, lattice, answer(lattice), answer)

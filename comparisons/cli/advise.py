@@ -66,7 +66,5 @@ def command(
             budget,
             grading=grading,
             calibration=calibration,
-            large=large,
-            progress=out.progress,
         )
         out.show(replace(advice, called=scene).report())

@@ -121,10 +121,9 @@ def command(
     """
     from comparisons.calibration import damping, tables
     from comparisons.calibration.calibrate import calibrate, expected, subject
-    from comparisons.models.candidate import Candidate
     from comparisons.models.quantities import sides
     from comparisons.models.sizes import require_room
-    from comparisons.models.springs import LatticeSpec
+    from comparisons.models.spec import Lattice
     from sheetbench.errors import BadInput
 
     if toml and output.json:
@@ -139,11 +138,11 @@ def command(
     about = {"sheet": of.sheet.model_dump(mode="json"), "material": of.material.model_dump(mode="json")}
     with output.open(about=about) as out:
         if export is not None and not large:
-            require_room(of, Candidate("lumped", {"grid": grid}), "--grid")
-        lattice = LatticeSpec(grid, method, k, layer_distance, grading)
-        springs = calibrate(of, lattice, scene is not None, large, out.progress)
+            require_room(of, Lattice(grid), "--grid")
+        lattice = Lattice(grid, method, k, layer_distance, grading)
+        springs = calibrate(of, lattice, scene is not None)
         foretold = scene is not None and k is None and layer_distance is None
-        off = expected(of, springs, out.progress) if foretold else None
+        off = expected(of, springs) if foretold else None
         swinging = damping.ratios(of, springs)
         report = tables.report(springs, of.sheet, of.material, off, swinging)
         if export is not None:

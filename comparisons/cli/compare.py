@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.lattice_options import Lattice, with_lattice
+from comparisons.cli.lattice_options import LatticeOptions
 from comparisons.cli.options import Export, Large, Law, Models, Scene, Symmetry
 from comparisons.cli.quantity import quantity_in
 from comparisons.cli.verb import PictureOptions
@@ -15,10 +15,9 @@ from sheetbench.choices import BRANCHES, ELEMENTS, REFERENCE, REFERENCES, listed
 FRAMES = 100  # of a motion
 
 
-@with_lattice
 def command(
     scene: Scene,
-    lattice: Lattice,
+    lattice: LatticeOptions,
     reference: Annotated[str, typer.Option(metavar="MODEL", help=f"{listed(REFERENCES)}.")] = REFERENCE,
     elements: Annotated[
         str | None,
@@ -62,9 +61,9 @@ def command(
     Where no calibration is named, uniform springs are shown alongside.
     """
     from comparisons.comparison.comparison import compare, load_static
-    from comparisons.models.candidate import parse_model
+    from comparisons.models.context import running
     from comparisons.models.grids import parse_elements
-    from comparisons.models.springs import LatticeSpec
+    from comparisons.models.resolve import resolve
     from comparisons.motion.comparison import compare_motion
     from comparisons.report.vtk import write_solution
     from sheetbench import scenes
@@ -85,39 +84,38 @@ def command(
             both = compare_motion(
                 moving,
                 duration,
-                **lattice,
-                reference=reference,
+                lattice.spec,
+                reference,
                 elements=chosen,
                 law=law,
                 uncertainty=uncertainty is not False,
                 frames=FRAMES if output.out is not None else 0,
-                large=large,
-                progress=out.progress,
             )
             out.show(both.report())
         return
     loaded = load_static(scene)
-    size, others = parse_elements(elements or str(ELEMENTS)), [parse_model(text) for text in model or ()]
-    named = lattice["calibration"] is not None or lattice["k"] is not None
+    size = parse_elements(elements or str(ELEMENTS))
+    named = lattice.calibration is not None or lattice.k is not None
     models = {"--reference": reference, "--calibration": "named" if named else "open"}
     models |= {"--model": " ".join(model)} if model else {}
     with output.open(scene=loaded, variant=models) as out:
-        comparison = compare(
-            loaded,
-            **lattice,
-            reference=reference,
-            elements=size,
-            law=law,
-            uncertainty=uncertainty,
-            symmetry=symmetry,
-            branch=branch,
-            others=others,
-            large=large,
-            progress=out.progress,
-            finished=lambda s: out.keep(f"{s.model}.vtu", lambda path: write_solution(path, s)),
-        )
+
+        def keep(solution: scenes.Solution) -> None:
+            out.keep(f"{solution.model}.vtu", lambda path: write_solution(path, solution))
+
+        with running(solved=keep):
+            comparison = compare(
+                loaded,
+                lattice.spec,
+                reference,
+                elements=size,
+                law=law,
+                uncertainty=uncertainty,
+                symmetry=symmetry,
+                branch=branch,
+                others=model or (),
+            )
         report = comparison.report()
         if export is not None:
-            springs, _ = LatticeSpec(**lattice).springs(loaded)
-            report = out.export(export, loaded, springs, report)
+            report = out.export(export, loaded, resolve(loaded, lattice.spec).springs, report)
         out.show(report)

@@ -6,7 +6,8 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Calibration, Grading, Large
+from comparisons.cli.lattice_options import SpringOptions
+from comparisons.cli.options import Calibration, Large
 from comparisons.cli.verb import CampaignOptions, OutputOptions
 from sheetbench.choices import REFERENCES
 
@@ -20,7 +21,8 @@ def command(
             show_default=False,
         ),
     ],
-    lumped: Annotated[
+    lattice: SpringOptions,
+    grid: Annotated[
         str,
         typer.Option(
             "--lumped",
@@ -30,7 +32,6 @@ def command(
         ),
     ] = "9,13,17",
     calibration: Calibration = None,
-    grading: Grading = None,
     plate: Annotated[
         str, typer.Option(metavar="N,N,N", help="Elements of the linear plate, rising.")
     ] = "8,12,16",
@@ -64,12 +65,12 @@ def command(
     from comparisons.crosscheck.candidates import candidates, load_scenes
     from comparisons.crosscheck.crosscheck import crosscheck
     from comparisons.external.installed import find_codes
-    from comparisons.models.candidate import items
+    from comparisons.models.spec import items
 
     chosen = load_scenes(scenes)
     codes = find_codes(None if judges is None else items(judges))
     references = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
-    models = candidates(lumped, calibration, grading, references, codes, meshes)
+    models = candidates(grid, lattice.spec.but(calibration=calibration), references, codes, meshes)
     about = {"scenes": [scene.document() for scene in chosen]}
     with output.open(about=about) as out:
         with out.campaign(campaign) as run:
@@ -78,6 +79,5 @@ def command(
                 **run,
                 models=models,
                 codes=codes,
-                large=large,
             )
         out.show(checked.report())

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.lattice_options import Lattice, with_lattice
+from comparisons.cli.lattice_options import LatticeOptions
 from comparisons.cli.options import Elements, Large, Law
 from comparisons.cli.quantity import quantity_in
 from comparisons.cli.verb import PictureOptions
@@ -16,7 +16,6 @@ from sheetbench.choices import ELEMENTS
 from sheetbench.errors import BadInput
 
 
-@with_lattice
 def command(
     scene: Annotated[
         str | None,
@@ -25,7 +24,7 @@ def command(
         ),
     ] = None,
     *,
-    lattice: Lattice,
+    lattice: LatticeOptions,
     measured: Annotated[
         Path | None,
         typer.Option(
@@ -99,8 +98,8 @@ def command(
     from comparisons.identification.identification import identify
     from comparisons.identification.measurements import read
     from comparisons.identification.prediction import NotReached
-    from comparisons.models.candidate import items
     from comparisons.models.grids import parse_elements
+    from comparisons.models.spec import items
 
     asked = load_static(scene)
     data = read(measured, asked)
@@ -110,13 +109,11 @@ def command(
                 asked,
                 data,
                 items(unknown),
+                lattice.spec,
                 model=model,
-                **lattice,
                 elements=parse_elements(elements),
                 law=law,
                 offset=offset,
-                large=large,
-                progress=out.progress,
             )
         except NotReached as error:
             out.stop(f"no answer with the scene's own values: {error}")

@@ -1,50 +1,51 @@
 """The five options of a lattice, declared once for every verb that builds one.
 
-A command that has a parameter `lattice: Lattice` gets --grid, --calibration, --k, --layer-distance and
---grading, and their values as the keywords that `compare`, `simulate`, `modes` and the others take.
+A command whose parameter is of the type `LatticeOptions` has --grid, --calibration, --k, --layer-distance and
+--grading; with `SpringOptions` the last three, beside lists of grids and calibrations of its own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import wraps
-from inspect import Parameter, signature
-from typing import Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from comparisons.cli import options
+from comparisons.cli.verb import Group
 
-Lattice = dict[str, Any]
-OPTIONS = {
-    "grid": options.Grid,
-    "calibration": options.Calibration,
-    "k": options.K,
-    "layer_distance": options.LayerDistance,
-    "grading": options.Grading,
-}
+if TYPE_CHECKING:
+    from comparisons.models.spec import Lattice
 
 
-def with_lattice(command: Callable[..., None]) -> Callable[..., None]:
-    """The command with the five options in the place of its parameter `lattice`."""
+class LatticeGroup(Group):
+    """Options by the names of a lattice's settings."""
 
-    @wraps(command)
-    def run(**given: Any) -> None:
-        lattice = {name: given.pop(name) for name in OPTIONS}
-        command(**given, lattice=lattice)
+    @property
+    def spec(self) -> Lattice:
+        """The lattice that is asked for."""
+        from comparisons.models.spec import Lattice  # help does not wait for models
 
-    parameters: list[Parameter] = []
-    for parameter in signature(command, eval_str=True).parameters.values():
-        if parameter.name != "lattice":
-            parameters.append(parameter.replace(kind=Parameter.KEYWORD_ONLY))
-            continue
-        parameters += [
-            Parameter(name, Parameter.KEYWORD_ONLY, default=None, annotation=option)
-            for name, option in OPTIONS.items()
-        ]
-    run.__signature__ = signature(command).replace(parameters=parameters)  # type: ignore[attr-defined]
-    run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
-    return run
+        return Lattice(**vars(self))
+
+    def given(self) -> dict[str, Any]:
+        """The values by the options' names."""
+        return {"--lumped" if k == "grid" else f"--{k.replace('_', '-')}": v for k, v in vars(self).items()}
 
 
-def given(lattice: Lattice) -> dict[str, Any]:
-    """The values by the options' names."""
-    return {"--lumped" if name == "grid" else f"--{name.replace('_', '-')}": v for name, v in lattice.items()}
+@dataclass(frozen=True)
+class SpringOptions(LatticeGroup):
+    """What all lattices of a list have."""
+
+    k: options.K = None
+    layer_distance: options.LayerDistance = None
+    grading: options.Grading = None
+
+
+@dataclass(frozen=True)
+class LatticeOptions(LatticeGroup):
+    """The lattice of a verb."""
+
+    grid: options.Grid = None
+    calibration: options.Calibration = None
+    k: options.K = None
+    layer_distance: options.LayerDistance = None
+    grading: options.Grading = None

@@ -6,17 +6,16 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.lattice_options import Lattice, with_lattice
+from comparisons.cli.lattice_options import LatticeOptions
 from comparisons.cli.options import Large, Scene
 from comparisons.cli.verb import PictureOptions
 
 MODES = 20
 
 
-@with_lattice
 def command(
     scene: Scene,
-    lattice: Lattice,
+    lattice: LatticeOptions,
     modes: Annotated[
         int, typer.Option(min=0, metavar="N", help="Modes of the state space; 0 for all.")
     ] = MODES,
@@ -50,12 +49,10 @@ def command(
         try:
             linearisation = linearise(
                 loaded,
-                **lattice,
+                lattice.spec,
                 modes=modes or None,
                 reduce=reduce,
                 about=about,
-                large=large,
-                progress=out.progress,
             )
         except NoEquilibrium as error:
             out.stop(f"no linear form about the equilibrium: {error}; --about flat has one")

@@ -41,16 +41,14 @@ def command(
     from comparisons.comparison.comparison import load_static
     from comparisons.live import redirection, server
     from comparisons.live.panel import Panel
-    from comparisons.models.registry import check
-    from comparisons.models.springs import LatticeSpec, resolve
+    from comparisons.models.resolve import resolve
+    from comparisons.models.spec import Lattice
     from sheetbench.errors import BadInput
 
     if not 0 <= port <= 65535:
         raise BadInput(f"--port = {port}: from 0 to 65535")
     loaded = load_static(scene)
-    lattice = LatticeSpec(lumped, calibration, grading=grading)
-    check(loaded, lattice.candidate)
-    meant = resolve(loaded, lattice)
+    meant = resolve(loaded, Lattice(lumped, calibration, grading=grading)).spec
     if not isinstance(meant.grading, float | None):
         raise BadInput(f"grading = {meant.grading}: this page grades towards all edges; give a number")
     panel = Panel(loaded, elements, grid=lumped, grading=meant.grading, calibration=meant.calibration)

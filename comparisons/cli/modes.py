@@ -6,16 +6,15 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.lattice_options import Lattice, with_lattice
+from comparisons.cli.lattice_options import LatticeOptions
 from comparisons.cli.options import Elements, Large, Scene
 from comparisons.cli.verb import PictureOptions
 from sheetbench.choices import ELEMENTS, MASSES, REFERENCE, REFERENCES, listed
 
 
-@with_lattice
 def command(
     scene: Scene,
-    lattice: Lattice,
+    lattice: LatticeOptions,
     count: Annotated[int, typer.Option(metavar="N", help="How many modes, lowest first.")] = 10,
     masses: Annotated[
         str | None,
@@ -54,14 +53,12 @@ def command(
         try:
             modes = spectra(
                 loaded,
+                lattice.spec,
                 count=count,
-                **lattice,
                 masses=masses,
                 references=reference or [REFERENCE],
                 elements=parse_elements(elements),
                 about=about,
-                large=large,
-                progress=out.progress,
             )
         except NoEquilibrium as error:
             out.stop(f"no modes about the deformed sheet: {error}")

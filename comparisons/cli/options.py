@@ -96,10 +96,22 @@ Wait = Annotated[
         show_default=False,
     ),
 ]
+
+
+def _let_through(context: typer.Context, value: bool) -> bool:
+    """Hold --large for all that the command does."""
+    if value:
+        from comparisons.models.context import running
+
+        context.with_resource(running(large=True))
+    return value
+
+
 Large = Annotated[
     bool,
     typer.Option(
         "--large",
+        callback=_let_through,
         help="Go on where a model takes more memory than is free, instead of refusing it.",
         show_default=False,
     ),

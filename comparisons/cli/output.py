@@ -168,6 +168,7 @@ def opened(
     other process may write to the folder meanwhile (campaigns see to that themselves). Raises BadInput for a
     folder that cannot be made, or that holds files of something else.
     """
+    from comparisons.models.context import running
     from sheetbench.answers.figure_style import parse_figure
     from sheetbench.errors import BadInput
 
@@ -195,4 +196,6 @@ def opened(
                 variant=variant,
                 overwrite=options.overwrite,
             )
-        yield stack.enter_context(closing(Output(options, folder, style)))
+        out = stack.enter_context(closing(Output(options, folder, style)))
+        stack.enter_context(running(progress=out.progress))
+        yield out

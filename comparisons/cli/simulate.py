@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.lattice_options import Lattice, given, with_lattice
+from comparisons.cli.lattice_options import LatticeOptions
 from comparisons.cli.options import Export, Large, Scene
 from comparisons.cli.quantity import quantity_in
 from comparisons.cli.verb import PictureOptions
@@ -16,10 +16,9 @@ from sheetbench.choices import INTEGRATOR, INTEGRATORS
 FRAMES = 100
 
 
-@with_lattice
 def command(
     scene: Scene,
-    lattice: Lattice,
+    lattice: LatticeOptions,
     duration: Annotated[
         float, typer.Option(metavar="S", parser=quantity_in("s"), help="How long to simulate.")
     ] = 1.0,
@@ -58,10 +57,8 @@ def command(
     output: PictureOptions,
 ) -> None:
     """Simulate the lattice from rest. With --out the run streams to a folder; the same command resumes it."""
-    from comparisons.models.candidate import Candidate
-    from comparisons.models.registry import check, simulate
-    from comparisons.models.sizes import size
-    from comparisons.models.springs import LatticeSpec
+    from comparisons.models.resolve import resolve
+    from comparisons.models.solve import simulate
     from comparisons.motion.answer import Simulation
     from comparisons.motion.history import read_measured, require_within
     from comparisons.report import amounts
@@ -78,9 +75,8 @@ def command(
     if measured is not None:
         truth = read_measured(measured, list(loaded.probes))
         require_within(truth, duration, measured)
-    model = Candidate("lumped", lattice)
-    check(loaded, model, large)
-    run = {"--integrator": integrator, **given(lattice), "--step": step, "--every": every}
+    model = resolve(loaded, lattice.spec, "motion")
+    run = {"--integrator": integrator, **lattice.given(), "--step": step, "--every": every}
     with output.open(scene=loaded, variant=run, alone=True) as out:
         pace = Pace(duration)
 
@@ -89,12 +85,10 @@ def command(
             soon = "" if left is None else f", {amounts.duration(left)} left"
             out.progress(f"simulated {time:.3g} of {duration:g} s ({100 * time / duration:.0f} %{soon})")
 
-        out.progress(Work("setting up", size(loaded, model)))
+        out.progress(Work("setting up", model.size))
         history = simulate(
-            loaded,
+            model,
             duration,
-            **lattice,
-            large=large,
             step=step,
             integrator=integrator,
             every=every,
@@ -105,6 +99,5 @@ def command(
         out.reserve("frames/")
         shown = Simulation(history, loaded, truth, animate).report()
         if export is not None:
-            springs, _ = LatticeSpec(**lattice).springs(loaded)
-            shown = out.export(export, loaded, springs, shown)
+            shown = out.export(export, loaded, model.springs, shown)
         out.show(shown)

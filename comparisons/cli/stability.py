@@ -6,16 +6,15 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.lattice_options import Lattice, with_lattice
+from comparisons.cli.lattice_options import LatticeOptions
 from comparisons.cli.options import Large, Scene
 from comparisons.cli.verb import ClusterOptions, PictureOptions
 from sheetbench.choices import REFERENCE, REFERENCES, listed
 
 
-@with_lattice
 def command(
     scene: Scene,
-    lattice: Lattice,
+    lattice: LatticeOptions,
     vary: Annotated[
         list[str] | None,
         typer.Option(
@@ -42,7 +41,6 @@ def command(
     Its load, thickness, Young's modulus, grid, damping and time step are varied over decades; of the explicit
     integrators the largest stable step is measured. With --out an interrupted run is resumed.
     """
-    from comparisons.models.springs import LatticeSpec
     from comparisons.stability.extremes import VARIED, stability
     from sheetbench.answers.figure_style import parse_figure
     from sheetbench.errors import BadInput
@@ -57,9 +55,8 @@ def command(
                 loaded,
                 **run,
                 varied=vary or VARIED,
-                lattice=LatticeSpec(**lattice),
+                lattice=lattice.spec,
                 reference=reference,
                 elements=elements,
-                large=large,
             )
         out.show(maps.report())

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from comparisons.cli import options
-from comparisons.cli.options import Grading, Large, Models, Symmetry
+from comparisons.cli.lattice_options import SpringOptions
+from comparisons.cli.options import Large, Models, Symmetry
 from comparisons.cli.quantity import quantity_in
 from comparisons.cli.verb import ClusterOptions, PictureOptions
 from sheetbench.choices import AUTO, CALIBRATION, CALIBRATIONS, INTEGRATORS, REFERENCES, listed
@@ -23,7 +24,8 @@ USUAL = f"{CALIBRATION},uniform"
 
 def command(
     scene: options.Scene,
-    lumped: Annotated[
+    lattice: SpringOptions,
+    grid: Annotated[
         str | None,
         typer.Option(
             "--lumped",
@@ -44,7 +46,6 @@ def command(
             show_default=False,
         ),
     ] = None,
-    grading: Grading = None,
     calibration: Annotated[
         str | None,
         typer.Option(
@@ -52,16 +53,6 @@ def command(
             help=f"Calibrations of every grid: {listed(CALIBRATIONS)}; auto: by the scene. {USUAL} unless "
             "given; with --duration one.",
             show_default=False,
-        ),
-    ] = None,
-    k: Annotated[
-        float | None,
-        typer.Option("--k", metavar="N/M", help="With --duration: stiffness of every spring; means uniform."),
-    ] = None,
-    layer_distance: Annotated[
-        float | None,
-        typer.Option(
-            "--layer-distance", metavar="M", help="With --duration: distance of the lattice's layers."
         ),
     ] = None,
     plate: Annotated[
@@ -114,43 +105,36 @@ def command(
     Give an empty list to leave a model out (--solid "").
     """
     from comparisons.comparison.comparison import load_static
-    from comparisons.models.candidate import items
-    from comparisons.models.springs import LatticeSpec
+    from comparisons.models.spec import items
     from comparisons.tradeoff.asked import of_motion, of_statics
-    from sheetbench.errors import BadInput
     from sheetbench.scenes import load
 
     measure: Callable[..., Tradeoff | DynamicTradeoff]
     if duration is not None:
         loaded = load(scene)
-        lattice = LatticeSpec(lumped, calibration, k, layer_distance, grading)
-        measure = of_motion(loaded, duration, lattice, integrator)
+        one = lattice.spec.but(grid=grid, calibration=calibration)
+        measure = of_motion(loaded, duration, one, integrator)
     else:
-        if k is not None or layer_distance is not None:
-            raise BadInput("--k, --layer-distance: go with --duration; else give --model lumped:k=550")
         loaded = load_static(scene)
-        calibration = calibration or USUAL
-        grids = GRIDS if lumped is None else lumped
+        calibration = calibration or (USUAL if lattice.k is None else "uniform")
         if lumped_pair is None:
-            usual = lumped is None and not {CALIBRATION, AUTO}.isdisjoint(items(calibration))
+            usual = grid is None and not {CALIBRATION, AUTO}.isdisjoint(items(calibration))
             lumped_pair = PAIRS if usual else ""
+        grids = GRIDS if grid is None else grid
         meshes = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
         measure = of_statics(
             loaded,
             grids,
             calibration,
+            lattice.spec,
             meshes,
-            model or (),
-            symmetry,
-            elements,
-            repeats,
-            grading,
-            lumped_pair,
+            models=model or (),
+            symmetry=symmetry,
+            elements=elements,
+            repeats=repeats,
+            of_two=lumped_pair,
         )
     with output.open(scene=loaded) as out:
         with out.campaign(campaign) as run:
-            trade = measure(
-                **run,
-                large=large,
-            )
+            trade = measure(**run)
         out.show(trade.report())

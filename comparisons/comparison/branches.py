@@ -16,8 +16,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from comparisons.models.candidate import Candidate
-from comparisons.models.springs import LatticeSpec
+from comparisons.models.resolve import Resolved
+from comparisons.models.spec import Elements, Lattice
 from sheetbench.scenes import Scene, Solution, Status
 
 FAR = 0.2  # of the largest displacement, from which on another branch is looked for
@@ -26,13 +26,12 @@ STEP = 1e-3  # of the shorter side, over which the mid-surface's slope is taken
 
 
 def joined(
-    scene: Scene, lattice: Candidate, judge: Candidate, first: Solution, reference: Solution
+    lattice: Resolved[Lattice], judge: Resolved[Elements], first: Solution, reference: Solution
 ) -> tuple[Solution, Solution, str] | None:
     """Both answers on one branch, and a sentence; None where they are near each other, where one is not a
     stable equilibrium, or where neither model has the other's."""
-    if lattice.model != "lumped":
-        return None
-    plain = not ({"linear", "symmetry"} & lattice.settings.keys()) and not scene.actuators
+    scene = lattice.scene
+    plain = not (lattice.spec.linear or lattice.spec.symmetry or scene.actuators)
     points = scene.probe_points()
     own, right = first.displacement(points), reference.displacement(points)
     if not far(own, right) or not plain or not first.status is reference.status is Status.CONVERGED:
@@ -40,15 +39,14 @@ def joined(
     import fem_reference
     import lumped
 
-    springs, _ = LatticeSpec.of(lattice.settings).springs(scene)
-    again = lumped.solve(scene, springs, near=shape(scene, reference, first.mesh.points))
+    again = lumped.solve(scene, lattice.springs, near=shape(scene, reference, first.mesh.points))
     if _on_branch(again, points, right, own):
         return _begun(again, first, reference), reference, _said(first, reference, own, right)
-    if reference.model != "shell" or "symmetry" in judge.settings:
+    if reference.model != "shell" or judge.spec.symmetry:
         return None
-    asked = {key: value for key, value in judge.settings.items() if key != "branch"}
+    begun = {"elements": judge.spec.elements, **judge.spec.but(branch=None).options}
     again = fem_reference.solve(
-        scene, model="shell", near=lambda places: shape(scene, first, places), **asked
+        scene, model="shell", near=lambda places: shape(scene, first, places), **begun
     )
     if _on_branch(again, points, own, right):
         return first, _begun(again, reference, first), _said(reference, first, right, own)

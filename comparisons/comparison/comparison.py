@@ -2,69 +2,63 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 from comparisons.comparison import branches, far_apart, strain_law
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.differences import error
 from comparisons.comparison.error_bar import CHEAP, error_bar
-from comparisons.models.candidate import Candidate
+from comparisons.models.context import context, in_context
 from comparisons.models.expected_error import expected_error
-from comparisons.models.grading import Grading
-from comparisons.models.grids import Elements, GridLike
+from comparisons.models.grids import Elements as Count
 from comparisons.models.plugins import shown_name
-from comparisons.models.registry import answer, check, check_reference
+from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.sizes import has_room
-from comparisons.models.springs import LatticeSpec, resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Elements, Lattice, Spec, StaticKeywords, parse
 from comparisons.report.work import Progress, silent
 from comparisons.runs.load import average
 from comparisons.runs.load import warnings as doubts
-from sheetbench.choices import ELEMENTS, REFERENCE
+from sheetbench.choices import REFERENCE
 from sheetbench.scenes import Scene, SceneError, Solution, Status, load, require_static
 
 COMPANION = "lumped-uniform"
 
 
+@in_context
 def compare(
     scene: Scene | str | Path,
+    lattice: Lattice | None = None,
+    reference: Elements | str = REFERENCE,
     *,
-    grid: GridLike = None,
-    calibration: str | None = None,
-    k: float | None = None,
-    layer_distance: float | None = None,
-    grading: Grading = None,
-    reference: str = REFERENCE,
-    elements: Elements = ELEMENTS,
+    elements: Count | None = None,
     law: str | None = None,
     uncertainty: bool | None = None,
-    symmetry: bool = False,
-    branch: str = "path",
     companion: bool = True,
-    others: Sequence[Candidate] = (),
+    others: Sequence[Spec | str] = (),
     large: bool = False,
     progress: Progress = silent,
-    starting: Callable[[str], None] = silent,
-    finished: Callable[[Solution], None] = silent,
+    **keywords: Unpack[StaticKeywords],
 ) -> Comparison:
     """Solve a scene with the lattice and with a reference, and put the answers side by side.
 
-    grid: masses, 9 by default: a number is along the shorter side, with near-square cells; (nx, ny) or "9x13"
-    along x and y; (nx, ny, layers). calibration: by default `consistent`, and then the uniform calibration is
-    solved too and shown alongside as `lumped-uniform`; where `k` [N/m] is given the default is `uniform`, and
-    where the scene brings its own [springs] they are used alone; companion = False leaves it out.
-    layer_distance [m]. grading: 0, cells of one size, to 1, finest at the edges, or "auto", as the scene's
-    layers need (`comparisons.models.grading`); the companion's cells are of one size. elements: along the
-    shorter side, or (nx, ny). law: of strain, where the reference is a shell or solid
-    (`sheetbench.choices.STRAIN_LAWS`). uncertainty: find the reference's error bar on coarser meshes too; for
-    plate and shell it is unless False, for others if True. symmetry: solve a half or a quarter where scene
-    and grid mirror themselves; solids are solved whole. branch: "path", or "buckled", which leaves unstable
-    equilibria along their buckling mode; of lattice and shell.
+    lattice, or its flat keywords: grid, masses, 9 by default: a number is along the shorter side, with
+    near-square cells; (nx, ny) or "9x13" along x and y; (nx, ny, layers). calibration: by default
+    `consistent`, and then the uniform calibration is solved too and shown alongside as `lumped-uniform`;
+    where `k` [N/m] is given the default is `uniform`, and where the scene brings its own [springs] they are
+    used alone; companion = False leaves it out. layer_distance [m]. grading: 0, cells of one size, to 1,
+    finest at the edges, or "auto", as the scene's layers need (`comparisons.models.grading`); the companion's
+    cells are of one size.
+    reference: an `Elements` or its name; elements: along its shorter side, or (nx, ny); law: of strain, of a
+    shell or solid (`sheetbench.choices.STRAIN_LAWS`). uncertainty: find the reference's error bar on coarser
+    meshes too; for plate and shell it is unless False, for others if True. symmetry: solve a half or a
+    quarter where scene and grid mirror themselves; solids are solved whole. branch: "path", or "buckled",
+    which leaves unstable equilibria along their buckling mode; of lattice and shell.
     others: models that stand in the table too, plug-ins or our own. A name that is taken is changed. large:
     even where a model takes more memory than there is. progress: told what is being done, and of every
-    iteration (`comparisons.report.work`). `starting` and `finished` are called before and after each model,
-    so that a caller can keep what is done.
+    iteration (`comparisons.report.work`).
 
     Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
     solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.
@@ -72,59 +66,48 @@ def compare(
     if not isinstance(scene, Scene):
         scene = load_static(scene)
     require_static(scene)
-    own_law = {} if law is None else {"law": law}
-    check_reference(reference, elements, own_law)
-    mirrored: dict[str, Any] = {"symmetry": True} if symmetry else {}
-    cut = mirrored if reference != "solid" else {}
-    judge = Candidate(reference, {"elements": elements, **own_law, **cut})
-    lattice = LatticeSpec(grid, calibration, k, layer_distance, grading)
-    if branch != "path":
-        mirrored["branch"] = branch
-        check_reference(reference, elements, {**own_law, "branch": branch})
-        judge = judge.but(branch=branch)
-    first = lattice.candidate.but(**mirrored)
-    for candidate in (first, judge, *others):
-        check(scene, candidate, large)
-    named = {first.model: first, reference: judge}
-    left_open = calibration is None and k is None and resolve(scene, lattice).calibration is not None
+    spec = Lattice.given(lattice, keywords)
+    whole = {"elements": elements, "law": law, "branch": spec.branch, "symmetry": spec.symmetry}
+    judge = resolve(scene, Elements.given(reference, whole))
+    first = resolve(scene, spec)
+    models: dict[str, Resolved[Any]] = {first.spec.model: first, judge.spec.model: judge}
+    left_open = spec.calibration is None and spec.k is None and first.spec.calibration is not None
     if companion and left_open:
-        named[COMPANION] = first.but(calibration="uniform", grading=None)
+        models[COMPANION] = resolve(scene, spec.but(calibration="uniform", grading=None))
     for other in others:
-        named[_unlike(shown_name(other.model), named)] = other
+        beside = resolve(scene, parse(other) if isinstance(other, str) else other)
+        models[_unlike(shown_name(beside.spec.model), models)] = beside
     solutions = []
-    for name, candidate in named.items():
-        starting(name)
-        solutions.append(answer(scene, candidate, name, progress=progress))
-        finished(solutions[-1])
+    for name, model in models.items():
+        solutions.append(solve(model, name))
+        context().solved(solutions[-1])
     laws = apart = ""
     several = begun = other_branch = False
-    one_branch = branches.joined(scene, first, judge, *solutions[:2])
+    one_branch = branches.joined(first, judge, *solutions[:2])
     if one_branch is not None:
         several, begun = True, one_branch[1] is not solutions[1]
         solutions[0], solutions[1], apart = one_branch
 
-    def also(other: Candidate) -> Solution | None:
-        fits = large or has_room(scene, other)
-        return answer(scene, other, "lumped on a finer grid", progress=progress) if fits else None
+    def also(other: Lattice) -> Solution | None:
+        return solve(resolve(scene, other), "lumped on a finer grid") if has_room(scene, other) else None
 
-    expected = expected_error(scene, first, solutions[0], also)
+    expected = expected_error(scene, first.spec, solutions[0], also)
     bar = None
     alone = begun or solutions[1].status is Status.UNSTABLE  # coarser meshes may be on another branch
-    asked = reference in CHEAP if uncertainty is None else uncertainty
+    asked = judge.spec.kind in CHEAP if uncertainty is None else uncertainty
     if asked and solutions[1].comparable and not alone:
-        starting(f"{reference} on coarser meshes")
 
-        def coarser(n: Elements) -> Solution:
-            return answer(scene, judge.but(elements=n), progress=progress)
+        def coarser(n: Count) -> Solution:
+            return solve(resolve(scene, judge.spec.but(count=n)))
 
-        bar = error_bar(scene, solutions[1], elements, coarser)
+        bar = error_bar(scene, solutions[1], judge.spec.elements, coarser)
     answers, within = tuple(solutions), None if bar is None else bar.error
-    if first.model == "lumped":
-        laws = strain_law.said(scene, first, answers, within)
-        if not apart:
-            apart, other_branch = far_apart.said(scene, first, answers, error, within, also)
+    laws = strain_law.said(first, answers, within)
+    if not apart:
+        apart, other_branch = far_apart.said(first, answers, error, within, also)
     known, busy = several or other_branch, tuple(doubts([average()]))
-    return Comparison(scene, answers, bar, laws, apart, expected, known, other_branch, busy, law is not None)
+    law_chosen = judge.spec.law is not None
+    return Comparison(scene, answers, bar, laws, apart, expected, known, other_branch, busy, law_chosen)
 
 
 def _unlike(name: str, taken: Collection[str]) -> str:

@@ -15,12 +15,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from comparisons.models.candidate import Candidate
 from comparisons.models.expected_error import converges
 from comparisons.models.layers import layers
-from comparisons.models.springs import LatticeSpec, resolve
+from comparisons.models.resolve import Resolved
+from comparisons.models.spec import Lattice
 from sheetbench.choices import listed
-from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes import Solution, Status
 from sheetbench.scenes.summary import few
 
 FAR, SURE = 0.2, 1.0  # errors from which on a reason is looked for, and is not in springs or laws
@@ -34,12 +34,11 @@ UNKNOWN = 0.5  # bar of the reference that tells nothing any more
 
 
 def said(
-    scene: Scene,
-    lattice: Candidate,
+    lattice: Resolved[Lattice],
     solutions: tuple[Solution, ...],
     error: Callable[[np.ndarray, np.ndarray], float | None],
     bar: float | None,
-    solve: Callable[[Candidate], Solution | None],
+    solve: Callable[[Lattice], Solution | None],
 ) -> tuple[str, bool]:
     """A sentence where lattice and reference, the first two of the solutions, are FAR apart, else nothing;
     and whether they are known to lie on different branches, so that an error would measure neither.
@@ -50,19 +49,18 @@ def said(
     first, reference = solutions[:2]
     if not first.status is reference.status is Status.CONVERGED:
         return "", False
-    points = scene.probe_points()
+    points = lattice.scene.probe_points()
     own, right = first.displacement(points), reference.displacement(points)
     off = error(own, right)
     if off is None or off <= FAR:
         return "", False
     start = f"{first.model} and {reference.model} both converged, {100.0 * off:.3g} % apart: "
-    known = reasons(scene, lattice, first, reference)
+    known = reasons(lattice, first, reference)
     because = f" ({'; '.join(known)})" if known else ""
     finer = None
-    meant = resolve(scene, LatticeSpec.of(lattice.settings))
-    if meant.calibration is not None:
-        nx, ny, layers = meant.grid
-        finer = solve(lattice.but(grid=(2 * nx - 1, 2 * ny - 1, layers)))
+    if lattice.spec.calibration is not None:
+        nx, ny, layers = lattice.grid
+        finer = solve(lattice.spec.but(grid=(2 * nx - 1, 2 * ny - 1, layers)))
     if finer is None or finer.status is not Status.CONVERGED:
         ended = "" if finer is None else f"; on twice as many cells a side the lattice ends {finer.status}"
         return (
@@ -81,7 +79,7 @@ def said(
         mesh = f"the {reference.model}'s mesh leaves ± {few(100.0 * bar)} %, more --elements tell"
         return f"{start}{mesh}{because}.", False
     ahead = error(2.0 * fine - own, right) or 0.0
-    if ahead > STAYS * off and (off > SURE or _tends(scene, lattice, first, reference, off)):
+    if ahead > STAYS * off and (off > SURE or _tends(lattice, reference, off)):
         trust = "" if bar is not None else f", if the {reference.model}'s mesh is fine enough"
         return (
             f"{start}they lie on different branches of equilibria{trust}, for on {masses} masses the lattice "
@@ -93,25 +91,24 @@ def said(
     ), False
 
 
-def _tends(scene: Scene, lattice: Candidate, first: Solution, reference: Solution, off: float) -> bool:
+def _tends(lattice: Resolved[Lattice], reference: Solution, off: float) -> bool:
     """Whether on one branch the lattice's answer tends to the reference's, but for less than an error."""
-    calibration, grid = str(first.settings.get("calibration")), first.settings["grid"]
     return (
-        converges(calibration, grid, lattice.settings)
-        and not scene.actuators
+        converges(lattice.spec, lattice.grid)
+        and not lattice.scene.actuators
         and off > STRAIN_LAW * (reference.stretch or 0.0)
     )
 
 
-def reasons(scene: Scene, lattice: Candidate, first: Solution, reference: Solution) -> list[str]:
+def reasons(lattice: Resolved[Lattice], first: Solution, reference: Solution) -> list[str]:
     """What is known that speaks for a coarse grid or for other branches, a clause each."""
     found = []
-    grid = first.settings["grid"]
+    scene, grid = lattice.scene, lattice.grid
     cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
     layer = min(layers(scene), default=None)
     if layer is not None and layer.width < cell:
         found.append(f"{layer}, {few(layer.width / cell)} cells of {1e3 * cell:.3g} mm")
-    moduli = LatticeSpec.of(lattice.settings).springs(scene)[0].as_dict()["moduli"]
+    moduli = lattice.springs.as_dict()["moduli"]
     off = [(abs(row["got"] / row["asked"] - 1.0), row["name"]) for row in moduli if row["asked"]]
     if (missed := max(off, default=(0.0, "")))[0] > MISSED:
         found.append(f"the springs miss {missed[1]} by {few(100.0 * missed[0])} %")

@@ -12,11 +12,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from comparisons.models.candidate import Candidate
-from comparisons.models.registry import answer
+from comparisons.models.resolve import Resolved
+from comparisons.models.solve import solve
+from comparisons.models.spec import Lattice
 from fem_reference.pulled_strip import curving, laws_of, pulled
 from sheetbench.choices import STRAIN_LAW
-from sheetbench.scenes import Scene, Solution
+from sheetbench.scenes import Solution
 from sheetbench.scenes.summary import few
 
 UNSAID = 1e-3  # without an error bar
@@ -25,18 +26,18 @@ MOST = 5000  # masses of a lattice that is pulled
 PULLS = (1e-5, 1e-2)  # P/E
 
 
-def of_lattice(scene: Scene, lattice: Candidate) -> float:
-    """c of a lattice on the scene's sheet, pulled one way."""
-    sheet, material = scene.sheet, scene.material
+def of_lattice(lattice: Resolved[Lattice]) -> float:
+    """c of a lattice on its scene's sheet, pulled one way."""
+    scene, sheet, material = lattice.scene, lattice.scene.sheet, lattice.scene.material
     corner, softness = np.array([sheet.lengths]), []
     for pull in PULLS:
         strip = pulled((pull * material.young * sheet.thickness, 0.0), sheet, material)
-        moved = answer(strip.replace(springs=scene.springs), lattice).displacement(corner)[0, 0]
+        moved = solve(lattice.on(strip.replace(springs=scene.springs))).displacement(corner)[0, 0]
         softness.append(float(moved) / (sheet.length_x * pull))
     return (1.0 - softness[1] / softness[0]) / (softness[1] * PULLS[1])
 
 
-def said(scene: Scene, lattice: Candidate, solutions: tuple[Solution, ...], bar: float | None) -> str:
+def said(lattice: Resolved[Lattice], solutions: tuple[Solution, ...], bar: float | None) -> str:
     """A sentence where the laws of lattice and reference, the first two of the solutions, differ by more than
     the reference's error bar, else nothing; bar: as a share, None where it is not known."""
     first, reference = solutions[:2]
@@ -46,8 +47,9 @@ def said(scene: Scene, lattice: Candidate, solutions: tuple[Solution, ...], bar:
         return ""
     if LEAST * stretch <= above or first.unknowns > 3 * MOST:
         return ""
-    law, own = str(reference.settings.get("law", STRAIN_LAW)), of_lattice(scene, lattice)
-    off = {name: abs(own - curving(name, scene.material)) for name in laws_of(scene.material)}
+    law, own = str(reference.settings.get("law", STRAIN_LAW)), of_lattice(lattice)
+    material = lattice.scene.material
+    off = {name: abs(own - curving(name, material)) for name in laws_of(material)}
     if off[law] <= PULLS[1] or not off[law] * stretch > above:
         return ""
     nearest = min(off, key=lambda name: off[name])

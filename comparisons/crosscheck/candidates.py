@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from comparisons.external.installed import InstalledCode
-from comparisons.models.candidate import Candidate, items
-from comparisons.models.grading import Grading
 from comparisons.models.grids import parse_elements
+from comparisons.models.spec import Elements, External, Lattice, Spec, items
 from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes import Scene, catalogue, load
 from sheetbench.scenes.rigid_motions import require_static
@@ -35,28 +34,25 @@ def load_scenes(names: Sequence[str]) -> list[Scene]:
 
 def candidates(
     grids: str,
-    calibration: str | None,
-    grading: Grading,
+    lattice: Lattice,
     meshes: Mapping[str, str],
     codes: Sequence[InstalledCode],
     code_meshes: str | None,
-) -> dict[str, list[Candidate]]:
+) -> dict[str, list[Spec]]:
     """Return lattice, references and installed external codes, each on its meshes, coarsest first.
 
     code_meshes: in place of each code's own. Raises BadInput for what cannot be read and for nothing at all.
     """
-    models: dict[str, list[Candidate]] = {}
-    own = {"calibration": calibration, "grading": grading}
-    lattice = {key: value for key, value in own.items() if value is not None}
+    models: dict[str, list[Spec]] = {}
     if sizes := _numbers("--lumped", grids, 3):
-        models["lumped"] = [Candidate("lumped", {"grid": n, **lattice}) for n in sizes]
+        models[lattice.model] = [lattice.but(grid=n) for n in sizes]
     for name, text in meshes.items():
         if sizes := _numbers(f"--{name}", text, 1):
-            models[name] = [Candidate(name, {"elements": n}) for n in sizes]
+            models[name] = [Elements(name, n) for n in sizes]
     for one in codes:
         if one.version is not None:
             sizes = list(one.code.meshes) if code_meshes is None else _numbers("--meshes", code_meshes, 1)
-            models[one.code.name] = [Candidate(one.model, {"elements": n}) for n in sizes]
+            models[one.code.name] = [External(one.model, {"elements": n}) for n in sizes]
     if not models:
         raise BadInput("no model left to check")
     return models

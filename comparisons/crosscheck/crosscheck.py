@@ -9,8 +9,9 @@ from comparisons.crosscheck.answer import Crosscheck
 from comparisons.crosscheck.convergence import Convergence
 from comparisons.external.installed import InstalledCode
 from comparisons.models import plugins
-from comparisons.models.candidate import Candidate
-from comparisons.models.registry import check
+from comparisons.models.context import large_in_context
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Spec
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
@@ -18,11 +19,12 @@ from sheetbench.choices import REFERENCES
 from sheetbench.scenes import Scene, Status
 
 
+@large_in_context
 def crosscheck(
     scenes: Sequence[Scene],
     store: Store,
     *,
-    models: Mapping[str, Sequence[Candidate]],
+    models: Mapping[str, Sequence[Spec]],
     codes: Sequence[InstalledCode] = (),
     workers: int = 1,
     pool: Pool = processes,
@@ -38,7 +40,7 @@ def crosscheck(
     """
     for scene in scenes:
         for candidate in (c for of in models.values() for c in of):
-            check(scene, candidate, large)
+            resolve(scene, candidate)
     versions = {one.model: one.version for one in codes}
     runs = {
         (scene.name, name): [_run(scene, name, candidate, versions.get(candidate.model)) for candidate in of]
@@ -66,7 +68,7 @@ def crosscheck(
     return Crosscheck(tuple(scenes), convergences, tuple(codes))
 
 
-def _run(scene: Scene, name: str, candidate: Candidate, version: str | None) -> Run:
+def _run(scene: Scene, name: str, candidate: Spec, version: str | None) -> Run:
     arguments = {"scene": scene.document(), "model": candidate.model, "settings": candidate.settings}
     digest = plugins.digest(candidate.model)
     arguments |= {key: text for key, text in (("version", version), ("digest", digest)) if text is not None}

@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.models.candidate import Candidate
-from comparisons.models.registry import answer as solve
-from comparisons.models.registry import check
+from comparisons.models.context import running
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import spec_of
 from sheetbench.scenes import Scene
 
 
@@ -23,9 +24,9 @@ def answer(
 
     version, digest: of an external code and of its plug-in, under which the row is kept.
     """
-    parsed, candidate = Scene.model_validate(scene), Candidate(model, settings)
-    check(parsed, candidate, large=True)
-    solution = solve(parsed, candidate)
+    parsed = Scene.model_validate(scene)
+    with running(large=True):  # `crosscheck` has looked at the size
+        solution = solve(resolve(parsed, spec_of(model, settings)))
     counts = solution.settings.get("elements") or [n - 1 for n in solution.settings["grid"]]
     return {
         "model": solution.model,

@@ -20,11 +20,11 @@ Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import prod
 from pathlib import Path
-from typing import Any
+from typing import Unpack
 
 import numpy as np
 
@@ -41,15 +41,16 @@ from comparisons.identification.residual_test import explained, runs
 from comparisons.identification.search import Nearest
 from comparisons.identification.starts import Fit, nearest
 from comparisons.identification.unknowns import DAMPING, Unknown, unknown
-from comparisons.models.candidate import Candidate
-from comparisons.models.grading import Grading
-from comparisons.models.grids import Elements, GridLike
-from comparisons.models.registry import check, check_reference, solve_reference
-from comparisons.models.springs import LatticeSpec, resolve
-from comparisons.report.work import Work, silent
+from comparisons.models.context import context, in_context
+from comparisons.models.grids import Elements as Count
+from comparisons.models.resolve import resolve
+from comparisons.models.sizes import along
+from comparisons.models.solve import solve
+from comparisons.models.spec import Elements, Lattice, LatticeKeywords
+from comparisons.report.work import Progress, silent
 from lumped import identifiability
-from sheetbench.choices import ELEMENTS, REFERENCES
-from sheetbench.errors import BadInput
+from sheetbench.choices import REFERENCES
+from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import AnyScene, Scene, SpringTable, require_static, scene_of
 
 __all__ = ["NotReached", "identify"]
@@ -62,18 +63,14 @@ class _Question:
 
     scene: Scene
     unknowns: tuple[Unknown, ...]
-    model: str
-    lattice: LatticeSpec
-    elements: Elements
-    law: str | None
+    lattice: Lattice
+    reference: Elements | None  # in place of the lattice
     offset: float
     refine: bool
-    large: bool
-    progress: Callable[[str | Work], None]
 
     @property
-    def of_law(self) -> dict[str, Any]:
-        return {} if self.law is None else {"law": self.law}
+    def model(self) -> str:
+        return self.lattice.model if self.reference is None else self.reference.model
 
     @property
     def free_grid(self) -> bool:
@@ -83,28 +80,26 @@ class _Question:
 
     def fitted(self) -> Model:
         """The model that is fitted first."""
-        if self.model == "lumped":
+        if self.reference is None:
             return lattice_model(self.scene, self.lattice)
-        return reference_model(self.scene, self.model, self.elements, self.progress, **self.of_law)
+        return reference_model(resolve(self.scene, self.reference))
 
 
+@in_context
 def identify(
     scene: AnyScene,
     measured: Measured | Path | str,
     names: Sequence[str] | str = "young",
+    lattice: Lattice | None = None,
     *,
-    model: str = "lumped",
-    grid: GridLike = None,
-    calibration: str | None = None,
-    k: float | None = None,
-    layer_distance: float | None = None,
-    grading: Grading = None,
-    elements: Elements = ELEMENTS,
+    model: str | Elements = Lattice.NAME,
+    elements: Count | None = None,
     law: str | None = None,
     offset: float = 0.0,
     refine: bool = True,
     large: bool = False,
-    progress: Callable[[str | Work], None] = silent,
+    progress: Progress = silent,
+    **keywords: Unpack[LatticeKeywords],
 ) -> Identification:
     """The unknowns of these names, from measurements or a file of them (`measurements.read`).
 
@@ -124,8 +119,13 @@ def identify(
     measured = read(Path(measured), scene) if isinstance(measured, str | Path) else measured
     names = [names] if isinstance(names, str) else names
     unknowns = tuple(unknown(scene, name) for name in names)
-    lattice = LatticeSpec(grid, calibration, k, layer_distance, grading)
-    asked = _Question(scene, unknowns, model, lattice, elements, law, offset, refine, large, progress)
+    reference = None
+    if model != Lattice.NAME:
+        reference = Elements.given(model, {"elements": elements, "law": law})
+        require_choice("model", reference.kind, MODELS)
+    elif law is not None:
+        raise BadInput(f"law = '{law}': of a shell or solid; the lattice's is that of its springs")
+    asked = _Question(scene, unknowns, Lattice.given(lattice, keywords), reference, offset, refine)
     _check(measured, asked)
     return _answer(asked, measured)
 
@@ -133,7 +133,7 @@ def identify(
 def _answer(asked: _Question, measured: Measured, look: bool = True) -> Identification:
     """The answer; look: whether for rows that do not fit."""
     unknowns, model = asked.unknowns, asked.fitted()
-    fit = Fit(measured, unknowns, model.axes, model.predictor, asked.offset, asked.progress)
+    fit = Fit(measured, unknowns, model.axes, model.predictor, asked.offset, context().progress)
     odd: tuple[Outlier, ...] = ()
 
     def require_sense(part: Measured, predicted: Prediction) -> None:
@@ -149,11 +149,11 @@ def _answer(asked: _Question, measured: Measured, look: bool = True) -> Identifi
     step = bound = np.full(len(unknowns), np.nan)
     grids = [model.settings.get("grid")]
     if asked.refine and asked.model == "lumped" and not _moving(measured):
-        end = refined(asked.scene, asked.lattice, model, fit, best, asked.free_grid, asked.large)
+        end = refined(asked.scene, asked.lattice, model, fit, best, asked.free_grid)
         model, fit, best, step, grids = end.model, end.fit, end.best, end.step, [*end.grids]
         bound = GRID_ERROR * np.abs(step)
-    elif asked.refine and asked.model != "lumped":
-        bound = _of_mesh(asked, fit, best, model.settings["elements"])
+    elif asked.refine and asked.reference is not None:
+        bound = _of_mesh(asked, fit, best)
     known = identifiability([u.name for u in unknowns], best.slopes, best.residuals)
     found = {
         u.name: _found(u, x, known.half_widths[u.name], *steps)
@@ -163,7 +163,7 @@ def _answer(asked: _Question, measured: Measured, look: bool = True) -> Identifi
     left = runs(measured, residuals)
     without: dict[str, Found] = {}
     if odd and isinstance(measured, Displacements):
-        asked.progress("without the rows that do not fit")
+        context().progress("without the rows that do not fit")
         without = _answer(asked, measured.without([one.row for one in odd]), look=False).unknowns
     warnings = [
         *remarks.on_outliers(odd, without),
@@ -172,10 +172,10 @@ def _answer(asked: _Question, measured: Measured, look: bool = True) -> Identifi
         *remarks.on_bounds(fit, best),
         *remarks.on_grid(found, asked.model, asked.refine and not _moving(measured)),
     ]
-    if asked.model != "lumped":
+    if asked.reference is not None:
         last = set_in(asked.scene, unknowns, best.x)
-        solved = solve_reference(last, model=asked.model, elements=asked.elements, large=True, **asked.of_law)
-        warnings += strain_law.said(last, asked.law, solved.stretch)
+        solved = solve(resolve(last, asked.reference))
+        warnings += strain_law.said(last, asked.reference.law, solved.stretch)
     return Identification(
         scene=asked.scene,
         measured=measured,
@@ -197,14 +197,16 @@ def _answer(asked: _Question, measured: Measured, look: bool = True) -> Identifi
     )
 
 
-def _of_mesh(asked: _Question, fit: Fit, best: Nearest, elements: Sequence[int]) -> np.ndarray:
+def _of_mesh(asked: _Question, fit: Fit, best: Nearest) -> np.ndarray:
     """What the mesh does to x at most, by a look at elements twice as large; nan where that is not known."""
+    assert asked.reference is not None
+    elements = along(asked.scene, asked.reference)[:2]
     coarse = (elements[0] + 1) // 2, (elements[1] + 1) // 2
     longer = (prod(elements) / prod(coarse)) ** 0.5
     if longer == 1.0:
         return np.full(len(best.x), np.nan)
-    asked.progress(f"looking at larger elements, {coarse[0]} × {coarse[1]}")
-    other = reference_model(asked.scene, asked.model, coarse, asked.progress, **asked.of_law)
+    context().progress(f"looking at larger elements, {coarse[0]} × {coarse[1]}")
+    other = reference_model(resolve(asked.scene, asked.reference.but(count=coarse)))
     return mesh_error(fit, best, other.predictor, longer)
 
 
@@ -227,15 +229,11 @@ def _moving(measured: Measured) -> bool:
 
 
 def _check(measured: Measured, asked: _Question) -> None:
-    names, model, law = [u.name for u in asked.unknowns], asked.model, asked.law
+    names, model = [u.name for u in asked.unknowns], asked.model
     repeated = {name for name in names if names.count(name) > 1}
     if not names or repeated:
         raise BadInput(f"unknown = '{','.join(names)}': name each once, and at least one")
-    if model not in MODELS:
-        raise BadInput(f"model = '{model}': unknown, choose one of {', '.join(MODELS)}")
-    if model == "lumped":
-        if law is not None:
-            raise BadInput(f"law = '{law}': of a shell or solid; the lattice's is that of its springs")
+    if asked.reference is None:
         lattice = asked.lattice
         if resolve(asked.scene, lattice, own=False).fitted:
             raise BadInput(
@@ -247,7 +245,7 @@ def _check(measured: Measured, asked: _Question) -> None:
                 "leave k out"
             )
     else:
-        check_reference(model, asked.elements, asked.of_law)
+        resolve(asked.scene, asked.reference)
     moving = _moving(measured)
     still = [name for name in names if name in DAMPING]
     if still and not moving:
@@ -257,8 +255,6 @@ def _check(measured: Measured, asked: _Question) -> None:
         )
     if moving and model != "lumped":
         raise BadInput(f"model = '{model}': a measured motion (column time) is followed by the lattice only")
-    size = Candidate(model, {"elements": asked.elements})
-    check(asked.scene, asked.lattice.candidate if model == "lumped" else size, asked.large)
     if asked.offset and not isinstance(measured, Surface):
         raise BadInput(
             f"offset = {asked.offset:g} m: of the points of a cloud from the mid-surface; displacements are "

@@ -19,9 +19,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from comparisons.identification.unknowns import Unknown, put
-from comparisons.models.grids import Elements
-from comparisons.models.registry import solve_reference
-from comparisons.report.work import Progress, silent
+from comparisons.models.resolve import Resolved
+from comparisons.models.solve import solve
+from comparisons.models.spec import Elements
 from sheetbench.scenes import BadInput, Scene, Status
 
 if TYPE_CHECKING:
@@ -70,20 +70,16 @@ def lattice(scene: Scene, springs_of: Callable[[Scene], Calibration]) -> Predict
     return predict
 
 
-def reference(
-    scene: Scene, model: str, elements: Elements, progress: Progress = silent, **options: Any
-) -> Predictor:
-    """Statics through a finite-element reference with its own options; progress: told of every solve."""
+def reference(model: Resolved[Elements]) -> Predictor:
+    """Statics through a finite-element reference."""
 
     def displacement(here: Scene, points: np.ndarray) -> np.ndarray:
-        solution = solve_reference(
-            here, model=model, elements=elements, large=True, progress=progress, **options
-        )
+        solution = solve(model.on(here))
         if solution.status is not Status.CONVERGED:
             raise NotReached(f"{solution.label}: {solution.status}: {solution.status.advice}")
         return solution.displacement(points)
 
-    return _by_differences(scene, displacement, STATIC_STEP)
+    return _by_differences(model.scene, displacement, STATIC_STEP)
 
 
 def motion(scene: Scene, springs_of: Callable[[Scene], Calibration], time: np.ndarray) -> Predictor:

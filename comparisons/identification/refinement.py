@@ -21,9 +21,9 @@ from comparisons.identification.model import Model, lattice_model
 from comparisons.identification.prediction import NotReached, Predictor
 from comparisons.identification.search import Nearest
 from comparisons.identification.starts import Fit
-from comparisons.models.candidate import Candidate
+from comparisons.models.context import context
 from comparisons.models.sizes import has_room
-from comparisons.models.springs import LatticeSpec
+from comparisons.models.spec import Lattice
 from lumped import Identifiability, identifiability
 from sheetbench.scenes import Scene
 from sheetbench.scenes.grading import of_settings
@@ -46,13 +46,10 @@ class Refined:
     grids: tuple[tuple[int, ...], ...]
 
 
-def refined(
-    scene: Scene, lattice: LatticeSpec, model: Model, fit: Fit, best: Nearest, free: bool, large: bool
-) -> Refined:
+def refined(scene: Scene, lattice: Lattice, model: Model, fit: Fit, best: Nearest, free: bool) -> Refined:
     """The fit on cells that are small enough where the grid is free, else on those given, with its step.
 
-    lattice: as it was asked for; model, fit, best: on the first grid; large: even where a lattice takes more
-    memory than there is.
+    lattice: as it was asked for; model, fit, best: on the first grid.
     """
     names = [u.name for u in fit.unknowns]
     grids = [tuple(model.settings["grid"])]
@@ -60,7 +57,7 @@ def refined(
     while True:
         nx, ny, layers = grids[-1]
         finer = (2 * nx - 1, 2 * ny - 1, layers)
-        room = large or has_room(scene, Candidate("lumped", {"grid": finer}))
+        room = has_room(scene, Lattice(finer))
         unknowns = 3 * finer[0] * finer[1] * layers
         widths = np.array([*identifiability(names, best.slopes, best.residuals).half_widths.values()])
         enough = np.maximum(SHARE * widths, NEGLIGIBLE)
@@ -70,7 +67,7 @@ def refined(
         settings = model.settings
         chosen = {"calibration": settings["calibration"], "grading": of_settings(settings)}
         halved = lattice_model(scene, replace(lattice, grid=finer, **chosen))
-        fit.progress(f"looking at cells half as large, {finer[0]} × {finer[1]} masses")
+        context().progress(f"looking at cells half as large, {finer[0]} × {finer[1]} masses")
         on_halved = replace(fit, axes=halved.axes, predictor=halved.predictor)
         step = _step(on_halved, best.x)
         small = (np.abs(step) <= enough).all()

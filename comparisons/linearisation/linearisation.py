@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Unpack
+
 import numpy as np
 
 from comparisons.linearisation.answer import Linearisation
-from comparisons.models.grading import Grading
-from comparisons.models.grids import GridLike
-from comparisons.models.registry import check
-from comparisons.models.sizes import size
-from comparisons.models.springs import LatticeSpec
+from comparisons.models.context import context, in_context
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Lattice, LatticeKeywords
 from comparisons.report.work import Progress, Work, silent
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import AnyScene, scene_of
@@ -19,19 +19,17 @@ BALANCED = "balanced"
 ABOUT = ("deformed", "flat")
 
 
+@in_context
 def linearise(
     scene: AnyScene,
+    lattice: Lattice | None = None,
     *,
-    grid: GridLike = None,
-    calibration: str | None = None,
-    k: float | None = None,
-    layer_distance: float | None = None,
-    grading: Grading = None,
     modes: int | None = MODES,
     reduce: str | None = None,
     about: str = "deformed",
     large: bool = False,
     progress: Progress = silent,
+    **keywords: Unpack[LatticeKeywords],
 ) -> Linearisation:
     """The lattice of a scene about its equilibrium under its loads, or about the flat sheet.
 
@@ -47,10 +45,9 @@ def linearise(
     if modes is not None and modes < 1:
         raise BadInput(f"modes = {modes}: at least 1")
     order, tolerance = _balance(reduce)
-    lattice = LatticeSpec(grid, calibration, k, layer_distance, grading)
-    check(asked, lattice.candidate, large)
-    springs, _ = lattice.springs(asked)
-    progress(Work("linearising the lattice", size(asked, lattice.candidate)))
+    model = resolve(asked, Lattice.given(lattice, keywords), "motion")
+    springs = model.springs
+    context().progress(Work("linearising the lattice", model.size))
     found = lumped.linearise(asked, springs, "flat" if about == "flat" else "deformed")
     most = found.mass.shape[0]
     space = found.state_space(None if modes is None else min(modes, most))

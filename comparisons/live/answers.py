@@ -15,9 +15,9 @@ import numpy as np
 from comparisons.browser.sheets import drawn, forces, packed
 from comparisons.comparison.comparison import error
 from comparisons.live.panel import Question
-from comparisons.models import registry
-from comparisons.models.candidate import Candidate
-from comparisons.models.springs import LatticeSpec
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Elements
 from comparisons.report.vtk import plan_mesh
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 
@@ -43,7 +43,7 @@ class Answered:
 
     def starts(self, question: Question) -> bool:
         """Whether another question's equilibrium can be sought from this one's."""
-        same = self.question.own == question.own
+        same = self.question.lattice == question.lattice
         return same and self.solution.status is Status.CONVERGED and not self.scene.actuators
 
     def agrees(self, other: Answered) -> bool:
@@ -74,8 +74,7 @@ def lattice(scene: Scene, question: Question, last: Answered | None = None) -> A
     of the time. Raises BadInput for what does not go together."""
     import lumped
 
-    registry.check(scene, Candidate("lumped", question.own))
-    springs, _ = LatticeSpec(**question.own).springs(scene)
+    springs = resolve(scene, question.lattice).springs
     near = last.displacement if last is not None and last.starts(question) else None
     return Answered(question, scene, lumped.solve(scene, springs, near=near), near is None)
 
@@ -95,7 +94,7 @@ class Sampled:
 
 def shell(scene: Scene, question: Question, masses: np.ndarray) -> Sampled:
     """The shell's answer, sampled at plan points of masses (n, 2) [m]. Raises BadInput as the lattice's."""
-    solution = registry.solve(scene, "shell", elements=question.elements)
+    solution = solve(resolve(scene, Elements("shell", question.elements)))
     found = _document("shell", question, scene, solution)
     plan = plan_mesh(scene.sheet, SHELL_CELLS)
     u = solution.displacement(plan.points[:, :2])

@@ -16,7 +16,7 @@ from comparisons.calibration.tables import to_toml as springs_to_toml
 from comparisons.live import answers
 from comparisons.live.answers import Answered, Sampled
 from comparisons.live.panel import Question
-from comparisons.models.springs import LatticeSpec
+from comparisons.models.resolve import resolve
 from comparisons.runs.executors import Processes, single_threaded
 from sheetbench.scenes import Scene
 from sheetbench.scenes.toml import to_toml
@@ -48,7 +48,7 @@ class Models:
         """What is to be copied, as TOML: the lattice's [springs], or the scene."""
         if question.copy == "scene":
             return to_toml(scene)
-        springs, _ = await self._on_thread(partial(LatticeSpec(**question.own).springs, scene))
+        springs = await self._on_thread(lambda: resolve(scene, question.lattice, "springs").springs)
         return springs_to_toml(springs.as_dict())
 
     def close(self) -> None:

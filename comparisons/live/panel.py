@@ -13,6 +13,7 @@ from math import isfinite
 from typing import Any, NoReturn
 
 from comparisons.browser.sheets import free_side, outline
+from comparisons.models.spec import Lattice
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Curved, Scene, Sheet
@@ -51,13 +52,12 @@ class Question:
     copy: str = ""
 
     @property
-    def own(self) -> dict[str, Any]:
-        """The lattice's settings, as `comparisons.models.registry` takes them."""
+    def lattice(self) -> Lattice:
+        """The lattice that is asked for."""
         if self.calibration == OWN:
-            return {}
+            return Lattice()
         grading = self.values["grading"]
-        own = {"grid": int(self.values["grid"]), "calibration": self.calibration}
-        return own | ({"grading": grading} if grading else {})
+        return Lattice(int(self.values["grid"]), self.calibration, grading=grading or None)
 
     @property
     def elements(self) -> int:

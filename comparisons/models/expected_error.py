@@ -24,18 +24,18 @@ nothing is said
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import prod
 from typing import Any
 
 import numpy as np
 
-from comparisons.models.candidate import Candidate
+from comparisons.models.grids import scene_grid
 from comparisons.models.layers import layers
+from comparisons.models.spec import Lattice
 from sheetbench.choices import EXTRAPOLATED
 from sheetbench.scenes import Scene, Solution, Status
-from sheetbench.scenes.grading import of_settings
 from sheetbench.scenes.grid import LAYERS, Grid
 from sheetbench.scenes.summary import few
 
@@ -78,11 +78,11 @@ def finer_grid(grid: Grid) -> Grid:
     return nx, ny, grid[2]
 
 
-def converges(calibration: str, finer: Grid, settings: Mapping[str, Any]) -> bool:
-    """Whether answers with these springs and settings tend to the sheet's, and the finer grid is not too
-    large."""
-    own = any(settings.get(name) for name in ("k", "layer_distance", "linear"))
-    return calibration in EXTRAPOLATED and not own and finer[2] == LAYERS and prod(finer[:2]) <= MOST
+def converges(lattice: Lattice, finer: Grid) -> bool:
+    """Whether answers of a resolved lattice tend to the sheet's, and the finer grid is not too large."""
+    own = lattice.k or lattice.layer_distance or lattice.linear
+    known = lattice.calibration in EXTRAPOLATED and finer[2] == LAYERS
+    return known and not own and prod(finer[:2]) <= MOST
 
 
 def resolves(scene: Scene, grid: Grid) -> bool:
@@ -92,28 +92,26 @@ def resolves(scene: Scene, grid: Grid) -> bool:
 
 
 def expected_error(
-    scene: Scene, lattice: Candidate, solution: Solution, solve: Callable[[Candidate], Solution | None]
+    scene: Scene, lattice: Lattice, solution: Solution, solve: Callable[[Lattice], Solution | None]
 ) -> ExpectedError | None:
     """The grid error to expect of a lattice's solution of a scene, None where nothing is said (see above).
 
-    lattice: what was solved; solve: answers the finer lattice, None where that takes too much memory.
+    lattice: what was solved, resolved; solve: answers the finer lattice, None where that takes too much
+    memory.
     """
-    settings = solution.settings
-    if lattice.model != "lumped" or solution.status is not Status.CONVERGED:
+    if solution.status is not Status.CONVERGED:
         return None
-    nx, ny, deep = settings["grid"]
-    finer = finer_grid((nx, ny, deep))
-    if not (converges(str(settings.get("calibration")), finer, lattice.settings) and resolves(scene, finer)):
+    grid = scene_grid(scene, lattice.grid)
+    finer = finer_grid(grid)
+    if not (converges(lattice, finer) and resolves(scene, finer)):
         return None
-    same = {"calibration": settings["calibration"], "grading": of_settings(settings) or None}
-    fine = solve(lattice.but(grid=finer, **same))
+    fine = solve(lattice.but(grid=finer))
     if fine is None or fine.status is not Status.CONVERGED or len(fine.snaps) != len(solution.snaps):
         return None
     points = scene.probe_points()
-    ratio = prod(n - 1 for n in finer[:2]) / ((nx - 1) * (ny - 1))
-    value = estimate(
-        solution.displacement(points), fine.displacement(points), ratio, largest_stretch(scene, fine)
-    )
+    ratio = prod(n - 1 for n in finer[:2]) / prod(n - 1 for n in grid[:2])
+    stretch = largest_stretch(scene, fine, finer)
+    value = estimate(solution.displacement(points), fine.displacement(points), ratio, stretch)
     return None if value is None else ExpectedError(value, finer, fine.solve_seconds)
 
 
@@ -128,12 +126,10 @@ def estimate(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: float)
     return value if LAW * stretch < value < FAR else None
 
 
-def largest_stretch(scene: Scene, solution: Solution) -> float:
+def largest_stretch(scene: Scene, solution: Solution, grid: Grid) -> float:
     """The largest elongation of the mid-surface between neighbours on a lattice's grid, along its lines and
     diagonals."""
-    lines = [
-        np.linspace(0.0, a, n) for a, n in zip(scene.sheet.lengths, solution.settings["grid"], strict=False)
-    ]
+    lines = [np.linspace(0.0, a, n) for a, n in zip(scene.sheet.lengths, grid[:2], strict=True)]
     flat = np.stack([*np.meshgrid(*lines, indexing="ij"), np.zeros([len(line) for line in lines])], axis=-1)
     moved = flat + solution.displacement(flat[..., :2].reshape(-1, 2)).reshape(flat.shape)
     on, to, all_ = slice(1, None), slice(None, -1), slice(None)

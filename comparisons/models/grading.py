@@ -15,11 +15,12 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from comparisons.models.layers import layers
+from comparisons.models.spec import Grading, Lattice, LatticePair
 from sheetbench.choices import AUTO, CALIBRATIONS, method_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Clamped, Scene
 from sheetbench.scenes.grading import Graded, of_settings, towards
-from sheetbench.scenes.grading import Grading as Some
+from sheetbench.scenes.grading import Grading as EdgeGrading
 from sheetbench.scenes.grid import LAYERS
 from sheetbench.scenes.summary import few
 
@@ -27,13 +28,12 @@ GRADED = 0.3  # what `auto` grades by towards all edges
 ONE_SIDED = 0.5  # and towards the one that holds the sheet
 NARROW = 0.6
 RESOLVED = 24.0
-Grading = Graded | str | None
 
 
 def read(asked: Grading) -> Graded | str | None:
     """A number or a grading towards some edges, or "auto", from what is asked, text too (0.5, 0.5:x0,y0);
     None where nothing is. Raises BadInput."""
-    if asked is None or asked == AUTO or isinstance(asked, Some):
+    if asked is None or asked == AUTO or isinstance(asked, EdgeGrading):
         return asked
     by, _, edges = str(asked).partition(":")
     try:
@@ -54,20 +54,15 @@ def fixed(asked: Grading) -> Graded | None:
     return None if isinstance(chosen, str) else chosen
 
 
-def plain(grading: Graded) -> float | str:
-    """As settings that are kept have it: the number, or the text of a grading towards some edges."""
-    return str(grading) if isinstance(grading, Some) else grading
-
-
 def grading_of(
-    scene: Scene, grid: Sequence[int], asked: Grading, **settings: Any
+    scene: Scene, grid: Sequence[int], lattice: Lattice | LatticePair
 ) -> tuple[Graded | None, str]:
-    """The grading, None where nothing is asked, and for "auto" the reason in a sentence. settings: of the
-    lattice, calibration and layer_distance. Raises BadInput for what is neither."""
-    chosen = read(asked)
+    """The grading, None where nothing is asked, and for "auto" the reason in a sentence. Raises BadInput for
+    what is neither."""
+    chosen = read(lattice.grading)
     if not isinstance(chosen, str):
         return chosen, ""
-    return (0.0, why_not) if (why_not := one_size(grid, settings)) else _by_layers(scene, grid)
+    return (0.0, why_not) if (why_not := one_size(grid, lattice)) else _by_layers(scene, grid)
 
 
 def told(settings: Mapping[str, Any]) -> tuple[str, ...]:
@@ -82,12 +77,12 @@ def told(settings: Mapping[str, Any]) -> tuple[str, ...]:
     return tuple(found)
 
 
-def one_size(grid: Sequence[int], settings: Mapping[str, Any]) -> str:
+def one_size(grid: Sequence[int], lattice: Lattice | LatticePair) -> str:
     """Why these springs cannot be had cell by cell, "" where they can."""
-    method = method_of(settings.get("calibration"), settings.get("k"))
+    method = method_of(lattice.calibration, getattr(lattice, "k", None))
     if "grading" not in CALIBRATIONS[method].takes:
         return f"the calibration {method} is for cells of one size"
-    if grid[2] != LAYERS or settings.get("layer_distance") is not None:
+    if grid[2] != LAYERS or lattice.layer_distance is not None:
         return f"springs cell by cell are for {LAYERS} layers at the distance that they ask for"
     return ""
 

@@ -20,9 +20,9 @@ the advisor's are (docs/theory.md, section 3, with what they do on others).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from comparisons.models.scales import scales
+from comparisons.models.spec import Lattice
 from sheetbench.choices import AUTO, CALIBRATION
 from sheetbench.scenes import EDGES, Clamped, Curved, Hinged, Scene
 from sheetbench.scenes.grid import LAYERS
@@ -34,16 +34,14 @@ FAR = 600.0
 STRETCHED = 0.1
 
 
-def chosen(
-    scene: Scene, grid: Sequence[int], calibration: str | None, grading: Any = None, **others: Any
-) -> tuple[str | None, str]:
-    """The calibration asked for, None where nothing is; and where it is "auto", or nothing but the grading
-    "auto" is asked, the one for this scene, and why. others: k and layer_distance of the lattice."""
-    unasked = calibration is None and all(value is None for value in others.values())
-    if scene.material.law is not None and (unasked or calibration == AUTO):
+def resolve_calibration(scene: Scene, grid: Sequence[int], lattice: Lattice) -> tuple[str | None, str]:
+    """Return the calibration asked for, None where nothing is; and where it is "auto", or nothing but the
+    grading "auto" is asked, the one for this scene, and why."""
+    left_open = lattice.calibration is lattice.k is lattice.layer_distance is None
+    if scene.material.law is not None and (left_open or lattice.calibration == AUTO):
         return RUBBER, f"the material has the law {scene.material.law}"
-    if calibration != AUTO and not (unasked and grading == AUTO):
-        return calibration, ""
+    if lattice.calibration != AUTO and not (left_open and lattice.grading == AUTO):
+        return lattice.calibration, ""
     if grid[2] != LAYERS and not scales(scene).strain > STRETCHED:
         return CALIBRATION, f"the usual one, of {grid[2]} layers"
     return method_for(scene)

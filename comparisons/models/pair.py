@@ -15,94 +15,26 @@ they end differently, the finer one stands alone.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from math import prod
-from typing import Any
 
 import numpy as np
 
-from comparisons.models.grading import Grading
-from comparisons.models.grids import GridLike, scene_grid
-from comparisons.models.lattice import Solve, Watch, lattice, require_known
-from comparisons.models.springs import LatticeSpec, resolve
-from sheetbench.choices import EXTRAPOLATED, listed
-from sheetbench.errors import BadInput
-from sheetbench.scenes import FieldMesh, Scene, Solution
+from comparisons.models.spec import LatticePair, counted
+from sheetbench.scenes import FieldMesh, Solution
 from sheetbench.scenes.balance import Balance
-from sheetbench.scenes.grid import Grid
 
 ORDER, REACH, UNSEEN = 2.0, 2.0, 0.2
 Field = Callable[[np.ndarray], np.ndarray]  # plan points (n, 2) [m] → (n, 3) [m]
-
-
-def lattice_pair(
-    scene: Scene,
-    *,
-    grid: GridLike = None,
-    coarser: GridLike = None,
-    calibration: str | None = None,
-    layer_distance: float | None = None,
-    grading: Grading = None,
-    linear: bool = False,
-    symmetry: bool = False,
-) -> Solve:
-    """Both lattices, ready to be solved one after the other.
-
-    coarser: the other grid, of half as many cells unless given. grading: of both; "auto" looks at the finer.
-    """
-    fine, coarse = grids(scene, grid, coarser)
-    spec = LatticeSpec(fine, calibration, None, layer_distance, grading)
-    found = resolve(scene, spec, own=False)
-    own: dict[str, Any] = {"calibration": found.calibration, "grading": found.grading}
-    own |= {"layer_distance": layer_distance, "linear": linear, "symmetry": symmetry}
-    ready = [lattice(scene, grid=shape, **own) for shape in (coarse, fine)]
-
-    def solve(watch: Watch | None) -> Solution:
-        rough, near = (answer(watch) for answer in ready)
-        return extrapolated(rough, replace(near, settings={**near.settings, **found.reasons}))
-
-    return solve
-
-
-def grids(scene: Scene, grid: GridLike, coarser: GridLike) -> tuple[Grid, Grid]:
-    """The finer and the coarser grid. Raises BadInput where the second is not the coarser."""
-    fine = scene_grid(scene, grid)
-    halved = tuple(max(2, (n - 1) // 2 + 1) for n in fine[:2])
-    coarse = scene_grid(scene, (*halved, fine[2]) if coarser is None else coarser)
-    if min(coarse) < 2 or coarse[0] >= fine[0] or coarse[1] >= fine[1] or coarse[2] != fine[2]:
-        raise BadInput(
-            f"lumped-pair: {size(coarse)} beside {size(fine)}: the coarser grid has fewer masses along both "
-            "sides, at least 2, and as many layers; write 5:9"
-        )
-    return fine, coarse
-
-
-def size(grid: Sequence[int]) -> str:
-    """A grid as people write it."""
-    return "×".join(str(n) for n in grid)
-
-
-def check_pair(scene: Scene, settings: Mapping[str, Any]) -> None:
-    """Raise BadInput for settings of a pair that it does not have or cannot use on this scene."""
-    require_known("lumped-pair", settings, lattice_pair)
-    fine, _ = grids(scene, settings.get("grid"), settings.get("coarser"))
-    method = resolve(scene, LatticeSpec.of({**settings, "grid": fine})).calibration
-    if method is None:
-        raise BadInput("lumped-pair: the scene's [springs] are of one grid; name a calibration")
-    if method not in EXTRAPOLATED:
-        raise BadInput(
-            f"lumped-pair: with the calibration {method} answers need not tend to the sheet's as cells "
-            f"shrink; choose {listed(EXTRAPOLATED)}"
-        )
 
 
 def extrapolated(coarse: Solution, fine: Solution) -> Solution:
     """One answer of two; their times, factorisations and histories together."""
     both = replace(
         fine,
-        model="lumped-pair",
-        label=f"{fine.label} and {size(coarse.settings['grid'])}, extrapolated",
+        model=LatticePair.NAME,
+        label=f"{fine.label} and {counted(coarse.settings['grid'])}, extrapolated",
         settings={**fine.settings, "coarser": coarse.settings["grid"]},
         iterations=coarse.iterations + fine.iterations,
         solve_seconds=coarse.solve_seconds + fine.solve_seconds,
@@ -110,7 +42,7 @@ def extrapolated(coarse: Solution, fine: Solution) -> Solution:
         history=(*coarse.history, *fine.history),
     )
     if not fine.comparable or (coarse.status, len(coarse.snaps)) != (fine.status, len(fine.snaps)):
-        grid, ended = size(coarse.settings["grid"]), f"{coarse.status} with {len(coarse.snaps)} snaps"
+        grid, ended = counted(coarse.settings["grid"]), f"{coarse.status} with {len(coarse.snaps)} snaps"
         finer = f"{fine.status} with {len(fine.snaps)}"
         return replace(both, fallback=f"the finer lattice alone: {grid} ended {ended}, the finer {finer}")
     cells = [np.array(s.settings["grid"][:2]) - 1 for s in (coarse, fine)]

@@ -14,9 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.models.candidate import Candidate
+from comparisons.models.context import context
 from comparisons.models.sizes import size
-from comparisons.report.work import Progress, Work, silent
+from comparisons.models.spec import Elements, Lattice
+from comparisons.report.work import Work
 from lumped import Calibration, ModalTarget, StaticTarget
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet, Status
@@ -49,19 +50,17 @@ def fitted(
     layer_distance: float | None = None,
     grading: Graded = 0.0,
     training: Sequence[Scene] | None = None,
-    progress: Progress = silent,
 ) -> Calibration:
     """Springs fitted to the shell on the training scenes, which have this sheet and material; computed once a
-    process. progress: told what is being done. Raises BadInput for a training scene without a static answer
-    that the method could use."""
+    process. Raises BadInput for a training scene without a static answer that the method could use."""
     chosen = training_scenes(sheet, material) if training is None else training
     texts = tuple(scene.model_dump_json(by_alias=True) for scene in chosen)
     learnt = _frequencies if method == "fit-modal" else _displacements
     for scene, text in zip(chosen, texts, strict=True):
-        shell = Candidate("shell", {"elements": ELEMENTS})
-        progress(Work(f"training on {scene.name}: the shell", size(scene, shell)))
+        shell = size(scene, Elements("shell", ELEMENTS))
+        context().progress(Work(f"training on {scene.name}: the shell", shell))
         learnt(text)  # and kept
-    progress(Work("fitting springs", size(chosen[0], Candidate("lumped", {"grid": grid}))))
+    context().progress(Work("fitting springs", size(chosen[0], Lattice(grid))))
     return _fitted(texts, grid, method, layer_distance, grading)
 
 

@@ -12,22 +12,20 @@ from collections.abc import Sequence
 from dataclasses import replace
 from math import prod
 from pathlib import Path
-from typing import TYPE_CHECKING, cast, get_args
+from typing import TYPE_CHECKING, Any, Unpack, cast, get_args
 
 import numpy as np
 
-from comparisons.models.candidate import Candidate
+from comparisons.models.context import context, in_context
 from comparisons.models.expected_error import converges, finer_grid
-from comparisons.models.grading import Grading
-from comparisons.models.grids import Elements, GridLike
-from comparisons.models.registry import check, check_reference
-from comparisons.models.sizes import size
-from comparisons.models.springs import LatticeSpec
+from comparisons.models.grids import Elements as Count
+from comparisons.models.resolve import Resolved, resolve
+from comparisons.models.spec import Elements, Lattice, ModesKeywords
 from comparisons.modes.answer import Spectra, Spectrum
 from comparisons.modes.expected import expected_errors
 from comparisons.modes.pairing import cell_centres
 from comparisons.report.work import Progress, Work, silent
-from sheetbench.choices import ELEMENTS, MASSES, REFERENCE
+from sheetbench.choices import REFERENCE
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, NoEquilibrium, require_choice
 from sheetbench.scenes import About, Scene, free_rigid_motions, load
@@ -37,21 +35,18 @@ if TYPE_CHECKING:
     from lumped import Calibration
 
 
+@in_context
 def spectra(
     scene: Scene | str | Path,
+    lattice: Lattice | None = None,
     *,
     count: int = 10,
-    grid: GridLike = None,
-    calibration: str | None = None,
-    k: float | None = None,
-    layer_distance: float | None = None,
-    grading: Grading = None,
-    masses: str | None = None,
-    references: Sequence[str] = (REFERENCE,),
-    elements: Elements = ELEMENTS,
+    references: Sequence[str | Elements] = (REFERENCE,),
+    elements: Count | None = None,
     about: str = "flat",
     large: bool = False,
     progress: Progress = silent,
+    **keywords: Unpack[ModesKeywords],
 ) -> Spectra:
     """The spectra of the lattice and of each reference; masses: how the lattice shares out its mass
     (`lumped.masses`), as `lumped.modes` has it unless given; about: "flat", or "deformed" under the scene's
@@ -61,31 +56,23 @@ def spectra(
     that a mesh cannot give, NoEquilibrium for deformed where a model has no stable equilibrium.
     """
     require_choice("--about", about, get_args(About))
-    if masses is not None:
-        require_choice("--masses", masses, MASSES)
     around = cast(About, about)
     scene = scene if isinstance(scene, Scene) else load(scene)
     if count < 1:
         raise BadInput(f"--count = {count}: at least 1")
-    lattice = LatticeSpec(grid, calibration, k, layer_distance, grading)
-    asked = [lattice.candidate]
-    for reference in references:
-        check_reference(reference, elements)
-        asked.append(Candidate(reference, {"elements": elements}))
-    for candidate in asked:
-        check(scene, candidate, large)
+    own = resolve(scene, Lattice.given(lattice, keywords), "modes")
+    judges = [resolve(scene, Elements.given(one, {"elements": elements}), "modes") for one in references]
 
-    def starting(candidate: Candidate) -> None:
-        progress(Work(f"modes of {candidate.model}", size(scene, candidate)))
+    def starting(model: Resolved[Any]) -> None:
+        context().progress(Work(f"modes of {model.spec.model}", model.size))
 
-    starting(asked[0])
-    springs, because = lattice.springs(scene)
-    first = _lattice(scene, count, springs, because, around, masses)
-    found = [first if around == "flat" else _with_expected(scene, lattice, springs, first)]
-    for candidate in asked[1:]:
-        starting(candidate)
-        found.append(_reference(scene, candidate.model, count, elements, around))
-    return Spectra(scene, tuple(found), around, _sag(scene, springs))
+    starting(own)
+    first = _lattice(own, count, around)
+    found = [first if around == "flat" else _with_expected(own, first)]
+    for judge in judges:
+        starting(judge)
+        found.append(_reference(judge, count, around))
+    return Spectra(scene, tuple(found), around, _sag(scene, own.springs))
 
 
 def _sag(scene: Scene, springs: Calibration) -> float | None:
@@ -99,19 +86,13 @@ def _sag(scene: Scene, springs: Calibration) -> float | None:
     return float(np.abs(solution.mesh.point_data["displacement"]).max())
 
 
-def _lattice(
-    scene: Scene,
-    count: int,
-    springs: Calibration,
-    because: dict[str, str],
-    about: About,
-    masses: str | None,
-) -> Spectrum:
+def _lattice(model: Resolved[Lattice], count: int, about: About) -> Spectrum:
     import lumped
 
+    springs = model.springs
     begin = now()
-    distribution = cast("lumped.Inertia | None", masses) or lumped.usual_masses(springs)
-    modes = lumped.modes(scene, springs, count, distribution, about)
+    distribution = cast("lumped.Inertia | None", model.spec.masses) or lumped.usual_masses(springs)
+    modes = lumped.modes(model.scene, springs, count, distribution, about)
     seconds = now() - begin
     return Spectrum(
         model="lumped",
@@ -121,7 +102,7 @@ def _lattice(
             "calibration": springs.method,
             **as_settings(springs.grading),
             "masses": distribution,
-            **because,
+            **model.reasons,
         },
         frequencies=modes.frequencies,
         rigid=modes.rigid,
@@ -131,28 +112,27 @@ def _lattice(
     )
 
 
-def _with_expected(scene: Scene, lattice: LatticeSpec, springs: Calibration, first: Spectrum) -> Spectrum:
+def _with_expected(model: Resolved[Lattice], first: Spectrum) -> Spectrum:
     """The lattice's spectrum about its equilibrium, with the errors to expect of it where they are known."""
-    finer = finer_grid(springs.grid)
-    if not converges(springs.method, finer, lattice.candidate.settings):
+    finer = finer_grid(model.grid)
+    if not converges(model.spec, finer):
         return first
-    spec = LatticeSpec(finer, springs.method, grading=springs.grading or None)
-    masses, count = first.settings["masses"], len(first.frequencies)
+    spec = model.spec.but(grid=finer, masses=first.settings["masses"])
     try:
-        fine = _lattice(scene, count, spec.springs(scene)[0], {}, "deformed", masses)
+        fine = _lattice(resolve(model.scene, spec, "modes"), len(first.frequencies), "deformed")
     except NoEquilibrium:
         return first
-    plan, cells = cell_centres(scene.sheet), [prod(n - 1 for n in g[:2]) for g in (finer, springs.grid)]
+    plan, cells = cell_centres(model.scene.sheet), [prod(n - 1 for n in g[:2]) for g in (finer, model.grid)]
     both = [(one.frequencies, one.shapes(plan)) for one in (first, fine)]
     return replace(first, expected=tuple(expected_errors(both[0], both[1], cells[0] / cells[1])))
 
 
-def _reference(scene: Scene, model: str, count: int, elements: Elements, about: About) -> Spectrum:
+def _reference(model: Resolved[Elements], count: int, about: About) -> Spectrum:
     import fem_reference
 
-    modes = fem_reference.modes(scene, model, elements, count, about)
+    modes = fem_reference.modes(model.scene, model.spec.kind, model.spec.elements, count, about)
     return Spectrum(
-        model=model,
+        model=model.spec.kind,
         label=modes.label,
         settings=modes.settings,
         frequencies=modes.frequencies,

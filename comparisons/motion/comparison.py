@@ -9,22 +9,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
 from comparisons.models import sizes
-from comparisons.models.candidate import Candidate
-from comparisons.models.grading import Grading
-from comparisons.models.grids import GridLike
-from comparisons.models.registry import check, check_reference, simulate
+from comparisons.models.context import context, in_context
+from comparisons.models.grids import Elements as Count
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import simulate
+from comparisons.models.spec import Elements, Lattice, LatticeKeywords
 from comparisons.motion import comparison_tables
 from comparisons.motion.measures import difference, measured_alike
 from comparisons.report import amounts
 from comparisons.report.work import Pace, Progress, Work, silent
 from sheetbench.choices import REFERENCE
 from sheetbench.scenes import AnyScene, History, Scene, Status, scene_of, summary
-from sheetbench.scenes.grid import near_square
 
 if TYPE_CHECKING:
     from sheetbench.answers.report import Report
@@ -116,23 +116,21 @@ class MotionComparison(summary.Summarised):
         return f"Motion of {self.scene.name}; .report() has tables, pictures and files", [*facts, *off]
 
 
+@in_context
 def compare_motion(
     scene: AnyScene,
     duration: float,
+    lattice: Lattice | None = None,
+    reference: str | Elements = REFERENCE,
     *,
-    grid: GridLike = None,
-    calibration: str | None = None,
-    k: float | None = None,
-    layer_distance: float | None = None,
-    grading: Grading = None,
-    reference: str = REFERENCE,
-    elements: int | tuple[int, int] | None = None,
+    elements: Count | None = None,
     law: str | None = None,
     uncertainty: bool = True,
     every: float | None = None,
     frames: int = 0,
     large: bool = False,
     progress: Progress = silent,
+    **keywords: Unpack[LatticeKeywords],
 ) -> MotionComparison:
     """Move a scene's sheet for `duration` [s] with the lattice and with a reference, from rest.
 
@@ -144,50 +142,54 @@ def compare_motion(
     import fem_reference
 
     asked = scene_of(scene)
-    size: Any = ELEMENTS if elements is None else elements
-    options = {} if law is None else {"law": law}
-    check_reference(reference, size, options)
-    check(asked, Candidate(reference, {"elements": size, **options}), large)
-    along = near_square(asked.sheet, size) if isinstance(size, int) else tuple(size)
+    judge = Elements.given(reference, {"elements": elements, "law": law})
+    judge = judge.but(count=ELEMENTS) if judge.count is None else judge
+    resolve(asked, judge)
+    model = resolve(asked, Lattice.given(lattice, keywords), "motion")
+    name, along = judge.kind, tuple(sizes.along(asked, judge)[:2])
 
     def told(doing: str, begin: Work) -> Callable[[float], None]:
         pace = Pace(duration)
-        progress(begin)
+        context().progress(begin)
 
         def reached(time: float) -> None:
             left = pace.left(time) if time >= EVEN * duration else None
             soon = "" if left is None else f", {amounts.duration(left)} left"
-            progress(Work(f"{doing}: {time:.3g} of {duration:g} s{soon}"))
+            context().progress(Work(f"{doing}: {time:.3g} of {duration:g} s{soon}"))
 
         return reached
 
-    def moved(counts: tuple[int, int], name: str, spacing: float, **settings: Any) -> History:
-        candidate, doing = Candidate(reference, {"elements": counts, **options}), f"moving the {name}"
+    def moved(counts: tuple[int, ...], name: str, spacing: float, **settings: Any) -> History:
+        doing = f"moving the {name}"
         steps = _expected_steps(asked, duration)
-        each = sizes.size(asked, candidate)
+        each = sizes.size(asked, judge.but(count=counts))
         expected = each and replace(each, seconds=steps * SOLVES * each.seconds)
         watch = told(doing, Work(f"{doing}, some {amounts.count(steps)} steps", expected))
         return fem_reference.simulate(
-            asked, reference, duration, elements=counts, every=spacing, progress=watch, **options, **settings
+            asked,
+            judge.kind,
+            duration,
+            elements=counts,
+            every=spacing,
+            progress=watch,
+            **judge.options,
+            **settings,
         )
 
-    fem_reference.require_moving(asked, reference)
-    lattice = simulate(
-        asked, duration, grid=grid, calibration=calibration, k=k, layer_distance=layer_distance,
-        grading=grading, large=large, every=every, frames=frames, 
-        progress=told("moving the lattice", Work("moving the lattice")),
-    )  # fmt: skip
-    spacing = lattice.settings["every"]
-    truth = moved(along, reference, spacing, frames=frames)
+    fem_reference.require_moving(asked, name)
+    watch = told("moving the lattice", Work("moving the lattice"))
+    own = simulate(model, duration, every=every, frames=frames, progress=watch)
+    spacing = own.settings["every"]
+    truth = moved(along, name, spacing, frames=frames)
     bars: dict[str, float | None] = {}
     if uncertainty and truth.status is Status.CONVERGED:
-        longer = moved(along, f"{reference} in longer steps", spacing, error=LONGER * truth.settings["error"])
+        longer = moved(along, f"{name} in longer steps", spacing, error=LONGER * truth.settings["error"])
         bars = {"mesh": None, "step": _largest(longer, truth)}
         if min(along) > 1:
             half = (along[0] // 2, along[1] // 2)
-            coarse = moved(half, f"{reference} on larger elements", spacing)
+            coarse = moved(half, f"{name} on larger elements", spacing)
             bars["mesh"] = _largest(coarse, truth)
-    return MotionComparison(asked, {"lumped": lattice, reference: truth}, bars)
+    return MotionComparison(asked, {model.spec.model: own, name: truth}, bars)
 
 
 def _largest(one: History, other: History) -> float | None:

@@ -12,7 +12,7 @@ from comparisons.report.amounts import count, duration
 if TYPE_CHECKING:
     from sheetbench.scenes.size import Size
 
-Progress = Callable[["Work"], None]
+Progress = Callable[["Work | str"], None]
 LONG = 2.0  # s, from which on people want to know
 
 

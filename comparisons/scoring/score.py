@@ -18,7 +18,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from comparisons.models.candidate import Candidate, written
+from comparisons.models.spec import spec_of
 from comparisons.scoring.answers import Answer, read_answers
 from comparisons.scoring.faults import faults
 from comparisons.scoring.reference import Reference, document
@@ -241,7 +241,7 @@ def own_models(cases: Sequence[Reference]) -> list[Standing]:
     names = {case.name for case in cases}
     for row in document()["standing"]:
         if row["case"] in names:
-            rows.setdefault(written(Candidate(row["model"], row["settings"])), {})[row["case"]] = row
+            rows.setdefault(str(spec_of(row["model"], row["settings"])), {})[row["case"]] = row
     return [
         Standing(
             name,

@@ -23,10 +23,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from comparisons.comparison.comparison import error
-from comparisons.models.candidate import Candidate
-from comparisons.models.grading import plain, read
-from comparisons.models.registry import check
-from comparisons.models.springs import LatticeSpec
+from comparisons.models.context import large_in_context
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Elements, Lattice
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
@@ -93,12 +92,13 @@ class _Cell:
     refusal: str = ""
 
 
+@large_in_context
 def stability(
     scene: Scene,
     store: Store,
     *,
     varied: Sequence[str] = VARIED,
-    lattice: LatticeSpec = LatticeSpec(),  # noqa: B008  # frozen
+    lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     reference: str = REFERENCE,
     elements: int = 12,
     workers: int = 1,
@@ -115,11 +115,9 @@ def stability(
     """
     for name in varied:
         require_choice("vary", name, VARIED)
-    graded = read(lattice.grading)
-    own = {**vars(lattice), "grading": graded if graded is None or isinstance(graded, str) else plain(graded)}
-    check(scene, Candidate("lumped", own), large)
-    check(scene, Candidate(reference, {"elements": elements}), large)
-    maker = _Maker(scene, own, reference, elements)
+    resolve(scene, lattice, "motion")
+    resolve(scene, Elements(reference, elements))
+    maker = _Maker(scene, lattice, reference, elements)
     cells = [cell for name in VARIED if name in varied for cell in maker.cells(name)]
     runs = [run for cell in cells for run in (cell.run, cell.truth) if run is not None]
     done = carry_out(runs, store, workers=workers, pool=pool, retry=retry, progress=progress)
@@ -130,7 +128,7 @@ def stability(
 class _Maker:
     """Makes the cells of a scene."""
 
-    def __init__(self, scene: Scene, lattice: dict[str, Any], reference: str, elements: int) -> None:
+    def __init__(self, scene: Scene, lattice: Lattice, reference: str, elements: int) -> None:
         self.scene, self.lattice, self.reference, self.elements = scene, lattice, reference, elements
         self.period: float | None = None
 
@@ -141,14 +139,14 @@ class _Maker:
         elif name == "grid":
             yield from self._grids()
         else:
-            springs, _ = LatticeSpec(**self.lattice).springs(self.scene)
+            springs = resolve(self.scene, self.lattice).springs
             self.period = self.period or shortest_period(self.scene, springs)
             yield from (self._damped if name == "damping" else self._stepped)(self.period)
 
     def _models(self) -> dict[str, dict[str, Any]]:
         """The settings of every model."""
         references = dict.fromkeys(("plate", "shell", self.reference))
-        return {"lumped": self.lattice, **{name: {"elements": self.elements} for name in references}}
+        return {"lumped": self.lattice.settings, **{name: {"elements": self.elements} for name in references}}
 
     def _static(self, scene: Scene, model: str, settings: dict[str, Any], label: str) -> Run:
         arguments = {"scene": scene.document(), "model": model, "settings": settings}
@@ -188,7 +186,7 @@ class _Maker:
                 damping = {"damping_time": ratio * period / np.pi, "damping_rate": 0.0}
                 scene = scene.replace(material=scene.material.replace(**damping))
             for name in INTEGRATORS:
-                arguments = {"scene": scene.document(), "lattice": self.lattice, "integrator": name}
+                arguments = {"scene": scene.document(), "lattice": self.lattice.settings, "integrator": name}
                 label = f"{name} {'own damping' if ratio is None else f'damping {ratio:g}'}"
                 run = Run("stability.run", {**arguments, "period": period}, label)
                 yield _Cell("damping", {"damping_ratio": ratio, "integrator": name}, run)
@@ -196,12 +194,12 @@ class _Maker:
     def _stepped(self, period: float) -> Iterator[_Cell]:
         import lumped
 
-        springs, _ = LatticeSpec(**self.lattice).springs(self.scene)
+        springs = resolve(self.scene, self.lattice).springs
 
         def run(integrator: str, step: float, duration: float) -> Run:
             arguments = {
                 "scene": self.scene.document(),
-                "lattice": self.lattice,
+                "lattice": self.lattice.settings,
                 "integrator": integrator,
                 "step": step,
                 "duration": duration,

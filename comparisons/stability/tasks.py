@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.models.springs import LatticeSpec
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Lattice
 from comparisons.stability.limit import measured_limit, system
 from sheetbench.scenes import Clamped, Held, Hinged, Scene
 
@@ -23,7 +24,7 @@ def run(scene: dict[str, Any], lattice: dict[str, Any], integrator: str, period:
     import lumped
 
     parsed = Scene.model_validate(scene)
-    springs, _ = LatticeSpec(**lattice).springs(parsed)
+    springs = resolve(parsed, Lattice.given(None, lattice), "springs").springs
     duration, limits = PERIODS * period, dict.fromkeys(("computed", "measured", "advised"))
     if lumped.INTEGRATORS[integrator].explicit:
         equations = system(parsed.replace(gravity=None, loads=()), springs)

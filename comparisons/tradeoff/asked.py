@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
-from comparisons.models.candidate import Candidate, items, lattices, pairs, parse_model, references
-from comparisons.models.grading import Grading
+from comparisons.models.grids import Elements as Count
 from comparisons.models.grids import parse_elements
-from comparisons.models.springs import LatticeSpec, resolve_each
+from comparisons.models.resolve import resolve_each
+from comparisons.models.spec import Elements, Lattice, items, lattices, pairs, parse, references
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.motion import DynamicTradeoff, dynamic_tradeoff
 from comparisons.tradeoff.statics import tradeoff
@@ -22,45 +22,46 @@ def of_statics(
     scene: Scene,
     grids: str,
     calibrations: str,
+    lattice: Lattice,
     meshes: Mapping[str, str],
     models: Sequence[str] = (),
     symmetry: bool = False,
     elements: str | None = None,
     repeats: int = 5,
-    grading: Grading = None,
     of_two: str = "",
 ) -> Callable[..., Tradeoff]:
-    """The trade of lattices, of references on meshes by name, and of models as `parse_model` reads them.
+    """The trade of lattices, of references on meshes by name, and of models as `parse` reads them.
 
     symmetry: of all but solids and the models; elements: of the reference that all are held against;
-    grading: of the lattices whose calibration takes one; of_two: pairs of grids, extrapolated. The
-    calibration "auto" is the one for the scene (`comparisons.models.method`).
+    lattice: what all lattices have, the grading where their calibration takes one; of_two: pairs of grids,
+    extrapolated. The calibration "auto" is the one for the scene (`comparisons.models.method`).
     Raises BadInput for what cannot be read, no model at all, and a reference of a single element.
     """
-    springs = items(calibrations)
-    asked = lattices(scene, items(grids), springs) + pairs(scene, items(of_two), springs)
-    resolved, reasons = resolve_each(scene, asked, grading)
+    named = items(calibrations)
+    of_one = lattices(scene, items(grids), named, lattice)
+    asked = [*of_one, *pairs(scene, items(of_two), named, lattice)]
+    resolved, reasons = resolve_each(scene, asked, lattice.grading)
     candidates = [one for i, one in enumerate(resolved) if one not in resolved[:i]]
     for name, sizes in meshes.items():
         candidates += references(name, items(sizes))
     if symmetry:
         candidates = [c if c.model == "solid" else c.but(symmetry=True) for c in candidates]
-    candidates += [parse_model(text) for text in models]
+    candidates += [parse(text) for text in models]
     if not candidates:
         raise BadInput("no model left to measure")
-    judge = None if elements is None else Candidate(REFERENCE, {"elements": _halved_too(elements)})
+    judge = None if elements is None else Elements(REFERENCE, _halved_too(elements))
     return partial(tradeoff, scene, candidates, reference=judge, repeats=repeats, reasons=reasons)
 
 
-def _halved_too(text: str) -> int | list[int]:
+def _halved_too(text: str) -> Count:
     found = parse_elements(text)
     if min([found] if isinstance(found, int) else found) < 2:
         raise BadInput(f"--elements = {text}: at least 2, for the reference is solved on half as many too")
-    return found if isinstance(found, int) else list(found)
+    return found
 
 
 def of_motion(
-    scene: Scene, duration: float, lattice: LatticeSpec, integrators: str
+    scene: Scene, duration: float, lattice: Lattice, integrators: str
 ) -> Callable[..., DynamicTradeoff]:
     """The trade of a motion over `duration` [s]: integrators and steps, on one lattice. Raises BadInput."""
     require_positive("--duration", duration, "s")

@@ -26,8 +26,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from comparisons.models.registry import check, simulate
-from comparisons.models.springs import LatticeSpec, resolve
+from comparisons.models.context import large_in_context, running
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import simulate
+from comparisons.models.spec import Lattice
 from comparisons.runs import load, manifest
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
@@ -167,10 +169,11 @@ def measure(
 ) -> dict[str, Any]:
     """Task: one run and what it cost; the history of the probes included."""
     asked = Scene.model_validate(scene)
-    common: dict[str, Any] = {**lattice, "integrator": integrator, "every": every}
-    common |= {"large": True}  # `dynamic_tradeoff` has looked at the size
-    simulate(asked, 2.0 * every, **common, step=step)  # warm
-    history = simulate(asked, duration, **common, step=step)
+    with running(large=True):  # `dynamic_tradeoff` has looked at the size
+        meant = resolve(asked, Lattice.given(None, lattice), "motion")
+    common: dict[str, Any] = {"integrator": integrator, "every": every, "step": step}
+    simulate(meant, 2.0 * every, **common)  # warm
+    history = simulate(meant, duration, **common)
     return {
         "status": str(history.status),
         "message": history.message,
@@ -184,12 +187,13 @@ def measure(
     }
 
 
+@large_in_context
 def dynamic_tradeoff(
     scene: Scene,
     duration: float,
     store: Store,
     *,
-    lattice: LatticeSpec = LatticeSpec(),  # noqa: B008  # frozen
+    lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     integrators: Sequence[str] = tuple(sorted(INTEGRATORS)),
     divisions: Sequence[int] = DIVISIONS,
     reference: int = REFERENCE,
@@ -209,16 +213,14 @@ def dynamic_tradeoff(
     require_positive("duration", duration, "s")
     for name in integrators:
         lumped.require_integrator(name)
-    check(scene, lattice.candidate, large)
-    meant = resolve(scene, lattice)
-    springs = meant.springs(scene)
+    meant = resolve(scene, lattice, "motion")
+    springs = meant.springs
     period = shortest_period(scene, springs)
-    kept = {name: value for name, value in meant.settings.items() if name not in meant.reasons}
 
     def run(integrator: str, step: float, timed: bool) -> Run:
         arguments = {
             "scene": scene.document(),
-            "lattice": kept,
+            "lattice": meant.spec.settings,
             "integrator": integrator,
             "step": step,
             "duration": duration,

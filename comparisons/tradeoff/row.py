@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from comparisons.models.candidate import series
 from comparisons.models.plugins import shown_name
+from comparisons.models.spec import counted, spec_of
 from comparisons.runs.campaign import Run
 from comparisons.runs.store import Finished
 from sheetbench.scenes import Scene
@@ -65,17 +65,13 @@ class TradeoffRow:
     def size(self) -> str:
         """The grid, or both of a pair, or the elements, as asked for; nothing where there are none."""
         sizes = (self.settings.get(name) for name in ("coarser", "grid", "elements"))
-        return ":".join(_written(size) for size in sizes if size is not None)
+        return ":".join(counted(size) for size in sizes if size is not None)
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
         found = asdict(self)
         known = {key: value for key, value in found.items() if key not in _OF_AN_ANSWER or value is not None}
         return known | {"solve_seconds": {"median": self.seconds, "samples": self.solve_seconds}}
-
-
-def _written(size: Any) -> str:
-    return "×".join(str(n) for n in size) if isinstance(size, list | tuple) else str(size)
 
 
 def measured_row(
@@ -95,7 +91,7 @@ def measured_row(
     }
     return TradeoffRow(
         **told,
-        series=series(model, settings),
+        series=spec_of(run.arguments["model"], settings).series,
         cell_size=cell_size(scene, settings),
         started=outcome.started,
         finished=outcome.finished,

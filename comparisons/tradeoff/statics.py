@@ -18,8 +18,9 @@ from dataclasses import replace
 import numpy as np
 
 from comparisons.comparison.comparison import error as probe_error
-from comparisons.models.candidate import Candidate
-from comparisons.models.registry import check
+from comparisons.models.context import large_in_context
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Elements, Spec
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
@@ -28,18 +29,18 @@ from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import measured_row
 from fem_reference.edge_layer import missed_by
 from fem_reference.uncertainty import coarser, estimate, mesh_size
-from sheetbench.choices import ELEMENTS
 from sheetbench.scenes import Scene, comparable, require_static
 
 REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the rows
 
 
+@large_in_context
 def tradeoff(
     scene: Scene,
-    candidates: Sequence[Candidate],
+    candidates: Sequence[Spec],
     store: Store,
     *,
-    reference: Candidate | None = None,
+    reference: Elements | None = None,
     repeats: int = 5,
     workers: int = 1,
     pool: Pool = processes,
@@ -58,12 +59,11 @@ def tradeoff(
     """
     require_static(scene)
     for candidate in candidates:
-        check(scene, candidate, large, f"--{candidate.model}")
+        resolve(scene, candidate, option=f"--{candidate.model}")
     fine = reference or _finest(candidates)
-    check(scene, fine, large)
-    meshes = coarser(fine.settings["elements"])
-    judges = [timing.run(scene, fine.model, {**fine.settings, "elements": n}, timed=False) for n in meshes]
-    asked = [timing.run(scene, c.model, c.settings, repeats) for c in candidates]
+    resolve(scene, fine)
+    judges = [timing.run(scene, fine.but(count=n), timed=False) for n in coarser(fine.elements)]
+    asked = [timing.run(scene, candidate, repeats) for candidate in candidates]
     outcomes = carry_out([*judges, *asked], store, workers=workers, pool=pool, retry=retry, progress=progress)
     count = len(judges)
     return replace(assemble(scene, judges, outcomes[:count], asked, outcomes[count:]), reasons=reasons)
@@ -102,9 +102,9 @@ def _bars(
     return at_probes.error, float(np.sqrt(bar / size)) if size > 0.0 else None
 
 
-def _finest(candidates: Sequence[Candidate]) -> Candidate:
-    shells = [np.min(c.settings.get("elements", ELEMENTS)) for c in candidates if c.model == "shell"]
-    return Candidate("shell", {"elements": max([REFERENCE_ELEMENTS, *(2 * int(n) for n in shells)])})
+def _finest(candidates: Sequence[Spec]) -> Elements:
+    shells = [np.min(c.elements) for c in candidates if isinstance(c, Elements) and c.kind == "shell"]
+    return Elements("shell", max([REFERENCE_ELEMENTS, *(2 * int(n) for n in shells)]))
 
 
 def _errors(outcome: Finished, truth: Finished, weights: np.ndarray) -> tuple[float | None, float | None]:

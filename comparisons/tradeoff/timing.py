@@ -14,7 +14,7 @@ import re
 import resource
 import statistics
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +22,10 @@ import numpy as np
 
 from comparisons.comparison.comparison import error
 from comparisons.models import plugins
-from comparisons.models import registry as models
+from comparisons.models.context import running
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve, warm
+from comparisons.models.spec import Spec, spec_of
 from comparisons.runs import load, manifest
 from comparisons.runs.campaign import Run
 from sheetbench.scenes import Scene, Sheet, Solution, Status
@@ -31,18 +34,17 @@ SETTLED, MOST = 0.1, 25
 GAUSS_POINTS = 24  # along each side, for norms over the sheet
 
 
-def run(scene: Scene, model: str, settings: Mapping[str, Any], repeats: int = 5, timed: bool = True) -> Run:
+def run(scene: Scene, spec: Spec, repeats: int = 5, timed: bool = True) -> Run:
     """The run of a campaign that solves a scene with a model; repeats = 1 where time does not matter."""
     arguments = {
         "scene": scene.document(),
-        "model": model,
-        "settings": dict(settings),
+        "model": spec.model,
+        "settings": spec.settings,
         "repeats": repeats if timed else 0,
     }
-    if (digest := plugins.digest(model)) is not None:
+    if (digest := plugins.digest(spec.model)) is not None:
         arguments["digest"] = digest
-    label = ", ".join(f"{name} {_short(value)}" for name, value in settings.items())
-    return Run("timing", arguments, f"{plugins.shown_name(model)} {label}", timed)
+    return Run("timing", arguments, spec.label, timed)
 
 
 def measure(
@@ -56,21 +58,22 @@ def measure(
     if plugins.digest(model) != digest:
         raise RuntimeError(f"model = '{model}': the plug-in changed since this was asked")
     asked = Scene.model_validate(scene)
-    models.warm(model)
+    warm(model)
 
-    def solve() -> Solution:
-        return models.solve(asked, model, large=True, **settings)  # `tradeoff` has looked at the size
+    def solved() -> Solution:
+        with running(large=True):  # `tradeoff` has looked at the size
+            return solve(resolve(asked, spec_of(model, settings)))
 
-    solution = solve()
+    solution = solved()
     memory, samples = None, list[float]()
     if solution.status is Status.FAILED:
         repeats = 0
     if repeats:
-        solution, memory = _with_peak_memory(solve)
+        solution, memory = _with_peak_memory(solved)
     if plugins.is_program(model):  # whose memory is not this process'
         memory = None
     while len(samples) < repeats or (samples and sum(samples) < SETTLED and len(samples) < MOST):
-        samples.append(solve().solve_seconds)
+        samples.append(solved().solve_seconds)
     if not samples:
         samples = [solution.solve_seconds]
     points = asked.probe_points()
@@ -146,7 +149,3 @@ def _release_freed_memory() -> None:
         ctypes.CDLL("libc.so.6").malloc_trim(0)
     except (OSError, AttributeError):
         return
-
-
-def _short(value: Any) -> str:
-    return "×".join(str(part) for part in value) if isinstance(value, list | tuple) else str(value)

@@ -19,8 +19,9 @@ import numpy as np
 
 from comparisons.advice.advisor import advise
 from comparisons.comparison.comparison import error
-from comparisons.models.candidate import Candidate, lattices, references
-from comparisons.models.registry import solve
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Elements, Spec, lattices, references, spec_of
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.manifest import record
@@ -87,7 +88,7 @@ def _arrangements(curvature: float) -> list[tuple[AnySupport, ...]]:
     ]
 
 
-def rows(scene: Scene) -> list[Candidate]:
+def rows(scene: Scene) -> list[Spec]:
     """The dozen rows that the choice is to stand up to."""
     found = lattices(scene, ["3", "5", "9", "17"], ["consistent"])
     found += lattices(scene, ["5"], ["uniform"])
@@ -97,7 +98,7 @@ def rows(scene: Scene) -> list[Candidate]:
 def truth(scene: dict[str, Any], elements: int) -> dict[str, Any]:
     """Task: what the fine shell says at the probes."""
     asked = Scene.model_validate(scene)
-    solution = solve(asked, "shell", elements=elements)
+    solution = solve(resolve(asked, Elements("shell", elements)))
     return {
         "status": str(solution.status),
         "message": solution.message,
@@ -111,7 +112,7 @@ def advice(scene: dict[str, Any], tolerance: float) -> dict[str, Any]:
     given = advise(asked, tolerance)
     if given.choice is None:
         return {"status": "none", "message": given.message}
-    solution = solve(asked, given.choice.model, **given.choice.settings)
+    solution = solve(resolve(asked, given.choice))
     document = given.document()
     return {
         "status": str(solution.status),
@@ -256,8 +257,8 @@ def _compare_costs(
     progress: Callable[[Progress], None],
 ) -> None:
     """Adds "cost_ratio" to the cases of a scene: the choice's time over that of the cheapest adequate row."""
-    chosen = [Candidate(case["choice"]["model"], case["choice"]["settings"]) for case in cases]
-    asked = [timing.run(scene, c.model, c.settings) for c in [*rows(scene), *chosen]]
+    chosen = [spec_of(case["choice"]["model"], case["choice"]["settings"]) for case in cases]
+    asked = [timing.run(scene, spec) for spec in [*rows(scene), *chosen]]
     found = carry_out(asked, store, progress=progress)
     dozen, mine = found[: -len(chosen)], found[-len(chosen) :]
     truth_displacement = np.array(outcome.row["displacement"])

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from comparisons.models.registry import solve_reference
+from comparisons.models.context import running
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Elements
 from sheetbench.scenes import Scene
 
 
@@ -14,8 +17,8 @@ def answer(scene: dict[str, Any], model: str, elements: int, graded: bool = Fals
     graded: finer towards the edges, where a model chooses.
     """
     asked = Scene.model_validate(scene)
-    own: dict[str, Any] = {"graded": True} if graded else {}
-    solution = solve_reference(asked, model=model, elements=elements, large=True, **own)
+    with running(large=True):
+        solution = solve(resolve(asked, Elements(model, elements, graded=graded or None)))
     return {
         "status": str(solution.status),
         "message": solution.message,

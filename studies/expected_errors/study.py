@@ -134,7 +134,7 @@ def lattice(scene: Scene, grid: tuple[int, int, int]) -> Row:
         "grid": list(grid),
         "status": str(found.status) if found.comparable else "no equilibrium",
         "snaps": len(found.snaps),
-        "stretch": float(f"{largest_stretch(scene, found):.4g}"),
+        "stretch": float(f"{largest_stretch(scene, found, grid):.4g}"),
         "probes": _rounded(found.displacement(scene.probe_points())),
     }
 

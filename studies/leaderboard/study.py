@@ -14,33 +14,31 @@ from typing import Any
 import numpy as np
 
 from comparisons.comparison.comparison import error
-from comparisons.models import registry
-from comparisons.models.candidate import Candidate, written
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Elements, External, Lattice, Spec, spec_of
 from comparisons.scoring.reference import FILE, Reference, document, references
 from sheetbench.answers.files import plain, to_json, write_text
 from sheetbench.errors import BadInput, require_choice
 
 REPEATS = 3
 STANDING = (
-    *(Candidate("lumped", {"grid": n, "calibration": "consistent"}) for n in (5, 9, 17)),
-    *(
-        Candidate("lumped", {"grid": 9, "calibration": c})
-        for c in ("consistent-membrane", "central", "uniform")
-    ),
-    Candidate("plate", {"elements": 16}),
-    Candidate("shell", {"elements": 4}),
-    Candidate("shell", {"elements": 8}),
-    Candidate("mujoco", {"grid": 9}),
-    Candidate("mujoco", {"grid": 17}),
-    Candidate("kratos", {"elements": 16}),
-    Candidate("calculix", {"elements": 4}),
+    *(Lattice(n, "consistent") for n in (5, 9, 17)),
+    *(Lattice(9, c) for c in ("consistent-membrane", "central", "uniform")),
+    Elements("plate", 16),
+    Elements("shell", 4),
+    Elements("shell", 8),
+    External("mujoco", {"grid": 9}),
+    External("mujoco", {"grid": 17}),
+    External("kratos", {"elements": 16}),
+    External("calculix", {"elements": 4}),
 )
-SLOW = (Candidate("felupe", {"elements": 4}),)  # minutes
+SLOW = (External("felupe", {"elements": 4}),)  # minutes
 
 
-def row(case: Reference, candidate: Candidate) -> dict[str, Any]:
+def row(case: Reference, candidate: Spec) -> dict[str, Any]:
     """Return what a model gets wrong on a case, and its median time."""
-    answers = [registry.solve(case.scene, candidate.model, **candidate.settings) for _ in range(REPEATS)]
+    answers = [solve(resolve(case.scene, candidate)) for _ in range(REPEATS)]
     found = answers[-1]
     there = found.comparable
     return {
@@ -55,13 +53,13 @@ def row(case: Reference, candidate: Candidate) -> dict[str, Any]:
 
 def measure(names: Sequence[str], say: Callable[[str], None]) -> None:
     """Measure models by name, and put the rows into the set's file. Raises BadInput for an unknown model."""
-    known = {written(candidate): candidate for candidate in (*STANDING, *SLOW)}
+    known = {str(candidate): candidate for candidate in (*STANDING, *SLOW)}
     for name in names:
         require_choice("model", name, known)
     rows: dict[str, list[dict[str, Any]]] = {}
     for kept in document()["standing"]:
-        rows.setdefault(written(Candidate(kept["model"], kept["settings"])), []).append(kept)
-    for name in names or map(written, STANDING):
+        rows.setdefault(str(spec_of(kept["model"], kept["settings"])), []).append(kept)
+    for name in names or map(str, STANDING):
         try:
             rows[name] = [row(case, known[name]) for case in references("statics").values()]
         except BadInput as missing:

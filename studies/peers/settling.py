@@ -20,8 +20,9 @@ import scipy.sparse as sp
 from scipy.integrate import solve_ivp
 
 import lumped
-from comparisons.models.registry import simulate
-from comparisons.models.springs import LatticeSpec
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import simulate
+from comparisons.models.spec import Lattice
 from sheetbench.choices import INTEGRATORS
 from sheetbench.scenes import Scene, load
 from studies.peers.row import PeerRow, repeated
@@ -38,7 +39,7 @@ class Equations:
     """The lattice's motion as SciPy takes it: y = (free displacements, their velocities)."""
 
     def __init__(self, scene: Scene):
-        springs, _ = LatticeSpec(GRID).springs(scene)
+        springs = resolve(scene, Lattice(GRID)).springs
         self.system = lumped.System(scene, lumped.build_problem(scene, springs))
         self.free = self.system.moving_part
         self.mass = self.system.reduced_mass.diagonal()
@@ -98,12 +99,15 @@ def rows(say: Callable[[str], None]) -> Iterator[PeerRow]:
     for name, options in [*ours, ("esdirk", {"error": COARSER})]:
         size = ", ".join(f"{option} {value:.0e} a step" for option, value in options.items()) or "default"
         say(f"lattice, {name}, {size}")
-        settings: dict[str, Any] = {"grid": GRID, "integrator": name, "every": EVERY, **options}
-        simulate(scene, 2 * EVERY, **settings)
+        lattice = resolve(scene, Lattice(GRID), "motion")
+        settings: dict[str, Any] = {"integrator": name, "every": EVERY, **options}
+        simulate(lattice, 2 * EVERY, **settings)
         kept: list[Any] = []
 
-        def once(settings: dict[str, Any] = settings, kept: list[Any] = kept) -> float:
-            kept[:] = [simulate(scene, DURATION, **settings)]
+        def once(
+            settings: dict[str, Any] = settings, kept: list[Any] = kept, lattice: Any = lattice
+        ) -> float:
+            kept[:] = [simulate(lattice, DURATION, **settings)]
             return float(kept[0].solve_seconds)
 
         seconds = repeated(once)

@@ -12,8 +12,9 @@ from typing import NamedTuple
 
 from comparisons.comparison.comparison import error
 from comparisons.external.installed import known_codes
-from comparisons.models.candidate import Candidate
-from comparisons.models.registry import MODELS, answer, solve_reference
+from comparisons.models.resolve import OURS, resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Elements, Spec, spec_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Solution, load
 from studies.peers.row import PeerRow, repeated
@@ -48,12 +49,12 @@ def rows(say: Callable[[str], None]) -> Iterator[PeerRow]:
     scene, codes = load(SCENE), known_codes()
     points = scene.probe_points()
     say(f"shell {TRUTH}, the reference")
-    truth = solve_reference(scene, model="shell", elements=TRUTH).displacement(points)
+    truth = solve(resolve(scene, Elements("shell", TRUTH))).displacement(points)
     for model, code, setting, sizes, calibration in LADDERS:
         absent = model in codes and codes[model].version() is None
         for size in sizes:
             springs = {} if calibration is None else {"calibration": calibration}
-            asked = Candidate(model, {setting: size, **springs})
+            asked = spec_of(model, {setting: size, **springs})
             shown = f"{size} × {size}"
             say(f"{code}, {shown}")
             if absent:
@@ -61,8 +62,8 @@ def rows(say: Callable[[str], None]) -> Iterator[PeerRow]:
                 break
             last: list[Solution] = []
 
-            def once(asked: Candidate = asked, last: list[Solution] = last) -> float:
-                last[:] = [answer(scene, asked)]
+            def once(asked: Spec = asked, last: list[Solution] = last) -> float:
+                last[:] = [solve(resolve(scene, asked))]
                 return last[0].solve_seconds
 
             try:
@@ -71,4 +72,4 @@ def rows(say: Callable[[str], None]) -> Iterator[PeerRow]:
                 yield PeerRow("statics", code, shown, False, None, (), f"absent: {said}")
                 break
             off = error(last[0].displacement(points), truth) if last[0].comparable else None
-            yield PeerRow("statics", code, shown, model in MODELS, off, seconds, str(last[0].status))
+            yield PeerRow("statics", code, shown, model in OURS, off, seconds, str(last[0].status))

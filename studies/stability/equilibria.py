@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 
 from comparisons.comparison.comparison import error as probe_error
-from comparisons.models.grading import Grading
-from comparisons.models.springs import LatticeSpec
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Grading, Lattice
 from comparisons.stability.rows import LARGE, Row, percent
 from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import Clamped, Gravity, Load, Material, Scene, Sheet, Solution, Status
@@ -62,7 +62,7 @@ def lattice(scene: Scene, grid: tuple[int, int], **options: Any) -> Solution:
 
 
 def _consistent(scene: Scene, grid: tuple[int, int], grading: Grading) -> Any:
-    return LatticeSpec(grid, CALIBRATION, grading=grading).springs(scene)[0]
+    return resolve(scene, Lattice(grid, CALIBRATION, grading=grading), "springs").springs
 
 
 def shell(scene: Scene, elements: int = ELEMENTS) -> Solution:

@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from comparisons.models.grading import Grading
+from comparisons.models.spec import Grading
 from comparisons.stability import tiles as maps
 from comparisons.stability.rows import Cell, Row
 from sheetbench.answers.table import Column

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 
-from comparisons.models.candidate import Candidate
-from comparisons.models.grading import Grading, plain, read
+from comparisons.models.grading import read
 from comparisons.models.sizes import require_room
+from comparisons.models.spec import Grading, Lattice
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
@@ -37,7 +37,7 @@ def survey(
     is.
     """
     graded = read(grading)
-    own = {} if graded is None else {"grading": graded if isinstance(graded, str) else plain(graded)}
+    own = {} if graded is None else Lattice(grading=graded).settings
     asked = [(s, cell | own if s.graded else cell) for s in studies for cell in s.cells(full)]
     if own and not any("grading" in cell for _, cell in asked):
         raise BadInput(f"grading = {grading}: none of these studies has lattices to grade")
@@ -51,7 +51,7 @@ def survey(
 def _require_room(masses: Sequence[int]) -> None:
     """Of the lattices of cells with so many masses a side; the other cells are small."""
     if masses:
-        finest = Candidate("lumped", {"grid": (max(masses), max(masses))})
+        finest = Lattice((max(masses), max(masses)))
         require_room(load("one-edge-clamped"), finest, instead="leave --full out")
 
 

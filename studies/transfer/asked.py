@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from comparisons.models.candidate import items
+from comparisons.models.spec import items
 from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.errors import BadInput, require_choice
 from studies.transfer.scenes import transfer_scenes

@@ -22,10 +22,9 @@ from typing import Any
 import numpy as np
 
 from comparisons.comparison.comparison import error
-from comparisons.models.candidate import Candidate, lattices
-from comparisons.models.grading import Grading
+from comparisons.models.resolve import resolve, resolve_each
 from comparisons.models.sizes import require_room
-from comparisons.models.springs import LatticeSpec, resolve, resolve_each
+from comparisons.models.spec import Elements, Grading, Lattice, lattices
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
@@ -96,8 +95,8 @@ def transfer(
     """
     chosen = {name: scene for name, scene in transfer_scenes().items() if scenes is None or name in scenes}
     for scene in () if large else chosen.values():
-        require_room(scene, Candidate("lumped", {"grid": (max(grids), max(grids))}), "--grids")
-        require_room(scene, Candidate("shell", {"elements": elements}))
+        require_room(scene, Lattice((max(grids), max(grids))), "--grids")
+        require_room(scene, Elements("shell", elements))
     study = _Study(chosen, tuple(methods), tuple(grids), elements, grading)
     study.plan(parts)
     done = carry_out(study.runs, store, workers=workers, pool=pool, retry=retry, progress=progress)
@@ -256,7 +255,7 @@ class _Study:
 
     def _method(self, name: str, method: str) -> str:
         """The calibration of a scene's lattices, "auto" as it has it."""
-        return resolve(self.scenes[name], LatticeSpec(calibration=method)).calibration or method
+        return resolve(self.scenes[name], Lattice(calibration=method)).spec.calibration or method
 
     def _lattice(
         self,

@@ -11,9 +11,10 @@ from typing import Any
 
 import numpy as np
 
+import fem_reference
 from comparisons.identification.surface import plan_grid, plan_points
-from comparisons.models.registry import solve_reference
-from comparisons.models.springs import LatticeSpec, resolve
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Lattice
 from sheetbench.scenes import Scene, Sheet
 
 POINTS = 5  # along each side
@@ -44,7 +45,7 @@ def lattice(
 def reference(scene: dict[str, Any], model: str, elements: int) -> dict[str, Any]:
     """Displacement of a finite-element model at the points."""
     asked = Scene.model_validate(scene)
-    return _answer(solve_reference(asked, model=model, elements=elements, large=True), asked)
+    return _answer(fem_reference.solve(asked, model, elements=elements), asked)
 
 
 def homogenised(
@@ -58,7 +59,7 @@ def homogenised(
     springs = _springs(asked, method, grid, None)
     got = homogenised(asked.sheet, springs.grid, springs.springs)
     section = Section(got.membrane, got.bending, np.diag(got.shear))
-    return _answer(solve_reference(asked, model=model, elements=elements, large=True, section=section), asked)
+    return _answer(fem_reference.solve(asked, model, elements=elements, section=section), asked)
 
 
 def lattice_frequencies(
@@ -93,7 +94,7 @@ def _springs(
     grading: float | str = 0.0,
 ) -> Any:
     chosen = None if training is None else [Scene.model_validate(data) for data in training]
-    return resolve(scene, LatticeSpec(grid, method, grading=grading)).springs(scene, chosen)
+    return resolve(scene, Lattice(tuple(grid), method, grading=grading), "springs").calibrated(chosen)
 
 
 def _answer(solution: Any, scene: Scene) -> dict[str, Any]:

@@ -14,8 +14,8 @@ from typer.main import get_command
 import fem_reference
 import lumped
 from comparisons.cli.app import app
-from comparisons.models.registry import REFERENCES
 from sheetbench import choices
+from sheetbench.choices import REFERENCES
 from studies.transfer.study import FITTED, METHODS
 
 

@@ -15,10 +15,11 @@ import sheetbench as sb
 from comparisons.advice.probing import Probing
 from comparisons.crosscheck import crosscheck
 from comparisons.live import server
-from comparisons.models import registry
-from comparisons.models.springs import LatticeSpec, resolve
+from comparisons.models import solve as solvers
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Lattice
 from comparisons.runs.tasks import function
-from comparisons.tradeoff import motion, statics
+from comparisons.tradeoff import motion, statics, timing
 from sheetbench.scenes import Scene, SpringTable
 
 CONSUMERS = ("solve", "simulate", "modes", "linearise", "sensitivity", "describe", "build_problem")
@@ -64,12 +65,13 @@ def caught(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(module, "carry_out", carried_out)
     monkeypatch.setattr(motion, "shortest_period", lambda *_: 1.0)
     monkeypatch.setattr(motion, "explicit_limit", lambda *_: 1.0)
-    monkeypatch.setattr(registry, "warm", lambda _: None)
+    for module in (solvers, timing):
+        monkeypatch.setattr(module, "warm", lambda _: None)
     monkeypatch.setattr(server, "run", lambda panel, *_: used(panel.scene, _of_panel(panel)))
 
 
 def _of_panel(panel: Any) -> lumped.Calibration:
-    return LatticeSpec(**panel.first().own).springs(panel.scene)[0]
+    return resolve(panel.scene, panel.first().lattice).springs
 
 
 def verb(name: str, *others: str, renamed: dict[str, str] | None = None) -> Callable[..., None]:
@@ -97,13 +99,13 @@ def python(ask: Callable[..., Any]) -> Callable[..., None]:
 
 def of_advice(scene: Scene, folder: Path, **options: Any) -> lumped.Calibration:
     """Of the last lattice of 9 × 9 masses that may be chosen."""
-    found = [c for c in Probing(scene, large=True, **options).candidates(linear=False) if c.model == "lumped"]
+    found = [c for c in Probing(scene, **options).candidates(linear=False) if c.model == "lumped"]
     (*_, last) = [c for c in found if c.settings["grid"] == [9, 9, 2]]
-    return LatticeSpec.of(last.settings).springs(scene)[0]
+    return resolve(scene, last).springs
 
 
 def listed(scene: Scene, folder: Path, grid: Any = 9, calibration: str = "consistent", **options: Any) -> Any:
-    return sb.tradeoff(scene, lumped=[grid], calibration=[calibration], shell=(), **options)
+    return sb.tradeoff(scene, grid=[grid], calibration=[calibration], shell=(), **options)
 
 
 MEASURED = ("--measured", "{folder}/measured.csv", "--unknown", "thickness")
@@ -138,7 +140,7 @@ VERBS: dict[str, tuple[Callable[..., None], frozenset[str]]] = {
         WORDS,
     ),
     "sb.calibrate": (
-        python(lambda scene, _, calibration=None, **own: sb.calibrate(scene, method=calibration, **own)),
+        python(lambda scene, _, **own: sb.calibrate(scene, **own)),
         WORDS,
     ),
     "sb.export": (python(lambda scene, at, **own: sb.export(scene, at / "lattice", **own)), WORDS),
@@ -159,10 +161,10 @@ def test_the_same_words_are_the_same_lattice(name: str, tmp_path: Path) -> None:
         if not words >= options.keys() or not set(UNABLE.get(name, ())).isdisjoint(options.values()):
             continue
         usual = {key: value for key, value in LISTS.items() if key in words} if name in NAMED else {}
-        meant = LatticeSpec(**{**usual, **options})
+        meant = Lattice(**{**usual, **options})
         with pytest.raises(Used) as asked:
             ask(SCENE, tmp_path, **{**usual, **options})
-        expected, _ = meant.springs(scene)
+        expected = resolve(scene, meant).springs
         assert constants(asked) == constants(expected), options
 
 
@@ -181,7 +183,7 @@ def test_so_are_a_scene_s_own_springs(name: str, tmp_path: Path) -> None:
         if words >= options.keys() and not (name == "live" and options):  # whose grid is the slider's
             with pytest.raises(Used) as asked:
                 ask(str(tmp_path / "own.toml"), tmp_path, **options)
-            expected = resolve(scene, LatticeSpec(**options), own=name not in ANEW).springs(scene)
+            expected = resolve(scene, Lattice(**options), own=name not in ANEW).springs
             assert constants(asked) == constants(expected), options
             assert tuple(expected.grid) == (4, 6, 2)
 

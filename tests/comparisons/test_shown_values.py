@@ -19,7 +19,7 @@ from comparisons.advice import probing
 from comparisons.calibration.tables import moduli
 from comparisons.cli import modes
 from comparisons.linearisation.answer import Linearisation
-from comparisons.models.candidate import Candidate
+from comparisons.models.spec import Spec, spec_of
 from comparisons.modes.spectra import spectra
 from comparisons.reproduction import figure
 from comparisons.runs.store import Finished
@@ -59,13 +59,13 @@ def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front() -> None:
 
 
 def test_time_is_predicted_by_the_models_own_family() -> None:
-    def lattice(masses: int) -> Candidate:
-        return Candidate("lumped", {"grid": [masses, masses, 2]})
+    def lattice(masses: int) -> Spec:
+        return spec_of("lumped", {"grid": [masses, masses, 2]})
 
-    shell, plate = (Candidate(model, {"elements": [8, 8]}) for model in ("shell", "plate"))
+    shell, plate = (spec_of(model, {"elements": [8, 8]}) for model in ("shell", "plate"))
     took = ((lattice(5), 0.001), (shell, 0.1), (lattice(9), 0.008))
-    trials = {repr(one): SimpleNamespace(candidate=one, seconds=seconds) for one, seconds in took}
-    asked = (shell, lattice(17), shell.but(elements=[16, 16]), plate)
+    trials = {one: SimpleNamespace(candidate=one, seconds=seconds) for one, seconds in took}
+    asked = (shell, lattice(17), shell.but(count=(16, 16)), plate)
     found = [probing.Probing.predicted_seconds(SimpleNamespace(trials=trials), one) for one in asked]  # type: ignore[arg-type]
     # as measured; 8 times as long for 4 times the cells; by the usual power of one; by the unknowns alone
     assert found == pytest.approx([0.1, 0.064, 0.1 * 4**probing.EXPONENT, probing.unknowns(plate) * 1e-5])
@@ -126,7 +126,7 @@ def test_a_pole_is_shown_in_hertz_and_its_damping_in_percent() -> None:
 
 def test_grading_changes_no_rate_and_a_calibration_does() -> None:
     even, graded, other = (
-        Candidate("lumped", {"grid": [9, 9], "calibration": name, **more})
+        spec_of("lumped", {"grid": [9, 9], "calibration": name, **more})
         for name, more in (("consistent", {}), ("consistent", {"grading": 0.5}), ("uniform", {}))
     )
     assert probing._rate(even) == probing._rate(graded) != probing._rate(other)

@@ -13,7 +13,7 @@ from commands import run
 import lumped
 import sheetbench as sb
 from comparisons.models import memory, sizes
-from comparisons.models.candidate import Candidate
+from comparisons.models.spec import spec_of
 from comparisons.report import amounts
 from comparisons.runs.campaign import campaign
 from comparisons.tradeoff.statics import tradeoff
@@ -41,13 +41,13 @@ def room(monkeypatch: pytest.MonkeyPatch, amount: float | None) -> None:
 
 PEAK = """
 import json, sys
-from comparisons.models import registry
+import sheetbench as sb
+from comparisons.models.solve import warm
 from comparisons.tradeoff.timing import _with_peak_memory
-from sheetbench import scenes
 
 model, settings = sys.argv[1], json.loads(sys.argv[2])
-registry.warm(model)
-print(_with_peak_memory(lambda: registry.solve(scenes.load("two-edges-clamped"), model, **settings))[1])
+warm(model)
+print(_with_peak_memory(lambda: sb.solve("two-edges-clamped", model, **settings))[1])
 """
 
 
@@ -62,7 +62,7 @@ def test_peaks_are_within_a_factor_of_two_of_what_is_told() -> None:
     }
     for model, process in running.items():
         peak = int(process.communicate()[0])
-        told = sizes.size(scenes.load(SCENE), Candidate(model, asked[model]))
+        told = sizes.size(scenes.load(SCENE), spec_of(model, asked[model]))
         assert told is not None and 0.5 < told.memory / peak < 2.0
 
 
@@ -93,7 +93,7 @@ def test_a_strip_is_banded_and_a_square_dissected() -> None:
 
 
 def test_a_grid_of_six_gigabytes_needs_a_machine_that_has_them(monkeypatch: pytest.MonkeyPatch) -> None:
-    scene, asked = scenes.load(SCENE), Candidate("lumped", {"grid": 257})
+    scene, asked = scenes.load(SCENE), spec_of("lumped", {"grid": 257})
     room(monkeypatch, 16 * GB)
     sizes.require_room(scene, asked)
     room(monkeypatch, 4 * GB)
@@ -102,9 +102,9 @@ def test_a_grid_of_six_gigabytes_needs_a_machine_that_has_them(monkeypatch: pyte
     ) as told:
         sizes.require_room(scene, asked)
     fitting = int(str(told.value).split("--lumped ")[1].split()[0])
-    sizes.require_room(scene, Candidate("lumped", {"grid": fitting}))
+    sizes.require_room(scene, spec_of("lumped", {"grid": fitting}))
     with pytest.raises(BadInput):
-        sizes.require_room(scene, Candidate("lumped", {"grid": fitting + 1}))
+        sizes.require_room(scene, spec_of("lumped", {"grid": fitting + 1}))
 
 
 def test_a_long_thin_sheet_is_refused_with_what_fits(strip: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -122,7 +122,7 @@ def test_a_long_thin_sheet_is_refused_with_what_fits(strip: Scene, monkeypatch: 
 def test_half_a_sheet_takes_half(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = scenes.load("one-edge-clamped")
     for model, settings in (("lumped", {"grid": 129}), ("shell", {"elements": 64})):
-        whole, part = (sizes.size(scene, Candidate(model, settings | s)) for s in ({}, {"symmetry": True}))
+        whole, part = (sizes.size(scene, spec_of(model, settings | s)) for s in ({}, {"symmetry": True}))
         assert whole is not None and part is not None
         assert 0.4 < part.memory / whole.memory < 0.6
 
@@ -132,13 +132,13 @@ def test_every_candidate_is_looked_at_before_the_first_run(
 ) -> None:
     room(monkeypatch, 3 * GB)
     scene = scenes.load(SCENE)
-    listed = [Candidate("lumped", {"grid": 3}), Candidate("solid", {"elements": 64})]
-    judge = Candidate("shell", {"elements": 4})
+    listed = [spec_of("lumped", {"grid": 3}), spec_of("solid", {"elements": 64})]
+    judge = spec_of("shell", {"elements": 4})
     with campaign(tmp_path) as store:
         with pytest.raises(BadInput, match=r"solid 64x64x1: .*--solid \d+ would fit"):
             tradeoff(scene, listed, store, reference=judge, pool=pytest.fail)
         with pytest.raises(BadInput, match=r"shell 128x128: .*--elements \d+ would fit"):
-            tradeoff(scene, [Candidate("shell", {"elements": 64})], store, large=False, pool=pytest.fail)
+            tradeoff(scene, [spec_of("shell", {"elements": 64})], store, large=False, pool=pytest.fail)
 
 
 MEASURED = "x,y,uz\n0.094,0.094,-0.002\n0.188,0.188,-0.013\n"
@@ -222,7 +222,7 @@ def test_what_is_free_is_the_least_that_anything_leaves(
 
 def test_without_any_word_of_memory_nothing_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     room(monkeypatch, None)
-    sizes.require_room(scenes.load(SCENE), Candidate("lumped", {"grid": 5000}))
+    sizes.require_room(scenes.load(SCENE), spec_of("lumped", {"grid": 5000}))
 
 
 def test_amounts_as_people_say_them() -> None:

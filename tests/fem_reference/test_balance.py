@@ -9,8 +9,8 @@ from dynamic_cases import scene, springs
 from numpy.testing import assert_allclose
 
 import lumped
-from comparisons.models import registry as models
 from fem_reference.surface.mesh import rectangle
+from sheetbench import face as models
 from sheetbench.scenes import Balance, Status, catalogue, dead_force, load
 
 pytestmark = pytest.mark.smoke

@@ -13,8 +13,9 @@ import fem_reference
 from comparisons.cli import main
 from comparisons.comparison import strain_law
 from comparisons.comparison.comparison import compare
-from comparisons.models.candidate import Candidate
-from comparisons.models.registry import solve
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Lattice
 from fem_reference.pulled_strip import curving, pulled
 from fem_reference.shell.element import Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
@@ -176,9 +177,9 @@ def test_what_a_lattice_and_each_law_differ_by_is_told_before_they_are_compared(
     """From 1 to 10 % stretch, once the grid's own error at small strain (none here) is known."""
     sheet, rubber = Sheet(length_x=0.1, length_y=0.1, thickness=0.005), Material(1e6, 0.3, 1000.0)
     scene = pulled((strain * rubber.young * sheet.thickness, 0.0), sheet, rubber)
-    lattice = Candidate("lumped", {"grid": 5, "calibration": calibration})
-    corner, own = np.array([sheet.lengths]), strain_law.of_lattice(scene, lattice)
-    found = solve(scene, "lumped", **lattice.settings).displacement(corner)[0, 0]
+    lattice = resolve(scene, Lattice(5, calibration))
+    corner, own = np.array([sheet.lengths]), strain_law.of_lattice(lattice)
+    found = solve(lattice).displacement(corner)[0, 0]
     for law in STRAIN_LAWS:
         shell = fem_reference.solve(scene, "shell", elements=2, law=law)
         assert shell.stretch is not None
@@ -191,7 +192,7 @@ def test_links_along_a_square_lattices_sides_and_diagonals_bend_as_derived() -> 
     """c = ⅜ (1 − ν²) of a thin sheet's links at ν = ⅓, where there are no area springs."""
     sheet, third = Sheet(length_x=0.1, length_y=0.1, thickness=1e-4), Material(1e6, 1.0 / 3.0, 1000.0)
     scene = pulled((1.0, 0.0), sheet, third)
-    found = strain_law.of_lattice(scene, Candidate("lumped", {"grid": 17, "calibration": "cauchy"}))
+    found = strain_law.of_lattice(resolve(scene, Lattice(17, "cauchy")))
     assert found == pytest.approx(1.0 / 3.0, rel=0.1)
 
 

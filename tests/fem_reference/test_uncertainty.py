@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import fake_solutions
 import numpy as np
@@ -11,12 +12,13 @@ import pytest
 import fem_reference
 from comparisons.comparison import comparison as displacement
 from comparisons.comparison.comparison import compare
-from comparisons.models.candidate import Candidate
+from comparisons.models.resolve import Resolved
+from comparisons.models.spec import Elements
 from fem_reference.edge_layer import Missed, missed_by
 from fem_reference.uncertainty import coarser, estimate, of_solutions, solve_with_bar
 from sheetbench import scenes
 from sheetbench.answers.files import to_json
-from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes import Solution, Status
 
 SIZES = [1 / 16, 1 / 12, 1 / 8]
 
@@ -165,16 +167,16 @@ def by_mesh(monkeypatch: pytest.MonkeyPatch) -> dict[str, float]:
     """Answers without a solver: the reference's error is 8 % at one element and falls like h²."""
     sizes = {"lumped": -0.0100, "limit": -0.0100, "share": 0.08}
 
-    def answer(scene: Scene, candidate: Candidate, name: str = "", **_: object) -> Solution:
-        if candidate.model == "lumped":
-            return fake_solutions.solution(scene, name, sizes["lumped"])
-        n = candidate.settings["elements"]
+    def answer(model: Resolved[Any], name: str = "") -> Solution:
+        if not isinstance(model.spec, Elements):
+            return fake_solutions.solution(model.scene, name, sizes["lumped"])
+        n = model.spec.elements
         assert isinstance(n, int)
         size = sizes["limit"] * (1 + sizes["share"] / n**2)
         own = {"settings": {"elements": n}, "solve_seconds": 0.004}
-        return fake_solutions.solution(scene, candidate.model, size, **own)
+        return fake_solutions.solution(model.scene, model.spec.model, size, **own)
 
-    monkeypatch.setattr(displacement, "answer", answer)
+    monkeypatch.setattr(displacement, "solve", answer)
     return sizes
 
 

@@ -28,8 +28,9 @@ from campaigns import Here  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from terminals import resize  # noqa: E402
 
+from comparisons.advice import probing  # noqa: E402
 from comparisons.cli import console, main  # noqa: E402
-from comparisons.models import registry  # noqa: E402
+from comparisons.comparison import comparison  # noqa: E402
 from comparisons.runs import campaign, executors, load  # noqa: E402
 
 
@@ -78,7 +79,8 @@ def screen(
 
 if __name__ == "__main__":
     sys.stdin = io.StringIO()  # nobody is there to be asked
-    registry.answer = once(registry.answer)  # what is looked at is how it is shown
+    for module in (comparison, probing):  # what is looked at is how it is shown
+        module.solve = once(module.solve)
     load.average = lambda: None  # a busy machine is noted with its load, which changes
     executors.processes = Here
     campaign.carry_out.__kwdefaults__["pool"] = executors.processes

@@ -13,11 +13,11 @@ from scipy.spatial.transform import Rotation
 
 import fem_reference
 import lumped
-from comparisons.models.registry import solve
 from lumped.assembly import Assembly
 from lumped.calibration import edge_twist
 from lumped.grid_lines import grid_lines
 from lumped.masses import masses
+from sheetbench.face import solve
 from sheetbench.scenes import BadInput, Clamped, PointLoad, Scene, Sheet, SpringTable, Status, load
 from studies.transfer.scenes import transfer_scenes
 

@@ -13,9 +13,10 @@ import fem_reference
 import lumped
 from comparisons.comparison.comparison import error
 from comparisons.models.grading import ONE_SIDED, grading_of, read
-from comparisons.models.registry import solve
+from comparisons.models.spec import Lattice
 from lumped.grid_lines import grid_lines
 from lumped.springs.constants import of_edge_cells
+from sheetbench.face import solve
 from sheetbench.scenes import BadInput, load
 from sheetbench.scenes.grading import Grading, as_settings, of_settings, towards
 from studies.transfer.scenes import transfer_scenes
@@ -121,12 +122,12 @@ def test_auto_grades_towards_the_one_edge_that_holds_the_sheet() -> None:
     """Where that edge is clamped and the load bends the sheet beside it; not where the edge itself is bent,
     which lets the sheet stretch at its other edges too."""
     scenes = transfer_scenes()
-    value, why = grading_of(scenes["tenth-of-young-one-edge"], (9, 9, 2), "auto")
+    value, why = grading_of(scenes["tenth-of-young-one-edge"], (9, 9, 2), Lattice(grading="auto"))
     assert value == Grading(ONE_SIDED, ("x0",)) and why.endswith("x0 alone holds the sheet")
-    assert isinstance(grading_of(scenes["curved-edge"], (9, 9, 2), "auto")[0], float)
+    assert isinstance(grading_of(scenes["curved-edge"], (9, 9, 2), Lattice(grading="auto"))[0], float)
     nothing_held = scenes["tenth-of-young-one-edge"].replace(supports=())
-    assert isinstance(grading_of(nothing_held, (9, 9, 2), "auto")[0], float)
-    assert isinstance(grading_of(scenes["tenth-of-young"], (9, 9, 2), "auto")[0], float)
+    assert isinstance(grading_of(nothing_held, (9, 9, 2), Lattice(grading="auto"))[0], float)
+    assert isinstance(grading_of(scenes["tenth-of-young"], (9, 9, 2), Lattice(grading="auto"))[0], float)
 
 
 def test_towards_the_clamp_a_soft_sheet_is_nearer() -> None:

@@ -147,7 +147,7 @@ def test_a_trade_off_is_asked_in_lists(tmp_path: Path, monkeypatch: pytest.Monke
     asked: list[Any] = []
     monkeypatch.setattr(statics, "tradeoff", lambda scene, candidates, store, **_: asked.extend(candidates))
     out = tmp_path / "kept"
-    sb.tradeoff(NAME, lumped=(3, (5, 7)), calibration=("consistent", "uniform"), shell=(4,), out=out)
+    sb.tradeoff(NAME, grid=(3, (5, 7)), calibration=("consistent", "uniform"), shell=(4,), out=out)
     assert [one.settings.get("grid") for one in asked] == [[3, 3, 2], [5, 7, 2], [3, 3, 2], [5, 7, 2], None]
     assert [one.model for one in asked] == 4 * ["lumped"] + ["shell"]
     assert (out / "campaign.sqlite").is_file()

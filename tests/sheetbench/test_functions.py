@@ -67,7 +67,7 @@ def test_the_other_functions_return_what_their_verbs_report_on(tmp_path: Path) -
         sb.verify(["nosuch"])
     with pytest.raises(sb.BadInput, match="nosuch"):
         sb.score(tmp_path / "a.csv", "nosuch")
-    cross = sb.crosscheck("one-edge-clamped", lumped=(3, 5), plate=(2, 3), shell=(), solid=(), programs=())
+    cross = sb.crosscheck("one-edge-clamped", grid=(3, 5), plate=(2, 3), shell=(), solid=(), programs=())
     assert {name: len(found) for name, found in cross.convergences.items()} == {"one-edge-clamped": 2}
 
 

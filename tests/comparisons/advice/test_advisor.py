@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,26 +21,27 @@ from comparisons.advice.advisor import advise
 from comparisons.advice.answer import Advice
 from comparisons.comparison import comparison
 from comparisons.comparison.comparison import error
-from comparisons.models import registry
-from comparisons.models.candidate import Candidate
+from comparisons.models import solve as solvers
+from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.scales import scales
+from comparisons.models.spec import Spec, spec_of
 from sheetbench import scenes
 from sheetbench.scenes import Clamped, Gravity, Scene, Sheet, Solution
 
 SECONDS = 1e-5  # an unknown and factorisation
-answer = once(registry.answer)  # one for all tests: what is looked at is what the advisor makes of it
+answer = once(solvers.solve)  # one for all tests: what is looked at is what the advisor makes of it
 
 
 @pytest.fixture(autouse=True)
 def clock(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every solve takes what its size says, however busy the machine is."""
 
-    def answer_in_time(scene: Scene, candidate: Candidate, **_: object) -> Solution:
-        solution = answer(scene, candidate)
+    def answer_in_time(model: Resolved[Any]) -> Solution:
+        solution = answer(model)
         seconds = SECONDS * solution.unknowns * (1 + solution.iterations)
         return replace(solution, solve_seconds=seconds)
 
-    monkeypatch.setattr(probing.models, "answer", answer_in_time)
+    monkeypatch.setattr(probing, "solve", answer_in_time)
 
 
 @cache
@@ -52,7 +54,7 @@ def truth(text: str) -> np.ndarray:
 def actual_error(advice: Advice) -> float:
     """Error of the choice against the shell."""
     assert advice.choice is not None
-    chosen = answer(advice.scene, advice.choice)
+    chosen = answer(resolve(advice.scene, advice.choice))
     text = advice.scene.model_dump_json(by_alias=True, exclude_none=True)
     found = error(chosen.displacement(advice.scene.probe_points()), truth(text))
     assert found is not None
@@ -122,14 +124,14 @@ def test_lattices_are_tried_with_what_auto_chooses() -> None:
     nearer than the usual ones on the same grid, and the advice says why, or why not."""
     curved = advise(scenes.load("curved-edge"), 0.01, grading="auto")
     errors = {
-        (tuple(row["settings"]["grid"]), row["settings"].get("grading", 0.0)): row["error"]
+        (tuple(row.spec.settings["grid"]), row.spec.settings.get("grading", 0.0)): row.error
         for row in curved.tried
-        if row["model"] == "lumped" and row["settings"]["calibration"] == "consistent-membrane"
+        if row.spec.model == "lumped" and row.spec.settings["calibration"] == "consistent-membrane"
     }
     usual = {
-        tuple(row["settings"]["grid"]): row["error"]
+        tuple(row.spec.settings["grid"]): row.error
         for row in curved.tried
-        if row["settings"].get("calibration") == "consistent"
+        if row.spec.settings.get("calibration") == "consistent"
     }
     both = [grid for grid, grading in errors if grid in usual and not grading]
     assert any(grid[0] > 3 for grid in both) and any(grading for _, grading in errors)
@@ -138,7 +140,7 @@ def test_lattices_are_tried_with_what_auto_chooses() -> None:
     assert curved.calibration.startswith("calibration consistent-membrane")
     assert curved.document()["calibration"] == curved.calibration
     assert "bent by 4 1/m" in curved.grading and curved.document()["grading"] == curved.grading
-    taken = Candidate("lumped", {"grid": [9, 9, 2], "calibration": "consistent", "grading": 0.3})
+    taken = spec_of("lumped", {"grid": [9, 9, 2], "calibration": "consistent", "grading": 0.3})
     line = replace(curved, choice=taken).report().document["command"]
     assert line == "sheetbench compare curved-edge --lumped 9x9x2 --grading 0.3"
     line = replace(curved, choice=taken.but(calibration="consistent-membrane")).report().document["command"]
@@ -148,7 +150,7 @@ def test_lattices_are_tried_with_what_auto_chooses() -> None:
 def test_the_advice_says_why_nothing_is_graded() -> None:
     even = advise(lighter(scenes.load("one-edge-clamped"), 0.01), 0.05, grading="auto")
     assert even.grading.startswith("no grading") and "no narrow layer" in even.grading
-    assert not any(row["settings"].get("grading") for row in even.tried)
+    assert not any(row.spec.settings.get("grading") for row in even.tried)
 
 
 def test_what_the_scene_does_not_need_is_left_out() -> None:
@@ -197,13 +199,13 @@ def test_the_printed_command_solves_the_choice(
 ) -> None:
     assert run("advise", "curved-edge", "--tolerance", "0.02", "--json") == 0
     advice = json.loads(capsys.readouterr().out)
-    solved: list[Candidate] = []
+    solved: list[Spec] = []
 
-    def recorded(scene: Scene, candidate: Candidate, name: str = "", **_: object) -> Solution:
-        solved.append(candidate)
-        return replace(answer(scene, candidate), model=name or candidate.model)
+    def recorded(model: Resolved[Any], name: str = "") -> Solution:
+        solved.append(model.spec)
+        return replace(answer(model), model=name or model.spec.model)
 
-    monkeypatch.setattr(comparison, "answer", recorded)
+    monkeypatch.setattr(comparison, "solve", recorded)
     _, *asked = shlex.split(advice["command"])
     assert run(*asked) == 0
     choice = {"calibration": "consistent", **advice["choice"]["settings"]}

@@ -8,6 +8,7 @@ import sys
 import tomllib
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 import fake_solutions
 import numpy as np
@@ -17,9 +18,9 @@ from scene_files import BAD, LOOSE, written
 
 from comparisons.cli import interruption
 from comparisons.comparison import comparison as displacement
-from comparisons.models.candidate import Candidate
+from comparisons.models.resolve import Resolved
 from sheetbench import scenes
-from sheetbench.scenes import Scene, Solution, Status
+from sheetbench.scenes import Solution, Status
 
 pytestmark = pytest.mark.smoke
 
@@ -167,7 +168,7 @@ def test_a_fault_of_ours_is_not_passed_off_as_bad_input(
     def stumble(*_: object, **__: object) -> None:
         raise fault
 
-    monkeypatch.setattr(displacement, "answer", stumble)
+    monkeypatch.setattr(displacement, "solve", stumble)
     assert run("compare", "two-edges-clamped") == 1
     *trace, asked = capsys.readouterr().err.splitlines()
     assert any("in stumble" in line for line in trace)
@@ -212,12 +213,12 @@ def test_a_solver_that_does_not_converge_leaves_with_3_and_keeps_its_answer(
 def test_what_is_finished_is_kept_when_a_later_model_fails(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    def answer(scene: Scene, candidate: Candidate, name: str = "", **_: object) -> Solution:
-        if candidate.model == "shell":
+    def answer(model: Resolved[Any], name: str = "") -> Solution:
+        if model.spec.model == "shell":
             raise KeyboardInterrupt
-        return fake_solutions.solution(scene, name)
+        return fake_solutions.solution(model.scene, name)
 
-    monkeypatch.setattr(displacement, "answer", answer)
+    monkeypatch.setattr(displacement, "solve", answer)
     assert run("compare", "two-edges-clamped", "--out", str(tmp_path)) != 0
     assert {path.name for path in tmp_path.iterdir()} == {"lumped.vtu", "manifest.json"}
     (run_of_compare,) = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))["runs"].values()
@@ -230,7 +231,7 @@ def test_an_interrupt_within_compiled_code_is_an_interrupt(
     def answer(*_: object, **__: object) -> Solution:
         raise SystemError("returned a result with an exception set") from KeyboardInterrupt()
 
-    monkeypatch.setattr(displacement, "answer", answer)
+    monkeypatch.setattr(displacement, "solve", answer)
     assert run("compare", "two-edges-clamped") == interruption.STATUS
     assert capsys.readouterr().err.strip().endswith("interrupted; nothing was kept")
 

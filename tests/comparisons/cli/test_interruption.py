@@ -13,10 +13,9 @@ CTRL_C = b"\x03"
 DEAF = """
 from hashlib import pbkdf2_hmac
 from comparisons.cli import main
-from comparisons.models import registry
-registry.warm = lambda model: None
-an_hour_of_native_code = lambda watch: pbkdf2_hmac("sha256", b"", b"", 2**31 - 1)
-registry._ready = lambda *_: an_hour_of_native_code
+from comparisons.models import solve
+solve.warm = lambda model: None
+solve._solve = lambda *_: pbkdf2_hmac("sha256", b"", b"", 2**31 - 1)  # an hour of native code
 main()
 """
 

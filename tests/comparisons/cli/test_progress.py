@@ -20,9 +20,10 @@ from comparisons.calibration.calibrate import calibrate
 from comparisons.cli import console
 from comparisons.cli import lines as cli_lines
 from comparisons.cli.lines import BETWEEN, QUIET, Lines
-from comparisons.models import registry
-from comparisons.models.candidate import Candidate
-from comparisons.models.springs import LatticeSpec
+from comparisons.models import solve as solvers
+from comparisons.models.context import running
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Lattice
 from comparisons.models.training import training_scenes
 from comparisons.report import amounts, work
 from comparisons.report.work import Pace, Work
@@ -104,7 +105,7 @@ def test_a_long_command_says_size_and_time_first(
     assert "solving shell, 2 × 2 elements (125 unknowns, about 0 s) …" in capsys.readouterr().err.splitlines()
 
 
-def test_a_large_grid_is_announced_with_its_unknowns_and_its_time() -> None:
+def test_a_large_grid_is_announced_with_its_unknowns_and_its_time(monkeypatch: pytest.MonkeyPatch) -> None:
     """`compare --grid 300` on a strip of 3 by 1: told before the first array is there, nothing is solved."""
     sheet, material = parts()
     strip = sb.Scene(
@@ -114,7 +115,9 @@ def test_a_large_grid_is_announced_with_its_unknowns_and_its_time() -> None:
         support=(sb.Clamped(edge="x0"),),
     )
     told: list[Work] = []
-    registry._begun(strip, Candidate("lumped", {"grid": 300}), "lumped", told.append)
+    with running(progress=told.append, large=True), pytest.raises(ZeroDivisionError):
+        monkeypatch.setattr(solvers, "warm", lambda model: 1 / 0)
+        solvers.solve(resolve(strip, Lattice(300)))
     said = str(told[0])
     assert said.startswith("solving lumped, 898 × 300 × 2 masses (1.62 million unknowns, about ")
     assert re.fullmatch(r".*about \d+ (s|min)\) …", said)
@@ -173,8 +176,9 @@ def test_other_verbs_tell_too(tmp_path: Path) -> None:
 
 def test_a_fit_tells_what_it_is_trained_on() -> None:
     told: list[Work] = []
-    spec = LatticeSpec(4, "fit-modal")
-    calibrate(training_scenes(*parts())[0], spec, named=False, progress=told.append)
+    spec = Lattice(4, "fit-modal")
+    with running(progress=told.append):
+        calibrate(training_scenes(*parts())[0], spec, named=False)
     assert [one.doing.split()[0] for one in told] == ["training", "training", "fitting"]
 
 

@@ -15,6 +15,7 @@ from comparisons.comparison.answer import Comparison
 from comparisons.comparison.comparison import compare
 from comparisons.comparison.differences import relative
 from comparisons.comparison.error_bar import ErrorBar
+from comparisons.models.context import running
 from comparisons.models.grading import told
 from fem_reference.uncertainty import estimate
 from sheetbench import scenes
@@ -148,7 +149,8 @@ def test_json_document_has_the_promised_keys(real: Comparison) -> None:
 
 def test_naming_a_calibration_leaves_no_companion(scene: Scene) -> None:
     done = []
-    alone = compare(scene, calibration="uniform", finished=lambda s: done.append(s.model), **SMALL)
+    with running(solved=lambda s: done.append(s.model)):
+        alone = compare(scene, calibration="uniform", **SMALL)
     assert done == ["lumped", "shell"] == [s.model for s in alone.solutions]
     assert alone.solutions[0].settings["calibration"] == "uniform"
 
@@ -191,7 +193,7 @@ def test_settings_that_do_not_exist_are_refused_before_any_solve(
     scene: Scene, settings: dict, said: str
 ) -> None:
     with pytest.raises(BadInput, match=said):
-        compare(scene, starting=pytest.fail, **settings)
+        compare(scene, progress=pytest.fail, **settings)
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,8 @@ from fake_solutions import solution
 from comparisons.comparison import far_apart
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.comparison import compare, error
-from comparisons.models.candidate import Candidate
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Lattice
 from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Solution, Status
 
 SCENE = Scene(
@@ -20,7 +21,7 @@ SCENE = Scene(
     support=tuple(Clamped(edge=edge, tilt=0.3) for edge in ("x0", "x1")),
     load=(Pressure(value=40.0),),
 )
-LATTICE = Candidate("lumped", {"grid": (5, 3), "calibration": "consistent"})
+LATTICE = Lattice((5, 3), "consistent")
 
 
 def test_pressure_on_a_few_masses_between_tilted_clamps() -> None:
@@ -35,11 +36,13 @@ def test_pressure_on_a_few_masses_between_tilted_clamps() -> None:
     assert found.converged
 
 
-def said(first: float, finer: Solution | None, lattice: Candidate = LATTICE, **known: Any) -> str:
+def said(first: float, finer: Solution | None, lattice: Lattice = LATTICE, **known: Any) -> str:
     """Of a lattice whose corner moves by `first` [m], where the shell's moves by −10 mm."""
     grid = {"settings": {"grid": [5, 3, 2]}}
     both = (solution(SCENE, size=first, **grid), solution(SCENE, "shell", **known.pop("shell", {})))
-    return far_apart.said(SCENE, lattice, both, error, known.pop("bar", None), lambda other: finer)[0]
+    return far_apart.said(resolve(SCENE, lattice), both, error, known.pop("bar", None), lambda other: finer)[
+        0
+    ]
 
 
 def fine(size: float, **changes: Any) -> Solution:
@@ -56,7 +59,7 @@ def test_answers_on_different_branches_have_no_error(known: bool) -> None:
     """Where only the grid is too coarse the error stands."""
     pair = (solution(SCENE, size=0.01), solution(SCENE, "shell"))
     finer = solution(SCENE, size=0.0101 if known else -0.007, settings={"grid": [9, 5, 2]})
-    apart, other_branch = far_apart.said(SCENE, LATTICE, pair, error, 0.01, lambda other: finer)
+    apart, other_branch = far_apart.said(resolve(SCENE, LATTICE), pair, error, 0.01, lambda other: finer)
     assert other_branch is known
     found = Comparison(SCENE, pair, apart=apart, several=known, other_branch=other_branch)
     assert (found.error(pair[0]) is None) is known
@@ -93,7 +96,9 @@ def test_up_to_100_percent_only_what_would_tend_to_the_reference_is_on_another_b
         solution(SCENE, "shell", stretch=stretch),
     )
     lattice = LATTICE.but(calibration=calibration)
-    apart, other_branch = far_apart.said(SCENE, lattice, both, error, 0.01, lambda other: fine(finer))
+    apart, other_branch = far_apart.said(
+        resolve(SCENE, lattice), both, error, 0.01, lambda other: fine(finer)
+    )
     assert "50 % apart" in apart
     assert other_branch is known
 
@@ -120,6 +125,6 @@ def test_reasons_stand_beside_it() -> None:
     scene = SCENE.replace(loads=(Pressure(value=60.0),))
     uniform = LATTICE.but(calibration="uniform")
     both = solution(scene, settings={"grid": [5, 3, 2]}), solution(scene, "shell")
-    layer, moduli = far_apart.reasons(scene, uniform, *both)
+    layer, moduli = far_apart.reasons(resolve(scene, uniform), *both)
     assert "within 44.8 mm of the edge, 0.95 cells" in layer
     assert moduli.startswith("the springs miss ")

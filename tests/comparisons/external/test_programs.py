@@ -16,9 +16,9 @@ import pytest
 from campaigns import alive, wait_for
 from commands import one_line, run
 
-from comparisons.models import plugins, registry
-from comparisons.models.candidate import parse_model, written
-from sheetbench import scenes
+from comparisons.models import plugins
+from comparisons.models.spec import parse
+from sheetbench import face, scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Status
 
@@ -48,7 +48,7 @@ def says(answer: object) -> str:
 @pytest.mark.skipif(shutil.which("jq") is None, reason="the example reads JSON with jq")
 def test_the_example_of_the_docs_answers_like_a_beam(capsys: pytest.CaptureFixture[str]) -> None:
     assert len(STRIP.read_text(encoding="utf-8").splitlines()) <= 10
-    solution = registry.solve(SCENE, f"exec:{STRIP}")
+    solution = face.solve(SCENE, f"exec:{STRIP}")
     sheet, material = SCENE.sheet, SCENE.material
     rigidity = material.young * sheet.thickness**3 / 12
     tip = -material.density * sheet.thickness * 9.81 * sheet.length_x**4 / (8 * rigidity)
@@ -64,20 +64,20 @@ def test_it_gets_the_scene_and_its_settings_and_may_tell_more(program: Make, tmp
     kept = tmp_path / "kept"
     more = {**ANSWER, "solve_seconds": 1e-4, "unknowns": 7, "iterations": 3, "reactions": {"x0": [0, 0, 1.7]}}
     model = program("mine", f"cat > '{kept}'", f"echo \"$@\" > '{kept}.options'", says(more))
-    asked = parse_model(f"{model}:seconds=5,n=9,grid=9x5,quick=true,name=a b")
-    solution = registry.solve(SCENE, asked.model, **asked.settings)
+    asked = parse(f"{model}:seconds=5,n=9,grid=9x5,quick=true,name=a b")
+    solution = face.solve(SCENE, asked)
     assert scenes.Scene.model_validate_json(kept.read_text()) == SCENE
     assert Path(f"{kept}.options").read_text() == "--n=9 --grid=9x5 --quick --name=a b\n"
     assert solution.settings == {"n": 9, "grid": [9, 5], "quick": True, "name": "a b"}
     assert (solution.unknowns, solution.iterations, solution.solve_seconds) == (7, 3, 1e-4)
     assert solution.setup_seconds > 0.0 and solution.reactions["x0"][2] == 1.7
-    assert parse_model(written(asked)) == asked
+    assert parse(str(asked)) == asked
 
 
 def test_what_ends_badly_is_a_row_of_its_own_in_the_tradeoff(
     program: Make, tmp_path: Path, in_process: None, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    truth = registry.solve(SCENE, "shell", elements=4).displacement(SCENE.probe_points())
+    truth = face.solve(SCENE, "shell", elements=4).displacement(SCENE.probe_points())
     right = {"probes": dict(zip(SCENE.probes, truth.tolist(), strict=True))}
     wrong = {"probes": dict(zip(SCENE.probes, (-truth).tolist(), strict=True))}
     models = [
@@ -126,7 +126,7 @@ def test_what_ends_badly_is_a_row_of_its_own_in_the_tradeoff(
     ],
 )
 def test_what_is_no_answer_is_told(program: Make, lines: list[str], said: str) -> None:
-    solution = registry.solve(SCENE, program("mine", *lines), memory_mb=800)
+    solution = face.solve(SCENE, program("mine", *lines), memory_mb=800)
     assert (solution.status, solution.load_factor) == (Status.FAILED, 0.0)
     assert not solution.comparable
     assert said in solution.message
@@ -157,7 +157,7 @@ def test_what_cannot_be_run_is_refused(
         assert run("tradeoff", "one-edge-clamped", "--model", model) == 2
         assert said in one_line(capsys)
     with pytest.raises(BadInput, match="seconds = 0: a number above 0"):
-        registry.solve(SCENE, program("mine", says(ANSWER)), seconds=0)
+        face.solve(SCENE, program("mine", says(ANSWER)), seconds=0)
 
 
 @pytest.mark.parametrize("leaves", ["", " >/dev/null"], ids=["holding its output", "holding its errors"])
@@ -165,7 +165,7 @@ def test_a_child_that_is_left_behind_holds_nothing_up(program: Make, tmp_path: P
     """It was waited for, beyond the time limit and at any length, and the answer lost."""
     left = f"setsid sh -c 'echo $$ > {tmp_path / 'left'}; exec sleep 60'{leaves} &"
     ready = f"while [ ! -s {tmp_path / 'left'} ]; do sleep 0.01; done"
-    solution = registry.solve(SCENE, program("mine", left, ready, says(ANSWER)), seconds=30)
+    solution = face.solve(SCENE, program("mine", left, ready, says(ANSWER)), seconds=30)
     child = int((tmp_path / "left").read_text())
     assert alive(child)  # nothing but its end could have ended a wait for it
     os.kill(child, signal.SIGKILL)
@@ -175,7 +175,7 @@ def test_a_child_that_is_left_behind_holds_nothing_up(program: Make, tmp_path: P
 def test_a_child_that_goes_on_to_talk_is_not_listened_to(program: Make, tmp_path: Path) -> None:
     talking = f"setsid sh -c 'echo $$ > {tmp_path / 'left'}; exec yes >&2' 2>&2 &"
     ready = f"while [ ! -s {tmp_path / 'left'} ]; do sleep 0.01; done"
-    solution = registry.solve(SCENE, program("mine", talking, ready, says(ANSWER)), seconds=1e15)
+    solution = face.solve(SCENE, program("mine", talking, ready, says(ANSWER)), seconds=1e15)
     assert solution.status is Status.CONVERGED
     wait_for(lambda: not alive(int((tmp_path / "left").read_text())), 10.0)  # its pipe is closed
 
@@ -186,7 +186,7 @@ def test_limits_without_end_are_refused(
 ) -> None:
     assert run("tradeoff", "one-edge-clamped", "--model", f"{program('mine', says(ANSWER))}:{limits}") == 2
     assert "a number of at most 1e+15 is needed" in one_line(capsys)
-    assert registry.solve(SCENE, program("mine", says(ANSWER)), seconds=1e15, memory_mb=1e15).comparable
+    assert face.solve(SCENE, program("mine", says(ANSWER)), seconds=1e15, memory_mb=1e15).comparable
 
 
 def test_another_program_under_the_same_name_is_another_model(program: Make) -> None:

@@ -13,10 +13,12 @@ import pytest
 from commands import run
 
 from comparisons.comparison.comparison import compare
-from comparisons.models.candidate import Candidate
 from comparisons.models.expected_error import MOST, estimate, expected_error, finer_grid
 from comparisons.models.grading import grading_of
 from comparisons.models.layers import layers
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Lattice
 from comparisons.modes.spectra import spectra
 from sheetbench.scenes import Pressure, Scene, Solution, Status, load
 from studies.expected_errors.study import scenes
@@ -57,9 +59,9 @@ def answered(**changes: Any) -> Solution:
         ({"status": Status.UNSTABLE}, {}, {}),
         ({}, {}, {"status": Status.UNSTABLE}),
         ({"snaps": (0.7,)}, {}, {}),
-        ({"settings": {"calibration": "uniform"}}, {}, {}),
-        ({"settings": {"grid": [9, 9, 3]}}, {}, {}),
-        ({"settings": {"grid": [65, 65, 2]}}, {}, {}),
+        ({}, {"calibration": "uniform"}, {}),
+        ({}, {"grid": (9, 9, 3)}, {}),
+        ({}, {"grid": (65, 65, 2)}, {}),
         ({}, {"linear": True}, {}),
         ({}, {"layer_distance": 0.004}, {}),
     ],
@@ -67,14 +69,13 @@ def answered(**changes: Any) -> Solution:
 def test_nothing_is_said_where_the_estimate_has_no_ground(
     changes: dict[str, Any], options: dict[str, Any], finer: dict[str, Any]
 ) -> None:
-    def solve(candidate: Candidate) -> Solution:
+    def answer(candidate: Lattice) -> Solution:
         assert prod(candidate.settings["grid"][:2]) <= MOST
         moved = fake_solutions.solution(SCENE, "lumped", -0.0101)
         return replace(moved, settings=candidate.settings, **finer)
 
-    own = Candidate("lumped", {"grid": 9, **options})
-    assert expected_error(SCENE, own, answered(**changes), solve) is None
-    plain = Candidate("lumped", {"grid": 9})
+    plain = Lattice(9, "consistent")
+    assert expected_error(SCENE, plain.but(**options), answered(**changes), answer) is None
     assert expected_error(SCENE, plain, answered(), lambda candidate: None) is None
     moved = fake_solutions.solution(SCENE, "lumped", -0.0101)
     assert expected_error(SCENE, plain, answered(), lambda candidate: moved) is not None
@@ -105,10 +106,8 @@ def test_a_load_that_is_next_to_none_makes_no_layer() -> None:
 
 
 def _expected(scene: Scene) -> float | None:
-    from comparisons.models.registry import answer
-
-    lattice = Candidate("lumped", {"grid": 9})
-    found = expected_error(scene, lattice, answer(scene, lattice), lambda other: answer(scene, other))
+    lattice = resolve(scene, Lattice(9))
+    found = expected_error(scene, lattice.spec, solve(lattice), lambda other: solve(resolve(scene, other)))
     return None if found is None else found.value
 
 
@@ -122,7 +121,7 @@ def test_loads_in_its_plane_bend_no_flat_sheet() -> None:
     """They make no layer at the edges, and `--grading auto` leaves the grid even."""
     pulled, hanging = (scenes()[name][1] for name in ("pull-hard", "hanging"))
     assert layers(pulled) == [] == layers(hanging)
-    assert grading_of(pulled, (9, 9, 2), "auto", calibration="consistent")[0] == 0.0
+    assert grading_of(pulled, (9, 9, 2), Lattice(calibration="consistent", grading="auto"))[0] == 0.0
     both, weight = scenes()["pull-and-weight"][1], pulled.replace(gravity=SCENE.gravity)
     pressed = weight.replace(gravity=None, loads=(Pressure(value=3.0),))
     assert [len(layers(scene)) for scene in (both, weight, pressed)] == [1, 1, 1]

@@ -6,7 +6,8 @@ import pytest
 from commands import run
 
 from comparisons.models import training as targets
-from comparisons.models.springs import LatticeSpec, resolve
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Lattice
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 
@@ -20,9 +21,9 @@ def test_training_scenes_are_the_seeds_sheet_held_by_one_and_two_edges():
 
 
 def test_a_fit_is_computed_once():
-    fit = resolve(SCENE, LatticeSpec(5, "fit-modal"))
-    first = fit.springs(SCENE)
-    assert fit.springs(SCENE) is first
+    fit = resolve(SCENE, Lattice(5, "fit-modal"))
+    first = fit.springs
+    assert fit.calibrated() is first
     assert first.method == "fit-modal" and first.masses == "gregory"
 
 
@@ -52,4 +53,4 @@ def test_bad_options_of_a_fit(option, capsys: pytest.CaptureFixture[str]) -> Non
 def test_a_scene_in_which_nothing_moves_is_nothing_to_train_on():
     still = SCENE.replace(gravity=None)
     with pytest.raises(BadInput, match="nothing moves"):
-        resolve(SCENE, LatticeSpec(3, "fit-static")).springs(SCENE, [still])
+        resolve(SCENE, Lattice(3, "fit-static")).calibrated([still])

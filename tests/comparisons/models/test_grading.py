@@ -12,8 +12,9 @@ from commands import one_line, run
 import lumped
 import sheetbench as sb
 from comparisons.models.grading import GRADED, grading_of, read
-from comparisons.models.registry import solve
-from comparisons.models.springs import resolve_each
+from comparisons.models.resolve import resolve_each
+from comparisons.models.spec import Lattice
+from sheetbench.face import solve
 from sheetbench.scenes import BadInput, load
 from sheetbench.scenes.grading import amount
 from studies.transfer.scenes import transfer_scenes
@@ -68,6 +69,7 @@ def test_auto_says_why(verb, tmp_path, monkeypatch, capsys) -> None:
         assert found["grading"] == value and found["grading_reason"].startswith(why)
 
 
+AUTO = Lattice(grading="auto")
 GRADED_SCENES = (
     "curved-edge",
     "curved-edge-down",
@@ -81,7 +83,7 @@ GRADED_SCENES = (
 def test_auto_grades_the_scenes_that_grading_mends() -> None:
     """Of the transfer study's seventeen: on nine masses a side the others lose by it."""
     for name, scene in transfer_scenes().items():
-        value, why = grading_of(scene, (9, 9, 2), "auto")
+        value, why = grading_of(scene, (9, 9, 2), AUTO)
         by = 0.5 if name == "tenth-of-young-one-edge" else GRADED
         assert amount(value) == (by if name in GRADED_SCENES else 0.0), (name, why)
         assert why
@@ -89,14 +91,14 @@ def test_auto_grades_the_scenes_that_grading_mends() -> None:
 
 def test_auto_leaves_alone_what_the_cells_resolve_and_what_has_cells_of_one_size_only() -> None:
     curved = load("curved-edge")
-    assert grading_of(curved, (9, 9, 2), "auto")[0] == 0.3
-    assert "cells of 0.367 mm" in grading_of(curved, (513, 513, 2), "auto")[1]
-    assert grading_of(curved, (513, 513, 2), "auto")[0] == 0.0
+    assert grading_of(curved, (9, 9, 2), AUTO)[0] == 0.3
+    assert "cells of 0.367 mm" in grading_of(curved, (513, 513, 2), AUTO)[1]
+    assert grading_of(curved, (513, 513, 2), AUTO)[0] == 0.0
     for settings in ({"calibration": "uniform"}, {"k": 500.0}, {"layer_distance": 0.003}):
-        assert grading_of(curved, (9, 9, 2), "auto", **settings)[0] == 0.0
-    assert grading_of(curved, (9, 9, 3), "auto")[0] == 0.0
+        assert grading_of(curved, (9, 9, 2), Lattice(grading="auto", **settings))[0] == 0.0
+    assert grading_of(curved, (9, 9, 3), AUTO)[0] == 0.0
     weightless = curved.replace(supports=[{"edge": "x0", "kind": "clamped"}], gravity=None)
-    assert grading_of(weightless, (9, 9, 2), "auto") == (
+    assert grading_of(weightless, (9, 9, 2), AUTO) == (
         0.0,
         "nothing bends the sheet, so that it has no layers at its edges",
     )

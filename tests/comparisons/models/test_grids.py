@@ -13,8 +13,8 @@ from commands import one_line, run
 
 import lumped
 from comparisons.models.grids import parse_grid, scene_grid
-from comparisons.models.registry import solve
 from fem_reference.surface.mesh import divisions
+from sheetbench.face import solve
 from sheetbench.scenes import BadInput, Clamped, Scene, Sheet, SpringTable, load
 from sheetbench.scenes.grid import grid_of, near_square
 

@@ -8,7 +8,8 @@ from commands import run
 
 import lumped
 import sheetbench as sb
-from comparisons.models.springs import LatticeSpec, resolve
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Lattice
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, SpringTable
 
@@ -66,7 +67,7 @@ def test_unknowns_are_identified_on_springs_with_a_layer_distance(scene: Scene) 
 
 
 def test_a_scene_s_own_springs_are_meant_where_nothing_else_is_asked(springy: Scene) -> None:
-    assert resolve(springy, LatticeSpec()).calibration is None
-    assert resolve(springy, LatticeSpec(k=3.0)).calibration == "uniform"
-    assert resolve(springy, LatticeSpec(calibration="auto")).calibration.startswith("consistent")
-    assert resolve(springy, LatticeSpec(), own=False).calibration == "consistent"
+    assert resolve(springy, Lattice()).spec.calibration is None
+    assert resolve(springy, Lattice(k=3.0)).spec.calibration == "uniform"
+    assert resolve(springy, Lattice(calibration="auto")).spec.calibration.startswith("consistent")
+    assert resolve(springy, Lattice(), own=False).spec.calibration == "consistent"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import pytest
 from commands import one_line, run
@@ -10,10 +11,11 @@ from commands import one_line, run
 import fem_reference
 import sheetbench as sb
 from comparisons.comparison.comparison import error
-from comparisons.models.method import FAR, MEMBRANE, chosen, method_for
-from comparisons.models.registry import solve
+from comparisons.models.method import FAR, MEMBRANE, method_for, resolve_calibration
 from comparisons.models.scales import scales
+from comparisons.models.spec import Lattice
 from comparisons.tradeoff.asked import of_statics
+from sheetbench.face import solve
 from sheetbench.scenes import Clamped, Scene, load
 from studies.transfer.scenes import transfer_scenes
 from studies.transfer.tasks import points
@@ -30,7 +32,7 @@ def held(*edges: str, poisson: float = 0.3, softer: float = 1.0) -> Scene:
 
 def test_a_trade_names_the_springs_that_auto_takes() -> None:
     """Each once, on grids and pairs of grids, with the reason; what is named outright stays."""
-    measure = of_statics(RUBBER, "3,5", "consistent,consistent-membrane,auto", {}, of_two="3:5")
+    measure = of_statics(RUBBER, "3,5", "consistent,consistent-membrane,auto", Lattice(), {}, of_two="3:5")
     names = [candidate.settings["calibration"] for candidate in measure.args[1]]
     assert names == [*2 * ["consistent"], *2 * [MEMBRANE], "consistent", MEMBRANE]
     assert measure.keywords["reasons"] == (f"calibration {MEMBRANE}: ν = 0.48 is above 0.4",)
@@ -49,11 +51,15 @@ def test_by_edges_load_and_poissons_ratio() -> None:
 
 
 def test_it_chooses_where_nothing_but_a_grading_is_asked() -> None:
-    scene, grid = held("x0"), (5, 5, 2)
-    assert chosen(scene, grid, None, "auto")[0] == chosen(scene, grid, "auto")[0] == MEMBRANE
-    assert chosen(scene, grid, "consistent", "auto") == ("consistent", "")
-    assert chosen(scene, grid, None, 0.5) == chosen(scene, grid, None, "auto", k=500.0) == (None, "")
-    assert chosen(scene, (5, 5, 3), "auto")[0] == "consistent"
+    scene = held("x0")
+
+    def chosen(*grid: int, **lattice: Any) -> tuple[str | None, str]:
+        return resolve_calibration(scene, grid, Lattice(**lattice))
+
+    assert chosen(5, 5, 2, grading="auto")[0] == chosen(5, 5, 2, calibration="auto")[0] == MEMBRANE
+    assert chosen(5, 5, 2, calibration="consistent", grading="auto") == ("consistent", "")
+    assert chosen(5, 5, 2, grading=0.5) == chosen(5, 5, 2, grading="auto", k=500.0) == (None, "")
+    assert chosen(5, 5, 3, calibration="auto")[0] == "consistent"
     found = solve(scene, "lumped", grid=3, grading="auto").settings
     assert (found["calibration"], found["calibration_reason"]) == (MEMBRANE, "x0 alone holds the sheet")
     assert "calibration_reason" not in solve(scene, "lumped", grid=3).settings

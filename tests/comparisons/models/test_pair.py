@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from comparisons.comparison.comparison import compare, error
-from comparisons.models.candidate import Candidate, pairs
-from comparisons.models.registry import solve
+from comparisons.models.spec import pairs, spec_of
 from comparisons.scoring.reference import reference
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench.choices import CALIBRATIONS, EXTRAPOLATED
 from sheetbench.errors import BadInput
+from sheetbench.face import solve
 from sheetbench.scenes import Scene, Solution, Status, load
 
 # Where the cells of 9 × 9 masses are seen, and where they hardly are (less than 0.5 % off, with errors that
@@ -78,7 +78,7 @@ def test_grading_is_of_both_grids() -> None:
 
 
 def test_the_bar_stands_in_the_comparison() -> None:
-    other = Candidate("lumped-pair", {"grid": 5, "coarser": 3})
+    other = spec_of("lumped-pair", {"grid": 5, "coarser": 3})
     found = compare("two-edges-clamped", grid=5, calibration="consistent", elements=2, others=[other])
     document = found.document()["solutions"][2]
     assert document["model"] == "lumped-pair"

@@ -12,8 +12,10 @@ import pytest
 from commands import one_line, run
 
 from comparisons.models import plugins
-from comparisons.models import registry as models
+from comparisons.models import solve as solvers
+from comparisons.models.spec import parse
 from comparisons.tradeoff import timing
+from sheetbench import face as models
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Clamped, EdgeLoad, FactorTable, Hinged, PointLoad, Status
@@ -31,10 +33,10 @@ def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]
     (metadata / "entry_points.txt").write_text(ENTRY)
     monkeypatch.setattr(sys, "path", [str(tmp_path), str(DOCS), *sys.path])
     plugins._found.cache_clear()
-    models.warm.cache_clear()
+    solvers.warm.cache_clear()
     yield
     plugins._found.cache_clear()
-    models.warm.cache_clear()
+    solvers.warm.cache_clear()
 
 
 def test_the_example_of_the_docs_answers_like_a_beam(installed: None) -> None:
@@ -130,7 +132,7 @@ def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_p
     scene, name = scenes.load("one-edge-clamped"), f"{file}:Strip"
 
     def key() -> str:
-        return timing.run(scene, name, {}).key
+        return timing.run(scene, parse(name)).key
 
     first = key()
     (tmp_path / "elsewhere.py").write_text("x = 2\n")
@@ -145,12 +147,12 @@ def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_p
 
 def test_a_row_is_of_an_installed_plug_ins_version(installed: None, tmp_path: Path) -> None:
     scene = scenes.load("one-edge-clamped")
-    first = timing.run(scene, "strip", {}).key
-    assert timing.run(scene, "strip", {}).key == first
+    first = timing.run(scene, parse("strip")).key
+    assert timing.run(scene, parse("strip")).key == first
     metadata = tmp_path / "outside-1.0.dist-info" / "METADATA"
     metadata.write_text(metadata.read_text().replace("Version: 1.0", "Version: 1.1"))
     plugins._found.cache_clear()
-    assert timing.run(scene, "strip", {}).key != first
+    assert timing.run(scene, parse("strip")).key != first
 
 
 def test_mujoco_is_installed_as_a_plugin() -> None:

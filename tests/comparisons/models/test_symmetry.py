@@ -7,8 +7,8 @@ import pytest
 from cases import GRAVITY, RUBBER
 
 import fem_reference
-from comparisons.models import registry as models
 from comparisons.models.symmetry import half, planes, whole
+from sheetbench import face as models
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import (

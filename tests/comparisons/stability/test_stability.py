@@ -11,7 +11,8 @@ from campaigns import Here
 from commands import one_line, run
 
 import lumped
-from comparisons.models.springs import LatticeSpec
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Lattice
 from comparisons.runs.store import Store
 from comparisons.stability import extremes
 from comparisons.stability.extremes import Stability, scaled, stability
@@ -23,7 +24,7 @@ SEED, SETTLING = load("two-edges-clamped"), load("two-edges-settling")
 
 
 def varied(store: Store, *names: str, scene=SEED, grid: int = 5) -> Stability:
-    return stability(scene, store, varied=names, lattice=LatticeSpec(grid), elements=4, pool=Here)
+    return stability(scene, store, varied=names, lattice=Lattice(grid), elements=4, pool=Here)
 
 
 @pytest.mark.parametrize(("name", "factor"), [("load", 3.0), ("slenderness", 0.1), ("young", 100.0)])
@@ -82,7 +83,7 @@ def test_the_largest_stable_steps_are_those_measured(store: Store, monkeypatch: 
     for (_, damping), (*_, computed, measured, advised, _) in steps.items():
         assert measured >= 0.99 * computed and advised == pytest.approx(0.9 * computed)
         assert damping != "0 of critical" or measured <= 1.02 * computed
-    springs = LatticeSpec(3).springs(SETTLING)[0]
+    springs = resolve(SETTLING, Lattice(3)).springs
     known = extremes.explicit_limit("verlet", SETTLING, springs)
     assert steps["verlet", "the scene's"][2] == pytest.approx(known)
     implicit = [row for row in found.rows if row["cell"]["integrator"] == "midpoint"]

@@ -16,9 +16,7 @@ from campaigns import Here, rows_in
 from commands import one_line, run
 
 import lumped
-from comparisons.models import candidate as candidates
-from comparisons.models.candidate import Candidate, lattices, parse_model, series
-from comparisons.models.springs import LatticeSpec
+from comparisons.models.spec import Elements, External, Lattice, lattices, parse, references
 from comparisons.runs import load
 from comparisons.runs.campaign import campaign
 from comparisons.runs.store import FILE
@@ -102,20 +100,19 @@ def test_lists_of_sizes_become_rows_with_near_square_cells() -> None:
     found = lattices(scene, ["5", "3x4x3"], ["consistent", "uniform"])
     assert [c.settings["grid"] for c in found] == [[5, 9, 2], [3, 4, 3]] * 2
     assert found[3].series == "lumped uniform 3 layers"
-    assert series("shell", {"elements": 4}) == "shell"
-    assert series("mine", {"grid": 9, "fast": True, "slow": False, "kind": "a"}) == "mine fast kind a"
-    assert parse_model("mine:grid=9,soft=true,kind=a") == Candidate(
-        "mine", {"grid": 9, "soft": True, "kind": "a"}
-    )
+    assert Elements("shell", 4).series == "shell"
+    own = External("mine", {"grid": 9, "fast": True, "slow": False, "kind": "a"})
+    assert own.series == "mine fast kind a"
+    assert parse("mine:grid=9,soft=true,kind=a") == External("mine", {"grid": 9, "soft": True, "kind": "a"})
     for text in ("mine:grid", "mine:=3,x"):
         with pytest.raises(BadInput, match="--model"):
-            parse_model(text)
+            parse(text)
     with pytest.raises(BadInput, match="--shell = 'x'"):
-        candidates.references("shell", ["x"])
+        references("shell", ["x"])
 
 
 def test_a_measured_row_says_what_it_cost(scene: Scene) -> None:
-    asked = timing.run(scene, "lumped", {"grid": [9, 9, 2], "calibration": "consistent"}, repeats=3)
+    asked = timing.run(scene, Lattice((9, 9, 2), "consistent"), repeats=3)
     row = timing.measure(**asked.arguments)
     assert row["status"] == "converged" and row["unknowns"] == 384
     samples = row["solve_seconds"]["samples"]
@@ -194,7 +191,7 @@ def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path: Path
             scene,
             0.6,
             store,
-            lattice=LatticeSpec(grid=(3, 3, 2)),
+            lattice=Lattice(grid=(3, 3, 2)),
             integrators=("generalised-alpha", "midpoint"),
             divisions=(40, 80, 160),
             reference=800,
@@ -276,7 +273,7 @@ def test_the_trade_of_a_motion_is_of_one_lattice(tmp_path: Path) -> None:
     options = {"integrators": names, "reference": 400, "pool": Here}
     with campaign(tmp_path) as store:
         found = dynamic_tradeoff(own, 0.02, store, **options)
-        k_given = dynamic_tradeoff(scene, 0.02, store, lattice=LatticeSpec(3, k=800.0), **options)
+        k_given = dynamic_tradeoff(scene, 0.02, store, lattice=Lattice(3, k=800.0), **options)
     limit = explicit_limit(names[0], own, lumped.given(own))
     assert limit < 0.7 * explicit_limit(names[0], own, springs)
     assert [row.step for row in found.rows] == [pytest.approx(share * limit) for share in SHARES]
@@ -299,7 +296,7 @@ def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until
     )
     springs = lumped.calibrate(sheet, material, grid=3)
     flat = 1.0 / float(lumped.modes(strip, springs, 1, springs.masses).frequencies[0])
-    options = {"lattice": LatticeSpec(3), "integrators": ("esdirk",), "reference": 800, "pool": Here}
+    options = {"lattice": Lattice(3), "integrators": ("esdirk",), "reference": 800, "pool": Here}
     with campaign(tmp_path) as store:
         found = dynamic_tradeoff(strip, 0.1, store, divisions=(4,), **options)
     assert found.lowest_period < 0.5 * flat

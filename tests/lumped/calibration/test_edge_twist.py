@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import lumped
-from comparisons.models.registry import solve
 from lumped.assembly import Assembly
 from lumped.calibration.edge_twist import edge_factor, layer_width
+from sheetbench.face import solve
 from sheetbench.scenes import Clamped, Material, PointLoad, Scene, Sheet, SpringSet, load
 
 SEED = load("two-edges-clamped")

@@ -12,7 +12,7 @@ from commands import one_line, run
 from scene_files import GOOD, written
 
 import lumped
-from comparisons.models import registry
+from sheetbench import face as models
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Status
@@ -81,7 +81,7 @@ def test_what_is_just_allowed_ends_in_a_status(
     scene = scene.replace(material=scene.material.replace(**{key: factor}))
     with warnings.catch_warnings():
         warnings.simplefilter("error", RuntimeWarning)
-        solution = registry.solve(scene, model, **size)
+        solution = models.solve(scene, model, **size)
     assert isinstance(solution.status, Status)
 
 

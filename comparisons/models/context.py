@@ -1,0 +1,67 @@
+"""What a caller wants of everything that runs inside a call: to be told, and large models let through.
+
+`with running(large=True, progress=print):` holds for all that is solved in the block, in this thread. Public
+functions take `large` and `progress` as keywords by `in_context`; nothing below them passes them on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, replace
+from functools import wraps
+from typing import Any, ParamSpec, TypeVar
+
+from comparisons.report.work import Progress, silent
+from sheetbench.scenes import Solution
+
+Parameters = ParamSpec("Parameters")
+Found = TypeVar("Found")
+
+
+@dataclass(frozen=True)
+class Context:
+    """large: solve even what takes more memory than there is; progress: told what is being done, and of every
+    iteration; solved: told every answer of a comparison as soon as it is there."""
+
+    large: bool = False
+    progress: Progress = silent
+    solved: Callable[[Solution], None] = silent
+
+
+_CONTEXT = ContextVar("context", default=Context())  # noqa: B039  # frozen
+
+
+def context() -> Context:
+    """Return what holds here."""
+    return _CONTEXT.get()
+
+
+@contextmanager
+def running(**wanted: Any) -> Iterator[None]:
+    """Hold other values of a `Context` within a block."""
+    before = _CONTEXT.set(replace(_CONTEXT.get(), **wanted))
+    try:
+        yield
+    finally:
+        _CONTEXT.reset(before)
+
+
+def in_context(function: Callable[Parameters, Found]) -> Callable[Parameters, Found]:
+    """Return the function; its keywords `large` and `progress`, where given, hold for all that it does."""
+    return _held(function, "large", "progress")
+
+
+def large_in_context(function: Callable[Parameters, Found]) -> Callable[Parameters, Found]:
+    """Likewise of `large` alone, where the progress is a campaign's."""
+    return _held(function, "large")
+
+
+def _held(function: Callable[Parameters, Found], *names: str) -> Callable[Parameters, Found]:
+    @wraps(function)
+    def run(*values: Parameters.args, **named: Parameters.kwargs) -> Found:
+        with running(**{name: named[name] for name in names if name in named}):
+            return function(*values, **named)
+
+    return run

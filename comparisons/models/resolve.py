@@ -1,0 +1,275 @@
+"""A model on a scene, with every choice made and checked: grid, calibration, grading, springs, size, and why.
+
+`resolve` is where every verb makes sure of a model before anything is solved; what it returns is solved by
+`comparisons.models.solve`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Generic, Literal, TypeVar, cast
+from warnings import warn
+
+from comparisons.models import plugins
+from comparisons.models.context import context
+from comparisons.models.grading import fixed, grading_of, one_size
+from comparisons.models.grids import GridLike, scene_grid
+from comparisons.models.method import resolve_calibration
+from comparisons.models.sizes import require_room, size
+from comparisons.models.spec import Elements, External, Grading, Lattice, LatticePair, Spec, counted
+from comparisons.models.symmetry import cut_axes
+from sheetbench.choices import (
+    AUTO,
+    BRANCHES,
+    CALIBRATIONS,
+    EXTRAPOLATED,
+    MASSES,
+    REFERENCES,
+    listed,
+    method_of,
+)
+from sheetbench.errors import BadInput, Implausible, require_choice
+from sheetbench.scenes import Scene
+from sheetbench.scenes.grid import Grid, near_square
+from sheetbench.scenes.plausibility import layer_slips
+from sheetbench.scenes.quantities import require_positive
+from sheetbench.scenes.size import Size
+
+if TYPE_CHECKING:
+    from lumped import Calibration
+
+Use = Literal["statics", "motion", "modes", "springs"]
+ONLY: dict[Use, tuple[str, ...]] = {"statics": ("linear", "symmetry", "branch"), "modes": ("masses",)}
+OURS = (Lattice.NAME, LatticePair.NAME, *REFERENCES)
+S = TypeVar("S", bound=Spec)
+
+
+@dataclass(frozen=True)
+class Resolved(Generic[S]):
+    """A model of a scene; spec: with every choice made, a lattice's calibration None where the scene's own
+    [springs] are meant; reasons: sentences on what was chosen, by the setting `…_reason`; coarse: the coarser
+    lattice of a pair."""
+
+    scene: Scene
+    spec: S
+    reasons: dict[str, str] = field(default_factory=dict)
+    coarse: Resolved[Lattice] | None = None
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Of the model, plain data, with the reasons."""
+        return {**self.spec.settings, **self.reasons}
+
+    @property
+    def size(self) -> Size | None:
+        """What solving it takes, None of a plug-in."""
+        return size(self.scene, self.spec)
+
+    @property
+    def grid(self) -> Grid:
+        """Of a lattice, or the finer one of a pair."""
+        assert isinstance(self.spec, Lattice | LatticePair)
+        return cast(Grid, self.spec.grid)
+
+    @property
+    def fitted(self) -> bool:
+        """Whether a lattice's springs are fitted to targets."""
+        return _fitted(self.spec)
+
+    @cached_property
+    def springs(self) -> Calibration:
+        """The springs of a lattice, or of the finer one of a pair."""
+        return self.calibrated()
+
+    def on(self, scene: Scene) -> Resolved[S]:
+        """The same choices for another scene of the same sides."""
+        return replace(self, scene=scene)
+
+    def calibrated(self, training: Sequence[Scene] | None = None) -> Calibration:
+        """Return the springs; training: what fitted ones are fitted to, see `comparisons.models.training`.
+
+        Raises BadInput for options that a calibration does not take; warns of a layer distance that is hardly
+        meant.
+        """
+        import lumped
+
+        spec = self.spec.lattice(self.grid) if isinstance(self.spec, LatticePair) else self.spec
+        assert isinstance(spec, Lattice)
+        grading = fixed(spec.grading)
+        if spec.calibration is None:
+            return lumped.given(self.scene, self.grid, grading)
+        sheet, material = self.scene.sheet, self.scene.material
+        if spec.layer_distance is not None:
+            for said in layer_slips(sheet, spec.layer_distance, "layer-distance"):
+                warn(Implausible(said), stacklevel=2)
+        own: dict[str, Any] = {"layer_distance": spec.layer_distance, "grading": grading or 0.0}
+        if _fitted(spec):
+            from comparisons.models.training import fitted
+
+            return fitted(sheet, material, self.grid, spec.calibration, training=training, **own)
+        return lumped.calibrate(sheet, material, self.grid, spec.calibration, k=spec.k, **own)
+
+
+def resolve(
+    scene: Scene, spec: S, use: Use = "statics", *, own: bool = True, option: str = ""
+) -> Resolved[S]:
+    """Return the model that is meant on a scene, with every choice made.
+
+    use: what for; its springs alone are not refused for the memory that solving takes. own: whether the
+    scene's [springs], where it has them, are meant if no calibration, k or layer distance is given, on their
+    own grid and grading. The grading "auto" chooses the calibration too where none is given. option: by which
+    its size is asked for, see `comparisons.models.sizes.require_room`.
+
+    Raises BadInput for a model that does not exist, settings that do not exist, go together or go with the
+    scene or the use, and, unless the context is `large`, for one that takes more memory than there is.
+    """
+    for other, names in ONLY.items():
+        for name in names if isinstance(spec, Lattice) and use not in (other, "springs") else ():
+            if name in spec.settings:
+                raise BadInput(f"{name} = {spec.settings[name]}: is for {other}; leave it out here")
+    found: Resolved[Any]
+    if isinstance(spec, Lattice):
+        found = _lattice(scene, spec, own)
+    elif isinstance(spec, LatticePair):
+        found = _pair(scene, spec)
+    elif isinstance(spec, Elements):
+        _check_elements(scene, spec)
+        found = Resolved(scene, spec)
+    else:
+        assert isinstance(spec, External)
+        _check_external(spec)
+        found = Resolved(scene, spec)
+    if not context().large:
+        if use != "springs" or _fitted(found.spec):
+            require_room(scene, found.spec, option)
+        if _fitted(found.spec):
+            from comparisons.models.training import ELEMENTS
+
+            require_room(scene, Elements("shell", ELEMENTS), instead="take a calibration that is not fitted")
+    if isinstance(spec, Lattice) and found.spec.calibration is None:
+        assert found.springs  # tables of other grids are refused
+    return cast(Resolved[S], found)
+
+
+def resolve_each(
+    scene: Scene, specs: Sequence[Spec], grading: Grading = None
+) -> tuple[list[Spec], tuple[str, ...]]:
+    """Return lattices and pairs of grids with every choice made, and the reasons.
+
+    grading: of those whose calibration and layers take one. Raises BadInput where none of them does.
+    """
+    asked = [cast(Lattice, one) for one in specs]  # a pair has what is asked of it here
+    for one in specs:
+        _check_lattice(one.lattice(one.grid) if isinstance(one, LatticePair) else cast(Lattice, one))
+    takers = [one for one in asked if not one_size(scene_grid(scene, one.grid), one)]
+    if fixed(grading) and not takers:
+        raise BadInput(f"grading = {grading}: none of these calibrations is for cells that differ")
+    found: list[Spec] = []
+    methods, gradings = [], list[str]()
+    for one in asked:
+        meant = resolve(scene, one.but(grading=grading if one in takers else None), use="springs")
+        found.append(meant.spec if meant.spec.grading else meant.spec.but(grading=None))
+        if why := meant.reasons.get("grading_reason"):
+            gradings.append(f"{meant.grid[0]} × {meant.grid[1]}, grading {meant.spec.grading:g}: {why}")
+        if why := meant.reasons.get("calibration_reason"):
+            methods.append(f"calibration {meant.spec.calibration}: {why}")
+    return found, tuple(dict.fromkeys((*methods, *gradings)))
+
+
+def _fitted(spec: Spec) -> bool:
+    """Whether the springs are fitted to targets."""
+    named = isinstance(spec, Lattice) and spec.k is None and spec.calibration
+    return isinstance(named, str) and named in CALIBRATIONS and CALIBRATIONS[named].fitted
+
+
+def _check_lattice(spec: Lattice) -> None:
+    if spec.calibration is not None:
+        require_choice("calibration", spec.calibration, (*CALIBRATIONS, AUTO))
+    require_positive("k", spec.k, "N/m")
+    require_positive("layer-distance", spec.layer_distance, "m")
+    require_choice("branch", spec.branch, BRANCHES)
+    if spec.masses is not None:
+        require_choice("--masses", spec.masses, MASSES)
+    if graded := fixed(spec.grading):
+        takers = [name for name, method in CALIBRATIONS.items() if "grading" in method.takes]
+        named = method_of(spec.calibration, spec.k)
+        if named not in takers:
+            raise BadInput(
+                f"grading = {graded:g}: the calibration {named} is for cells of one size; "
+                f"cell by cell are {', '.join(takers)}"
+            )
+
+
+def _lattice(scene: Scene, spec: Lattice, own: bool) -> Resolved[Lattice]:
+    _check_lattice(spec)
+    spec = spec.but(grid=scene_grid(scene, spec.grid))
+    grid = cast(Grid, spec.grid)
+    left_open = spec.calibration is None and spec.k is None and spec.layer_distance is None
+    if own and scene.springs is not None and left_open:
+        return Resolved(scene, spec.but(grading=fixed(spec.grading)))
+    method, because = resolve_calibration(scene, grid, spec)
+    spec = spec.but(calibration=method_of(method, spec.k))
+    grading, why = grading_of(scene, grid, spec)
+    reasons = {"grading_reason": why, "calibration_reason": because}
+    said = {name: reason for name, reason in reasons.items() if reason}
+    return Resolved(scene, spec.but(grading=grading), said)
+
+
+def _pair(scene: Scene, spec: LatticePair) -> Resolved[LatticePair]:
+    fine, coarse = _grids(scene, spec.grid, spec.coarser)
+    meant = _lattice(scene, spec.lattice(fine), own=True)
+    if meant.spec.calibration is None:
+        raise BadInput("lumped-pair: the scene's [springs] are of one grid; name a calibration")
+    if meant.spec.calibration not in EXTRAPOLATED:
+        raise BadInput(
+            f"lumped-pair: with the calibration {meant.spec.calibration} answers need not tend to the "
+            f"sheet's as cells shrink; choose {listed(EXTRAPOLATED)}"
+        )
+    chosen = spec.but(
+        grid=fine, coarser=coarse, calibration=meant.spec.calibration, grading=meant.spec.grading
+    )
+    return Resolved(scene, chosen, meant.reasons, Resolved(scene, meant.spec.but(grid=coarse)))
+
+
+def _grids(scene: Scene, grid: GridLike, coarser: GridLike) -> tuple[Grid, Grid]:
+    """The finer and the coarser grid. Raises BadInput where the second is not the coarser."""
+    fine = scene_grid(scene, grid)
+    halved = tuple(max(2, (n - 1) // 2 + 1) for n in fine[:2])
+    coarse = scene_grid(scene, (*halved, fine[2]) if coarser is None else coarser)
+    if min(coarse) < 2 or coarse[0] >= fine[0] or coarse[1] >= fine[1] or coarse[2] != fine[2]:
+        raise BadInput(
+            f"lumped-pair: {counted(coarse)} beside {counted(fine)}: the coarser grid has fewer masses along "
+            "both sides, at least 2, and as many layers; write 5:9"
+        )
+    return fine, coarse
+
+
+def _check_elements(scene: Scene, spec: Elements) -> None:
+    import fem_reference
+
+    require_choice("reference", spec.kind, fem_reference.MODELS)
+    elements = spec.elements
+    counts = [elements] if isinstance(elements, int) else elements
+    whole = isinstance(counts, list | tuple) and len(counts) > 0 and all(type(n) is int for n in counts)
+    if not (whole and len(counts) <= 2):
+        raise BadInput(f"elements = {elements!r}: a number along the shorter side, or [nx, ny]")
+    if min(counts) < 1:
+        raise BadInput(f"elements = {elements}: at least 1")
+    fem_reference.check(spec.kind, spec.options)
+    if spec.symmetry and spec.kind == "solid" and cut_axes(scene, _along(scene, spec), masses=False):
+        raise BadInput("solid: is always solved whole; leave symmetry out")
+
+
+def _along(scene: Scene, spec: Elements) -> tuple[int, int]:
+    """Elements along x and y."""
+    counts = [spec.elements] if isinstance(spec.elements, int) else list(spec.elements)
+    return near_square(scene.sheet, counts[0]) if len(counts) == 1 else (counts[0], counts[1])
+
+
+def _check_external(spec: External) -> None:
+    known = [*OURS, *plugins.names()]
+    if spec.name not in known and not plugins.is_outside(spec.name):
+        raise BadInput(f"model = '{spec.name}': unknown, choose one of {', '.join(known)}. {plugins.OWN}")
+    plugins.settings_of(plugins.plugin(spec.name), spec.settings)

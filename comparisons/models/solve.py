@@ -1,0 +1,117 @@
+"""The one place that knows every solver: a resolved model in, a Solution or a History out.
+
+The solvers are imported when they are first used, so that asking for help stays quick. A model is warmed up
+first: what a process pays once, to import and compile, counts neither as set-up nor as solving
+(`sheetbench.clock`); the springs of a lattice count as set-up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from typing import Any, Literal
+
+from comparisons.models import plugins
+from comparisons.models.context import context
+from comparisons.models.pair import extrapolated
+from comparisons.models.resolve import OURS, Resolved, resolve
+from comparisons.models.sizes import along, mesh
+from comparisons.models.spec import Elements, Lattice, LatticePair, spec_of
+from comparisons.models.symmetry import by_parts, cut_axes
+from comparisons.report.work import Work
+from sheetbench.clock import now
+from sheetbench.scenes import History, Iteration, Scene, Solution, load
+from sheetbench.scenes.grading import mirrored
+
+Watch = Callable[[Iteration], None]  # called once an iteration
+
+
+def solve(model: Resolved[Any], name: str = "") -> Solution:
+    """Return the static answer of a model, on warm code; name: what to call it instead of its own.
+
+    The context's progress is told what is being done, and of every iteration. A solve that fails is a status.
+    """
+    spec, scene = model.spec, model.scene
+    doing = f"solving {name or plugins.shown_name(spec.model)}"
+    work = Work(", ".join(filter(None, [doing, mesh(scene, spec)])), model.size)
+    progress = context().progress
+    progress(work)
+
+    def watch(iteration: Iteration) -> None:
+        progress(work.at(iteration.load_factor))
+
+    warm(spec.model)
+    began = now()
+    for lattice in filter(None, [model.coarse, model]):
+        if isinstance(spec, Lattice | LatticePair):
+            assert lattice.springs
+    preparing = now() - began
+    solution = _solve(model, watch)
+    spent = solution.setup_seconds + preparing
+    return replace(solution, model=name or solution.model, setup_seconds=spent, points=dict(scene.probes))
+
+
+def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:
+    spec, scene = model.spec, model.scene
+    if isinstance(spec, Lattice):
+        return _lattice(model, spec, watch)
+    if isinstance(spec, LatticePair):
+        assert model.coarse is not None
+        rough = _lattice(model.coarse, model.coarse.spec, watch)
+        return extrapolated(rough, _lattice(model, spec.lattice(spec.grid), watch))
+    if isinstance(spec, Elements):
+        return _elements(scene, spec, watch)
+    outside = plugins.plugin(spec.model)
+    return plugins.answer(outside, scene, plugins.settings_of(outside, spec.settings))
+
+
+def _lattice(model: Resolved[Any], spec: Lattice, watch: Watch | None) -> Solution:
+    import lumped
+
+    springs, scene = model.springs, model.scene
+    branch: Literal["stable", "path"] = "stable" if spec.branch == "buckled" else "path"
+    cut = spec.symmetry and spec.branch == "path"
+    axes = cut_axes(scene, springs.grid, masses=True) if cut else []
+    axes = [axis for axis in axes if mirrored(springs.grading, axis)]
+    for axis in axes:
+        springs = springs.halved(axis)
+
+    def answer(part: Scene) -> Solution:
+        return lumped.solve(part, springs, linear=spec.linear, branch=branch, progress=watch)
+
+    solution = by_parts(scene, axes, answer)
+    return replace(solution, settings={**solution.settings, **model.reasons})
+
+
+def _elements(scene: Scene, spec: Elements, watch: Watch | None) -> Solution:
+    import fem_reference
+
+    counts = along(scene, spec)
+    axes = cut_axes(scene, counts, masses=False) if spec.symmetry else []
+    for axis in axes:
+        counts[axis] //= 2
+
+    def answer(part: Scene) -> Solution:
+        elements = (counts[0], counts[1])
+        return fem_reference.solve(part, spec.kind, elements=elements, progress=watch, **spec.options)
+
+    return by_parts(scene, axes, answer)
+
+
+def simulate(lattice: Resolved[Lattice], duration: float, **settings: Any) -> History:
+    """Return the lattice's motion over `duration` [s]; settings: those of `lumped.simulate`."""
+    import lumped
+
+    history = lumped.simulate(lattice.scene, lattice.springs, duration, **settings)
+    return replace(history, settings={**history.settings, **lattice.reasons})
+
+
+@cache
+def warm(model: str) -> None:
+    """Import and compile what a model needs, once in a process: solve a coarse sheet, load a plug-in."""
+    if model not in OURS:
+        plugins.plugin(model)
+        return
+    coarse = {"grid": (3, 3, 2)} if model.startswith("lumped") else {"elements": 2}
+    _solve(resolve(load("one-edge-clamped"), spec_of(model, coarse)), None)

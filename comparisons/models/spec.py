@@ -1,0 +1,358 @@
+"""Models as users name them: a lattice, a pair of lattices, finite elements, or a program from outside.
+
+A spec is frozen, says nothing of a scene, and leaves open (None) what `comparisons.models.resolve` is to
+choose. It reads and writes itself as text, `NAME:key=value,key=value`, and as JSON, a name and settings.
+Sizes are numbers of masses or of elements along the shorter side, with cells as square as that allows; `NxM`
+and `NxMxL` say it in full (`comparisons.models.grids`).
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import Any, ClassVar, Self, TypedDict
+
+import numpy as np
+
+from comparisons.external.program import PREFIX
+from comparisons.models import plugins
+from comparisons.models.grids import Elements as Count
+from comparisons.models.grids import GridLike, parse_elements, scene_grid
+from sheetbench.choices import AUTO, ELEMENTS, EXTRAPOLATED, REFERENCES
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Scene
+from sheetbench.scenes.grading import Graded
+from sheetbench.scenes.grading import Grading as EdgeGrading
+from sheetbench.scenes.grid import LAYERS
+from sheetbench.scenes.quantities import LARGEST
+
+Grading = Graded | str | None
+SIZES = ("grid", "coarser", "elements")
+_PROGRAM = re.compile(rf"(?P<file>{PREFIX}[^:]+)(:(?P<rest>.*))?")
+_FROM_FILE = re.compile(r"(?P<file>.+\.py)(:(?P<object>\w+)(?![\w=]))?(:(?P<rest>.*=.*))?")
+_COUNTS = re.compile(r"\d{1,9}(x\d{1,9})+")
+
+
+class SpringKeywords(TypedDict, total=False):
+    """The flat keywords of functions that list grids and calibrations."""
+
+    k: float | None
+    layer_distance: float | None
+    grading: Grading
+
+
+class LatticeKeywords(SpringKeywords, total=False):
+    """Those of every function that takes a `Lattice`."""
+
+    grid: GridLike
+    calibration: str | None
+
+
+class ModesKeywords(LatticeKeywords, total=False):
+    """Those of natural frequencies."""
+
+    masses: str | None
+
+
+class StaticKeywords(LatticeKeywords, total=False):
+    """Those of functions that solve statics; references follow them."""
+
+    linear: bool
+    symmetry: bool
+    branch: str
+
+
+@dataclass(frozen=True)
+class Spec:
+    """What all specs have in common; its fields are the settings of the model."""
+
+    @property
+    def model(self) -> str:
+        """The model's name."""
+        raise NotImplementedError
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """What is not left open, as plain JSON data by the names that users write."""
+        given = {one: getattr(self, one.name) for one in fields(self)}
+        return {
+            str(one.metadata.get("key", one.name)): _data(value)
+            for one, value in given.items()
+            if type(value) is not type(one.default) or value != one.default
+        }
+
+    def but(self, **settings: Any) -> Self:
+        """The same model with other values of some settings."""
+        return replace(self, **settings)
+
+    def __str__(self) -> str:
+        """The text that `parse` reads as this spec."""
+        said = ",".join(f"{key}={_written(value)}" for key, value in self.settings.items())
+        return f"{self.model}:{said}" if said else self.model
+
+    @property
+    def label(self) -> str:
+        """The model and its settings in words."""
+        said = ", ".join(f"{name} {counted(value)}" for name, value in self.settings.items())
+        return f"{plugins.shown_name(self.model)} {said}"
+
+    @property
+    def size(self) -> str:
+        """The grid, or both of a pair, or the elements; nothing where they are left open."""
+        return ":".join(counted(self.settings[name]) for name in ("coarser", *SIZES) if name in self.settings)
+
+    @property
+    def series(self) -> str:
+        """What stays the same as the grid is refined: the model's name, calibration and other settings."""
+        settings = self.settings
+        grid = settings.get("grid")
+        said = [str(settings.get("calibration", ""))]
+        said += [f"{n} layers" for n in (grid[2:] if isinstance(grid, list) else []) if n != LAYERS]
+        said += [
+            name if value is True else f"{name} {counted(value)}"
+            for name, value in sorted(settings.items())
+            if name not in (*SIZES, "calibration") and value is not False
+        ]
+        return " ".join(part for part in (plugins.shown_name(self.model), *said) if part)
+
+
+@dataclass(frozen=True)
+class Lattice(Spec):
+    """A lattice: grid, as `comparisons.models.grids` reads it; calibration, a name or "auto"; k [N/m];
+    layer_distance [m]; grading, a number, towards some edges, or "auto". linear: one step with the flat
+    sheet's tangent; symmetry: solve a half or a quarter where scene and grid allow it; branch: one of
+    `choices.BRANCHES`; masses: how modes share out the mass, one of `choices.MASSES`."""
+
+    NAME: ClassVar = "lumped"
+    grid: GridLike = None
+    calibration: str | None = None
+    k: float | None = None
+    layer_distance: float | None = None
+    grading: Grading = None
+    linear: bool = False
+    symmetry: bool = False
+    branch: str = "path"
+    masses: str | None = None
+
+    @property
+    def model(self) -> str:
+        return self.NAME
+
+    @classmethod
+    def given(cls, lattice: Lattice | None, keywords: Mapping[str, Any]) -> Lattice:
+        """The lattice that a function is called with, changed by its flat keywords."""
+        return replace(lattice or cls(), **keywords)
+
+
+@dataclass(frozen=True)
+class LatticePair(Spec):
+    """Two lattices and one answer extrapolated from both; coarser: the other grid, of half as many cells
+    unless given."""
+
+    NAME: ClassVar = "lumped-pair"
+    grid: GridLike = None
+    coarser: GridLike = None
+    calibration: str | None = None
+    layer_distance: float | None = None
+    grading: Grading = None
+    linear: bool = False
+    symmetry: bool = False
+
+    @property
+    def model(self) -> str:
+        return self.NAME
+
+    def lattice(self, grid: GridLike) -> Lattice:
+        """One of the two."""
+        own = (self.layer_distance, self.grading, self.linear, self.symmetry)
+        return Lattice(grid, self.calibration, None, *own)
+
+
+@dataclass(frozen=True)
+class Elements(Spec):
+    """A finite-element reference: kind, "plate", "shell" or "solid"; count: of elements along the shorter
+    side, or (nx, ny); law: of strain, of `choices.STRAIN_LAWS`; symmetry and branch as of a lattice; the
+    others as `fem_reference` has them (`fem_reference.options`)."""
+
+    kind: str = "shell"
+    count: Count | None = field(default=None, metadata={"key": "elements"})
+    law: str | None = None
+    graded: bool | None = None
+    layers: int | None = None
+    clamp: str | None = None
+    grading: str | None = None
+    hard_edges: tuple[str, ...] | None = None
+    branch: str | None = None
+    symmetry: bool = False
+
+    @property
+    def model(self) -> str:
+        return self.kind
+
+    @classmethod
+    def given(cls, reference: Elements | str, keywords: Mapping[str, Any]) -> Elements:
+        """The reference that a function is called with, changed by what flat keywords say; solids, which are
+        solved whole, are not cut, and "path" is the usual branch."""
+        spec = reference if isinstance(reference, Elements) else cls(reference)
+        said = {
+            name: value
+            for name, value in keywords.items()
+            if value not in (None, "path") and value is not False
+        }
+        if spec.kind == "solid":
+            said.pop("symmetry", None)
+        return spec.but(**{"count" if name == "elements" else name: value for name, value in said.items()})
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        return {name: value for name, value in super().settings.items() if name != "kind"}
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """What the reference's own solver takes, beside the number of elements."""
+        return {name: v for name, v in self.settings.items() if name not in ("elements", "symmetry")}
+
+    @property
+    def elements(self) -> Count:
+        """Along the shorter side, or (nx, ny)."""
+        return ELEMENTS if self.count is None else self.count
+
+
+@dataclass(frozen=True)
+class External(Spec):
+    """A model from outside, by the name it is installed under, `FILE.py:OBJECT` or `exec:PROGRAM`, and its
+    own settings, plain JSON data."""
+
+    name: str
+    own: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def model(self) -> str:
+        return self.name
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        return dict(self.own)
+
+    def but(self, **settings: Any) -> External:
+        """The same model with other values of some settings."""
+        return External(self.name, {**self.own, **settings})
+
+
+def spec_of(model: str, settings: Mapping[str, Any]) -> Spec:
+    """The spec of a name and settings as JSON has them. Raises BadInput for a setting that a lattice or a
+    reference does not have."""
+    kind = next((one for one in (Lattice, LatticePair) if model == one.NAME), None)
+    if kind is None and model not in REFERENCES:
+        return External(model, settings)
+    own = {key: _tuple(value) for key, value in settings.items()}
+    names = [one.name for one in fields(kind or Elements)]
+    if kind is not None:
+        if unknown := [key for key in own if key not in names]:
+            raise BadInput(f"{model}: no setting '{unknown[0]}'; it has {', '.join(names)}")
+        return kind(**own)
+    if set(own) - {"elements", *names[1:]}:
+        import fem_reference
+
+        fem_reference.check(model, settings)
+    return Elements(model, own.pop("elements", None), **own)
+
+
+def lattices(
+    scene: Scene, grids: Iterable[GridLike], calibrations: Iterable[str], usual: Lattice | None = None
+) -> list[Lattice]:
+    """Every calibration on every grid, in their order; usual: what else they have. Raises BadInput for what
+    is not a grid."""
+    shapes = [scene_grid(scene, grid) for grid in grids]
+    return [(usual or Lattice()).but(grid=n, calibration=name) for name in calibrations for n in shapes]
+
+
+def pairs(
+    scene: Scene, grids: Iterable[str], calibrations: Iterable[str], usual: Lattice | None = None
+) -> list[LatticePair]:
+    """Every calibration that is extrapolated on every pair of grids, 5:9; usual: what else they have. Raises
+    BadInput for other text."""
+    shapes = []
+    for text in grids:
+        coarser, colon, finer = text.partition(":")
+        if not colon:
+            raise BadInput(f"--lumped-pair = '{text}': two grids are written 5:9, the coarser first")
+        shapes.append((scene_grid(scene, finer), scene_grid(scene, coarser)))
+    named = [name for name in calibrations if name in (AUTO, *EXTRAPOLATED)]
+    if shapes and not named:
+        raise BadInput(f"--lumped-pair: of calibrations there is none of {', '.join(EXTRAPOLATED)}")
+    distance = None if usual is None else usual.layer_distance
+    return [LatticePair(*shape, name, distance) for name in named for shape in shapes]
+
+
+def references(kind: str, elements: Iterable[str]) -> list[Elements]:
+    """A finite-element model on several meshes. Raises BadInput for what is not a number of elements."""
+    return [Elements(kind, parse_elements(text, f"--{kind}")) for text in elements]
+
+
+def parse(text: str) -> Spec:
+    """The spec of `NAME`, `FILE.py`, `FILE.py:OBJECT` or `exec:PROGRAM`, and `:key=value,key=value`.
+
+    Values are as in JSON, `8x4` is a list of numbers, anything else plain text. Raises BadInput.
+    """
+    if (found := _PROGRAM.fullmatch(text)) is not None:
+        name, rest = found["file"], found["rest"] or ""
+    elif (found := _FROM_FILE.fullmatch(text)) is not None:
+        name, rest = f"{found['file']}:{found['object'] or plugins.OBJECT}", found["rest"] or ""
+    else:
+        name, _, rest = text.partition(":")
+    settings: dict[str, Any] = {}
+    for part in filter(None, rest.split(",")):
+        key, equals, value = part.partition("=")
+        if not equals:
+            raise BadInput(
+                f"--model = '{text}': write NAME:key=value,key=value, FILE.py:CLASS:key=value or "
+                "exec:PROGRAM:key=value"
+            )
+        settings[key] = _value(value)
+    return spec_of(name, settings)
+
+
+def items(text: str | None) -> list[str]:
+    """The parts of a list as people write it: 5,9,17."""
+    return [part.strip() for part in (text or "").split(",") if part.strip()]
+
+
+def counted(value: Any) -> str:
+    """A setting as people write it, a size 9×13."""
+    if isinstance(value, float):
+        return f"{value:g}"
+    return "×".join(map(str, value)) if isinstance(value, list | tuple) else str(value)
+
+
+def _value(text: str) -> Any:
+    if _COUNTS.fullmatch(text):
+        return [int(part) for part in text.split("x")]
+    try:
+        value = json.loads(text)
+    except (ValueError, RecursionError):  # the former of an integer of thousands of digits too
+        return text
+    if isinstance(value, int | float) and not abs(value) <= LARGEST:
+        raise BadInput(f"--model: {text[:40]}: a number of at most {LARGEST:g} is needed")
+    return value
+
+
+def _written(value: Any) -> str:
+    if isinstance(value, list):
+        return "x".join(map(str, value))
+    return value if isinstance(value, str) else json.dumps(value)
+
+
+def _data(value: Any) -> Any:
+    """A field's value as JSON has it."""
+    if isinstance(value, EdgeGrading):
+        return str(value)
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    return list(value) if isinstance(value, tuple) else value
+
+
+def _tuple(value: Any) -> Any:
+    return tuple(value) if isinstance(value, list) else value

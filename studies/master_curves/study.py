@@ -22,7 +22,9 @@ from typing import Annotated, Any
 import numpy as np
 from scipy.integrate import solve_bvp
 
-from comparisons.models import registry
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import spec_of
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.table import Column, Table
@@ -147,7 +149,7 @@ def _strip(size: tuple[float, float, float], poisson: float, weight: tuple[float
 
 
 def _solve(scene: Scene, model: str = "lumped", **settings: Any) -> Solution:
-    return registry.solve(scene, model, **settings)
+    return solve(resolve(scene, spec_of(model, settings)))
 
 
 def measure(progress: Callable[[str], None]) -> MasterCurves:

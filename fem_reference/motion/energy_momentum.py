@@ -19,23 +19,13 @@ from fem_reference.motion.moving import Motion
 
 SOLVED = 1e-13  # last correction, relative to the displacement
 CORRECTIONS = 30
-HALVED = 6  # times
 REUSED = 0.3  # a correction's share of the one before, up to which factors are kept
 
 
 class EnergyMomentum(GeneralisedAlpha):
     """Steps of a reference, of a fixed length."""
 
-    def _advanced(self, motion: Motion, h: float, halved: int = 0) -> Motion:
-        try:
-            return self._once(motion, h)
-        except StepFailed:
-            self._factor = None
-            if halved == HALVED:
-                raise
-            return self._advanced(self._advanced(motion, 0.5 * h, halved + 1), 0.5 * h, halved + 1)
-
-    def _once(self, motion: Motion, h: float) -> Motion:
+    def _advanced(self, motion: Motion, h: float) -> Motion:
         model, half_way, time = self._model, motion.time + 0.5 * h, motion.time + h
 
         def at(q: np.ndarray) -> Motion:

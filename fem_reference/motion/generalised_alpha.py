@@ -30,7 +30,11 @@ SOLVED = 1e-3  # last correction, relative to the error allowed
 ROUNDED = 1e-13  # correction, relative to the displacement
 CORRECTIONS = 12
 QUICK = 0.1  # a correction's share of the one before, up to which factors are kept
+HALVED = 6  # times, a fixed step that fails
 SMALLEST = 1e-9  # step, relative to the run
+
+
+REMEMBERED = ("step", "_first", "_before", "_largest", "_local", "factorisations", "rejected", "failed")
 
 
 class StepFailed(ArithmeticError):
@@ -53,7 +57,20 @@ class GeneralisedAlpha:
             1e-9,
             1.0,
         )  # displacement [m], and the last step's error over that allowed
-        self.factorisations = self.rejected = 0
+        self.factorisations = self.rejected = self.failed = 0
+
+    def forget(self) -> None:
+        """Drop the factors, so that a resumed run goes on exactly as one never stopped."""
+        self._factor = None
+
+    def memory(self) -> dict[str, float]:
+        """What a resumed run needs besides the motion."""
+        return {name: float(getattr(self, name)) for name in REMEMBERED}
+
+    def recall(self, memory: dict[str, float]) -> None:
+        """Take up what `memory` gave."""
+        for name in REMEMBERED:
+            setattr(self, name, type(getattr(self, name))(memory[name]))
 
     def begin(self, time: float, q: np.ndarray, v: np.ndarray) -> Motion:
         """The motion from a time on, its velocities as motions have them and with the accelerations of its
@@ -80,16 +97,15 @@ class GeneralisedAlpha:
         while True:
             count = np.ceil(at_most / self.step - 1e-9)
             h = at_most / count if count < 4 else self.step
+            before = self._shifted(motion, h)
             try:
-                after = self._advanced(motion, h)
+                after = self._halving(motion, h)
             except (StepFailed, SingularMatrixError) as failure:
-                self._factor = None
                 if self._fixed or h < smallest:
                     raise StepFailed(f"{failure} in a step of {h:.3g} s") from None
                 self.step = 0.25 * h
-                self.rejected += 1
                 continue
-            jump = self._model.displacement(after.algorithm - self._shifted(motion, h))
+            jump = self._model.displacement(after.algorithm - before)
             shown = self._model.displacement(after.q)
             largest = max(self._largest, float(np.abs(shown).max()))
             constant = self._beta + 0.5 * (self._am - self._af) - 1.0 / 6.0
@@ -98,11 +114,28 @@ class GeneralisedAlpha:
                 self.step = h * max(0.2, 0.9 * error ** (-1.0 / 3.0))
                 self.rejected += 1
                 continue
-            self._before, self._largest, self._local = h, largest, error
+            if not self._fixed:
+                self._before = h
+            self._largest, self._local = largest, error
             wanted = 0.9 * max(error, 1e-9) ** (-1.0 / 3.0)
             if not self._fixed and (wanted < 0.95 or wanted > 1.25):
                 self.step = h * min(wanted, 2.0)
             return after
+
+    def _halving(self, motion: Motion, h: float, times: int = 0) -> Motion:
+        """A step, in halves where it is fixed and fails. Raises StepFailed, SingularMatrixError."""
+        try:
+            after = self._advanced(motion, h)
+        except (StepFailed, SingularMatrixError):
+            self._factor = None
+            self.failed += 1
+            if not self._fixed or times == HALVED:
+                raise
+            middle = self._halving(motion, 0.5 * h, times + 1)
+            return self._halving(middle, 0.5 * h, times + 1)
+        if self._fixed:
+            self._before = h
+        return after
 
     def _shifted(self, motion: Motion, h: float) -> np.ndarray:
         """The algorithm's acceleration as steps of this length have it."""

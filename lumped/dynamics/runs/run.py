@@ -16,13 +16,12 @@ from lumped.dynamics.integrator import DenseIntegrator, Integrator, StepFailed
 from lumped.dynamics.runs import watchdog
 from lumped.dynamics.runs.plan import Plan
 from lumped.dynamics.runs.sampling import Sampling
-from lumped.dynamics.runs.store import FolderStore, MemoryStore
 from lumped.dynamics.system import State, System
 from lumped.statics.faults import Fault
 from sheetbench.numerics.reduced import SingularMatrixError
+from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT
+from sheetbench.runs.store import FolderStore, MemoryStore
 from sheetbench.scenes import Status
-
-SAMPLES_PER_CHECKPOINT = 50
 
 
 @dataclass

@@ -8,6 +8,7 @@ from lumped.dynamics.runs.observation import Observed, observe
 from lumped.dynamics.system import State, System
 from lumped.mid_surface import MidSurface
 from sheetbench.numerics.maps import csr_arrays
+from sheetbench.runs.columns import Part, width
 from sheetbench.scenes.history import ENERGIES
 
 
@@ -22,7 +23,7 @@ class Sampling:
         nothing = np.zeros((system.assembly.pattern.size, 3))
         actuators = system.coupling.wrenches(nothing, nothing) if system.coupling is not None else {}
         holders = system.coupling.reactions(nothing) if system.coupling is not None else {}
-        self.columns: list[tuple[str, str, tuple[int, ...]]] = [
+        self.columns: list[Part] = [
             ("time", "", ()),
             *(("energy", name, ()) for name in ENERGIES),
             *(("probe", name, (3,)) for name in scene.probes),
@@ -41,7 +42,7 @@ class Sampling:
                 csr_arrays(self._probes.matrix(masses)),
                 csr_arrays(system.problem.constraints.summed()),
             )
-        self.width = sum(int(np.prod(shape)) for _, _, shape in self.columns)
+        self.width = width(self.columns)
 
     def row(self, state: State, dissipated: float, work: float) -> np.ndarray:
         """The sample of a state, (width,)."""
@@ -65,13 +66,3 @@ class Sampling:
             parts.extend(system.coupling.reactions(exerted).values())
             parts.extend(w.ravel() for w in system.coupling.wrenches(state.u, exerted).values())
         return np.concatenate(parts)
-
-    def split(self, rows: np.ndarray) -> dict[str, dict[str, np.ndarray]]:
-        """Rows (n, width) as kind → name → (n, …)."""
-        found: dict[str, dict[str, np.ndarray]] = {kind: {} for kind, _, _ in self.columns}
-        first = 0
-        for kind, name, shape in self.columns:
-            width = int(np.prod(shape))
-            found[kind][name] = rows[:, first : first + width].reshape(len(rows), *shape)
-            first += width
-        return found

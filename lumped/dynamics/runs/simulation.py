@@ -23,7 +23,6 @@ from lumped.dynamics.runs.initial import initial_state
 from lumped.dynamics.runs.plan import Plan, plan_run
 from lumped.dynamics.runs.run import Run
 from lumped.dynamics.runs.sampling import Sampling
-from lumped.dynamics.runs.store import FolderStore, MemoryStore
 from lumped.dynamics.system import System
 from lumped.lattice import Weights
 from lumped.statics.fields import field_mesh
@@ -31,6 +30,8 @@ from lumped.statics.solver import build_problem
 from sheetbench.choices import INTEGRATOR
 from sheetbench.clock import now
 from sheetbench.numerics.threads import one_blas_thread
+from sheetbench.runs.columns import split
+from sheetbench.runs.store import FolderStore, MemoryStore
 from sheetbench.scenes import AnyScene, History, scene_of
 from sheetbench.scenes.grading import as_settings
 from sheetbench.scenes.quantities import require_positive
@@ -131,7 +132,7 @@ def simulate(
             resumed_from = run.reached.state.time
             status, message = run.finish()
         done = now()
-        parts = sampling.split(kept.samples())
+        parts = split(sampling.columns, kept.samples())
         whole = kept.frames()
     settings["step"] = "adaptive" if plan.adapts else plan.every / plan.steps
     settings["every"] = plan.every

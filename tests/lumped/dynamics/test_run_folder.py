@@ -12,8 +12,8 @@ from dynamic_cases import scene, springs
 from limits import at_most
 
 import lumped
-from lumped.dynamics.runs.store import FolderStore
 from sheetbench.files import only_writer
+from sheetbench.runs.store import FolderStore
 from sheetbench.scenes import BadInput
 
 DURATION = 0.025  # s, two checkpoints

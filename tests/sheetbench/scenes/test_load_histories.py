@@ -13,9 +13,9 @@ import lumped
 from comparisons.models.scales import scales
 from comparisons.models.symmetry import half, planes
 from lumped.dynamics import INTEGRATORS
-from lumped.dynamics.runs.run import SAMPLES_PER_CHECKPOINT
 from lumped.loads import Loads
 from sheetbench import scenes
+from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT
 from sheetbench.scenes import Clamped, EdgeLoad, FactorTable, Pressure, Scene, Status
 
 TIP = (0.188, 0.094)

@@ -1,0 +1,25 @@
+"""What the numbers of a sample are: parts of a row by kind and name."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+Part = tuple[str, str, tuple[int, ...]]  # kind, name, shape
+
+
+def width(columns: Sequence[Part]) -> int:
+    """How many numbers a row has."""
+    return sum(int(np.prod(shape)) for _, _, shape in columns)
+
+
+def split(columns: Sequence[Part], rows: np.ndarray) -> dict[str, dict[str, np.ndarray]]:
+    """Rows (n, width) as kind → name → (n, …)."""
+    found: dict[str, dict[str, np.ndarray]] = {kind: {} for kind, _, _ in columns}
+    first = 0
+    for kind, name, shape in columns:
+        numbers = int(np.prod(shape))
+        found[kind][name] = rows[:, first : first + numbers].reshape(len(rows), *shape)
+        first += numbers
+    return found

@@ -75,9 +75,9 @@ def test_lattice_and_shell_move_alike():
 
 def test_lattice_and_shell_move_alike_with_a_driven_chain():
     """Its segments are rigid, the shell's rod is not: 0.1 to 0.2 % of the peak are the rod's."""
-    both = sb.compare("actuated-edge", duration=0.1, grid=9, elements=4, uncertainty=False)
+    both = sb.compare("actuated-edge", duration=0.06, grid=9, elements=2, uncertainty=False)
     (off,) = both.differences
-    assert both.converged and off["largest"] < 0.005
+    assert both.converged and off["largest"] < 0.01
     shell, lattice = both.histories["shell"].energies["work"], both.histories["lumped"].energies["work"]
     assert shell[-1] == pytest.approx(lattice[-1], rel=0.02)
 

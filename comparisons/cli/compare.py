@@ -58,7 +58,8 @@ def command(
 ) -> None:
     """Solve a scene with the lattice and with a reference, and show what differs and what it cost.
 
-    Where no calibration is named, uniform springs are shown alongside.
+    Where no calibration is named, uniform springs are shown alongside. With --duration and --out runs stream
+    to the folder, and the same command resumes them.
     """
     from comparisons.comparison.comparison import compare, load_static
     from comparisons.models.context import running
@@ -90,6 +91,7 @@ def command(
                 law=law,
                 uncertainty=uncertainty is not False,
                 frames=FRAMES if output.out is not None else 0,
+                store=out.reserve("runs/"),
             )
             out.show(both.report())
         return

@@ -58,10 +58,8 @@ class Simulation(Answer):
         return {**self.history.files(), "frames.pvd": series}
 
     def notes(self) -> list[str]:
-        """What it went on from, what was chosen, and what the history says."""
-        resumed = self.history.resumed_from
-        earlier = f"went on from {resumed:.4g} s, which an earlier run had reached"
-        return [*([earlier] if resumed else []), *told(self.history.settings), *self.history.notes()]
+        """What was chosen, and what the history says."""
+        return [*told(self.history.settings), *self.history.notes()]
 
     def complaints(self) -> list[str]:
         """Why the run did not reach its end, and what was measured outside it."""

@@ -7,8 +7,11 @@ both errors are at least halved by the finer run.
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
@@ -128,6 +131,7 @@ def compare_motion(
     uncertainty: bool = True,
     every: float | None = None,
     frames: int = 0,
+    store: Path | None = None,
     large: bool = False,
     progress: Progress = silent,
     **keywords: Unpack[LatticeKeywords],
@@ -136,8 +140,9 @@ def compare_motion(
 
     elements: 8 along the shorter side unless given. uncertainty: move the reference twice more, on elements
     twice as large and with steps twice as long. every [s]: distance of samples, 1/100 of the lowest period
-    unless given. frames: whole displacements to keep. progress: told what is being done, how large it is and
-    how long it may take. Raises BadInput as `compare` and `simulate` do, and for what no reference moves.
+    unless given. frames: whole displacements to keep. store: a folder in which every run has one to stream
+    to; runs that were stopped go on from there. progress: told what is being done, how large it is and how
+    long it may take. Raises BadInput as `compare` and `simulate` do, and for what no reference moves.
     """
     import fem_reference
 
@@ -147,6 +152,13 @@ def compare_motion(
     resolve(asked, judge)
     model = resolve(asked, Lattice.given(lattice, keywords), "motion")
     name, along = judge.kind, tuple(sizes.along(asked, judge)[:2])
+
+    def folder(name: str, *of: Any) -> Path | None:
+        """Where a run with these settings is kept."""
+        if store is None:
+            return None
+        text = json.dumps([asked.document(), duration, every, frames, of], sort_keys=True, default=str)
+        return store / f"{name}-{hashlib.sha256(text.encode()).hexdigest()[:12]}"
 
     def told(doing: str, begin: Work) -> Callable[[float], None]:
         pace = Pace(duration)
@@ -171,6 +183,7 @@ def compare_motion(
             duration,
             elements=counts,
             every=spacing,
+            store=folder(judge.kind, spacing, counts, judge.options, settings),
             progress=watch,
             **judge.options,
             **settings,
@@ -178,7 +191,8 @@ def compare_motion(
 
     fem_reference.require_moving(asked, name)
     watch = told("moving the lattice", Work("moving the lattice"))
-    own = simulate(model, duration, every=every, frames=frames, progress=watch)
+    kept = folder("lumped", model.settings)
+    own = simulate(model, duration, every=every, frames=frames, store=kept, progress=watch)
     spacing = own.settings["every"]
     truth = moved(along, name, spacing, frames=frames)
     bars: dict[str, float | None] = {}

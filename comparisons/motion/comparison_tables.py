@@ -35,7 +35,10 @@ def report(found: MotionComparison) -> Report:
         lead=f"moving for {histories[reference].time[-1]:g} s; differences from the {reference}",
         document=found.as_dict(),
         tables=(_measures(found), _differences(found), _runs(found)),
-        notes=(*_bars(found), *(f"{name}: {history.balance_note}" for name, history in histories.items())),
+        notes=(
+            *_bars(found),
+            *(f"{name}: {note}" for name, history in histories.items() for note in history.notes()),
+        ),
         complaints=tuple(
             f"{name}: {history.status}: {history.message}"
             for name, history in histories.items()

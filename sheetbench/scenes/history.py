@@ -116,14 +116,18 @@ class History(Answer):
         return {"history.csv": lambda path: write_text(path, self.series().to_csv())}
 
     def notes(self) -> list[str]:
-        """Why the integrator is the one that it is, how long an explicit one's steps may be, and how well the
-        run kept its energy, a line each."""
+        """Where the run went on from, why the integrator is the one that it is, how long explicit steps
+        may be, which failed, and how well the run kept its energy, a line each."""
         notes = []
+        if self.resumed_from:
+            notes.append(f"went on from {self.resumed_from:.4g} s, which an earlier run had reached")
         if why := self.settings.get("integrator_reason"):
             notes.append(f"integrator {self.integrator}: {why}")
         if limit := self.settings.get("largest_step"):
             taken = number(1e3 * self.settings["step"], ".4g")
             notes.append(f"steps of {taken} ms; the largest stable one is {number(1e3 * limit, '.4g')} ms")
+        if failed := self.settings.get("failed_steps"):
+            notes.append(f"{failed} steps failed and were made again, shorter")
         return [*notes, self.balance_note] if len(self.time) else notes
 
     @property

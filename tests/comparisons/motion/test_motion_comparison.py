@@ -9,11 +9,12 @@ import pytest
 
 import sheetbench as sb
 from comparisons.cli import main
+from comparisons.motion.comparison import compare_motion
 from comparisons.motion.measures import difference, extrema, measured_alike
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import read
 from sheetbench.errors import BadInput
-from sheetbench.scenes import History, Status
+from sheetbench.scenes import History, Status, load
 from sheetbench.scenes.history import ENERGIES
 
 SMALL = {"grid": 5, "elements": 2}
@@ -145,3 +146,15 @@ def test_options_of_statics_are_refused_with_a_duration(capsys):
         main(["compare", "two-edges-settling", "--duration", "0.1", "--symmetry"])
     assert end.value.code == 2
     assert "--symmetry" in capsys.readouterr().err
+
+
+def test_runs_of_a_comparison_are_gone_on_with(tmp_path):
+    """A second time every run goes on from its last checkpoint, to the same answer to the last bit."""
+    asked = {"duration": 0.02, "every": 2e-4, "grid": 5, "elements": 2, "store": tmp_path}
+    first, second = (compare_motion(load("two-edges-settling"), **asked) for _ in range(2))
+    assert all(history.resumed_from > 0.0 for history in second.histories.values())
+    assert any("went on from" in note for note in second.report().notes)
+    for name, history in first.histories.items():
+        for probe, u in history.probes.items():
+            assert np.array_equal(second.histories[name].probes[probe], u)
+    assert len(list(tmp_path.iterdir())) == 4  # the lattice, the shell, and its two for the bars

@@ -69,6 +69,6 @@ def command(
             given[name] = float(value)
         except ValueError:
             raise BadInput(f"--coefficient {text}: NAME=VALUE, the value a number") from None
-    found = homogenise(of, cell_of(cell, length, of.sheet.thickness, hinge), given)
+    moduli = homogenise(of, cell_of(cell, length, of.sheet.thickness, hinge), given)
     with output.open(scene=of) as out:
-        out.show(found.report())
+        out.show(moduli.report())

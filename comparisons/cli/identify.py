@@ -101,12 +101,12 @@ def command(
     from comparisons.models.grids import parse_elements
     from comparisons.models.spec import items
 
-    asked = load_static(scene)
-    data = read(measured, asked)
-    with output.open(scene=asked) as out:
+    loaded = load_static(scene)
+    data = read(measured, loaded)
+    with output.open(scene=loaded) as out:
         try:
-            found = identify(
-                asked,
+            fit = identify(
+                loaded,
                 data,
                 items(unknown),
                 lattice.spec,
@@ -117,5 +117,5 @@ def command(
             )
         except NotReached as error:
             out.stop(f"no answer with the scene's own values: {error}")
-        report = found.report()
+        report = fit.report()
         out.show(replace(report, settings={**report.settings, "measured": str(measured)}))

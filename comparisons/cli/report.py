@@ -40,25 +40,25 @@ def command(
     from sheetbench.answers.files import write_text
     from sheetbench.errors import BadInput
 
-    found = read(folder)
-    if not found.studies:
-        said = f"'{folder}': holds no study: no verb wrote here with --out."
-        raise BadInput(" ".join([said, *found.troubles[:1]]))
-    text = page(found, folder.resolve().name)
+    contents = read(folder)
+    if not contents.studies:
+        trouble = f"'{folder}': holds no study: no verb wrote here with --out."
+        raise BadInput(" ".join([trouble, *contents.troubles[:1]]))
+    text = page(contents, folder.resolve().name)
     target = folder / "report.html" if out is None else out
     write_text(target, text)
     size = target.stat().st_size
-    troubles = [*found.troubles, *(said for study in found.studies for said in study.troubles)]
+    troubles = [*contents.troubles, *(trouble for study in contents.studies for trouble in study.troubles)]
     if json:
-        studies = [{"place": s.place, "verb": s.verb, "title": s.title} for s in found.studies]
-        others = [name for name, _ in found.others]
+        studies = [{"place": s.place, "verb": s.verb, "title": s.title} for s in contents.studies]
+        others = [name for name, _ in contents.others]
         console.document(
             {"file": str(target), "bytes": size, "studies": studies, "others": others, "troubles": troubles}
         )
     else:
-        many = len(found.studies)
+        many = len(contents.studies)
         console.note(f"{many} {'study' if many == 1 else 'studies'} in {target}, {memory_of(size)}")
     if show and not browse(target.resolve().as_uri()):
         console.warn("There is no browser here: open the page where there is one.")
-    for said in troubles:
-        console.warn(said)
+    for trouble in troubles:
+        console.warn(trouble)

@@ -166,7 +166,7 @@ class Crosscheck(Answer):
         probe, axis = np.unravel_index(np.argmax(np.abs(limit)), limit.shape)
         pairs = self.pairs(scene)
         between = next((p for p in pairs if {p.a, p.b} == {truth.name, one.name}), None)
-        apart = [
+        differing = [
             p.b if p.a == one.name else p.a for p in pairs if p.distinguishable_at and one.name in (p.a, p.b)
         ]
         return LimitRow(
@@ -178,7 +178,7 @@ class Crosscheck(Answer):
             float(bar.bar[probe, axis]),
             None if between is None else between.difference,
             None if between is None else between.bars,
-            ", ".join(apart) or "none",
+            ", ".join(differing) or "none",
         )
 
     def notes(self) -> list[str]:

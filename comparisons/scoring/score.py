@@ -107,9 +107,9 @@ class Score(ShownAnswer):
     @property
     def cases(self) -> list[CaseRow]:
         """One a case."""
-        found = ((a, self.error(a)) for a in self.answers)
+        rated = ((a, self.error(a)) for a in self.answers)
         return [
-            CaseRow(a.reference.name, e, a.reference.bar, e > a.reference.bar, a.seconds) for a, e in found
+            CaseRow(a.reference.name, e, a.reference.bar, e > a.reference.bar, a.seconds) for a, e in rated
         ]
 
     @property
@@ -226,13 +226,13 @@ def _rows(answer: Answer) -> list[Row]:
     off, truth = np.abs(answer.values - known.values), np.abs(known.values)
     if known.suite == "modes":
         names, errors = [f"mode {n + 1}" for n in range(len(truth))], off / truth
-        apart = off > known.bars
+        distinguishable = off > known.bars
     else:
         names = list(known.scene.probes)
         errors = off.reshape(len(off), -1).max(axis=1) / truth.max()
-        apart = (off > known.bars).reshape(len(off), -1).any(axis=1)
-    found = zip(names, errors.tolist(), apart.tolist(), strict=True)
-    return [Row(known.name, name, error, told_apart) for name, error, told_apart in found]
+        distinguishable = (off > known.bars).reshape(len(off), -1).any(axis=1)
+    every = zip(names, errors.tolist(), distinguishable.tolist(), strict=True)
+    return [Row(known.name, name, error, differs) for name, error, differs in every]
 
 
 def own_models(cases: Sequence[Reference]) -> list[Standing]:
@@ -245,14 +245,14 @@ def own_models(cases: Sequence[Reference]) -> list[Standing]:
     return [
         Standing(
             name,
-            mean([found[case.name]["error"] for case in cases], cases),
+            mean([of_model[case.name]["error"] for case in cases], cases),
             _geometric([row["seconds"] for row in answered.values()]),
-            OURS if next(iter(found.values()))["model"] in OWN_MODELS else OTHERS,
+            OURS if next(iter(of_model.values()))["model"] in OWN_MODELS else OTHERS,
             *_worst({case: row["error"] for case, row in answered.items()}),
             refused=len(cases) - len(answered),
         )
-        for name, found in rows.items()
-        if (answered := {case: row for case, row in found.items() if row["error"] is not None})
+        for name, of_model in rows.items()
+        if (answered := {case: row for case, row in of_model.items() if row["error"] is not None})
     ]
 
 

@@ -25,13 +25,13 @@ say that they are the reference set {version} of sheetbench. The program has a l
 
 def report(suite: str | None = None) -> Report:
     """What `sheetbench suite` shows of all cases, or those of one suite."""
-    found = references(suite)
+    known = references(suite)
     whole = document()
-    kept = {**whole, "cases": [case for case in whole["cases"] if case["name"] in found]}
-    suites = dict.fromkeys(case.suite for case in found.values())
+    kept = {**whole, "cases": [case for case in whole["cases"] if case["name"] in known]}
+    suites = dict.fromkeys(case.suite for case in known.values())
     texts = {
         "LICENCE.txt": LICENCE.format(version=whole["version"]),
-        **{f"{name}.toml": _toml(case) for name, case in found.items()},
+        **{f"{name}.toml": _toml(case) for name, case in known.items()},
         **{f"values-{name}.csv": _values(list(references(name).values())) for name in suites},
         **{f"answers-{name}.csv": _form(list(references(name).values())) for name in suites},
     }
@@ -39,11 +39,11 @@ def report(suite: str | None = None) -> Report:
         name="suite",
         page="cases",
         title=f"reference set {whole['version']}",
-        subtitle=f"{len(found)} cases, {whole['licence']}",
+        subtitle=f"{len(known)} cases, {whole['licence']}",
         document=kept,
         tables=(
-            Table.of(Reference, found.values(), "Cases of the reference set", "cases", fields=CASE),
-            *([standing(found)] if suite in (None, "statics") else []),
+            Table.of(Reference, known.values(), "Cases of the reference set", "cases", fields=CASE),
+            *([standing(known)] if suite in (None, "statics") else []),
         ),
         notes=(
             "bar: what the reference's mesh leaves uncertain, of its largest value; agreeing: codes within "
@@ -55,18 +55,18 @@ def report(suite: str | None = None) -> Report:
     )
 
 
-def standing(found: Mapping[str, Reference]) -> Table:
+def standing(cases: Mapping[str, Reference]) -> Table:
     """How our own models and other programs fare on the statics, the best first."""
-    ours = own_models([case for case in found.values() if case.suite == "statics"])
+    ours = own_models([case for case in cases.values() if case.suite == "statics"])
     rows = sorted(ours, key=lambda one: one.score)
-    said = (
+    text = (
         "score: geometric mean of the errors on the statics, 100 % for a case that is refused; worst: of "
         "those answered; time: of a solve, geometric mean, on "
         f"{document()['made_with']['machine'].get('processor', 'the machine that made the set')}"
     )
     fields = ("model", "score", "worst_error", "worst", "refused", "seconds")
     caption = "Our models and other programs on the statics"
-    return Table.of(Standing, rows, caption, "standing", fields=fields, text=said)
+    return Table.of(Standing, rows, caption, "standing", fields=fields, text=text)
 
 
 def _toml(case: Reference) -> str:
@@ -75,20 +75,20 @@ def _toml(case: Reference) -> str:
     return to_toml(case.scene)
 
 
-def _values(found: Sequence[Reference]) -> str:
+def _values(cases: Sequence[Reference]) -> str:
     """Values and bars as CSV."""
-    if found[0].suite == "modes":
+    if cases[0].suite == "modes":
         rows: list[list[Any]] = [["case", "mode", "frequency", "bar"]]
-        for case in found:
+        for case in cases:
             rows += [
                 [case.name, n + 1, f, by]
                 for n, (f, by) in enumerate(zip(case.values, case.bars, strict=True))
             ]
         return _csv(rows)
-    moving = found[0].suite == "settling"
+    moving = cases[0].suite == "settling"
     head = ["ux", "uy", "uz", "bar_x", "bar_y", "bar_z"]
     rows = [["case", *(["time"] if moving else []), "probe", "x", "y", *head]]
-    for case in found:
+    for case in cases:
         for probe, u, by in zip(case.scene.probes.items(), case.values, case.bars, strict=True):
             name, point = probe
             if case.time is None:
@@ -101,11 +101,11 @@ def _values(found: Sequence[Reference]) -> str:
     return _csv(rows)
 
 
-def _form(found: Sequence[Reference]) -> str:
+def _form(cases: Sequence[Reference]) -> str:
     """A file of answers with the numbers left out."""
-    suite = found[0].suite
+    suite = cases[0].suite
     rows: list[list[Any]] = [[*HEADERS[suite], "seconds"]]
-    for case in found:
+    for case in cases:
         if suite == "modes":
             rows += [[case.name, n + 1, "", ""] for n in range(len(case.values))]
         elif case.time is None:

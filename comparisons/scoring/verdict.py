@@ -25,17 +25,17 @@ def verdict(answers: Sequence[Answer], errors: Sequence[float], faults: Sequence
     if faults:
         return f"Verdict: {'; '.join(faults)}."
     cases = len(answers)
-    met = sum(error <= answer.reference.bar for answer, error in zip(answers, errors, strict=True))
-    if met == cases:
+    within = sum(error <= answer.reference.bar for answer, error in zip(answers, errors, strict=True))
+    if within == cases:
         return f"Verdict: not distinguishable from the reference in {_all(cases)}."
     worst, off = max(zip(answers, errors, strict=True), key=lambda both: both[1])
-    said = f"{met} of {cases} cases within the reference's bar"
+    sentence = f"{within} of {cases} cases within the reference's bar"
     stiffer = stiffness(answers)
     if stiffer is not None:
         side = "stiff" if stiffer > 0.0 else "soft"
-        which = _all(cases) if met == 0 else "most cases"
-        said = f"{which} too {side} by about {_percent(abs(stiffer))}; {said}"
-    return f"Verdict: {said}; worst {worst.reference.name}, {_percent(off)} off."
+        which = _all(cases) if within == 0 else "most cases"
+        sentence = f"{which} too {side} by about {_percent(abs(stiffer))}; {sentence}"
+    return f"Verdict: {sentence}; worst {worst.reference.name}, {_percent(off)} off."
 
 
 def stiffness(answers: Sequence[Answer]) -> float | None:

@@ -25,5 +25,5 @@ def command(
     """
     with output.open() as out:
         with out.campaign(campaign) as run:
-            found = study(count=scenes, compared=compared, **run)
-        out.show(found.report())
+            result = study(count=scenes, compared=compared, **run)
+        out.show(result.report())

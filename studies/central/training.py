@@ -71,10 +71,10 @@ class Trained:
 def bent_scenes() -> dict[str, Scene]:
     """The seed's sheet under a thousandth of its weight, held seven ways, and a force at its free corner."""
     feather = Gravity(acceleration=(0.0, 0.0, -9.81e-3))
-    found = {name: _scene(held, feather) for name, held in HELD.items()}
+    bent = {name: _scene(held, feather) for name, held in HELD.items()}
     force = PointLoad(at=(SIDE, SIDE), force=(0.0, 0.0, 1e-4))
     return {
-        **found,
+        **bent,
         "a force at the free corner": _scene(HELD["two adjacent edges clamped"], None, (force,)),
     }
 
@@ -82,8 +82,8 @@ def bent_scenes() -> dict[str, Scene]:
 def stretched_scenes() -> dict[str, Scene]:
     """A third of the thickness under the whole weight, and the published model's bent edge."""
     thin = {**SEED.sheet.model_dump(), "thickness": 0.001}
-    found = {name: _scene(HELD[name], SEED.gravity).replace(sheet=thin) for name in STRETCHED}
-    return {**found, "a bent edge": load("curved-edge")}
+    stretched = {name: _scene(HELD[name], SEED.gravity).replace(sheet=thin) for name in STRETCHED}
+    return {**stretched, "a bent edge": load("curved-edge")}
 
 
 def trained(poisson: float) -> Trained:
@@ -148,9 +148,9 @@ def _displacement(
     if a is not None:
         form = np.array([[1.0, ratio, 0.0], [ratio, 1.0, 0.0], [0.0, 0.0, ratio]])
         section = Section(c * section.membrane[0, 0] * form, a * section.bending[0, 0] * form, section.shear)
-    found = fem_reference.solve(scene, model=model, elements=ELEMENTS, section=section)
-    return found.displacement(POINTS)
+    solution = fem_reference.solve(scene, model=model, elements=ELEMENTS, section=section)
+    return solution.displacement(POINTS)
 
 
-def _error(found: np.ndarray, truth: np.ndarray) -> float:
-    return float(np.abs(found - truth).max() / np.abs(truth).max())
+def _error(displacement: np.ndarray, truth: np.ndarray) -> float:
+    return float(np.abs(displacement - truth).max() / np.abs(truth).max())

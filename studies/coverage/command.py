@@ -41,10 +41,10 @@ def command(
         require_choice("model", name, REFERENCES)
     with output.open() as out:
         with out.campaign(campaign) as run:
-            found = study.coverage(
+            coverage = study.coverage(
                 **run,
                 count=scenes,
                 seed=seed,
                 models=[name for name in study.MODELS if name in (model or study.MODELS)],
             )
-        out.show(found.report())
+        out.show(coverage.report())

@@ -32,12 +32,12 @@ def with_row(page: str, rows: list[dict[str, Any]]) -> str:
     except StopIteration:
         raise SystemExit(f"no table begins with {HEAD}") from None
     end = next(i for i in range(head, len(lines)) if not lines[i].startswith("|"))
-    asked = [cell.strip().split(", ") for cell in lines[head].strip("|").split("|")[1:]]
-    found = {(row["model"], str(row["elements"])): row for row in rows}
-    cells = [found.get((model, n)) for model, n in asked]
+    wanted = [cell.strip().split(", ") for cell in lines[head].strip("|").split("|")[1:]]
+    by_mesh = {(row["model"], str(row["elements"])): row for row in rows}
+    cells = [by_mesh.get((model, n)) for model, n in wanted]
     scenes = max(row["scenes"] for row in rows)
-    told = [f"{100.0 * cell['inside']:.1f} / {cell['loose']:.1f}" if cell else "" for cell in cells]
-    lines.insert(end, f"{FIRST}{scenes} scenes) | " + " | ".join(told) + " |")
+    texts = [f"{100.0 * cell['inside']:.1f} / {cell['loose']:.1f}" if cell else "" for cell in cells]
+    lines.insert(end, f"{FIRST}{scenes} scenes) | " + " | ".join(texts) + " |")
     return "\n".join(lines) + "\n"
 
 

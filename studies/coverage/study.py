@@ -103,18 +103,18 @@ class Coverage:
         return tables.report(self)
 
 
-def _row(model: str, elements: int, found: Sequence[Component]) -> dict[str, Any]:
-    inside = float(np.mean([c.inside for c in found]))
-    ratios = [c.bar / c.error for c in found if c.error > 0.0]
+def _row(model: str, elements: int, components: Sequence[Component]) -> dict[str, Any]:
+    inside = float(np.mean([c.inside for c in components]))
+    ratios = [c.bar / c.error for c in components if c.error > 0.0]
     loose = float(np.median(ratios)) if ratios else float("nan")
     return {
         "model": model,
         "elements": elements,
-        "scenes": len({c.scene for c in found}),
-        "components": len(found),
+        "scenes": len({c.scene for c in components}),
+        "components": len(components),
         "inside": inside,
         "loose": loose,
-        "farthest": max((c.error / c.bar for c in found if c.bar > 0.0), default=float("nan")),
+        "farthest": max((c.error / c.bar for c in components if c.bar > 0.0), default=float("nan")),
         "met": inside >= GOAL and not loose > LOOSE,
     }
 
@@ -143,31 +143,31 @@ def coverage(
 
     def answers(scenes: Sequence[Scene]) -> list[dict[tuple[str, int], Finished]]:
         """Of every scene on every mesh, the dear ones on scenes that the cheap ones have not ruled out."""
-        found: list[dict[tuple[str, int], Finished]] = [{} for _ in scenes]
-        for asked in (sizes[:1], sizes[1:], None):
-            left = [i for i, one in enumerate(found) if _failure(one) is None]
+        outcomes: list[dict[tuple[str, int], Finished]] = [{} for _ in scenes]
+        for batch in (sizes[:1], sizes[1:], None):
+            left = [i for i, one in enumerate(outcomes) if _failure(one) is None]
             runs = [
-                (i, (model, n), _run(scenes[i], model, n, asked is None))
+                (i, (model, n), _run(scenes[i], model, n, batch is None))
                 for i in left
                 for model in models
-                for n in ([truth[model]] if asked is None else asked)
+                for n in ([truth[model]] if batch is None else batch)
             ]
             done = carry_out(
                 [run for *_, run in runs], store, workers=workers, pool=pool, retry=retry, progress=progress
             )
             for (i, key, _), outcome in zip(runs, done, strict=True):
-                found[i][key] = outcome
-        return found
+                outcomes[i][key] = outcome
+        return outcomes
 
     endless, chosen, skipped = drawn_scenes(seed), list[str](), dict[str, str]()
     components: list[Component] = []
     while len(chosen) < count:
         drawn = list(islice(endless, count - len(chosen)))
-        found = answers(drawn)
-        ends = [list(outcomes.values())[-1] for outcomes in found]
+        of_scenes = answers(drawn)
+        ends = [list(outcomes.values())[-1] for outcomes in of_scenes]
         if all(end.status == "failed" for end in ends):
             raise RuntimeError(ends[0].message)
-        for scene, outcomes in zip(drawn, found, strict=True):
+        for scene, outcomes in zip(drawn, of_scenes, strict=True):
             if (failure := _failure(outcomes)) is not None:
                 skipped[scene.name] = failure
                 continue
@@ -192,13 +192,15 @@ def measured(
     meshes = [n for n in coarser(elements) if isinstance(n, int)]
     answers = [np.array(rows[n]["displacement"]) for n in meshes]
     layers = [missed_by(scene, rows[n]["settings"]) for n in meshes]
-    found = estimate(answers, [mesh_size(scene, n) for n in meshes], layers)
+    uncertainty = estimate(answers, [mesh_size(scene, n) for n in meshes], layers)
     fine = np.array(rows[truth[model]]["displacement"])
     least = LEAST * float(np.max(np.abs(fine), initial=0.0))
-    changed = ~(found.trusted & np.isnan(found.order))
+    changed = ~(uncertainty.trusted & np.isnan(uncertainty.order))
     for i, probe in enumerate(scene.probes):
         for axis, name in enumerate(("ux", "uy", "uz")):
-            values = (float(a[i, axis]) for a in (found.answer, fine, found.bar, found.order))
+            values = (
+                float(a[i, axis]) for a in (uncertainty.answer, fine, uncertainty.bar, uncertainty.order)
+            )
             one = Component(scene.name, model, elements, probe, name, *values)
             if changed[i, axis] and max(abs(one.answer), abs(one.truth)) > least:
                 yield one

@@ -17,38 +17,40 @@ if TYPE_CHECKING:
 _RATIO = ("", "", 1.0, ".3g")
 
 
-def report(found: Coverage) -> Report:
+def report(coverage: Coverage) -> Report:
     """What `sheetbench study coverage` shows."""
     return Report(
         name="coverage",
         title="coverage",
         subtitle="how often the references' error bars hold the error, on drawn scenes",
-        document=found.as_dict(),
-        tables=(shares(found), misses(found)),
-        notes=tuple(_notes(found)),
+        document=coverage.as_dict(),
+        tables=(shares(coverage), misses(coverage)),
+        notes=tuple(_notes(coverage)),
         complaints=tuple(
             f"{row['model']}, {row['elements']} elements: {100.0 * row['inside']:.1f} % inside, "
             f"the median bar {few(row['loose'])} times the error"
-            for row in found.rows()
+            for row in coverage.rows()
             if not row["met"]
         ),
-        attachments={"components.csv": partial(write_text, text=components(found).to_csv())},
-        settings={"scenes": len(found.scenes)},
-        met=found.met,
+        attachments={"components.csv": partial(write_text, text=components(coverage).to_csv())},
+        settings={"scenes": len(coverage.scenes)},
+        met=coverage.met,
     )
 
 
-def _notes(found: Coverage) -> list[str]:
-    said = [
+def _notes(coverage: Coverage) -> list[str]:
+    sentences = [
         "inside: error ≤ bar. The truth is the same model on a finer graded mesh. Asked for: at least 95 % "
         "inside, and a median bar of no more than five times the error."
     ]
-    if found.skipped:
-        said.append("Replaced, for a model did not converge on a mesh: " + ", ".join(found.skipped) + ".")
-    return said
+    if coverage.skipped:
+        sentences.append(
+            "Replaced, for a model did not converge on a mesh: " + ", ".join(coverage.skipped) + "."
+        )
+    return sentences
 
 
-def shares(found: Coverage) -> Table:
+def shares(coverage: Coverage) -> Table:
     """A row per model and mesh."""
     keys = ("model", "elements", "scenes", "components", "inside", "loose", "farthest")
     columns = (
@@ -61,18 +63,18 @@ def shares(found: Coverage) -> Table:
         Column("largest error/bar", *_RATIO),
         Column("ok"),
     )
-    rows = tuple((*(row[key] for key in keys), "yes" if row["met"] else "NO") for row in found.rows())
+    rows = tuple((*(row[key] for key in keys), "yes" if row["met"] else "NO") for row in coverage.rows())
     return Table("Components of the displacement inside their error bars", columns, rows, "coverage")
 
 
-def misses(found: Coverage) -> Table:
+def misses(coverage: Coverage) -> Table:
     """A row per model, mesh and scene with components outside their bars."""
     rows = []
-    outside = [c for c in found.components if not c.inside]
+    outside = [c for c in coverage.components if not c.inside]
     for (model, elements, scene), some in groupby(outside, key=lambda c: (c.model, c.elements, c.scene)):
         of_scene = list(some)
         worst = max(of_scene, key=lambda c: c.error / c.bar if c.bar > 0.0 else float("inf"))
-        size = max(abs(c.truth) for c in found.of(model, elements) if c.scene == scene)
+        size = max(abs(c.truth) for c in coverage.of(model, elements) if c.scene == scene)
         where, shares = f"{worst.component} of {worst.probe}", (worst.error / size, worst.bar / size)
         rows.append((model, elements, scene, len(of_scene), where, *shares, worst.order))
     columns = (
@@ -90,9 +92,9 @@ def misses(found: Coverage) -> Table:
     return Table(caption, columns, tuple(rows), "misses", grouped=True)
 
 
-def components(found: Coverage) -> Table:
+def components(coverage: Coverage) -> Table:
     """A row per component, lengths in metres."""
     names = ("scene", "model", "elements", "probe", "component", "answer", "truth", "bar", "order", "inside")
     units = {"answer": "m", "truth": "m", "bar": "m"}
-    rows = tuple(tuple(getattr(c, name) for name in names) for c in found.components)
+    rows = tuple(tuple(getattr(c, name) for name in names) for c in coverage.components)
     return Table("", tuple(Column(name, units.get(name, "")) for name in names), rows)

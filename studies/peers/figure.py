@@ -16,10 +16,12 @@ COLOURS = ("#0072b2", "#222222", "#a0522d", "#e69f00", "#009e73", "#cc79a7", "#5
 
 def compose(rows: Sequence[PeerRow], style: FigureStyle = PLAIN) -> Figure:
     """The figure."""
-    asked = list(dict.fromkeys(row.question for row in rows))
+    questions = list(dict.fromkeys(row.question for row in rows))
     with matplotlib.rc_context(STYLE):
         figure = Figure(figsize=(style.width, 3.2), layout="constrained")
-        for axis, question in zip(figure.subplots(1, len(asked), squeeze=False)[0], asked, strict=True):
+        for axis, question in zip(
+            figure.subplots(1, len(questions), squeeze=False)[0], questions, strict=True
+        ):
             of = [row for row in rows if row.question == question and row.error and row.median]
             for code, colour in zip(dict.fromkeys(row.code for row in of), COLOURS * 2, strict=False):
                 some = [row for row in of if row.code == code]

@@ -72,7 +72,7 @@ class Equations:
     def solve(self, tolerance: float) -> tuple[np.ndarray, float]:
         """Displacement (samples, 3) [m] of the probe by BDF, and the time it took [s]."""
         began = perf_counter()
-        found: Any = solve_ivp(
+        solution: Any = solve_ivp(
             self.rate,
             (0.0, DURATION),
             np.zeros(2 * self.count),
@@ -84,7 +84,7 @@ class Equations:
         )
         seconds = perf_counter() - began
         return np.array(
-            [self._probe.of(self.place(y, t)[0])[0] for t, y in zip(found.t, found.y.T, strict=True)]
+            [self._probe.of(self.place(y, t)[0])[0] for t, y in zip(solution.t, solution.y.T, strict=True)]
         ), seconds
 
 

@@ -37,14 +37,14 @@ def study(questions: Sequence[str], say: Callable[[str], None]) -> Report:
 
 def report(rows: Sequence[PeerRow]) -> Report:
     """What is shown of rows."""
-    asked = list(dict.fromkeys(row.question for row in rows))
-    told = [{**asdict(row), "median": row.median, "faster": faster(row, rows)} for row in rows]
+    questions = list(dict.fromkeys(row.question for row in rows))
+    documents = [{**asdict(row), "median": row.median, "faster": faster(row, rows)} for row in rows]
     return Report(
         name="peers",
         title="Ours and other people's codes",
         subtitle="error and time on Habibi et al.'s sheet, in one run",
-        document={"rows": told},
-        tables=tuple(table(name, rows) for name in asked),
+        document={"rows": documents},
+        tables=tuple(table(name, rows) for name in questions),
         notes=NOTES,
         pictures=(Picture("peers", "studies.peers.figure:compose", (rows,)),),
     )

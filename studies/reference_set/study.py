@@ -36,10 +36,10 @@ FINE, COARSE = 17, 9  # masses along the shorter side
 def regenerate(say: Callable[[str], None] = print) -> dict[str, Any]:
     """The reference set as plain data."""
     makers = {"statics": statics, "settling": settling, "modes": modes}
-    found = []
+    computed = []
     for case in cases():
         began = perf_counter()
-        found.append(
+        computed.append(
             {
                 "name": case.name,
                 "suite": case.suite,
@@ -52,7 +52,7 @@ def regenerate(say: Callable[[str], None] = print) -> dict[str, Any]:
         say(f"{case.name}: {perf_counter() - began:.1f} s")
     made = {"sheetbench": version(), "machine": machine()}
     head = {"version": VERSION, "licence": LICENCE, "made_with": made}
-    rounded: dict[str, Any] = plain({**head, "cases": found, "standing": document()["standing"]})
+    rounded: dict[str, Any] = plain({**head, "cases": computed, "standing": document()["standing"]})
     return rounded
 
 

@@ -51,13 +51,13 @@ def chords() -> list[Chord]:
 def of_table(test: int, source: str, table: np.ndarray | None = None) -> list[Chord]:
     """The chords of a test's published displacements, or of others in their place, (4, 3) [m]."""
     moved = published(test, source) if table is None else table
-    asked = scene(test)
-    names, flat = list(asked.probes), np.column_stack([asked.probe_points(), np.zeros(len(moved))])
+    posed = scene(test)
+    names, flat = list(posed.probes), np.column_stack([posed.probe_points(), np.zeros(len(moved))])
     digits = np.where(np.isfinite(moved), 0.5 * DIGIT, 0.0)
-    found = []
+    chords = []
     for i, j in combinations(range(len(names)), 2):
         ends = (flat[i] + moved[i], flat[j] + moved[j])
-        found.append(
+        chords.append(
             _chord(test, source, (names[i], names[j]), (flat[i], flat[j]), ends, digits[i] + digits[j])
         )
     for sense in (1, -1) if test == 2 else (0,):
@@ -73,13 +73,13 @@ def of_table(test: int, source: str, table: np.ndarray | None = None) -> list[Ch
                 turned = bool(stays[i].any())
                 if sense == -1 and not turned:
                     continue
-                found.append(
+                chords.append(
                     _chord(
                         test, source, (f"{support.edge} beside {probe}", probe), (at[i], flat[i]),
                         (at[i] + stays[i], flat[i] + moved[i]), digits[i], sense if turned else 0,
                     )
                 )  # fmt: skip
-    return [chord for chord in found if np.isfinite(chord.published)]
+    return [chord for chord in chords if np.isfinite(chord.published)]
 
 
 def nearer(of: Chord, moved: np.ndarray) -> float:
@@ -100,17 +100,17 @@ def _chord(
     sense: int = 0,
 ) -> Chord:
     """digits (3,) [m]: how far the difference of the ends may be from the printed one."""
-    apart = np.abs(ends[1] - ends[0])
+    offset = np.abs(ends[1] - ends[0])
     rest = float(np.linalg.norm(flat[1] - flat[0]))
-    least = float(np.linalg.norm(np.maximum(apart - digits, 0.0)))
-    most = float(np.linalg.norm(apart + digits))
+    least = float(np.linalg.norm(np.maximum(offset - digits, 0.0)))
+    most = float(np.linalg.norm(offset + digits))
     return Chord(
         test=test,
         source=source,
         start=names[0],
         end=names[1],
         flat=rest,
-        published=float(np.linalg.norm(apart)),
+        published=float(np.linalg.norm(offset)),
         stretch=max(least / rest - 1.0, 0.0),
         turning=2.0 * acos(min(most / rest, 1.0)),
         sense=sense,

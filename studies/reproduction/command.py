@@ -39,7 +39,7 @@ def command(
     parts = [name for name in PARTS if name in (part or PARTS)]
     # pages and folders know it as the verb whose tables it extends
     with replace(output, verb="reproduce").open(variant={"--part": parts}) as out:
-        found = study(parts, elements=parse_elements(elements), progress=out.progress)
-        for name in found.models.folders:
+        forensics = study(parts, elements=parse_elements(elements), progress=out.progress)
+        for name in forensics.models.folders:
             out.reserve(name)
-        out.show(found.report())
+        out.show(forensics.report())

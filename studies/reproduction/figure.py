@@ -22,20 +22,20 @@ SCANNED: dict[tuple[tuple[int, ...], int], tuple[str, str]] = {
 TICKS = {"sheet": (2, 5, 10, 20, 50, 100, 200), "lattice": (2, 3, 5, 7, 10, 15, 20)}
 
 
-def misfit(found: Forensics, style: FigureStyle) -> Figure:
+def misfit(forensics: Forensics, style: FigureStyle) -> Figure:
     """Root mean square of the differences from the published table over the first number of each kind."""
     figure = Figure(figsize=(style.width, 5.2 if style.narrow else 2.8), layout="constrained")
     axes = figure.subplots(*style.panels(len(SOURCE)), squeeze=False).ravel()
     panels = dict(zip(SOURCE, axes, strict=True))
-    for scan in found.scans:
+    for scan in forensics.scans:
         if (scan.tests, scan.sense) not in SCANNED:
             continue
         label, colour = SCANNED[scan.tests, scan.sense]
         wanted = target(scan.tests, SOURCE[scan.kind])
         known = np.isfinite(wanted)
-        apart = np.sqrt(np.mean((scan.displacement[:, known] - wanted[known]) ** 2, axis=1))
+        distance = np.sqrt(np.mean((scan.displacement[:, known] - wanted[known]) ** 2, axis=1))
         values = (1e-6 if scan.name == "young" else 1e3) * scan.values
-        share = 100.0 * apart / np.nanmax(np.abs(wanted))
+        share = 100.0 * distance / np.nanmax(np.abs(wanted))
         panels[scan.kind].plot(values, share, ".-", color=colour, lw=0.9, ms=3, label=label)
     for kind, panel in panels.items():
         panel.set_xscale("log")
@@ -50,12 +50,12 @@ def misfit(found: Forensics, style: FigureStyle) -> Figure:
     given = seed_inputs()
     panels["sheet"].set_xlabel("E [MPa]")
     panels["lattice"].set_xlabel(f"layer distance [mm], k = {given['k']:g} N/m")
-    for kind, at, said in (
+    for kind, at, label in (
         ("sheet", 1e-6 * given["young"], "published E"),
         ("lattice", 1e3 * given["thickness"], "thickness"),
     ):
         panels[kind].axvline(at, color=GREY, lw=0.7, ls="--")
         aside: dict[str, Any] = {"textcoords": "offset points", "va": "top", "fontsize": 6.5, "color": GREY}
-        panels[kind].annotate(said, (at, 98.0), (3, 0), **aside)
+        panels[kind].annotate(label, (at, 98.0), (3, 0), **aside)
     legend(figure, panels["lattice"], 1 if style.narrow else 3)
     return figure

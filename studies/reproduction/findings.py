@@ -20,11 +20,11 @@ from studies.reproduction.words import KINDS, ROD, missed, scanned, tests, value
 if TYPE_CHECKING:
     from studies.reproduction.study import Forensics
 
-Said = Iterator[tuple[str, str]]
+Findings = Iterator[tuple[str, str]]
 
 
-def _errors(found: Forensics) -> Said:
-    if not (cells := found.cells):
+def _errors(forensics: Forensics) -> Findings:
+    if not (cells := forensics.cells):
         return
     mean, quoted = means(list(cells)), seed_inputs()["mean_error"]
     explained = [cell for cell in cells if cell.by_larger]
@@ -43,8 +43,8 @@ def _errors(found: Forensics) -> Said:
     )
 
 
-def _inputs(found: Forensics) -> Said:
-    if not (checks := found.checks):
+def _inputs(forensics: Forensics) -> Findings:
+    if not (checks := forensics.checks):
         return
     given = seed_inputs()
     for check in checks:
@@ -69,27 +69,27 @@ def _inputs(found: Forensics) -> Said:
     )
 
 
-def _nearest(found: Forensics) -> Said:
-    for kind, of in dict.fromkeys((fit.kind, fit.tests) for fit in found.fits):
-        fits = [fit for fit in found.fits if (fit.kind, fit.tests) == (kind, of)]
+def _nearest(forensics: Forensics) -> Findings:
+    for kind, of in dict.fromkeys((fit.kind, fit.tests) for fit in forensics.fits):
+        fits = [fit for fit in forensics.fits if (fit.kind, fit.tests) == (kind, of)]
         best = min((fit for fit in fits if fit.by == SQUARES), key=lambda fit: fit.rms)
-        none = "" if best.met.sum() == best.entries else f"no {KINDS[kind]} that was tried has all of the"
+        none = "" if best.matches.sum() == best.entries else f"no {KINDS[kind]} that was tried has all of the"
         first = f"{none} published {best.source}'s entries. " if none else ""
         yield (
             "nearest",
             f"{tests(of)}: {first}The nearest to the published {best.source} "
             f"({values(best)}{_rod(best)}) "
             f"differs by {percent(best.rms)} of the largest displacement (root mean square), by "
-            f"{percent(best.error)} at most, and has {int(best.met.sum())} of {best.entries} entries within "
-            f"{percent(NEAR)}.",
+            f"{percent(best.error)} at most, and has {int(best.matches.sum())} of {best.entries} entries "
+            f"within {percent(NEAR)}.",
         )
-        most = max((fit for fit in fits if fit.by == MOST), key=lambda fit: int(fit.met.sum()))
-        if most.met.sum() > best.met.sum():
+        most = max((fit for fit in fits if fit.by == MOST), key=lambda fit: int(fit.matches.sum()))
+        if most.matches.sum() > best.matches.sum():
             rest = " and k as published" if kind == "lattice" else ""
             yield (
                 "nearest",
-                f"{tests(of)}: with {values(most)}{rest}{ROD[most.sense]} a {kind} has {int(most.met.sum())} "
-                f"of {most.entries} entries within {percent(NEAR)}, but not {missed(most)}.",
+                f"{tests(of)}: with {values(most)}{rest}{ROD[most.sense]} a {kind} has "
+                f"{int(most.matches.sum())} of {most.entries} entries within {percent(NEAR)}, but not {missed(most)}.",
             )
 
 
@@ -97,27 +97,29 @@ def _rod(fit: Fit) -> str:
     return "" if "curvature" in fit.sought else ROD[fit.sense]
 
 
-def _senses(found: Forensics) -> Said:
-    if not found.fits:
+def _senses(forensics: Forensics) -> Findings:
+    if not forensics.fits:
         return
     table = published(2, "model")
     rise = [millimetres(table[j, 2] - table[i, 2]) for i, j in ((0, 1), (2, 3))]
-    said = []
+    sentences = []
     for kind in KINDS:
-        of_rod = [f for f in found.fits if f.tests == (2,) and f.kind == kind and "curvature" not in f.sought]
+        of_rod = [
+            f for f in forensics.fits if f.tests == (2,) and f.kind == kind and "curvature" not in f.sought
+        ]
         up, down = (min(f.rms for f in of_rod if f.sense == sense) for sense in (1, -1))
-        said.append(f"{kind} {percent(up)} with the ends up, {percent(down)} down")
+        sentences.append(f"{kind} {percent(up)} with the ends up, {percent(down)} down")
     yield (
         "sense of curvature",
         f"The published model has the side {rise[0]} above the middle half-way (P2 over P1) and {rise[1]} at "
         "the free edge (P4 over P3), as a rod whose ends are up would lift it. The least misfit with the "
-        f"published curvature, root mean square of the largest displacement: {'; '.join(said)}.",
+        f"published curvature, root mean square of the largest displacement: {'; '.join(sentences)}.",
     )
 
 
-def _ratios(found: Forensics) -> Said:
-    for kind, test, sense in dict.fromkeys((r.kind, r.test, r.sense) for r in found.ratios):
-        of = [r for r in found.ratios if (r.kind, r.test, r.sense) == (kind, test, sense)]
+def _ratios(forensics: Forensics) -> Findings:
+    for kind, test, sense in dict.fromkeys((r.kind, r.test, r.sense) for r in forensics.ratios):
+        of = [r for r in forensics.ratios if (r.kind, r.test, r.sense) == (kind, test, sense)]
         never = [
             f"{r.name} is {number(r.published['model'], '.3g')} in the model and "
             f"{number(r.published['experiment'], '.3g')} in the experiment, {number(r.least, '.3g')} to "
@@ -133,11 +135,11 @@ def _ratios(found: Forensics) -> Said:
             )
 
 
-def _stretch(found: Forensics) -> Said:
-    lines = [chord for chord in found.chords if chord.stretch > 0.0]
+def _stretch(forensics: Forensics) -> Findings:
+    lines = [chord for chord in forensics.chords if chord.stretch > 0.0]
     for test, source in dict.fromkeys((chord.test, chord.source) for chord in lines):
         worst = max((c for c in lines if (c.test, c.source) == (test, source)), key=lambda c: c.stretch)
-        longest = max(0.0, *(-closer / worst.flat for closer in _nearer(found, worst)))
+        longest = max(0.0, *(-closer / worst.flat for closer in _nearer(forensics, worst)))
         held = "" if worst.start in PROBES else " where the edge is in its place"
         yield (
             "stretch",
@@ -149,8 +151,8 @@ def _stretch(found: Forensics) -> Said:
         )
 
 
-def _shortening(found: Forensics) -> Said:
-    between = [chord for chord in found.chords if chord.start in PROBES]
+def _shortening(forensics: Forensics) -> Findings:
+    between = [chord for chord in forensics.chords if chord.start in PROBES]
     for source in dict.fromkeys(chord.source for chord in between):
         worst = max((c for c in between if c.source == source), key=lambda c: c.turning)
         yield (
@@ -159,16 +161,16 @@ def _shortening(found: Forensics) -> Said:
             f"{millimetres(worst.flat - worst.published, '.1f')} nearer to each other than on the flat "
             "sheet. Unless it is compressed, the line between them has directions that span "
             f"{degrees(worst.turning):.0f}° at least. In the nearest sheets and lattices they are so by "
-            f"{millimetres(max(0.0, *_nearer(found, worst)), '.1f')} at most.",
+            f"{millimetres(max(0.0, *_nearer(forensics, worst)), '.1f')} at most.",
         )
 
 
-def _nearer(found: Forensics, chord: Chord) -> list[float]:
+def _nearer(forensics: Forensics, chord: Chord) -> list[float]:
     """By how much [m] the chord's points are nearer to each other in each sheet of the least misfit; of an
     edge's points in those alone whose supports are not turned."""
     return [
         nearer(chord, _of_test(fit, chord.test))
-        for fit in found.fits
+        for fit in forensics.fits
         if chord.test in fit.tests
         and fit.by == SQUARES
         and (chord.start in PROBES or "tilt" not in fit.sought)

@@ -91,14 +91,14 @@ class Fit:
         return float(np.nanmax(np.abs(self.target)))
 
     @property
-    def met(self) -> np.ndarray:
+    def matches(self) -> np.ndarray:
         """Which published components it has, (probes, 3) bool."""
-        return met(self.displacement, self.target)
+        return matches(self.displacement, self.target)
 
     @property
     def missed(self) -> np.ndarray:
         """Which published components it has not, (probes, 3) bool."""
-        return ~self.met & np.isfinite(self.target)
+        return ~self.matches & np.isfinite(self.target)
 
     @property
     def entries(self) -> int:
@@ -116,7 +116,7 @@ class Fit:
             "sought": dict(self.sought),
             "rms": self.rms,
             "error": self.error,
-            "met": int(self.met.sum()),
+            "met": int(self.matches.sum()),
             "entries": self.entries,
             "converged": self.converged,
             "displacement": self.displacement,
@@ -124,10 +124,10 @@ class Fit:
         }
 
 
-def met(moved: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+def matches(moved: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """Which of the wanted components are met within NEAR of themselves, or within the last printed digit."""
-    found: np.ndarray = np.abs(moved - wanted) <= np.maximum(NEAR * np.abs(wanted), DIGIT)
-    return found
+    inside: np.ndarray = np.abs(moved - wanted) <= np.maximum(NEAR * np.abs(wanted), DIGIT)
+    return inside
 
 
 def target(tests: Sequence[int], source: str) -> np.ndarray:
@@ -144,8 +144,8 @@ def scan(kind: str, tests: tuple[int, ...], sense: int) -> Scan:
     """The sheets of a kind over the first of what may vary."""
     given, name = seed_inputs(), FIRST[kind]
     values = given["young"] * YOUNG if kind == "sheet" else given["thickness"] * LAYERS
-    found = sheets_of(kind, tests, sense).displacements([{name: float(value)} for value in values])
-    return Scan(kind, tests, sense, name, values, np.stack(found))
+    displacements = sheets_of(kind, tests, sense).displacements([{name: float(value)} for value in values])
+    return Scan(kind, tests, sense, name, values, np.stack(displacements))
 
 
 def together(first: Scan, second: Scan) -> Scan:
@@ -154,27 +154,27 @@ def together(first: Scan, second: Scan) -> Scan:
     return Scan(second.kind, (*first.tests, *second.tests), second.sense, second.name, second.values, moved)
 
 
-def fits(found: Scan, wanted: np.ndarray, progress: Callable[[str], None] = lambda what: None) -> list[Fit]:
+def fits(scanned: Scan, wanted: np.ndarray, progress: Callable[[str], None] = lambda what: None) -> list[Fit]:
     """The nearest sheets to a table (probes, 3) [m], in ever more numbers, from the nearest of a scan on; and
     the one of the scan that meets most entries."""
-    sheets = sheets_of(found.kind, found.tests, found.sense)
+    sheets = sheets_of(scanned.kind, scanned.tests, scanned.sense)
     points = np.vstack([one.probe_points() for one in sheets.scenes])
     misfit = Misfit(Displacements(points, wanted), (np.empty(0), np.empty(0)))
-    apart = np.nansum((found.displacement - wanted) ** 2, axis=(1, 2))
-    apart[np.isnan(found.displacement).any(axis=(1, 2))] = np.inf
+    squares = np.nansum((scanned.displacement - wanted) ** 2, axis=(1, 2))
+    squares[np.isnan(scanned.displacement).any(axis=(1, 2))] = np.inf
     given = seed_inputs()
     best = {
-        found.name: float(found.values[int(np.argmin(apart))]),
+        scanned.name: float(scanned.values[int(np.argmin(squares))]),
         "k": given["k"],
         "tilt": 0.0,
-        ROD: (found.sense or 1) * given["curvature"],
+        ROD: (scanned.sense or 1) * given["curvature"],
     }
 
     def fit(values: Mapping[str, float], moved: np.ndarray, by: str, converged: bool) -> Fit:
-        return Fit(found.kind, found.tests, found.sense, values, moved, wanted, by, converged)
+        return Fit(scanned.kind, scanned.tests, scanned.sense, values, moved, wanted, by, converged)
 
     reached = []
-    for names in _sought(found):
+    for names in _sought(scanned):
         unknowns = [sheets.unknown(name, best[name]) for name in names]
         try:
             end = search(sheets, unknowns, misfit, ENOUGH, EVALUATIONS, progress=progress)
@@ -184,35 +184,38 @@ def fits(found: Scan, wanted: np.ndarray, progress: Callable[[str], None] = lamb
         best |= values
         (moved,) = sheets.displacements([values])
         reached.append(fit(values, moved, SQUARES, end.converged))
-    counts = [met(moved, wanted).sum() for moved in found.displacement]
+    counts = [matches(moved, wanted).sum() for moved in scanned.displacement]
     most = int(np.argmax(counts))
-    return [*reached, fit({found.name: float(found.values[most])}, found.displacement[most], MOST, True)]
+    return [
+        *reached,
+        fit({scanned.name: float(scanned.values[most])}, scanned.displacement[most], MOST, True),
+    ]
 
 
-def _sought(found: Scan) -> Sequence[tuple[str, ...]]:
+def _sought(scanned: Scan) -> Sequence[tuple[str, ...]]:
     """Numbers to seek, in turn: all at once for a test alone, for both together those of the sheet."""
-    rows = SOUGHT[found.kind]
-    if len(found.tests) > 1:
+    rows = SOUGHT[scanned.kind]
+    if len(scanned.tests) > 1:
         return rows[:-1]
-    return (*rows[:-1], (*rows[-1], ROD)) if found.tests == (2,) else rows
+    return (*rows[:-1], (*rows[-1], ROD)) if scanned.tests == (2,) else rows
 
 
 def scans(progress: Callable[[str], None] = lambda what: None) -> list[Scan]:
     """Every scan: each kind under each of ASKED."""
-    found: list[Scan] = []
+    every: list[Scan] = []
     for kind in KINDS:
         alone = {}
         for tests, sense in ASKED:
             if len(tests) == 1:
                 progress(f"scanning {kind}: test {tests[0]}")
                 alone[tests, sense] = scan(kind, tests, sense)
-        found += [
+        every += [
             alone[tests, sense] if len(tests) == 1 else together(alone[(1,), 0], alone[(2,), sense])
             for tests, sense in ASKED
         ]
-    return found
+    return every
 
 
-def nearest(found: Sequence[Scan], progress: Callable[[str], None] = lambda what: None) -> list[Fit]:
+def nearest(scanned: Sequence[Scan], progress: Callable[[str], None] = lambda what: None) -> list[Fit]:
     """Every fit from these scans, each kind to its own published table."""
-    return [fit for one in found for fit in fits(one, target(one.tests, SOURCE[one.kind]), progress)]
+    return [fit for one in scanned for fit in fits(one, target(one.tests, SOURCE[one.kind]), progress)]

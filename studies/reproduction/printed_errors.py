@@ -61,8 +61,8 @@ def _cell(test: int, component: str, probe: str, value: float) -> Cell:
         "model": _relative(model, experiment, model),
     }
     larger = _relative(model, experiment, max(model, experiment))
-    said = {name: _digits(computed, value) for name, computed in of.items()}
-    matching = [name for name, digits in said.items() if digits]
+    by_source = {name: _digits(computed, value) for name, computed in of.items()}
+    matching = [name for name, digits in by_source.items() if digits]
     return Cell(
         test=test,
         component=component,
@@ -72,7 +72,7 @@ def _cell(test: int, component: str, probe: str, value: float) -> Cell:
         of_model=of["model"],
         of_larger=larger,
         of="both" if len(matching) == 2 else matching[0] if matching else "neither",
-        digits=_digits(larger, value) or next(filter(None, said.values()), ""),
+        digits=_digits(larger, value) or next(filter(None, by_source.values()), ""),
     )
 
 
@@ -88,7 +88,7 @@ def _digits(computed: float, value: float) -> str:
     return "cut off" if floor(computed / PRINTED + _SLACK) == digit else ""
 
 
-def means(found: list[Cell]) -> dict[str, float]:
+def means(cells: list[Cell]) -> dict[str, float]:
     """The mean of the cells as printed, of the experiment, of the model, and of the larger of the two."""
     names = ("printed", "of_experiment", "of_model", "of_larger")
-    return {name: float(np.mean([getattr(cell, name) for cell in found])) for name in names}
+    return {name: float(np.mean([getattr(cell, name) for cell in cells])) for name in names}

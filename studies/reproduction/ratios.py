@@ -50,7 +50,7 @@ def _of_scan(one: Scan) -> list[Ratio]:
     (test,) = one.tests
     side = max(scene(test).sheet.lengths)
     tables = {source: published(test, source) for source in SOURCES}
-    found = []
+    rows = []
     for name, of, to in _pairs(test):
         values = {source: _value(table, of, to, side) for source, table in tables.items()}
         signs = _signs(tables[SOURCE[one.kind]], of, to)
@@ -59,12 +59,12 @@ def _of_scan(one: Scan) -> list[Ratio]:
             for moved in one.displacement
             if np.isfinite(moved).all() and _signs(moved, of, to) == signs
         ]
-        found.append(
+        rows.append(
             Ratio(
                 test, one.sense, name, one.kind, values, min(range_, default=None), max(range_, default=None)
             )
         )
-    return found
+    return rows
 
 
 def _pairs(test: int) -> list[tuple[str, Entry, Entry]]:
@@ -74,9 +74,9 @@ def _pairs(test: int) -> list[tuple[str, Entry, Entry]]:
         if test == 1
         else (("P3", "P1"), ("P4", "P2"), ("P4", "P3"))
     )
-    found = [(f"uz({p})/uz({q})", (p, 2), (q, 2)) for p, q in points]
+    named = [(f"uz({p})/uz({q})", (p, 2), (q, 2)) for p, q in points]
     free = "P4" if test == 1 else "P3"
-    return [*found, (f"−ux({free})·a/uz({free})²", (free, 0), (free, 2))]
+    return [*named, (f"−ux({free})·a/uz({free})²", (free, 0), (free, 2))]
 
 
 def _value(moved: np.ndarray, of: Entry, to: Entry, side: float) -> float:

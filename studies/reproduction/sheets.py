@@ -62,33 +62,33 @@ class Sheets:
         inwards = STEP * np.array(
             [-1.0 if at >= one.bounds()[1] else 1.0 for one, at in zip(unknowns, x, strict=True)]
         )
-        asked = [
+        unsolved = [
             {one.name: one.value(at) for one, at in zip(unknowns, x + step, strict=True)}
             for step in np.vstack([np.zeros(len(x)), np.diag(inwards)])
         ]
-        here, *beside = self.displacements(asked)
+        here, *beside = self.displacements(unsolved)
         if any(np.isnan(moved).any() for moved in (here, *beside)):
             raise NotReached("no stable equilibrium")
         return Prediction(here, [(moved - here) / step for moved, step in zip(beside, inwards, strict=True)])
 
-    def displacements(self, asked: Sequence[Values]) -> list[np.ndarray]:
+    def displacements(self, many: Sequence[Values]) -> list[np.ndarray]:
         """Displacements (probes, 3) [m] for each set of values, one test after the other; nan where there is
         no stable equilibrium."""
-        solved = self.solutions(asked)
-        found = []
-        for values, solutions in zip(asked, solved, strict=True):
+        solved = self.solutions(many)
+        tables = []
+        for values, solutions in zip(many, solved, strict=True):
             moved = []
             for scene, solution in zip(self.scenes, solutions, strict=True):
                 here = turned_back(
                     scene, solution.displacement(scene.probe_points()), values.get("tilt", 0.0)
                 )
                 moved.append(here if solution.status is Status.CONVERGED else np.full_like(here, np.nan))
-            found.append(np.vstack(moved))
-        return found
+            tables.append(np.vstack(moved))
+        return tables
 
-    def solutions(self, asked: Sequence[Values]) -> list[list[Solution]]:
+    def solutions(self, many: Sequence[Values]) -> list[list[Solution]]:
         """The solutions for each set of values, one a test, in the frame that turns with the supports."""
-        scenes = [_posed(scene, values) for values in asked for scene in self.scenes]
+        scenes = [_posed(scene, values) for values in many for scene in self.scenes]
         if self.kind == "sheet":
             springs = [
                 lumped.calibrate(s.sheet, s.material, grid=self.grid, method="consistent") for s in scenes
@@ -100,7 +100,7 @@ class Sheets:
                     scene.sheet, scene.material, grid=self.grid, method="uniform",
                     k=values.get("k", seed_inputs()["k"]), layer_distance=values.get("layer_distance"),
                 )
-                for values in asked
+                for values in many
                 for scene in self.scenes
             ]  # fmt: skip
             solutions = lumped.solve_many(scenes, springs, weights="full")

@@ -47,7 +47,7 @@ class Forensics:
     def findings(self) -> list[Finding]:
         """Every finding of the parts there are."""
         before, after = (
-            [Finding(about, said) for part in parts for about, said in part(self)]
+            [Finding(about, sentence) for part in parts for about, sentence in part(self)]
             for parts in (findings.BEFORE, findings.AFTER)
         )
         return [*before, *of_models.all_of(self.models), *after]
@@ -99,16 +99,16 @@ def study(
     progress: Callable[[str | Work], None] = silent,
 ) -> Forensics:
     """These parts; elements: of the shell; progress: told what is being done."""
-    found: dict[str, Any] = {}
+    results: dict[str, Any] = {}
     if "errors" in parts:
-        found |= {"checks": tuple(checks()), "cells": tuple(cells())}
+        results |= {"checks": tuple(checks()), "cells": tuple(cells())}
     models = reproduce(parts, elements=elements, progress=progress)
     if "nearest" in parts:
         scanned = scans(progress)
-        found |= {
+        results |= {
             "scans": tuple(scanned),
             "fits": tuple(nearest(scanned, progress)),
             "ratios": tuple(ratios(scanned)),
             "chords": tuple(chords()),
         }
-    return Forensics(tuple(part for part in PARTS if part in parts), models, **found)
+    return Forensics(tuple(part for part in PARTS if part in parts), models, **results)

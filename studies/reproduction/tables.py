@@ -22,14 +22,14 @@ RODS = {0: "–", 1: "ends up", -1: "ends down"}
 TURNING = np.pi / 6.0  # rad: chords that ask for less, and for no stretch, are in the document alone
 
 
-def errors(found: Forensics) -> Table:
+def errors(forensics: Forensics) -> Table:
     """A row per printed error: of the experiment, of the model, and which of the two it is."""
     rows = [
         (
             c.test, c.component, c.probe, c.printed, c.of_experiment, c.of_model,
             f"{c.of} *" if c.changes else c.of, c.digits or "no",
         )
-        for c in found.cells
+        for c in forensics.cells
     ]  # fmt: skip
     columns = (
         Column("test"),
@@ -48,7 +48,7 @@ def errors(found: Forensics) -> Table:
     return Table("Printed errors, computed again", columns, tuple(rows), "errors", grouped=True, text=text)
 
 
-def inputs(found: Forensics) -> Table:
+def inputs(forensics: Forensics) -> Table:
     """A row per printed figure that others should give."""
     words = {True: "yes", False: "no", None: "–"}
     shown = {"": Unit("", ""), "kg": Unit("kg", "g", 1e3)}
@@ -61,7 +61,7 @@ def inputs(found: Forensics) -> Table:
             one.follows,
             words[one.agrees],
         )
-        for one in found.checks
+        for one in forensics.checks
     ]
     columns = (
         Column("figure"),
@@ -78,15 +78,15 @@ def inputs(found: Forensics) -> Table:
     return Table("Published inputs held against one another", columns, tuple(rows), "inputs", text=text)
 
 
-def nearest(found: Forensics) -> Table:
+def nearest(forensics: Forensics) -> Table:
     """A row per fit: what was sought, what was found, how near."""
     rows = [
         (
             " and ".join(map(str, fit.tests)), _rod(fit), fit.kind, fit.source,
             *(fit.sought.get(name) for name in ("young", "k", "layer_distance", "tilt", "curvature")),
-            fit.by, fit.rms, fit.error, f"{int(fit.met.sum())} of {fit.entries}",
+            fit.by, fit.rms, fit.error, f"{int(fit.matches.sum())} of {fit.entries}",
         )
-        for fit in found.fits
+        for fit in forensics.fits
     ]  # fmt: skip
     columns = (
         Column("tests"),
@@ -117,14 +117,14 @@ def _rod(fit: Fit) -> str:
     return "sought" if "curvature" in fit.sought else RODS[fit.sense]
 
 
-def ratios(found: Forensics) -> Table:
+def ratios(forensics: Forensics) -> Table:
     """A row per ratio and scan."""
     rows = [
         (
             r.test, RODS[r.sense], r.name, *(r.published[source] for source in SOURCES), r.kind, r.least,
-            r.most, _met(r),
+            r.most, _matches(r),
         )
-        for r in found.ratios
+        for r in forensics.ratios
     ]  # fmt: skip
     columns = (
         Column("test"),
@@ -144,13 +144,13 @@ def ratios(found: Forensics) -> Table:
     return Table("Ratios between entries", columns, tuple(rows), "ratios", text=text)
 
 
-def _met(ratio: Ratio) -> str:
+def _matches(ratio: Ratio) -> str:
     return " and ".join(source for source in SOURCES if ratio.met(source)) or "neither"
 
 
-def chords(found: Forensics) -> Table:
+def chords(forensics: Forensics) -> Table:
     """A row per pair of points whose distance asks for stretch or for much turning."""
-    telling: list[Chord] = [c for c in found.chords if c.stretch > 0.0 or c.turning > TURNING]
+    telling: list[Chord] = [c for c in forensics.chords if c.stretch > 0.0 or c.turning > TURNING]
     rows = [
         (
             c.test,

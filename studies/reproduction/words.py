@@ -25,20 +25,20 @@ def tests(of: tuple[int, ...]) -> str:
 
 def values(fit: Fit) -> str:
     """What was found for what was sought."""
-    said = []
+    texts = []
     for name, value in fit.sought.items():
         if name == "tilt":
-            said.append(f"supports turned by {number(degrees(value), '.2g')}°")
+            texts.append(f"supports turned by {number(degrees(value), '.2g')}°")
         else:
             symbol, unit = SYMBOLS[name]
-            said.append(f"{symbol} = {quantity(value, unit, '.3g')}")
-    return ", ".join(said)
+            texts.append(f"{symbol} = {quantity(value, unit, '.3g')}")
+    return ", ".join(texts)
 
 
 def missed(fit: Fit) -> str:
     """The published entries that a sheet has not, by test."""
     missing = fit.missed
-    said = []
+    texts = []
     for i, test in enumerate(fit.tests):
         rows = range(i * len(PROBES), (i + 1) * len(PROBES))
         names = [
@@ -48,8 +48,8 @@ def missed(fit: Fit) -> str:
             if missing[row, axis]
         ]
         if names:
-            said.append(", ".join(names) + (f" of test {test}" if len(fit.tests) > 1 else ""))
-    return " and ".join(said)
+            texts.append(", ".join(names) + (f" of test {test}" if len(fit.tests) > 1 else ""))
+    return " and ".join(texts)
 
 
 def scanned(kind: str) -> str:

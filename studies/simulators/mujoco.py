@@ -26,5 +26,5 @@ def put(model: Any, data: Any, displacement: np.ndarray, rest: np.ndarray) -> No
 
 def displacement(data: Any, rest: np.ndarray) -> np.ndarray:
     """Displacements (n, 3) [m] of the masses."""
-    found: np.ndarray = data.site_xpos - rest
-    return found
+    moved: np.ndarray = data.site_xpos - rest
+    return moved

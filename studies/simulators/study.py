@@ -55,13 +55,13 @@ def study(progress: Progress) -> Report:
         progress(Work(name, None))
         return Row(name, {key: _error(answer(scene), truths[key]) for key, scene in scenes.items()})
 
-    stiffness, found = _fitted({name: scenes[name] for name in SCENES[:3]}, truths)
+    stiffness, fitted = _fitted({name: scenes[name] for name in SCENES[:3]}, truths)
     rows = [
         row("lattice, consistent", lambda scene: _lattice(scene, "consistent")),
         row("lattice, central", lambda scene: _lattice(scene, "central")),
         row("MuJoCo, exported links", lambda scene: _tendons(mujoco, scene)),
         row("MuJoCo, own sheet", _flex),
-        row(f"MuJoCo, own sheet fitted ({found})", lambda scene: _flex(_changed(scene, stiffness))),
+        row(f"MuJoCo, own sheet fitted ({fitted})", lambda scene: _flex(_changed(scene, stiffness))),
         min(
             (row(f"rods, D66 = {twist:.2g} D", partial(_rods, twist)) for twist in TWISTS.tolist()),
             key=lambda one: max(error for error in one.errors.values() if error is not None),
@@ -96,8 +96,8 @@ def _points(scene: Scene) -> np.ndarray:
     return np.stack(np.meshgrid(*lines), axis=-1).reshape(-1, 2)
 
 
-def _error(found: np.ndarray | None, truth: np.ndarray) -> float | None:
-    return None if found is None else float(np.abs(found - truth).max() / np.abs(truth).max())
+def _error(answer: np.ndarray | None, truth: np.ndarray) -> float | None:
+    return None if answer is None else float(np.abs(answer - truth).max() / np.abs(truth).max())
 
 
 def _shell(scene: Scene, **options: Any) -> np.ndarray:
@@ -135,8 +135,8 @@ def _tendons(mujoco: Any, scene: Scene) -> np.ndarray | None:
 
 
 def _flex(scene: Scene) -> np.ndarray | None:
-    found = MODEL.solve(scene, {**MODEL.settings, "grid": GRID})
-    return found.displacement(_points(scene)) if found.comparable else None
+    solution = MODEL.solve(scene, {**MODEL.settings, "grid": GRID})
+    return solution.displacement(_points(scene)) if solution.comparable else None
 
 
 def _changed(scene: Scene, stiffness: np.ndarray) -> Scene:
@@ -162,9 +162,9 @@ def _fitted(scenes: dict[str, Scene], truths: dict[str, np.ndarray]) -> tuple[np
 
     start = np.array([[0.3, 0.3, 0.0], [0.8, 0.3, 0.0], [0.3, 0.1, 0.0], [0.3, 0.3, 0.3]])
     options = {"maxfev": EVALUATIONS, "initial_simplex": start}
-    found = minimize(worst, start[0], method="Nelder-Mead", options=options).x
-    young, thickness = np.exp(found[[0, 2]]).tolist()
-    return found, f"{young:.2g} E, ν = {np.clip(found[1], -0.9, 0.49):.2g}, {thickness:.2g} h"
+    best = minimize(worst, start[0], method="Nelder-Mead", options=options).x
+    young, thickness = np.exp(best[[0, 2]]).tolist()
+    return best, f"{young:.2g} E, ν = {np.clip(best[1], -0.9, 0.49):.2g}, {thickness:.2g} h"
 
 
 def _rods(twist: float, scene: Scene) -> np.ndarray:

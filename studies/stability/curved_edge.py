@@ -50,7 +50,7 @@ def _along(row: Row) -> float:
     return float(np.copysign(np.sqrt(abs(turn)), turn))
 
 
-def _said(row: Row) -> str:
+def _label(row: Row) -> str:
     """The error, and `s` for each snap on the way."""
     snaps = "s" * len(row["snaps"])
     return "\n".join(filter(None, [percent(row["error"]), snaps]))
@@ -66,7 +66,7 @@ def draw(figure: Figure, rows: list[Row]) -> None:
     def at(row: Row) -> float:
         return max(float(row["cell"]["load_number"]), lowest)
 
-    maps.tiles(left, rows, _along, at, scale=("linear", "log"), text=_said)
+    maps.tiles(left, rows, _along, at, scale=("linear", "log"), text=_label)
     truths = [{**r["reference"], "cell": r["cell"], "error": None} for r in rows if r.get("reference")]
     maps.tiles(
         right,

@@ -63,8 +63,8 @@ def measure(integrator: str, damping_of: str, damping_ratio: float) -> Row:
         step = min(step, limit.advised)
     count = int(np.ceil(PERIODS * mode.period / step))
     if count > MOST_STEPS:
-        said = f"{count} steps of {step:.1e} s for {PERIODS} period: more than this study takes"
-        return {"status": "refused", "message": said, "step": step}
+        reason = f"{count} steps of {step:.1e} s for {PERIODS} period: more than this study takes"
+        return {"status": "refused", "message": reason, "step": step}
     step = PERIODS * mode.period / count
     first = start(equations, AMPLITUDE * scene.sheet.thickness * mode.shape)
     try:

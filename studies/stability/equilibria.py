@@ -132,8 +132,8 @@ def mechanism(
     finer = lattice(scene, fine, springs=_refined(springs, fine), grading=grading)
     left = distance(scene, finer, truth)
     if finer.status is ours.status and left is not None and left < FALLEN * off:
-        said = f"{fine[0]}×{fine[1]} masses leave {percent(left)} %"
-        return {"mechanism": "resolution", "evidence": said}
+        evidence = f"{fine[0]}×{fine[1]} masses leave {percent(left)} %"
+        return {"mechanism": "resolution", "evidence": evidence}
     sharper = shell(scene, 2 * elements)
     left = distance(scene, ours, sharper)
     if left is not None and left < FALLEN * off:
@@ -143,15 +143,15 @@ def mechanism(
         }
     moved = _there_and_back(scene, springs or _consistent(scene, grid, grading), ours)
     if moved is not None and moved > LARGE:
-        said = f"back from {BACK_FROM:g} times the load it stands {percent(moved)} % away"
-        return {"mechanism": "branch", "evidence": said}
+        evidence = f"back from {BACK_FROM:g} times the load it stands {percent(moved)} % away"
+        return {"mechanism": "branch", "evidence": evidence}
     if ours.snaps or truth.snaps:
-        said = f"snapped at load factors {_listed(ours.snaps)}, the reference at {_listed(truth.snaps)}"
-        return {"mechanism": "branch", "evidence": said}
+        evidence = f"snapped at load factors {_listed(ours.snaps)}, the reference at {_listed(truth.snaps)}"
+        return {"mechanism": "branch", "evidence": evidence}
     kept, left = distance(scene, finer, truth), distance(scene, finer, sharper)
     if kept is not None and left is not None and moved is not None:
-        said = f"{fine[0]}×{fine[1]} masses keep {percent(kept)} %, {percent(left)} % of a finer shell's"
-        return {"mechanism": "wrong limit", "evidence": said}
+        evidence = f"{fine[0]}×{fine[1]} masses keep {percent(kept)} %, {percent(left)} % of a finer shell's"
+        return {"mechanism": "wrong limit", "evidence": evidence}
     return {"mechanism": "unknown", "evidence": f"{fine[0]}×{fine[1]} masses: {finer.status}"}
 
 

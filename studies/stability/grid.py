@@ -30,23 +30,23 @@ MODELS, DISTORTED, SEEDS, FINE = ("plate", "shell", "solid"), 6, 2, 16
 def cells(full: bool) -> list[Cell]:
     """Masses a side, aspect ratios along and across the clamp, distortions."""
     sizes = (2, 3, 5, 9, 17, 33, 65, 129, 257) if full else (2, 3, 5, 9, 17, 33, 65)
-    found: list[Cell] = [
+    every: list[Cell] = [
         {"clamped": n, "masses": m, "calibration": c}
         for n in EDGES
         for c in ("consistent", "uniform")
         for m in sizes
         if c == "consistent" or m <= 65
     ]
-    found += [{"clamped": 1, "aspect": a, "long": along} for along in ("x", "y") for a in ASPECTS]
+    every += [{"clamped": 1, "aspect": a, "long": along} for along in ("x", "y") for a in ASPECTS]
     shares = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8)
-    found += [
+    every += [
         {"clamped": n, "model": model, "distortion": d, "seed": s}
         for model in MODELS
         for n in EDGES
         for d in shares
         for s in range(SEEDS)
     ]
-    return found
+    return every
 
 
 def measure(clamped: int, **cell: Any) -> Row:
@@ -76,8 +76,8 @@ def _limit(scene: Any, cell: Cell, error: float) -> Row:
     finest = (49, 49)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=finest, method=cell["calibration"])
     left = compare(scene, finest, springs=springs, elements=16, explain=False)["error"]
-    said = f"{finest[0]}×{finest[1]} masses of the same calibration leave {percent(left)} %"
-    return {"mechanism": "wrong limit" if left > 2.0 / 3.0 * error else "resolution", "evidence": said}
+    evidence = f"{finest[0]}×{finest[1]} masses of the same calibration leave {percent(left)} %"
+    return {"mechanism": "wrong limit" if left > 2.0 / 3.0 * error else "resolution", "evidence": evidence}
 
 
 def _distorted(scene: Any, model: str, distortion: float, seed: int) -> Row:

@@ -39,11 +39,11 @@ def cells(full: bool) -> list[Cell]:
     decades = np.arange(-6.0, 3.01, 0.5 if full else 1.0)
     euler = (0.5, 0.8, 0.95, 1.05, 1.2, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0)
     pulls = (0.001, 0.01, 0.1, 0.3, 0.6, 1.0, 1.5)
-    found: list[Cell] = [{"kind": "weight", "size": float(10.0**d)} for d in decades]
-    found += [{"kind": kind, "size": size} for kind in ("compression", "buckled") for size in euler]
-    found += [{"kind": kind, "size": size} for kind in ("pull", "tip") for size in pulls]
-    found += [{"kind": "reversed", "size": float(10.0**d)} for d in (-6, -3, 0, 1, 2)]
-    return found
+    every: list[Cell] = [{"kind": "weight", "size": float(10.0**d)} for d in decades]
+    every += [{"kind": kind, "size": size} for kind in ("compression", "buckled") for size in euler]
+    every += [{"kind": kind, "size": size} for kind in ("pull", "tip") for size in pulls]
+    every += [{"kind": "reversed", "size": float(10.0**d)} for d in (-6, -3, 0, 1, 2)]
+    return every
 
 
 def measure(kind: str, size: float, grading: Grading = None) -> Row:
@@ -107,7 +107,7 @@ def draw(figure: Figure, rows: list[Row]) -> None:
                 strips.append((row, 0.0, percent(row.get("moved"))))
         if not strips:
             continue
-        shown = [{**row, "strip": strip, "said": said} for row, strip, said in strips]
+        shown = [{**row, "strip": strip, "said": label} for row, strip, label in strips]
         maps.tiles(
             axis, shown, lambda r: r["cell"]["size"], lambda r: r["strip"], scale=("log", "linear"),
             text=lambda r: r["said"],

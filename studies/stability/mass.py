@@ -44,10 +44,10 @@ def measure(masses: int, ratio: float) -> Row:
 
     equations = system(scene, springs, mass=chess)
     limit = step_limit(equations, np.zeros_like(equations.problem.loads.dead))
-    found = measured_limit(equations, limit.step)
+    measured = measured_limit(equations, limit.step)
     step = PER_LIMIT * limit.step
     first = start(equations, noise(equations))
-    row: Row = {"computed": limit.step, "measured": found, "error": abs(found / limit.step - 1.0)}
+    row: Row = {"computed": limit.step, "measured": measured, "error": abs(measured / limit.step - 1.0)}
     try:
         last = follow(INTEGRATORS["midpoint"](equations, step), first, step, IMPLICIT_STEPS)[-1]
     except StepFailed as failure:

@@ -32,11 +32,11 @@ def page() -> str:
     """The page's text."""
     rows = {name: _rows(name) for name in STUDIES}
     manifest = json.loads((FOLDER / "manifest.json").read_text(encoding="utf-8"))
-    untrue = [said for said, holds in promises(rows).items() if not holds]
+    untrue = [promise for promise, holds in promises(rows).items() if not holds]
     if untrue:
         raise SystemExit(f"docs/stability/page.txt says what these rows do not: {'; '.join(untrue)}")
-    told = figures(rows) | run(rows, manifest)
-    return (FOLDER / "page.txt").read_text(encoding="utf-8").format_map(told)
+    texts = figures(rows) | run(rows, manifest)
+    return (FOLDER / "page.txt").read_text(encoding="utf-8").format_map(texts)
 
 
 def promises(rows: dict[str, list[Row]]) -> dict[str, bool]:
@@ -66,12 +66,12 @@ def run(rows: dict[str, list[Row]], manifest: dict[str, Any]) -> dict[str, str]:
     """How the cells ended, how long they took, when and on what."""
     every = [row for study in rows.values() for row in study]
     ended = Counter(row["status"] for row in every)
-    said = [f"{n} {s if '-' not in s and s != 'unstable' else f'`{s}`'}" for s, n in ended.most_common()]
+    counts = [f"{n} {s if '-' not in s and s != 'unstable' else f'`{s}`'}" for s, n in ended.most_common()]
     machine, note = manifest["machine"], manifest.get("note")
     return {
         "cells": str(len(every)),
         "minutes": f"{sum(_number(row, 'seconds [s]') for row in every) / 60.0:.0f}",
-        "ended": ", ".join(said),
+        "ended": ", ".join(counts),
         "where": f"sheetbench {manifest['sheetbench']}, Python {machine['python']}, {machine['processor']}, "
         f"{manifest['date'][:10]}",
         "note": f"*{textwrap.fill(note, WIDTH, break_on_hyphens=False)}*\n\n" if note else "",
@@ -152,9 +152,9 @@ def _worst(rows: Iterable[Row], column: str = "error") -> Row:
     return max((r for r in rows if r[column]), key=lambda r: abs(_number(r, column)))
 
 
-def _within(found: Row, column: str = "error") -> str:
+def _within(row: Row, column: str = "error") -> str:
     """In percent, rounded up to two digits."""
-    value = abs(100.0 * _number(found, column))
+    value = abs(100.0 * _number(row, column))
     step = 10.0 ** (math.floor(math.log10(value)) - 1)
     return f"{math.ceil(value / step - 1e-9) * step:.6g}"
 

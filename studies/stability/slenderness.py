@@ -35,16 +35,16 @@ def cells(full: bool) -> list[Cell]:
     """Slenderness by load number for both supports, the extremes of slenderness, Poisson's ratio."""
     slender = (1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1) if full else (1e-4, 1e-3, 0.01, 0.1)
     loads = (1e-3, 0.1, 1.0, 10.0, 30.0, 100.0, 300.0, 1e3) if full else (1e-3, 1.0, 10.0, 100.0, 1e3)
-    found: list[Cell] = [
+    every: list[Cell] = [
         {"clamped": n, "slenderness": h, "load_number": L} for n in EDGES for h in slender for L in loads
     ]
-    found += [{"clamped": 1, "slenderness": h, "load_number": 1.0} for h in (1e-6, 1e-5, 0.3, 0.5)]
-    found += [
+    every += [{"clamped": 1, "slenderness": h, "load_number": 1.0} for h in (1e-6, 1e-5, 0.3, 0.5)]
+    every += [
         {"clamped": n, "slenderness": SEED, "load_number": 3.0, "poisson": nu}
         for n in EDGES
         for nu in POISSON
     ]
-    return found
+    return every
 
 
 def measure(

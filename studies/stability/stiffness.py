@@ -30,11 +30,11 @@ GRID = (9, 9)
 def cells(full: bool) -> list[Cell]:
     """E with the load scaled, load numbers at fixed load, one family out of proportion."""
     step = 1 if full else 2
-    found: list[Cell] = [{"young": float(10.0**d)} for d in [*range(0, 13, step), 13]]
-    found += [{"load_number": float(10.0**d)} for d in range(-6, 5, step)]
+    every: list[Cell] = [{"young": float(10.0**d)} for d in [*range(0, 13, step), 13]]
+    every += [{"load_number": float(10.0**d)} for d in range(-6, 5, step)]
     decades = range(-6, 7) if full else (-6, -4, -2, -1, 1, 2, 4, 6)
-    found += [{"family": name, "contrast": float(10.0**d)} for name in FAMILIES for d in decades]
-    return found
+    every += [{"family": name, "contrast": float(10.0**d)} for name in FAMILIES for d in decades]
+    return every
 
 
 def measure(

@@ -42,13 +42,13 @@ def report(studies: Sequence[Study], rows: list[Row]) -> Report:
 
 def table(study: Study, rows: list[Row]) -> Table:
     """A row per cell: the cell, how it ended, what it cost."""
-    found = []
+    table_rows = []
     for row in rows:
         own = tuple({**row, **row["cell"]}.get(column.name.replace(" ", "_")) for column in study.columns)
         reference = (row.get("reference") or {}).get("status")
         shown = (row["status"], row["error"], row["iterations"], row["seconds"], reference, row["message"])
-        found.append(own + shown)
-    return Table(study.title, study.columns + _COMMON, tuple(found), study.name, text=text(study, rows))
+        table_rows.append(own + shown)
+    return Table(study.title, study.columns + _COMMON, tuple(table_rows), study.name, text=text(study, rows))
 
 
 def text(study: Study, rows: list[Row]) -> str:
@@ -78,8 +78,8 @@ def unexplained(rows: list[Row]) -> list[Row]:
 
 
 def _reason(row: Row) -> str:
-    said = f"{row.get('mechanism', 'unknown')}: {row.get('evidence', 'no test told')}"
-    return f"{said}; it says: {row['message']}" if row["message"] else said
+    sentence = f"{row.get('mechanism', 'unknown')}: {row.get('evidence', 'no test told')}"
+    return f"{sentence}; it says: {row['message']}" if row["message"] else sentence
 
 
 def _named(cell: dict[str, Any]) -> str:

@@ -34,20 +34,20 @@ FEWEST, MOST = 12, 60  # steps of an implicit run
 def cells(full: bool) -> list[Cell]:
     """Verlet over grid, kz, damping, thickness; the implicit integrators over the step."""
     grids = (5, 9, 17, 33) if full else (5, 9, 17)
-    found: list[Cell] = [
+    every: list[Cell] = [
         {"integrator": "verlet", "masses": n, "vertical": kz, "damping_ratio": xi, "slenderness": 0.016}
         for n in grids
         for kz in ("4 C", "E l²/h")
         for xi in (0.0, 0.03, 0.3, 1.0, 10.0)
     ]
-    found += [
+    every += [
         {"integrator": "verlet", "masses": 9, "vertical": "4 C", "damping_ratio": 0.0, "slenderness": h}
         for h in (1e-3, 5e-3, 0.05)
     ]
-    found.append({**found[0], "masses": 9, "precision": "single"})
+    every.append({**every[0], "masses": 9, "precision": "single"})
     decades = np.arange(-6.0, 0.01, 0.5 if full else 1.0)
-    found += [{"integrator": name, "step": float(10.0**d)} for name in IMPLICIT for d in decades]
-    return found
+    every += [{"integrator": name, "step": float(10.0**d)} for name in IMPLICIT for d in decades]
+    return every
 
 
 def measure(integrator: str, **cell: Any) -> Row:
@@ -77,7 +77,7 @@ def _explicit(
     scene = weightless(slenderness, damping_time=damping_time)
     equations = system(scene, springs, precision)
     limit = step_limit(equations, flat)
-    found = measured_limit(equations, limit.step)
+    measured = measured_limit(equations, limit.step)
     heavy = scene.replace(gravity=Gravity(acceleration=(0.0, 0.0, -9.81)))
     step = limit.advised
     run = lumped.simulate(
@@ -91,13 +91,13 @@ def _explicit(
     return {
         "status": str(run.status),
         "message": run.message,
-        "error": abs(found / limit.step - 1.0),
+        "error": abs(measured / limit.step - 1.0),
         "iterations": run.steps,
         "frequency": limit.frequency,
         "ratio_at_limit": limit.damping_ratio,
         "computed": limit.step,
-        "measured": found,
-        "measured_over_computed": found / limit.step,
+        "measured": measured,
+        "measured_over_computed": measured / limit.step,
     }
 
 
@@ -137,8 +137,8 @@ def _implicit(integrator: str, step: float) -> Row:
         finer = _implicit(integrator, 0.1 * step)
         left = finer["error"] if finer["status"] == "converged" else None
         if left is not None and left < FALLEN * error:
-            said = f"{turned / (2.0 * np.pi):.2g} periods a step; a tenth of it leaves {percent(left)} %"
-            row |= {"mechanism": "resolution", "evidence": said}
+            evidence = f"{turned / (2.0 * np.pi):.2g} periods a step; a tenth of it leaves {percent(left)} %"
+            row |= {"mechanism": "resolution", "evidence": evidence}
     return row
 
 

@@ -22,9 +22,9 @@ class FirstMode:
     """The first mode of a system about rest: ω [rad/s] and the coordinate q of a motion along it."""
 
     def __init__(self, equations: System, springs: Calibration):
-        found = lumped.modes(equations.scene, springs, 1, "tributary")
-        self.omega = 2.0 * np.pi * float(found.frequencies[0])
-        self.shape = found.shapes[0]
+        modes = lumped.modes(equations.scene, springs, 1, "tributary")
+        self.omega = 2.0 * np.pi * float(modes.frequencies[0])
+        self.shape = modes.shapes[0]
         self._weighted = (equations.mass @ self.shape.ravel()).reshape(-1, 3)
         self._size = float(np.sum(self._weighted * self.shape))
 

@@ -8,7 +8,7 @@ import typer
 
 from comparisons.cli.options import Grading, Large
 from comparisons.cli.verb import CampaignOptions, OutputOptions
-from studies.transfer import asked
+from studies.transfer import parse
 from studies.transfer.study import transfer
 
 
@@ -54,11 +54,11 @@ def command(
 
     With --out an interrupted study is resumed.
     """
-    calibrations, named = asked.methods(methods), asked.scenes(scenes)
-    parts, sizes = asked.parts(part), asked.grids(grids)
+    calibrations, named = parse.methods(methods), parse.scenes(scenes)
+    parts, sizes = parse.parts(part), parse.grids(grids)
     with output.open() as out:
         with out.campaign(campaign) as run:
-            found = transfer(
+            result = transfer(
                 **run,
                 methods=calibrations,
                 grids=sizes,
@@ -68,4 +68,4 @@ def command(
                 elements=elements,
                 large=large,
             )
-        out.show(found.report())
+        out.show(result.report())

@@ -101,11 +101,11 @@ def transfer(
     study.plan(parts)
     done = carry_out(study.runs, store, workers=workers, pool=pool, retry=retry, progress=progress)
     study.outcomes = dict(zip((run.key for run in study.runs), done, strict=True))
-    found = Transfer(study.methods, study.grids, elements)
+    result = Transfer(study.methods, study.grids, elements)
     for part in parts:
-        getattr(found, part.replace("-", "_")).extend(getattr(study, part.replace("-", "_"))())
-    found.failed.extend(study.failures())
-    return found
+        getattr(result, part.replace("-", "_")).extend(getattr(study, part.replace("-", "_"))())
+    result.failed.extend(study.failures())
+    return result
 
 
 class _Study:
@@ -159,8 +159,8 @@ class _Study:
 
     def gradings(self, name: str) -> tuple[dict[str, list[float | str]], tuple[str, ...]]:
         """Of the scene's lattices by method, one a grid, and the reasons where they were chosen."""
-        asked = lattices(self.scenes[name], [(n, n) for n in self.grids], self.methods)
-        chosen, reasons = resolve_each(self.scenes[name], asked, self.grading)
+        every = lattices(self.scenes[name], [(n, n) for n in self.grids], self.methods)
+        chosen, reasons = resolve_each(self.scenes[name], every, self.grading)
         values = [candidate.settings.get("grading", 0.0) for candidate in chosen]
         count = len(self.grids)
         return {m: values[i * count : (i + 1) * count] for i, m in enumerate(self.methods)}, reasons
@@ -192,14 +192,14 @@ class _Study:
             truth = self._reference_frequencies(name)
             for method in self.methods:
                 for masses in MASSES:
-                    found = [self._frequencies(name, method, (n, n), masses) for n in self.grids]
+                    frequencies = [self._frequencies(name, method, (n, n), masses) for n in self.grids]
                     rows.append(
                         {
                             "scene": name,
                             "method": method,
                             "masses": masses,
                             "misses": [
-                                None if f is None or truth is None else f / truth - 1.0 for f in found
+                                None if f is None or truth is None else f / truth - 1.0 for f in frequencies
                             ],
                         }
                     )

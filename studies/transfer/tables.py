@@ -15,43 +15,43 @@ if TYPE_CHECKING:
 _PER_CENT = ("", "%", 100.0, "z.2f")
 
 
-def report(found: Transfer) -> Report:
+def report(transfer: Transfer) -> Report:
     """What `sheetbench study transfer` shows."""
     return Report(
         name="transfer",
         title="transfer",
         subtitle="calibrations judged on scenes that they were not made on",
-        document=found.as_dict(),
-        tables=tuple(tables(found)),
-        notes=(explanation(found),),
-        complaints=tuple(found.failed),
-        settings={"methods": found.methods, "grids": found.grids, "elements": found.elements},
-        met=not found.failed,
+        document=transfer.as_dict(),
+        tables=tuple(tables(transfer)),
+        notes=(explanation(transfer),),
+        complaints=tuple(transfer.failed),
+        settings={"methods": transfer.methods, "grids": transfer.grids, "elements": transfer.elements},
+        met=not transfer.failed,
     )
 
 
-def tables(found: Transfer) -> list[Table]:
+def tables(transfer: Transfer) -> list[Table]:
     """Every table of the study that has rows."""
     made = [
-        *([_methods(found)] if found.static else []),
-        *(_static(found, i) for i in range(len(found.grids)) if found.static),
-        *([_static(found, None)] if found.static and len(found.grids) > 1 else []),
-        *([_gradings(found)] if any("gradings" in row for row in found.static) else []),
-        *([_limits(found)] if found.limits else []),
-        *(_modal(found, i) for i in range(len(found.grids)) if found.modal),
-        *([_aspect(found)] if found.aspect else []),
-        *([_left_out(found)] if found.left_out else []),
+        *([_methods(transfer)] if transfer.static else []),
+        *(_static(transfer, i) for i in range(len(transfer.grids)) if transfer.static),
+        *([_static(transfer, None)] if transfer.static and len(transfer.grids) > 1 else []),
+        *([_gradings(transfer)] if any("gradings" in row for row in transfer.static) else []),
+        *([_limits(transfer)] if transfer.limits else []),
+        *(_modal(transfer, i) for i in range(len(transfer.grids)) if transfer.modal),
+        *([_aspect(transfer)] if transfer.aspect else []),
+        *([_left_out(transfer)] if transfer.left_out else []),
     ]
     return made
 
 
-def _methods(found: Transfer) -> Table:
+def _methods(transfer: Transfer) -> Table:
     """A row per method: median and worst error over the scenes; where the finest grid errs most."""
     rows = []
-    for method in found.methods:
-        mine = [row for row in found.static if row["method"] == method]
+    for method in transfer.methods:
+        mine = [row for row in transfer.static if row["method"] == method]
         cells: list[Any] = []
-        for i in range(len(found.grids)):
+        for i in range(len(transfer.grids)):
             errors = [row["errors"][i] for row in mine if row["errors"][i] is not None]
             cells += [float(np.median(errors)), max(errors)] if errors else [None, None]
         limits = [row["extrapolated"] for row in mine if row["extrapolated"] is not None]
@@ -59,27 +59,27 @@ def _methods(found: Transfer) -> Table:
         worst = max(answered, key=lambda row: row["errors"][-1], default={"scene": None})["scene"]
         rows.append((method, *cells, max(limits, default=None), worst))
     columns = [Column("method")]
-    for n in found.grids:
+    for n in transfer.grids:
         columns += [Column(f"median at {n}", *_PER_CENT), Column(f"worst at {n}", *_PER_CENT)]
-    columns += [Column("worst limit", *_PER_CENT), Column(f"worst at {found.grids[-1]} is")]
-    scenes = len({row["scene"] for row in found.static})
+    columns += [Column("worst limit", *_PER_CENT), Column(f"worst at {transfer.grids[-1]} is")]
+    scenes = len({row["scene"] for row in transfer.static})
     return Table(f"Errors over {scenes} scenes, by masses a side", tuple(columns), tuple(rows), "methods")
 
 
-def _static(found: Transfer, grid: int | None) -> Table:
+def _static(transfer: Transfer, grid: int | None) -> Table:
     """Errors of a grid by its place among the grids, or of the extrapolated limit."""
     caption, name = "Error of the limit extrapolated from the two finest grids", "static-extrapolated"
     if grid is not None:
-        n = found.grids[grid]
+        n = transfer.grids[grid]
         caption, name = f"Error at {n} × {n} × 2 masses, of the largest displacement", f"static-{n}"
     return Table(
         caption,
-        (Column("scene"), *(Column(method, *_PER_CENT) for method in found.methods)),
+        (Column("scene"), *(Column(method, *_PER_CENT) for method in transfer.methods)),
         _by_scene(
-            found.methods,
+            transfer.methods,
             [
                 (r["scene"], r["method"], r["extrapolated"] if grid is None else r["errors"][grid])
-                for r in found.static
+                for r in transfer.static
             ],
         ),
         name,
@@ -87,17 +87,17 @@ def _static(found: Transfer, grid: int | None) -> Table:
     )
 
 
-def _gradings(found: Transfer) -> Table:
+def _gradings(transfer: Transfer) -> Table:
     """A row per scene: how its lattices are graded, and why."""
     rows = {}
-    for row in found.static:
+    for row in transfer.static:
         if any(row["gradings"]) or row["scene"] not in rows:
             rows[row["scene"]] = (
                 row["scene"],
                 ", ".join(f"{g:g}" if isinstance(g, float) else g for g in row["gradings"]),
                 "; ".join(row["reasons"]),
             )
-    grids = ", ".join(str(n) for n in found.grids)
+    grids = ", ".join(str(n) for n in transfer.grids)
     columns = (Column("scene"), Column("grading"), Column("why", prose=True))
     return Table(f"Grading at {grids} masses a side", columns, tuple(rows.values()), "gradings")
 
@@ -108,8 +108,8 @@ def _by_scene(methods: tuple[str, ...], entries: list[tuple[str, str, Any]]) -> 
     return tuple((name, *(values.get((name, method)) for method in methods)) for name in names)
 
 
-def _limits(found: Transfer) -> Table:
-    n = found.grids[-1]
+def _limits(transfer: Transfer) -> Table:
+    n = transfer.grids[-1]
     columns = (
         Column("scene"),
         Column("method"),
@@ -120,15 +120,15 @@ def _limits(found: Transfer) -> Table:
         Column("predicted for cells → 0", *_PER_CENT),
     )
     keys = ("finest", "predicted_finest", "lattice_less_plate", "extrapolated", "predicted_limit")
-    rows = tuple((r["scene"], r["method"], *(r[key] for key in keys)) for r in found.limits)
+    rows = tuple((r["scene"], r["method"], *(r[key] for key in keys)) for r in transfer.limits)
     caption = "Where refinement leads, measured and predicted from the moduli report"
     return Table(caption, columns, rows, "limits", grouped=True)
 
 
-def _modal(found: Transfer, grid: int) -> Table:
+def _modal(transfer: Transfer, grid: int) -> Table:
     """Misses of the first frequencies: a row per scene, frequency and way to share out the mass."""
     values: dict[tuple[str, str, int], dict[str, float]] = {}
-    for row in found.modal:
+    for row in transfer.modal:
         misses = row["misses"][grid]
         for i, miss in enumerate([] if misses is None else misses):
             values.setdefault((row["scene"], row["masses"], i + 1), {})[row["method"]] = float(miss)
@@ -136,31 +136,35 @@ def _modal(found: Transfer, grid: int) -> Table:
         Column("scene"),
         Column("masses"),
         Column("mode", form="d"),
-        *(Column(method, *_PER_CENT) for method in found.methods),
+        *(Column(method, *_PER_CENT) for method in transfer.methods),
     )
-    rows = tuple((*key, *(of.get(method) for method in found.methods)) for key, of in sorted(values.items()))
-    n = found.grids[grid]
+    rows = tuple(
+        (*key, *(of.get(method) for method in transfer.methods)) for key, of in sorted(values.items())
+    )
+    n = transfer.grids[grid]
     caption = f"Natural frequencies less the shell's at {n} × {n} × 2 masses"
     return Table(caption, columns, rows, f"modal-{n}", grouped=True)
 
 
-def _aspect(found: Transfer) -> Table:
+def _aspect(transfer: Transfer) -> Table:
     columns = (Column("scene"), Column("masses"), Column("aspect", form=".2f"), Column("error", *_PER_CENT))
     rows = tuple(
-        (r["scene"], f"{r['grid'][0]} × {r['grid'][1]} × 2", r["aspect"], r["error"]) for r in found.aspect
+        (r["scene"], f"{r['grid'][0]} × {r['grid'][1]} × 2", r["aspect"], r["error"]) for r in transfer.aspect
     )
     return Table("Cells longer than wide, calibrated by `moduli`", columns, rows, "aspect", grouped=True)
 
 
-def _left_out(found: Transfer) -> Table:
+def _left_out(transfer: Transfer) -> Table:
     columns = (
         Column("method"),
         Column("left out"),
         Column("error", *_PER_CENT),
         *(Column(f"frequency {i}", *_PER_CENT) for i in (1, 2, 3)),
     )
-    rows = tuple((r["method"], r["left_out"], r["error"], *_misses(r["misses"], 3)) for r in found.left_out)
-    n = found.grids[0]
+    rows = tuple(
+        (r["method"], r["left_out"], r["error"], *_misses(r["misses"], 3)) for r in transfer.left_out
+    )
+    n = transfer.grids[0]
     caption = f"Fitted to the other scenes of four, judged on the one left out, {n} × {n} × 2"
     return Table(caption, columns, rows, "left-out", grouped=True)
 
@@ -169,11 +173,11 @@ def _misses(values: np.ndarray | None, count: int) -> list[float | None]:
     return [None] * count if values is None else [float(value) for value in values]
 
 
-def explanation(found: Transfer) -> str:
+def explanation(transfer: Transfer) -> str:
     """What the numbers mean."""
     return (
         "error: the largest component of u − u_shell over 5 × 5 points of the sheet, of the largest "
-        f"component of u_shell there; shell of {found.elements} elements a side. fit-static and fit-modal "
+        f"component of u_shell there; shell of {transfer.elements} elements a side. fit-static and fit-modal "
         "are trained on the sheet under its own weight with one edge and with two adjacent edges clamped, "
         "again for every thickness and E; all other methods see no scene. extrapolated: Richardson's limit, "
         "error ~ h². predicted: the shell whose stiffness is the lattice's by its moduli report; apart: the "

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from studies.expected_errors.study import STORED, found, lattice, scenes, shares
+from studies.expected_errors.study import STORED, error_pairs, lattice, scenes, shares
 
 ROWS: dict[str, Any] = json.loads(STORED.read_text())
 
@@ -17,7 +17,7 @@ def test_on_the_stored_scenes_it_is_within_a_factor_of_two_and_never_below_a_thi
     """On four of five of all cases that are told of, and of each group; `make expected-errors`."""
     assert set(ROWS) == set(scenes())
     for group in ("hard", "catalogue", "transfer", "drawn"):
-        count, told, within, worst = shares(found(ROWS, group))
+        count, told, within, worst = shares(error_pairs(ROWS, group))
         assert within >= 0.8 and worst < 3.0, group
         assert told >= 0.8 * count, group
 

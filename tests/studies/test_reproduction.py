@@ -14,7 +14,7 @@ from comparisons.reproduction.published import scene
 from sheetbench.scenes.seed import seed_inputs
 from studies.reproduction.chords import Chord, of_table
 from studies.reproduction.inputs import checks
-from studies.reproduction.nearest import ENOUGH, SQUARES, Scan, fits, met
+from studies.reproduction.nearest import ENOUGH, SQUARES, Scan, fits, matches
 from studies.reproduction.printed_errors import Cell, cells, means
 from studies.reproduction.sheets import Sheets
 from studies.reproduction.study import Forensics, study
@@ -104,8 +104,8 @@ def test_a_sheet_is_found_from_its_own_table(
     found = fits(Scan(kind, (1,), 0, name, np.array([start]), first[None]), table)
     best = next(fit for fit in found if set(fit.sought) == set(true) and fit.by == SQUARES)
     assert dict(best.sought) == pytest.approx(true, rel=100 * ENOUGH)
-    assert best.met.all() and best.error < 1e-4 and best.converged
-    assert not met(1.2 * table, table).all()
+    assert best.matches.all() and best.error < 1e-4 and best.converged
+    assert not matches(1.2 * table, table).all()
 
 
 def test_supports_turned_as_one_turn_a_stiff_sheet_rigidly() -> None:

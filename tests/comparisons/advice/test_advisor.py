@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 from answers import once
-from commands import one_line, run
+from commands import run
 
 import fem_reference
 from comparisons.advice import probing
@@ -217,21 +217,6 @@ def test_the_printed_command_solves_the_choice(
 def _told(settings: Mapping[str, object]) -> dict[str, object]:
     """Settings that are not left open, as JSON has them."""
     return {name: json.loads(json.dumps(value)) for name, value in settings.items() if value is not None}
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (("advise", "one-edge-clamped", "--tolerance", "2"), "--tolerance = 2: a fraction"),
-        (("advise", "one-edge-clamped", "--tolerance", "0"), "--tolerance = 0"),
-        (("advise", "one-edge-clamped", "--budget", "-1"), "--budget = -1"),
-    ],
-)
-def test_bad_input_is_said_in_a_line(
-    arguments: tuple[str, ...], said: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run(*arguments) == 2
-    assert said in one_line(capsys)
 
 
 def test_an_unstable_scene_gets_no_choice_but_the_reason() -> None:

@@ -116,36 +116,6 @@ def test_scene_that_floats_leaves_with_2_and_names_the_file(
     assert str(path) in said and "support" in said
 
 
-@pytest.mark.parametrize(
-    ("arguments", "named"),
-    [
-        (("compare", "no-such-scene"), ["no-such-scene", "two-edges-clamped"]),
-        (("compare", "two-edges-clamped", "--lumped", "9y"), ["--lumped", "9y"]),
-        (("compare", "two-edges-clamped", "--calibration", "guess"), ["guess", "consistent", "uniform"]),
-        (("compare", "two-edges-clamped", "--reference", "beam"), ["beam", "shell"]),
-        (("compare", "two-edges-clamped", "--elements", "0"), ["elements", "0"]),
-        (("compare", "two-edges-clamped", "--k", "-5"), ["k", "-5"]),
-        (("compare", "two-edges-clamped", "--layer-distance", "0"), ["layer-distance", "0"]),
-        (("calibrate",), ["--young", "--poisson", "--thickness", "--side"]),
-        (("calibrate", "two-edges-clamped", "--poisson", "0.5"), ["--poisson", "0.5"]),
-        (("calibrate", "two-edges-clamped", "--side", "18q"), ["--side", "18q"]),
-        (("calibrate", "two-edges-clamped", "--side", "0.001"), ["thickness", "0.001"]),
-        (("calibrate", "two-edges-clamped", "--method", "guess"), ["guess", "consistent"]),
-        (
-            ("calibrate", "two-edges-clamped", "--method", "consistent", "--k", "550"),
-            ["k", "consistent", "uniform"],
-        ),
-        (("calibrate", "two-edges-clamped", "--toml", "--json"), ["--toml", "--json"]),
-    ],
-)
-def test_bad_option_leaves_with_2_and_one_line(
-    arguments: tuple[str, ...], named: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run(*arguments) == 2
-    said = one_line(capsys)
-    assert all(part in said for part in named)
-
-
 def test_out_that_is_a_file_leaves_with_2(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     taken = tmp_path / "taken"
     taken.write_text("")

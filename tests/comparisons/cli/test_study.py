@@ -30,21 +30,6 @@ def test_every_study_is_in_the_documentation_and_has_a_make_target() -> None:
         assert f"| `{name}` |" in page and f"sheetbench study {name}" in targets
 
 
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (("nosuch",), "study = 'nosuch': unknown, choose one of advisor, "),
-        (("coverage", "--wrongly"), "No such option: --wrongly; see sheetbench study coverage --help"),
-        (("coverage", "--model", "lumped"), "model = 'lumped': unknown, choose one of plate, shell"),
-    ],
-)
-def test_bad_input_is_said_in_a_line(
-    arguments: tuple[str, ...], said: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run("study", *arguments) == 2
-    assert said in one_line(capsys)
-
-
 def test_an_installed_package_says_where_studies_are(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

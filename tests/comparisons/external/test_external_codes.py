@@ -291,9 +291,7 @@ def pulled_rubber(rubber: Material) -> Scene:
 
 @pytest.mark.parametrize("judge", JUDGES, ids=lambda judge: judge.name)
 @pytest.mark.parametrize("rubber", RUBBERS, ids=lambda rubber: rubber.law)
-def test_stretched_rubber_is_our_solid_s_or_refused_by_name(
-    judge: ExternalCode, rubber: Material
-) -> None:
+def test_stretched_rubber_is_our_solid_s_or_refused_by_name(judge: ExternalCode, rubber: Material) -> None:
     """FElupe has our energy; CalculiX' differs by the compressibility, some 0.7 (1 − 2 ν) of the stretch."""
     needed(judge)
     scene = pulled_rubber(rubber.replace(poisson=0.49 if judge is FELUPE else 0.499))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import pyvista
 from cases import POINTS, with_material
-from commands import one_line, run
+from commands import run
 
 import fem_reference
 import lumped
@@ -312,27 +312,6 @@ def test_command_prints_tables(file, capsys):
     assert run("identify", SCENE.name, "--measured", str(file), *NINE) == 0
     printed = capsys.readouterr().out
     assert all(said in printed for said in ("young    MPa", "40 ", "off in uz", "20 points of 64"))
-
-
-@pytest.mark.parametrize(
-    ("arguments", "named"),
-    [
-        (("--unknown", "young,colour"), ["colour", "young", "poisson"]),
-        (("--unknown", "young,young"), ["each once"]),
-        (("--unknown", "curvature_x0"), ["x0", "no support"]),
-        (("--unknown", "damping_time"), ["damping_time", "does not depend on it"]),
-        (("--unknown", "tilt_x1"), ["tilt_x1", "x1", "no clamp"]),
-        (("--unknown", "tilt_x0"), ["tilt_x0", "no tilt", "corner", "y0"]),
-        (("--model", "plate"), ["plate", "shell"]),
-        (("--calibration", "fit-static"), ["fit-static"]),
-        (("--lumped", "9y"), ["9y"]),
-        (("--offset", "0.001"), ["offset = 0.001 m", "cloud"]),
-    ],
-)
-def test_bad_option_leaves_with_2_and_one_line(arguments, named, file, capsys):
-    assert run("identify", SCENE.name, "--measured", str(file), *arguments) == 2
-    said = one_line(capsys)
-    assert all(part in said for part in named)
 
 
 def test_a_surface_without_noise_gives_the_value_back():

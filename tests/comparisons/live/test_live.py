@@ -17,7 +17,7 @@ from urllib.parse import unquote, urlsplit
 
 import numpy as np
 import pytest
-from commands import one_line, run
+from commands import run
 from live_server import hear, serving, talking
 from terminals import COMMAND, Terminal
 from websockets.asyncio.connection import Connection
@@ -221,13 +221,6 @@ def test_a_message_that_is_too_long_ends_the_conversation(address):
         page.send("x" * (MESSAGE + 1))
         with pytest.raises(Exception, match="1009"):
             hear(page, lambda m: False)
-
-
-def test_bad_options_are_refused_in_a_line(capsys):
-    assert run("live", "two-edges-clamped", "--port", "70000") == 2
-    assert "--port" in one_line(capsys)
-    assert run("live", "two-edges-clamped", "--grid", "99") == 2
-    assert "grid = 99" in one_line(capsys)
 
 
 def test_no_command_line_has_the_secret_address(capsys, monkeypatch):

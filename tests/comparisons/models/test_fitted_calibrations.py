@@ -44,12 +44,6 @@ def test_calibrate_shows_what_the_data_tell(capsys: pytest.CaptureFixture[str]) 
     assert "What the data tell of each spring" in printed and "do not see" in printed
 
 
-@pytest.mark.parametrize("option", [("--k", "550"), ("--poisson", "0.6")])
-def test_bad_options_of_a_fit(option, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("calibrate", "two-edges-clamped", "--method", "fit-modal", *option) == 2
-    assert capsys.readouterr().err.count("\n") == 1
-
-
 def test_a_scene_in_which_nothing_moves_is_nothing_to_train_on():
     still = SCENE.replace(gravity=None)
     with pytest.raises(BadInput, match="nothing moves"):

@@ -128,21 +128,3 @@ def test_kinds_of_known_deflections() -> None:
     assert kinds(STRIP, np.stack(shapes), CELLS) == expected
     adjacent = STRIP.model_copy(update={"supports": (Clamped(edge="x0"), Clamped(edge="y0"))})
     assert kinds(adjacent, np.stack(shapes[:2]), CELLS) == ["bending 1", "bending 2"]
-
-
-@pytest.mark.parametrize(
-    ("arguments", "named"),
-    [
-        (("no-such",), "no-such"),
-        (("one-edge-clamped", "--count", "0"), "--count"),
-        (("one-edge-clamped", "--reference", "beam"), "beam"),
-        (("one-edge-clamped", "--calibration", "guess"), "guess"),
-        (("one-edge-clamped", "--lumped", "3", "--count", "500"), "count = 500"),
-    ],
-)
-def test_bad_input_leaves_with_2_and_one_line(
-    arguments: tuple[str, ...], named: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run(*arguments) == 2
-    said = capsys.readouterr().err.splitlines()[-1]
-    assert named in said

@@ -53,23 +53,6 @@ def test_files_of_a_run(tmp_path, capsys):
 
 
 @pytest.mark.parametrize(
-    "options, said",
-    [
-        (["--integrator", "verlet", "--step", "0.1"], "stability limit of verlet"),
-        (["--integrator", "rk4"], "choose from"),
-        (["--integrator", "reduced"], "removed; esdirk, in its place"),
-        (["--duration", "-1"], "duration = -1 s"),
-        (["--measured", "nowhere.csv"], "nowhere.csv"),
-        (["--animate"], "--animate: needs --out"),
-    ],
-)
-def test_bad_input_leaves_with_2_in_one_line(options, said, capsys):
-    assert run(*RUN, *options) == 2
-    error = capsys.readouterr().err
-    assert said in error.splitlines()[-1]
-
-
-@pytest.mark.parametrize(
     "text, said",
     [
         ("t,probe,ux,uy,uz\n", "the header must be"),

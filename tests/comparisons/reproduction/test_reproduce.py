@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from commands import one_line, run
 
 from comparisons.reproduction.answers import Answer, answer
 from comparisons.reproduction.findings import all_of
@@ -69,10 +68,3 @@ def test_a_lattice_of_the_seed_without_an_answer_is_a_complaint_and_no_failure(t
     found = Reproduction(("tables",), 2, answers=(fallen,))
     assert found.converged
     assert [said.partition(": ")[0] for said in found.report().complaints] == ["Test 1, k550-lz17"]
-
-
-def test_a_part_that_there_is_not_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("reproduce", "--part", "dynamics") == 2
-    assert "tables, settling" in one_line(capsys)
-    assert run("reproduce", "--part", "nearest") == 2
-    assert "--part nearest: removed; run 'sheetbench study reproduction'" in one_line(capsys)

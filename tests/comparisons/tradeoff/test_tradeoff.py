@@ -13,7 +13,7 @@ import campaigns
 import numpy as np
 import pytest
 from campaigns import Here, rows_in
-from commands import one_line, run
+from commands import run
 
 import lumped
 from comparisons.models.spec import Elements, External, Lattice, lattices, parse, references
@@ -237,29 +237,6 @@ def test_latex_says_what_the_cells_say() -> None:
     )
     text = table.to_latex()
     assert r"a\_b & x \\" in text and r"5 \% & $-$1.0 \\" in text
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (("--lumped", "1"), "--lumped = '1'"),
-        (("--calibration", "guess"), "calibration = 'guess'"),
-        (("--elements", "1"), "--elements = 1"),
-        (("--model", "nothing:grid=3"), "model = 'nothing'"),
-        (("--lumped", "", "--plate", "", "--shell", "", "--solid", ""), "no model left"),
-    ],
-)
-def test_bad_input_is_said_in_a_line(
-    arguments: tuple[str, ...], said: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run("tradeoff", "two-edges-clamped", *arguments) == 2
-    assert said in one_line(capsys)
-
-
-def test_a_scheduler_is_asked_for_a_motion_too(capsys: pytest.CaptureFixture[str]) -> None:
-    address = ("--scheduler", "tcp://127.0.0.1:9")
-    assert run("tradeoff", "two-edges-settling", "--duration", "0.1", *address) == 2
-    assert "no scheduler there" in one_line(capsys)
 
 
 def test_the_trade_of_a_motion_is_of_one_lattice(tmp_path: Path) -> None:

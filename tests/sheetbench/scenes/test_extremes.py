@@ -45,24 +45,6 @@ def test_an_extreme_option_is_refused_by_its_name(
     assert option.removeprefix("--") in one_line(capsys)
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ("compare", SEED, "--lumped", HUGE),
-        ("compare", SEED, "--elements", HUGE),
-        ("calibrate", SEED, "--grid", f"3x3x{HUGE}"),
-        ("modes", SEED, "--elements", HUGE),
-        ("simulate", SEED, "--lumped", f"{HUGE}x3"),
-        ("tradeoff", SEED, "--shell", HUGE),
-        ("modes", SEED, "--lumped", "3", "--elements", "2", "--count", HUGE),
-    ],
-    ids=lambda part: " ".join(part).replace(HUGE, "99…"),
-)
-def test_an_extreme_count_is_refused(arguments: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(*arguments) == 2
-    assert one_line(capsys)
-
-
 @pytest.mark.parametrize("value", ["1e-308", "1e308", "1e16", "1e-13"])
 @pytest.mark.parametrize("key", ["length_x", "thickness", "young", "density"])
 def test_an_extreme_quantity_of_a_scene_is_refused(key: str, value: str, tmp_path: Path) -> None:

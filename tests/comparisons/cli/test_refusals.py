@@ -1,0 +1,112 @@
+"""Command lines that no verb can answer: exit status 2 and one line with the option and what is allowed.
+
+A row is a command line and the parts of its line, with | between them.
+"""
+
+from __future__ import annotations
+
+import shlex
+from pathlib import Path
+
+import pytest
+from commands import one_line, run
+
+ONE, TWO = "one-edge-clamped", "two-edges-clamped"
+IDENTIFY = f"identify {TWO} --measured measured.csv"
+SIMULATE = f"simulate {TWO} --lumped 3 --duration 0.01"
+HUGE = "9" * 19
+ROWS = {
+    f"advise {ONE} --tolerance 2": "--tolerance = 2: a fraction",
+    f"advise {ONE} --tolerance 0": "--tolerance = 0",
+    f"advise {ONE} --budget -1": "--budget = -1",
+    "calibrate": "--young|--poisson|--thickness|--side",
+    f"calibrate {TWO} --poisson 0.5": "--poisson|0.5",
+    f"calibrate {TWO} --side 18q": "--side|18q",
+    f"calibrate {TWO} --side 0.001": "thickness|0.001",
+    f"calibrate {TWO} --method guess": "guess|consistent",
+    f"calibrate {TWO} --method consistent --k 550": "k|consistent|uniform",
+    f"calibrate {TWO} --method fit-modal --k 550": "k",
+    f"calibrate {TWO} --method fit-modal --poisson 0.6": "poisson",
+    f"calibrate {TWO} --toml --json": "--toml|--json",
+    f"calibrate {TWO} --grid 3 --method central --for mujoco": "--export",
+    f"calibrate {TWO} --grid 3 --method central --for bullet --export a": "mujoco",
+    f"calibrate {TWO} --grid 3x3x{HUGE}": "grid",
+    "calibrate --young 1e6 --poisson 0.3 --thickness 0.002 --side 0.1 --method auto": "method = auto",
+    "calibrate --young '2 mm'": "needed is a stress or modulus",
+    "calibrate --thickness '2 MPa'": "needed is a length",
+    "calibrate --density '1.1 g'": "needed is a density",
+    "calibrate --side '2 s' --young 1e6 --poisson 0.4 --thickness 1e-3": "--side = '2 s': '2 s' is",
+    "calibrate --young '1 MPa x'": "'--young': 'x' is no unit known here",
+    "calibrate --young ''": "'--young': '' is no quantity",
+    "calibrate --young": "'--young' requires an argument; see sheetbench --help",
+    "calibrate --yung 1": "No such option: --yung",
+    "compare no-such-scene": f"no-such-scene|{TWO}",
+    f"compare {TWO} --lumped 9y": "--lumped|9y",
+    f"compare {TWO} --lumped {HUGE}": "lumped",
+    f"compare {TWO} --calibration guess": "guess|consistent|uniform",
+    f"compare {TWO} --reference beam": "beam|shell",
+    f"compare {TWO} --elements 0": "elements|0",
+    f"compare {TWO} --elements {HUGE}": "elements",
+    f"compare {TWO} --k -5": "k|-5",
+    f"compare {TWO} --layer-distance 0": "layer-distance|0",
+    f"compare {ONE} --lumped 3 --elements 2 --model absent.py:Strip": "absent.py",
+    f"compare {ONE} --lumped 3 --elements 2 --model nobody": "nobody",
+    f"crosscheck {TWO} --lumped 9": "--lumped = '9'|rising",
+    f"crosscheck {TWO} --shell 8,6": "--shell = '8,6'|rising",
+    f"crosscheck {TWO} --solid 4x4,8x8": "--solid",
+    f"crosscheck {TWO} --lumped '' --plate '' --shell '' --solid '' --judges ''": "no model left",
+    f"crosscheck {TWO} --judges astrology": "--judges|astrology",
+    f"{IDENTIFY} --unknown young,colour": "colour|young|poisson",
+    f"{IDENTIFY} --unknown young,young": "each once",
+    f"{IDENTIFY} --unknown curvature_x0": "x0|no support",
+    f"{IDENTIFY} --unknown damping_time": "damping_time|does not depend on it",
+    f"{IDENTIFY} --unknown tilt_x1": "tilt_x1|x1|no clamp",
+    f"{IDENTIFY} --unknown tilt_x0": "tilt_x0|no tilt|corner|y0",
+    f"{IDENTIFY} --model plate": "plate|shell",
+    f"{IDENTIFY} --calibration fit-static": "fit-static",
+    f"{IDENTIFY} --lumped 9y": "9y",
+    f"{IDENTIFY} --offset 0.001": "offset = 0.001 m|cloud",
+    f"linearise {ONE} --about moving": "about = 'moving'",
+    f"live {TWO} --port 70000": "--port",
+    f"live {TWO} --grid 99": "grid = 99",
+    "modes no-such": "no-such",
+    f"modes {ONE} --count 0": "--count",
+    f"modes {ONE} --reference beam": "beam",
+    f"modes {ONE} --calibration guess": "guess",
+    f"modes {ONE} --elements {HUGE}": "elements",
+    f"modes {ONE} --lumped 3 --elements 2 --count {HUGE}": "count",
+    f"modes {ONE} --lumped 3 --count 500": "count = 500",
+    "reproduce --part dynamics": "tables, settling",
+    "reproduce --part nearest": "--part nearest: removed; run 'sheetbench study reproduction'",
+    f"{SIMULATE} --integrator verlet --step 0.1": "stability limit of verlet",
+    f"{SIMULATE} --integrator rk4": "choose from",
+    f"{SIMULATE} --integrator reduced": "removed; esdirk, in its place",
+    f"{SIMULATE} --duration -1": "duration = -1 s",
+    f"{SIMULATE} --measured nowhere.csv": "nowhere.csv",
+    f"{SIMULATE} --animate": "--animate: needs --out",
+    f"simulate {TWO} --duration 0.01 --lumped {HUGE}x3": "grid",
+    f"stability {ONE} --vary weather": "vary = 'weather': unknown, choose one of load",
+    "study nosuch": "study = 'nosuch': unknown, choose one of advisor, ",
+    "study coverage --wrongly": "No such option: --wrongly; see sheetbench study coverage --help",
+    "study coverage --model lumped": "model = 'lumped': unknown, choose one of plate, shell",
+    "suite --suite all": "statics, settling, modes",
+    f"tradeoff {TWO} --lumped 1": "--lumped = '1'",
+    f"tradeoff {TWO} --calibration guess": "calibration = 'guess'",
+    f"tradeoff {TWO} --elements 1": "--elements = 1",
+    f"tradeoff {TWO} --model nothing:grid=3": "model = 'nothing'",
+    f"tradeoff {TWO} --shell {HUGE}": "shell",
+    f"tradeoff {TWO} --lumped '' --plate '' --shell '' --solid ''": "no model left",
+    "tradeoff two-edges-settling --duration 0.1 --scheduler tcp://127.0.0.1:9": "no scheduler there",
+}
+
+
+@pytest.mark.smoke
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.replace(HUGE, "99…"))
+def test_it_is_refused_in_a_line(
+    row: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("measured.csv").write_text("x,y,ux,uy,uz\n0.094,0.094,,,-0.0024\n0.188,0.188,,,-0.0134\n")
+    assert run(*shlex.split(row)) == 2
+    line = one_line(capsys)
+    assert all(part in line for part in ROWS[row].split("|")), line

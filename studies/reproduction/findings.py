@@ -89,7 +89,8 @@ def _nearest(forensics: Forensics) -> Findings:
             yield (
                 "nearest",
                 f"{tests(of)}: with {values(most)}{rest}{ROD[most.sense]} a {kind} has "
-                f"{int(most.matches.sum())} of {most.entries} entries within {percent(NEAR)}, but not {missed(most)}.",
+                f"{int(most.matches.sum())} of {most.entries} entries within {percent(NEAR)}, but "
+                f"not {missed(most)}.",
             )
 
 

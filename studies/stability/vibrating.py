@@ -22,7 +22,7 @@ class FirstMode:
     """The first mode of a system about rest: ω [rad/s] and the coordinate q of a motion along it."""
 
     def __init__(self, equations: System, springs: Calibration):
-        modes = lumped.modes(equations.scene, springs, 1, "tributary")
+        modes = lumped.modes(equations.scene, springs, 1, equations.assembly.inertia)
         self.omega = 2.0 * np.pi * float(modes.frequencies[0])
         self.shape = modes.shapes[0]
         self._weighted = (equations.mass @ self.shape.ravel()).reshape(-1, 3)

@@ -90,33 +90,33 @@ def _arrangements(curvature: float) -> list[tuple[AnySupport, ...]]:
 
 def rows(scene: Scene) -> list[Spec]:
     """The dozen rows that the choice is to stand up to."""
-    found = lattices(scene, ["3", "5", "9", "17"], ["consistent"])
-    found += lattices(scene, ["5"], ["uniform"])
-    return [*found, *references("plate", ["4"]), *references("shell", ["2", "3", "4", "6", "8", "12"])]
+    lattice_rows = lattices(scene, ["3", "5", "9", "17"], ["consistent"])
+    lattice_rows += lattices(scene, ["5"], ["uniform"])
+    return [*lattice_rows, *references("plate", ["4"]), *references("shell", ["2", "3", "4", "6", "8", "12"])]
 
 
 def truth(scene: dict[str, Any], elements: int) -> dict[str, Any]:
     """Task: what the fine shell says at the probes."""
-    asked = Scene.model_validate(scene)
-    solution = solve(resolve(asked, Elements("shell", elements)))
+    parsed = Scene.model_validate(scene)
+    solution = solve(resolve(parsed, Elements("shell", elements)))
     return {
         "status": str(solution.status),
         "message": solution.message,
-        "displacement": solution.displacement(asked.probe_points()),
+        "displacement": solution.displacement(parsed.probe_points()),
     }
 
 
 def advice(scene: dict[str, Any], tolerance: float) -> dict[str, Any]:
     """Task: the advice, and what its choice says at the probes."""
-    asked = Scene.model_validate(scene)
-    given = advise(asked, tolerance)
+    parsed = Scene.model_validate(scene)
+    given = advise(parsed, tolerance)
     if given.choice is None:
         return {"status": "none", "message": given.message}
-    solution = solve(resolve(asked, given.choice))
+    solution = solve(resolve(parsed, given.choice))
     document = given.document()
     return {
         "status": str(solution.status),
-        "displacement": solution.displacement(asked.probe_points()),
+        "displacement": solution.displacement(parsed.probe_points()),
         **{
             key: document[key]
             for key in ("choice", "predicted", "met", "needs", "probing_seconds", "message")
@@ -166,13 +166,13 @@ class Study:
 
     def table(self) -> Table:
         """A row per tolerance."""
-        found = []
+        table_rows = []
         for tolerance in sorted({case["tolerance"] for case in self.cases}):
             part = Study(tuple(c for c in self.cases if c["tolerance"] == tolerance), {})
             off = [c["actual_error"] for c in part.cases]
             ratios = [c["cost_ratio"] for c in part.cases if c.get("cost_ratio") is not None]
             typical = float(np.median(ratios)) if ratios else None
-            found.append(
+            table_rows.append(
                 (tolerance, len(off), part.met, max(off), float(np.median(off)), part.within, typical)
             )
         columns = (
@@ -184,7 +184,7 @@ class Study:
             Column("within twice the cheapest", "", "%", 100.0, ".1f"),
             Column("median of time over the cheapest", "", "", 1.0, ".2f"),
         )
-        return Table("Tolerances asked and kept", columns, tuple(found), "advisor")
+        return Table("Tolerances asked and kept", columns, tuple(table_rows), "advisor")
 
 
 def study(
@@ -201,7 +201,7 @@ def study(
 ) -> Study:
     """The advisor on `count` scenes; on the first `compared` of them its cost beside that of `rows`."""
 
-    def runs(task: str, asked: list[tuple[Scene, dict[str, Any]]], timed: bool) -> list[Finished]:
+    def runs(task: str, inputs: list[tuple[Scene, dict[str, Any]]], timed: bool) -> list[Finished]:
         wanted = [
             Run(
                 f"studies.advisor.study:{task}",
@@ -209,7 +209,7 @@ def study(
                 f"{task} {scene.name}",
                 timed,
             )
-            for scene, rest in asked
+            for scene, rest in inputs
         ]
         return carry_out(wanted, store, workers=workers, pool=pool, retry=retry, progress=progress)
 
@@ -223,18 +223,18 @@ def study(
                 inside.append((scene, outcome))
             else:
                 skipped[scene.name] = f"{outcome.status}: {outcome.message}"
-    asked = [(scene, {"tolerance": tolerance}) for scene, _ in inside for tolerance in tolerances]
-    given = runs("advice", asked, True)
+    inputs = [(scene, {"tolerance": tolerance}) for scene, _ in inside for tolerance in tolerances]
+    given = runs("advice", inputs, True)
     fine = {scene.name: outcome for scene, outcome in inside}
-    cases = [_case(scene, rest, fine, found) for (scene, rest), found in zip(asked, given, strict=True)]
+    cases = [_case(scene, rest, fine, outcome) for (scene, rest), outcome in zip(inputs, given, strict=True)]
     for scene, outcome in inside[:compared]:
         mine = [case for case in cases if case["scene"] == scene.name and case["choice"] is not None]
         _compare_costs(scene, outcome, mine, store, progress)
     return Study(tuple(cases), skipped)
 
 
-def _case(scene: Scene, rest: dict[str, Any], fine: dict[str, Finished], found: Finished) -> dict[str, Any]:
-    row = found.row
+def _case(scene: Scene, rest: dict[str, Any], fine: dict[str, Finished], outcome: Finished) -> dict[str, Any]:
+    row = outcome.row
     off = None
     if "displacement" in row:
         off = error(np.array(row["displacement"]), np.array(fine[scene.name].row["displacement"]))
@@ -245,7 +245,7 @@ def _case(scene: Scene, rest: dict[str, Any], fine: dict[str, Finished], found: 
         "predicted": row.get("predicted"),
         "actual_error": float("inf") if off is None else off,
         "probing_seconds": row.get("probing_seconds"),
-        "message": found.message or row.get("message", ""),
+        "message": outcome.message or row.get("message", ""),
     }
 
 
@@ -258,9 +258,9 @@ def _compare_costs(
 ) -> None:
     """Adds "cost_ratio" to the cases of a scene: the choice's time over that of the cheapest adequate row."""
     chosen = [spec_of(case["choice"]["model"], case["choice"]["settings"]) for case in cases]
-    asked = [timing.run(scene, spec) for spec in [*rows(scene), *chosen]]
-    found = carry_out(asked, store, progress=progress)
-    dozen, mine = found[: -len(chosen)], found[-len(chosen) :]
+    queue = [timing.run(scene, spec) for spec in [*rows(scene), *chosen]]
+    outcomes = carry_out(queue, store, progress=progress)
+    dozen, mine = outcomes[: -len(chosen)], outcomes[-len(chosen) :]
     truth_displacement = np.array(outcome.row["displacement"])
     for case, own in zip(cases, mine, strict=True):
         adequate = [

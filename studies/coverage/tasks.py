@@ -16,12 +16,12 @@ def answer(scene: dict[str, Any], model: str, elements: int, graded: bool = Fals
 
     graded: finer towards the edges, where a model chooses.
     """
-    asked = Scene.model_validate(scene)
+    parsed = Scene.model_validate(scene)
     with running(large=True):
-        solution = solve(resolve(asked, Elements(model, elements, graded=graded or None)))
+        solution = solve(resolve(parsed, Elements(model, elements, graded=graded or None)))
     return {
         "status": str(solution.status),
         "message": solution.message,
         "settings": solution.settings,
-        "displacement": solution.displacement(asked.probe_points()),
+        "displacement": solution.displacement(parsed.probe_points()),
     }

@@ -120,22 +120,22 @@ def hard_scenes() -> list[Scene]:
 
 def scenes() -> dict[str, tuple[str, Scene]]:
     """Every scene by its name, with the group that it belongs to."""
-    found = {s.name: ("hard", s) for s in hard_scenes()}
-    found |= {name: ("catalogue", load(name)) for name in catalogue() if name != "two-edges-settling"}
-    found |= {n: ("transfer", s) for n, s in transfer_scenes().items() if n not in found}
-    return found | {s.name: ("drawn", s) for s in islice(scenes_at_random(SEED), DRAWN)}
+    by_name = {s.name: ("hard", s) for s in hard_scenes()}
+    by_name |= {name: ("catalogue", load(name)) for name in catalogue() if name != "two-edges-settling"}
+    by_name |= {n: ("transfer", s) for n, s in transfer_scenes().items() if n not in by_name}
+    return by_name | {s.name: ("drawn", s) for s in islice(scenes_at_random(SEED), DRAWN)}
 
 
 def lattice(scene: Scene, grid: tuple[int, int, int]) -> Row:
     """A lattice's displacement at the probes, and how its solve ended."""
     springs = lumped.calibrate(scene.sheet, scene.material, grid=grid)
-    found = lumped.solve(scene, springs)
+    solution = lumped.solve(scene, springs)
     return {
         "grid": list(grid),
-        "status": str(found.status) if found.comparable else "no equilibrium",
-        "snaps": len(found.snaps),
-        "stretch": float(f"{largest_stretch(scene, found, grid):.4g}"),
-        "probes": _rounded(found.displacement(scene.probe_points())),
+        "status": str(solution.status) if solution.comparable else "no equilibrium",
+        "snaps": len(solution.snaps),
+        "stretch": float(f"{largest_stretch(scene, solution, grid):.4g}"),
+        "probes": _rounded(solution.displacement(scene.probe_points())),
     }
 
 
@@ -147,10 +147,10 @@ def measure(group: str, scene: Scene) -> Row:
         "status": str(shell.status) if shell.comparable else "no equilibrium",
         "probes": _rounded(shell.displacement(scene.probe_points())),
     }
-    asked = [grid_of(scene.sheet, n) for n in GRIDS]
-    wanted = sorted({*asked, *(finer_grid(grid) for grid in asked)})
+    grids = [grid_of(scene.sheet, n) for n in GRIDS]
+    wanted = sorted({*grids, *(finer_grid(grid) for grid in grids)})
     row["lattices"] = [lattice(scene, grid) for grid in wanted]
-    row["grids"] = [list(grid) for grid in asked]
+    row["grids"] = [list(grid) for grid in grids]
     return row
 
 
@@ -167,20 +167,20 @@ def pairs(row: Row, scene: Scene) -> list[tuple[float, float | None]]:
         if row["shell"]["status"] != "converged" or coarse["status"] != "converged":
             continue
         true = error(np.array(coarse["probes"]), np.array(row["shell"]["probes"]))
-        told = None
+        expected = None
         alike = fine["status"] == "converged" and fine["snaps"] == coarse["snaps"]
         if alike and resolves(scene, finer_grid(tuple(grid))):
             ratio = prod(n - 1 for n in fine["grid"][:2]) / prod(n - 1 for n in grid[:2])
-            told = estimate(np.array(coarse["probes"]), np.array(fine["probes"]), ratio, fine["stretch"])
+            expected = estimate(np.array(coarse["probes"]), np.array(fine["probes"]), ratio, fine["stretch"])
         if true is not None:
-            both.append((true, told))
+            both.append((true, expected))
     return both
 
 
 def shares(both: list[tuple[float, float | None]]) -> tuple[int, int, float, float]:
     """How many there are, how many are told of, the share of those within a factor of two, and the largest
     true error in units of the estimate."""
-    ratios = np.array([true / told for true, told in both if told])
+    ratios = np.array([true / expected for true, expected in both if expected])
     within = float(np.mean((ratios < 2.0) & (ratios > 0.5))) if len(ratios) else np.nan
     return len(both), len(ratios), within, float(ratios.max(initial=0.0))
 
@@ -191,13 +191,15 @@ def table(rows: dict[str, Row]) -> str:
     lines += ["| --- | --- | ---: | ---: | ---: | ---: |"]
     groups = list(dict.fromkeys(row["group"] for row in rows.values()))
     for group, masses in [*((group, None) for group in groups), *(("all", n) for n in (*GRIDS, None))]:
-        count, told, within, worst = shares(found(rows, group, masses))
-        numbers = f"{count} | {told} | {100 * within:.0f} | {worst:.2f}"
+        count, expected, within, worst = shares(error_pairs(rows, group, masses))
+        numbers = f"{count} | {expected} | {100 * within:.0f} | {worst:.2f}"
         lines.append(f"| {group} | {masses or 'all'} | {numbers} |")
     return "\n".join(lines)
 
 
-def found(rows: dict[str, Row], group: str, masses: int | None = None) -> list[tuple[float, float | None]]:
+def error_pairs(
+    rows: dict[str, Row], group: str, masses: int | None = None
+) -> list[tuple[float, float | None]]:
     """The pairs of a group's rows, or of all, on grids with so many masses along the shorter side, or any."""
     named = scenes()
     pairs_of = []

@@ -39,14 +39,14 @@ SLOW = (External("felupe", {"elements": 4}),)  # minutes
 def row(case: Reference, candidate: Spec) -> dict[str, Any]:
     """Return what a model gets wrong on a case, and its median time."""
     answers = [solve(resolve(case.scene, candidate)) for _ in range(REPEATS)]
-    found = answers[-1]
-    there = found.comparable
+    final = answers[-1]
+    there = final.comparable
     return {
         "case": case.name,
         "model": candidate.model,
         "settings": candidate.settings,
-        "status": str(found.status),
-        "error": error(found.displacement(case.scene.probe_points()), case.values) if there else None,
+        "status": str(final.status),
+        "error": error(final.displacement(case.scene.probe_points()), case.values) if there else None,
         "seconds": float(np.median([answer.solve_seconds for answer in answers])) if there else None,
     }
 

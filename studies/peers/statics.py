@@ -54,7 +54,7 @@ def rows(say: Callable[[str], None]) -> Iterator[PeerRow]:
         absent = model in codes and codes[model].version() is None
         for size in sizes:
             springs = {} if calibration is None else {"calibration": calibration}
-            asked = spec_of(model, {setting: size, **springs})
+            candidate = spec_of(model, {setting: size, **springs})
             shown = f"{size} × {size}"
             say(f"{code}, {shown}")
             if absent:
@@ -62,14 +62,14 @@ def rows(say: Callable[[str], None]) -> Iterator[PeerRow]:
                 break
             last: list[Solution] = []
 
-            def once(asked: Spec = asked, last: list[Solution] = last) -> float:
-                last[:] = [solve(resolve(scene, asked))]
+            def once(candidate: Spec = candidate, last: list[Solution] = last) -> float:
+                last[:] = [solve(resolve(scene, candidate))]
                 return last[0].solve_seconds
 
             try:
                 seconds = repeated(once)
-            except BadInput as said:
-                yield PeerRow("statics", code, shown, False, None, (), f"absent: {said}")
+            except BadInput as reason:
+                yield PeerRow("statics", code, shown, False, None, (), f"absent: {reason}")
                 break
             off = error(last[0].displacement(points), truth) if last[0].comparable else None
             yield PeerRow("statics", code, shown, model in OURS, off, seconds, str(last[0].status))

@@ -38,14 +38,14 @@ def survey(
     """
     graded = read(grading)
     own = {} if graded is None else Lattice(grading=graded).settings
-    asked = [(s, cell | own if s.graded else cell) for s in studies for cell in s.cells(full)]
-    if own and not any("grading" in cell for _, cell in asked):
+    queue = [(s, cell | own if s.graded else cell) for s in studies for cell in s.cells(full)]
+    if own and not any("grading" in cell for _, cell in queue):
         raise BadInput(f"grading = {grading}: none of these studies has lattices to grade")
     if not large:
-        _require_room([cell["masses"] for _, cell in asked if "masses" in cell])
-    runs = [Run(study.measure, cell, f"{study.name} {_short(cell)}") for study, cell in asked]
+        _require_room([cell["masses"] for _, cell in queue if "masses" in cell])
+    runs = [Run(study.measure, cell, f"{study.name} {_short(cell)}") for study, cell in queue]
     outcomes = carry_out(runs, store, workers=workers, pool=pool, retry=retry, progress=progress)
-    return [row(study, cell, outcome) for (study, cell), outcome in zip(asked, outcomes, strict=True)]
+    return [row(study, cell, outcome) for (study, cell), outcome in zip(queue, outcomes, strict=True)]
 
 
 def _require_room(masses: Sequence[int]) -> None:

@@ -37,15 +37,15 @@ def lattice(
     """Displacement of a lattice at the points. training: scenes of a fitted method, its own unless given."""
     import lumped
 
-    asked = Scene.model_validate(scene)
-    solution = lumped.solve(asked, _springs(asked, method, grid, training, grading))
-    return _answer(solution, asked)
+    parsed = Scene.model_validate(scene)
+    solution = lumped.solve(parsed, _springs(parsed, method, grid, training, grading))
+    return _answer(solution, parsed)
 
 
 def reference(scene: dict[str, Any], model: str, elements: int) -> dict[str, Any]:
     """Displacement of a finite-element model at the points."""
-    asked = Scene.model_validate(scene)
-    return _answer(fem_reference.solve(asked, model, elements=elements), asked)
+    parsed = Scene.model_validate(scene)
+    return _answer(fem_reference.solve(parsed, model, elements=elements), parsed)
 
 
 def homogenised(
@@ -55,11 +55,11 @@ def homogenised(
     from fem_reference.surface.materials import Section
     from lumped import homogenised
 
-    asked = Scene.model_validate(scene)
-    springs = _springs(asked, method, grid, None)
-    got = homogenised(asked.sheet, springs.grid, springs.springs)
+    parsed = Scene.model_validate(scene)
+    springs = _springs(parsed, method, grid, None)
+    got = homogenised(parsed.sheet, springs.grid, springs.springs)
     section = Section(got.membrane, got.bending, np.diag(got.shear))
-    return _answer(fem_reference.solve(asked, model, elements=elements, section=section), asked)
+    return _answer(fem_reference.solve(parsed, model, elements=elements, section=section), parsed)
 
 
 def lattice_frequencies(
@@ -72,18 +72,18 @@ def lattice_frequencies(
     """Lowest natural frequencies of a lattice with its mass shared out in one of `lumped.masses`' ways."""
     import lumped
 
-    asked = Scene.model_validate(scene)
-    springs = _springs(asked, method, grid, training)
-    return {"frequencies": lumped.modes(asked, springs, FREQUENCIES, masses).frequencies}  # type: ignore[arg-type]
+    parsed = Scene.model_validate(scene)
+    springs = _springs(parsed, method, grid, training)
+    return {"frequencies": lumped.modes(parsed, springs, FREQUENCIES, masses).frequencies}  # type: ignore[arg-type]
 
 
 def reference_frequencies(scene: dict[str, Any], elements: int) -> dict[str, Any]:
     """Lowest natural frequencies of the shell."""
     import fem_reference
 
-    asked = Scene.model_validate(scene)
-    found = fem_reference.modes(asked, model="shell", elements=elements, count=FREQUENCIES)
-    return {"frequencies": found.frequencies}
+    parsed = Scene.model_validate(scene)
+    modes = fem_reference.modes(parsed, model="shell", elements=elements, count=FREQUENCIES)
+    return {"frequencies": modes.frequencies}
 
 
 def _springs(

@@ -42,7 +42,7 @@ ROWS = {
     "calibrate --yung 1": "No such option: --yung",
     "compare no-such-scene": f"no-such-scene|{TWO}",
     f"compare {TWO} --lumped 9y": "--lumped|9y",
-    f"compare {TWO} --lumped {HUGE}": "lumped",
+    f"compare {TWO} --lumped {HUGE}": "grid",
     f"compare {TWO} --calibration guess": "guess|consistent|uniform",
     f"compare {TWO} --reference beam": "beam|shell",
     f"compare {TWO} --elements 0": "elements|0",

@@ -31,7 +31,7 @@ from sheetbench.scenes import AnyScene, History, Solution, scene_of
 
 if TYPE_CHECKING:
     from comparisons.comparison.answer import Comparison
-    from comparisons.motion.comparison import MotionComparison
+    from comparisons.motion.comparison_answer import MotionComparison
     from comparisons.runs.campaign import Progress
     from comparisons.tradeoff.answer import Tradeoff
     from lumped import Calibration

@@ -8,6 +8,7 @@ springs or elements carry it each solver derives for itself, for a shared deriva
 import ast
 import re
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -141,16 +142,22 @@ def without_types(path: Path) -> list[ast.AST]:
     return [node for node in nodes_of(path) if node not in left_out]
 
 
+def counted(path: Path, package: str) -> bool:
+    """Whether imports for types count: not of the face, the command line and studies."""
+    solver = package in ("lumped", "fem_reference")
+    return solver or (package == "comparisons" and "cli" not in path.parts)
+
+
 @pytest.mark.parametrize("package", PACKAGES)
 def test_no_file_imports_itself_by_way_of_others(package):
-    """Imports within functions count, and in the solvers those for types too; a folder stands for the files
-    that it re-exports. A question's answer knows its tables, and they know its type alone."""
+    """Imports within functions count, and most for types too (`counted`); a folder stands for the files that
+    it re-exports. A question computes its answer; the answer makes its tables and names its figures."""
     files = {module_of(path): path for path in (ROOT / package).rglob("*.py")}
     exported: dict[str, set[str]] = {}
 
     def modules(path: Path) -> set[str]:
         found = set()
-        for node in nodes_of(path) if package in ("lumped", "fem_reference") else without_types(path):
+        for node in nodes_of(path) if counted(path, package) else without_types(path):
             if isinstance(node, ast.ImportFrom):
                 for name in (alias.name for alias in node.names):
                     inner, folder = f"{node.module}.{name}", f"{node.module}.__init__"
@@ -164,6 +171,15 @@ def test_no_file_imports_itself_by_way_of_others(package):
     while leaves := {name for name, below in graph.items() if not below & graph.keys()}:
         graph = {name: below for name, below in graph.items() if name not in leaves}
     assert not graph, f"import circles among {', '.join(sorted(graph))}"
+
+
+def test_every_figure_is_there():
+    """Figures are named by module and function, and loaded when they are drawn."""
+    text = "".join(text_of(path) for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
+    named = set(re.findall(r'"((?:sheetbench|comparisons|studies)[\w.]*figure|[\w.]*\.locking):(\w+)"', text))
+    assert len(named) > 10
+    for module, function in named:
+        assert callable(getattr(import_module(module), function)), f"{module}:{function}"
 
 
 # imported where they are used, as they decide how soon a command answers: the solvers (compiled kernels) and

@@ -10,9 +10,9 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
@@ -22,101 +22,18 @@ from comparisons.models.grids import Elements as Count
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import simulate
 from comparisons.models.spec import Elements, Lattice, LatticeKeywords
-from comparisons.motion import comparison_tables
-from comparisons.motion.measures import difference, measured_alike
+from comparisons.motion.comparison_answer import MotionComparison
+from comparisons.motion.measures import difference
 from comparisons.report import amounts
 from comparisons.report.work import Pace, Progress, Work, silent
 from sheetbench.choices import REFERENCE
-from sheetbench.scenes import AnyScene, History, Scene, Status, scene_of, summary
-
-if TYPE_CHECKING:
-    from sheetbench.answers.report import Report
+from sheetbench.scenes import AnyScene, History, Scene, Status, scene_of
 
 ELEMENTS = 8  # of a moving reference along the shorter side
 LONGER = 8.0  # error of a step: steps twice as long
 STEPS_PER_PERIOD = 100, 900  # of the lowest mode, with dampers of the springs and without
 SOLVES = 0.08  # of a static solve's time that a step takes
 EVEN = 0.02  # of the duration, until which steps grow and tell nothing of the pace
-
-
-@dataclass(frozen=True, repr=False)
-class MotionComparison(summary.Summarised):
-    """Histories by model, the lattice's first, the reference's last; uncertainty: how far the reference may
-    be off by its mesh and by its steps, as `largest` and `rms` are measured; None where it was not asked."""
-
-    scene: Scene
-    histories: dict[str, History]
-    uncertainty: dict[str, float | None] = field(default_factory=dict)
-
-    @property
-    def reference(self) -> str:
-        """The model that the others are measured against."""
-        return list(self.histories)[-1]
-
-    @property
-    def converged(self) -> bool:
-        """Whether all runs reached their end."""
-        return all(history.status is Status.CONVERGED for history in self.histories.values())
-
-    @property
-    def differences(self) -> list[dict[str, Any]]:
-        """Of every other model from the reference."""
-        against, truth = self.reference, self.histories[self.reference]
-        others = (name for name in self.histories if name != against)
-        return [
-            {"of": name, "against": against, **difference(self.histories[name], truth)} for name in others
-        ]
-
-    def as_dict(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench compare --duration`: metres, newtons, seconds, joules."""
-        truth = self.histories[self.reference]
-        return {
-            "scene": self.scene.document(),
-            "motion": {
-                "time": truth.time,
-                "probes": {name: history.probes for name, history in self.histories.items()},
-                "energies": {name: history.energies for name, history in self.histories.items()},
-                "reactions": {name: history.reactions for name, history in self.histories.items()},
-                "measures": {
-                    name: measured_alike(history, truth)[0].as_dict()
-                    for name, history in self.histories.items()
-                },
-                "differences": self.differences,
-                "uncertainty": self.uncertainty,
-            },
-            "solutions": [
-                {
-                    "model": name,
-                    "label": history.label,
-                    "integrator": history.integrator,
-                    "settings": history.settings,
-                    "status": str(history.status),
-                    "message": history.message,
-                    "steps": history.steps,
-                    "setup_seconds": history.setup_seconds,
-                    "solve_seconds": history.solve_seconds,
-                }
-                for name, history in self.histories.items()
-            ],
-        }
-
-    def report(self) -> Report:
-        """What is shown of it."""
-        return comparison_tables.report(self)
-
-    def _summary(self) -> tuple[str, summary.Facts]:
-        facts = [
-            (
-                name,
-                f"{history.status}, {history.steps} steps in {summary.milliseconds(history.solve_seconds)}",
-            )
-            for name, history in self.histories.items()
-        ]
-        off = [
-            (f"{d['of']} off by", f"{100 * d['largest']:.3g} % at most, {100 * d['rms']:.3g} % rms")
-            for d in self.differences
-        ]
-        return f"Motion of {self.scene.name}; .report() has tables, pictures and files", [*facts, *off]
 
 
 @in_context

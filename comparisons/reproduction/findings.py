@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from comparisons.reproduction.answers import Answer, of_model
 from comparisons.reproduction.published import published
-from comparisons.reproduction.settling import PROBE, SETTLED
+from comparisons.reproduction.settling import PROBE, SETTLED, Settling
 from comparisons.reproduction.words import millimetres, percent
 from sheetbench.answers.table import number
 from sheetbench.scenes import Solution, Status
 from sheetbench.scenes.seed import PROBES, seed_inputs
-
-if TYPE_CHECKING:
-    from comparisons.reproduction.reproduction import Reproduction
 
 
 @dataclass(frozen=True)
@@ -28,17 +24,16 @@ class Finding:
     finding: str
 
 
-def all_of(reproduction: Reproduction) -> list[Finding]:
+def all_of(answers: Sequence[Answer], settling: Settling | None) -> list[Finding]:
     """Every finding of the parts there are."""
-    parts = (_tables, _settling)
-    return [Finding(about, finding) for part in parts for about, finding in part(reproduction)]
+    return [Finding(*one) for one in (*_tables(answers), *(_settling(settling) if settling else ()))]
 
 
 Findings = Iterator[tuple[str, str]]
 
 
-def _tables(reproduction: Reproduction) -> Findings:
-    for one in reproduction.answers:
+def _tables(answers: Sequence[Answer]) -> Findings:
+    for one in answers:
         comparison = one.comparison
         off = comparison.error(comparison.solutions[0])
         if off is not None and comparison.bar is not None:
@@ -81,9 +76,7 @@ def _who(model: str) -> str:
     return "Consistent springs" if model == "lumped" else f"The published k, {model}"
 
 
-def _settling(reproduction: Reproduction) -> Findings:
-    if (settling := reproduction.settling) is None:
-        return
+def _settling(settling: Settling) -> Findings:
     for model, run in settling.runs.items():
         settled = settling.settled(model)
         still = "is not at rest at its end"

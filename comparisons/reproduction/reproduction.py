@@ -10,64 +10,16 @@ What in the published figures contradicts itself, and which sheets come nearest 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
 from typing import Any
 
 from comparisons.models.grids import Elements
 from comparisons.report.work import Work, silent
-from comparisons.reproduction import findings, tables
-from comparisons.reproduction.answers import Answer, answers
-from comparisons.reproduction.settling import Settling, settling
-from sheetbench.answers.report import Report
+from comparisons.reproduction.answers import answers
+from comparisons.reproduction.settling import settling
+from comparisons.reproduction.tables import Reproduction
 from sheetbench.choices import ELEMENTS
-from sheetbench.scenes import Status
-from sheetbench.scenes.seed import KNOWN_FAULTS, seed_inputs
 
 PARTS = ("tables", "settling")
-
-
-@dataclass(frozen=True)
-class Reproduction:
-    """What each part found; empty, or None, where a part was not asked for."""
-
-    parts: tuple[str, ...]
-    elements: Elements
-    answers: tuple[Answer, ...] = ()
-    settling: Settling | None = None
-
-    @property
-    def converged(self) -> bool:
-        """Whether our own models have answers to what was asked: the seed's lattices need not."""
-        runs = self.settling.runs.values() if self.settling is not None else ()
-        return all(one.comparison.converged for one in self.answers) and all(
-            run.status is Status.CONVERGED for run in runs
-        )
-
-    @property
-    def folders(self) -> list[str]:
-        """Folders of files that are written beside the others: frames of the settling runs."""
-        return [f"settling-{model}/" for model in (self.settling.runs if self.settling is not None else ())]
-
-    def as_dict(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench reproduce`: SI units, errors as fractions."""
-        document: dict[str, Any] = {
-            "parts": list(self.parts),
-            "inputs": seed_inputs(),
-            "known_faults": list(KNOWN_FAULTS),
-            "findings": [vars(one) for one in findings.all_of(self)],
-        }
-        if self.answers:
-            document["tests"] = [
-                {"test": one.test, "sense": one.sense, "name": one.name, **one.comparison.document()}
-                for one in self.answers
-            ]
-        if self.settling is not None:
-            document["settling"] = self.settling.as_dict()
-        return document
-
-    def report(self) -> Report:
-        """What is shown of it."""
-        return tables.report(self)
 
 
 def reproduce(

@@ -3,32 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from comparisons.models.grids import Elements
 from comparisons.motion.frames import frames, write_series
 from comparisons.report.vtk import write_solution
 from comparisons.reproduction import findings
 from comparisons.reproduction.answers import Answer
 from comparisons.reproduction.published import SOURCES, published, scene
-from comparisons.reproduction.settling import PROBE, SETTLED
+from comparisons.reproduction.settling import PROBE, SETTLED, Settling
 from comparisons.reproduction.words import percent
+from sheetbench.answers.answer import Answer as ShownAnswer
 from sheetbench.answers.files import write_text
-from sheetbench.answers.report import Picture, Report, Write
+from sheetbench.answers.report import Picture, Write
 from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import Status
-from sheetbench.scenes.seed import PROBES, seed_inputs
+from sheetbench.scenes.seed import KNOWN_FAULTS, PROBES, seed_inputs
 from sheetbench.scenes.words import sheet_in_words
-
-if TYPE_CHECKING:
-    from comparisons.reproduction.reproduction import Reproduction
 
 SEED = (
     "Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for large-deformation "
     "continuum surfaces"
 )
+POINTS = "P1 is the centre, P2 and P3 the middles of two free sides, P4 the corner farthest from the support."
 PERCENT = ("", "%", 100.0)
 
 
@@ -36,35 +37,88 @@ def length(name: str, form: str = "z.2f", detail: bool = False) -> Column:
     return Column(name, "m", "mm", 1e3, form, detail=detail)
 
 
-def report(reproduction: Reproduction) -> Report:
-    """What `sheetbench reproduce` shows."""
-    drawn: list[tuple[Table, str, Any]] = [(displacements(one), "test", one) for one in reproduction.answers]
-    if reproduction.settling is not None:
-        drawn.append((runs(reproduction), "motion", reproduction.settling))
-    return Report(
-        name="reproduction",
-        title="The study of Habibi et al., reproduced",
-        subtitle="what was published, and what the same inputs give",
-        lead=_question(),
-        document=reproduction.as_dict(),
-        tables=(findings_table(findings.all_of(reproduction)), *(table for table, *_ in drawn)),
-        complaints=tuple(_complaints(reproduction)),
-        pictures=tuple(
-            Picture(table.name, f"comparisons.reproduction.figure:{kind}", (of,)) for table, kind, of in drawn
-        ),
-        attachments=_attachments(reproduction),
-        settings={"parts": list(reproduction.parts), "elements": reproduction.elements},
-        met=reproduction.converged,
-    )
+@dataclass(frozen=True, repr=False)
+class Reproduction(ShownAnswer):
+    """What each part found; empty, or None, where a part was not asked for."""
 
+    file_name = "reproduction"
+    parts: tuple[str, ...]
+    elements: Elements
+    answers: tuple[Answer, ...] = ()
+    settling: Settling | None = None
 
-def _question() -> str:
-    """What was published, its tests and its sheet."""
-    first, second = scene(1), scene(2)
-    points = (
-        "P1 is the centre, P2 and P3 the middles of two free sides, P4 the corner farthest from the support."
-    )
-    return f"{SEED}. {first.title}. {second.title}. {sheet_in_words(first.sheet, first.material)}. {points}"
+    @property
+    def converged(self) -> bool:
+        """Whether our own models have answers to what was asked: the seed's lattices need not."""
+        runs = self.settling.runs.values() if self.settling is not None else ()
+        return all(one.comparison.converged for one in self.answers) and all(
+            run.status is Status.CONVERGED for run in runs
+        )
+
+    @property
+    def folders(self) -> list[str]:
+        """Folders of files that are written beside the others: frames of the settling runs."""
+        return [f"settling-{model}/" for model in (self.settling.runs if self.settling is not None else ())]
+
+    def document(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench reproduce`: SI units, errors as fractions."""
+        document: dict[str, Any] = {
+            "parts": list(self.parts),
+            "inputs": seed_inputs(),
+            "known_faults": list(KNOWN_FAULTS),
+            "findings": [vars(one) for one in findings.all_of(self.answers, self.settling)],
+        }
+        if self.answers:
+            document["tests"] = [
+                {"test": one.test, "sense": one.sense, "name": one.name, **one.comparison.document()}
+                for one in self.answers
+            ]
+        if self.settling is not None:
+            document["settling"] = self.settling.as_dict()
+        return document
+
+    def heading(self) -> tuple[str, str, str]:
+        """What was published, its tests and its sheet."""
+        first, second = scene(1), scene(2)
+        sheet = sheet_in_words(first.sheet, first.material)
+        lead = f"{SEED}. {first.title}. {second.title}. {sheet}. {POINTS}"
+        return (
+            "The study of Habibi et al., reproduced",
+            "what was published, and what the same inputs give",
+            lead,
+        )
+
+    def _drawn(self) -> list[tuple[Table, str, Any]]:
+        """Every table with the figure beside it, and what that is of."""
+        tests: list[tuple[Table, str, Any]] = [(displacements(one), "test", one) for one in self.answers]
+        return tests if self.settling is None else [*tests, (runs(self), "motion", self.settling)]
+
+    def tables(self) -> list[Table]:
+        found = findings.all_of(self.answers, self.settling)
+        return [findings_table(found), *(table for table, *_ in self._drawn())]
+
+    def figures(self) -> list[Picture]:
+        module = "comparisons.reproduction.figure"
+        return [Picture(table.name, f"{module}:{kind}", (of,)) for table, kind, of in self._drawn()]
+
+    def complaints(self) -> list[str]:
+        """A sentence for every model of ours without an answer."""
+        return [
+            f"{one.title}, {s.model}: {s.status}: {s.status.advice}"
+            for one in self.answers
+            for s in one.comparison.solutions
+            if s.status is not Status.CONVERGED
+        ]
+
+    def files(self) -> dict[str, Write]:
+        return _attachments(self)
+
+    def choices(self) -> dict[str, Any]:
+        return {"parts": list(self.parts), "elements": self.elements}
+
+    @property
+    def succeeded(self) -> bool:
+        return self.converged
 
 
 def findings_table(every: Sequence[findings.Finding]) -> Table:
@@ -136,16 +190,6 @@ def runs(reproduction: Reproduction) -> Table:
         "figure has no numbers to compare with."
     )
     return Table("The settling run", columns, tuple(rows), "settling", text=text)
-
-
-def _complaints(reproduction: Reproduction) -> list[str]:
-    """A sentence for every model of ours without an answer."""
-    return [
-        f"{one.title}, {s.model}: {s.status}: {s.status.advice}"
-        for one in reproduction.answers
-        for s in one.comparison.solutions
-        if s.status is not Status.CONVERGED
-    ]
 
 
 def _attachments(reproduction: Reproduction) -> dict[str, Write]:

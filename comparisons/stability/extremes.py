@@ -18,7 +18,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -29,7 +29,7 @@ from comparisons.models.spec import Elements, Lattice
 from comparisons.runs.campaign import Progress, Run, carry_out
 from comparisons.runs.executors import Pool, processes
 from comparisons.runs.store import Finished, Store
-from comparisons.stability import tables
+from comparisons.stability.answer import Stability
 from comparisons.stability.rows import Row
 from comparisons.tradeoff.motion import explicit_limit, shortest_period
 from sheetbench.choices import INTEGRATORS, REFERENCE
@@ -37,9 +37,6 @@ from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene, Status
 from sheetbench.scenes.parameters import put
 from sheetbench.scenes.tables import FactorTable, Loading
-
-if TYPE_CHECKING:
-    from sheetbench.answers.report import Report
 
 FACTORS = {
     "load": (0.001, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0),
@@ -56,29 +53,6 @@ FINE, PERIODS, SAMPLES = (
     40,
 )  # steps a period of the midpoint rule; length of a run; samples a period
 VARIED = (*FACTORS, "grid", "damping", "time-step")
-
-
-@dataclass(frozen=True)
-class Stability:
-    """The rows of what was varied of a scene; period: of its lowest mode [s], None unless it was needed."""
-
-    scene: Scene
-    reference: str
-    period: float | None
-    rows: tuple[Row, ...]
-
-    def as_dict(self) -> dict[str, Any]:
-        """The JSON document: SI units, errors as fractions."""
-        return {
-            "scene": self.scene.document(),
-            "reference": self.reference,
-            "period": self.period,
-            "rows": list(self.rows),
-        }
-
-    def report(self) -> Report:
-        """What is shown of it."""
-        return tables.report(self)
 
 
 @dataclass(frozen=True)

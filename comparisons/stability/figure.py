@@ -6,7 +6,7 @@ import matplotlib
 from matplotlib.figure import Figure
 
 from comparisons.stability import tiles as maps
-from comparisons.stability.extremes import Stability
+from comparisons.stability.answer import Stability
 from comparisons.stability.rows import VARIED, Row, place, who
 from sheetbench.answers.figure_style import FigureStyle
 

@@ -16,8 +16,8 @@ from comparisons.models.grids import Elements
 from comparisons.report.work import Work, silent
 from comparisons.reproduction import findings as of_models
 from comparisons.reproduction.findings import Finding
-from comparisons.reproduction.reproduction import Reproduction, reproduce
-from comparisons.reproduction.tables import findings_table
+from comparisons.reproduction.reproduction import reproduce
+from comparisons.reproduction.tables import Reproduction, findings_table
 from sheetbench.answers.report import Picture, Report
 from sheetbench.choices import ELEMENTS
 from sheetbench.scenes.seed import seed_inputs
@@ -50,12 +50,12 @@ class Forensics:
             [Finding(about, sentence) for part in parts for about, sentence in part(self)]
             for parts in (findings.BEFORE, findings.AFTER)
         )
-        return [*before, *of_models.all_of(self.models), *after]
+        return [*before, *of_models.all_of(self.models.answers, self.models.settling), *after]
 
     def as_dict(self) -> dict[str, Any]:
         """The JSON document: SI units, errors as fractions."""
         document: dict[str, Any] = {
-            **self.models.as_dict(),
+            **self.models.document(),
             "parts": list(self.parts),
             "findings": [vars(one) for one in self.findings()],
         }

@@ -11,16 +11,19 @@ import numpy as np
 from comparisons.identification.tensile import tables
 from comparisons.identification.tensile.curves import Curve, read, require_loading
 from comparisons.identification.tensile.laws import LAWS, POISSON, Fit, chosen, energy, fit, largest_x, stress
-from sheetbench.answers.report import Report
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import Picture
+from sheetbench.answers.table import Table, number
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, summary
+from sheetbench.scenes import Material
 
 
 @dataclass(frozen=True, repr=False)
-class TensileFit(summary.Summarised):
+class TensileFit(Answer):
     """curves: as measured; fits: of every law; free: those without bounds, where bounds matter; law: the one
     that the curves ask for, None where no law fits stably."""
 
+    file_name = "tensile"
     curves: tuple[Curve, ...]
     fits: tuple[Fit, ...]
     free: tuple[Fit, ...]
@@ -62,7 +65,7 @@ class TensileFit(summary.Summarised):
             constants["young"] *= (1.0 + poisson) / 1.5  # of the same shear modulus
         return Material.model_validate(values | constants)
 
-    def as_dict(self) -> dict[str, Any]:
+    def document(self) -> dict[str, Any]:
         """The JSON document: SI units."""
         return {
             "law": self.law.law if self.law else None,
@@ -76,14 +79,49 @@ class TensileFit(summary.Summarised):
             "warnings": [],
         }
 
-    def _summary(self) -> tuple[str, summary.Facts]:
-        found = self.law.law if self.law else "no law"
-        facts = [(f.law, f"misfit {100 * f.rms:.2g} % of the largest stress") for f in self.fits]
-        return f"Tensile test: {found}; .report() has the table", facts
+    def heading(self) -> tuple[str, str, str]:
+        covered = ", ".join(f"{kind} {low:.3g} to {high:.3g}" for kind, (low, high) in self.covered.items())
+        rows = sum(len(curve.stretch) for curve in self.curves)
+        return "Tensile test", f"{rows} rows, stretch covered: {covered}", ""
 
-    def report(self) -> Report:
-        """What is shown of it."""
-        return tables.report(self)
+    def tables(self) -> tuple[Table, ...]:
+        return tables.constants(self.fits, self.free), tables.misfits(self.fits, self.free, self.law)
+
+    def figures(self) -> tuple[Picture, ...]:
+        return (Picture("tensile", "comparisons.identification.tensile.figure:compose", (self,)),)
+
+    def notes(self) -> list[str]:
+        """What to put into a scene, and what the curves leave open."""
+        said = []
+        mooney = next((f for f in self.fits if f.law == "mooney-rivlin"), None)
+        if mooney is not None and len(self.covered) == 1:
+            said.append(
+                "One kind of test cannot tell c1 from c2 of mooney-rivlin: their errors have the correlation "
+                f"{number(mooney.correlation, '.3f')}, and it is not chosen; pure shear or equibiaxial "
+                "tension beside it would tell."
+            )
+        if self.open is not None:
+            at, (low, high) = self.open
+            said.append(
+                f"Not measured: equibiaxial tension. At stretch {at:.3g}, as far as these data go in I₁, "
+                f"laws that fit about as well foretell {low / 1e6:.3g} to {high / 1e6:.3g} MPa."
+            )
+        if self.law is not None:
+            material = self.material()
+            keys = {key: getattr(material, key) for key in (*self.law.constants, "poisson")}
+            lines = "\n".join(f"{key} = {value:.6g}" for key, value in keys.items())
+            said.append(f'In a scene:\n[material]\nlaw = "{self.law.law}"\n{lines}')
+        return said
+
+    def complaints(self) -> tuple[str, ...]:
+        return () if self.law else ("no law fits these curves stably; try a smaller --up-to",)
+
+    def choices(self) -> dict[str, Any]:
+        return {"files": [curve.file for curve in self.curves]}
+
+    @property
+    def succeeded(self) -> bool:
+        return self.law is not None
 
 
 def identify_tensile(

@@ -10,7 +10,7 @@ import pytest
 from comparisons.reproduction.answers import Answer, answer
 from comparisons.reproduction.findings import all_of
 from comparisons.reproduction.published import published, scene
-from comparisons.reproduction.reproduction import Reproduction
+from comparisons.reproduction.tables import Reproduction
 from sheetbench.answers.report import Report
 from sheetbench.scenes import Status
 from sheetbench.scenes.seed import seed_inputs
@@ -47,7 +47,7 @@ def test_the_tables_hold_what_was_published_and_what_we_answer(test_1: Answer) -
     assert [s.model for s in test_1.comparison.solutions] == ["lumped", "shell", "k550-lz3", "k550-lz17"]
     assert test_1.comparison.solutions[2].settings["weights"] == "full"
     found = Reproduction(("tables",), 2, answers=(test_1,))
-    document = found.as_dict()
+    document = found.document()
     assert {"parts", "inputs", "known_faults", "findings", "tests"} == set(document)
     assert document["findings"][0]["finding"].startswith("Our lattice with consistent springs is ")
     assert found.converged and document["tests"][0]["name"] == "test-1"
@@ -58,7 +58,9 @@ def test_the_tables_hold_what_was_published_and_what_we_answer(test_1: Answer) -
         and "| P4 | published experiment | −1.91 | – | −20.09 |" in table.to_markdown()
     )
     assert {"test-1.vtu", "test-1-shell.vtu", "test-1-k550-lz17.vtu"} <= set(report.files())
-    assert any("with the published inputs" in one.finding.lower() for one in all_of(found))
+    assert any(
+        "with the published inputs" in one.finding.lower() for one in all_of(found.answers, found.settling)
+    )
 
 
 def test_a_lattice_of_the_seed_without_an_answer_is_a_complaint_and_no_failure(test_1: Answer) -> None:

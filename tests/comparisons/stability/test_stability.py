@@ -15,8 +15,8 @@ from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
 from comparisons.runs.store import Store
 from comparisons.stability import extremes
+from comparisons.stability.answer import limits, summary
 from comparisons.stability.extremes import Stability, scaled, stability
-from comparisons.stability.tables import limits, summary
 from comparisons.stability.tasks import rests_flat
 from sheetbench.scenes import BadInput, Clamped, PointLoad, Pressure, load
 

@@ -1,42 +1,67 @@
-"""The tables of a scene's stability: where each model holds, the largest stable steps, every run."""
+"""Where each model of a scene holds, the largest stable steps, every run: the answer of `stability`."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from itertools import groupby
-from typing import TYPE_CHECKING
+from typing import Any
 
 from comparisons.stability.rows import LARGE, VARIED, Row, place, verdict, who
-from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import Picture
 from sheetbench.answers.table import Column, Table, number
-
-if TYPE_CHECKING:
-    from comparisons.stability.extremes import Stability
+from sheetbench.scenes import Scene
 
 ERROR = Column("error", "", "%", 100.0, ".3g")
 
 
-def report(maps: Stability) -> Report:
-    """What `sheetbench stability` shows."""
-    broken = [row for row in maps.rows if row["status"] in ("failed", "lost")]
-    steps = [] if not _limits(maps) else [limits(maps)]
-    drawn = any(row["study"] != "damping" for row in maps.rows)
-    return Report(
-        name="stability",
-        title="stability",
-        subtitle=f"where each model of {maps.scene.name} holds",
-        document=maps.as_dict(),
-        tables=(summary(maps), *steps, *map(cells, _studies(maps))),
-        printed=(summary(maps), *steps),
-        notes=(
-            f"holds: converged and within {100.0 * LARGE:g} % of the {maps.reference} on the same sheet, in "
-            "motion of a run with a fine step.",
-        ),
-        complaints=tuple(f"{r['study']} {r['cell']}: {r['status']}: {r['message']}" for r in broken),
-        pictures=(Picture("stability", "comparisons.stability.figure:compose", (maps,)),) if drawn else (),
-        settings={"studies": list(dict.fromkeys(row["study"] for row in maps.rows))},
-        met=not broken,
-    )
+@dataclass(frozen=True, repr=False)
+class Stability(Answer):
+    """The rows of what was varied of a scene; period: of its lowest mode [s], None unless it was needed."""
+
+    file_name = "stability"
+    scene: Scene
+    reference: str
+    period: float | None
+    rows: tuple[Row, ...]
+
+    def document(self) -> dict[str, Any]:
+        """The JSON document: SI units, errors as fractions."""
+        return {
+            "scene": self.scene.document(),
+            "reference": self.reference,
+            "period": self.period,
+            "rows": list(self.rows),
+        }
+
+    def heading(self) -> tuple[str, str, str]:
+        return "stability", f"where each model of {self.scene.name} holds", ""
+
+    def tables(self) -> tuple[Table, ...]:
+        return (*self.printed(), *map(cells, _studies(self)))
+
+    def printed(self) -> tuple[Table, ...]:
+        return (summary(self), limits(self)) if _limits(self) else (summary(self),)
+
+    def figures(self) -> tuple[Picture, ...]:
+        drawn = any(row["study"] != "damping" for row in self.rows)
+        return (Picture("stability", "comparisons.stability.figure:compose", (self,)),) if drawn else ()
+
+    def notes(self) -> tuple[str, ...]:
+        within = f"within {100.0 * LARGE:g} % of the {self.reference} on the same sheet"
+        return (f"holds: converged and {within}, in motion of a run with a fine step.",)
+
+    def complaints(self) -> list[str]:
+        broken = (row for row in self.rows if row["status"] in ("failed", "lost"))
+        return [f"{r['study']} {r['cell']}: {r['status']}: {r['message']}" for r in broken]
+
+    def choices(self) -> dict[str, Any]:
+        return {"studies": list(dict.fromkeys(row["study"] for row in self.rows))}
+
+    @property
+    def succeeded(self) -> bool:
+        return not self.complaints()
 
 
 def summary(maps: Stability) -> Table:

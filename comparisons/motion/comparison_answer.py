@@ -2,53 +2,120 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
 from comparisons.motion import frames
 from comparisons.motion.frames import Frame
-from comparisons.motion.measures import leading, measured_alike
+from comparisons.motion.measures import difference, leading, measured_alike
+from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
-from sheetbench.answers.report import Picture, Report
+from sheetbench.answers.report import Picture, Write
 from sheetbench.answers.table import Column, Table, number
-from sheetbench.scenes import FieldMesh, Status
+from sheetbench.scenes import FieldMesh, History, Scene, Status
 from sheetbench.scenes.measured_history import COMPONENTS
 
-if TYPE_CHECKING:
-    from comparisons.motion.comparison import MotionComparison
 
+@dataclass(frozen=True, repr=False)
+class MotionComparison(Answer):
+    """Histories by model, the lattice's first, the reference's last; uncertainty: how far the reference may
+    be off by its mesh and by its steps, as `largest` and `rms` are measured; None where it was not asked."""
 
-def report(found: MotionComparison) -> Report:
-    """The answer, ready to be shown."""
-    histories, reference = found.histories, found.reference
-    attachments = {f"{name}.csv": partial(_write_samples, found=found, name=name) for name in histories}
-    if all(len(history.extra["frames"]) for history in histories.values()):
-        attachments |= {f"{name}.pvd": partial(_write_frames, found=found, name=name) for name in histories}
-        attachments["difference.pvd"] = partial(_write_difference, found=found)
-    return Report(
-        name="motion",
-        title=found.scene.name,
-        subtitle=found.scene.title,
-        lead=f"moving for {histories[reference].time[-1]:g} s; differences from the {reference}",
-        document=found.as_dict(),
-        tables=(_measures(found), _differences(found), _runs(found)),
-        notes=(
-            *_bars(found),
-            *(f"{name}: {note}" for name, history in histories.items() for note in history.notes()),
-        ),
-        complaints=tuple(
-            f"{name}: {history.status}: {history.message}"
-            for name, history in histories.items()
-            if history.status is not Status.CONVERGED
-        ),
-        pictures=(Picture("motion", "comparisons.motion.comparison_figure:compose", (found,)),),
-        attachments=attachments,
-        settings={name: history.settings for name, history in histories.items()},
-        met=found.converged,
-    )
+    file_name = "motion"
+    scene: Scene
+    histories: dict[str, History]
+    uncertainty: dict[str, float | None] = field(default_factory=dict)
+
+    @property
+    def reference(self) -> str:
+        """The model that the others are measured against."""
+        return list(self.histories)[-1]
+
+    @property
+    def converged(self) -> bool:
+        """Whether all runs reached their end."""
+        return all(history.status is Status.CONVERGED for history in self.histories.values())
+
+    @property
+    def differences(self) -> list[dict[str, Any]]:
+        """Of every other model from the reference."""
+        against, truth = self.reference, self.histories[self.reference]
+        others = (name for name in self.histories if name != against)
+        return [
+            {"of": name, "against": against, **difference(self.histories[name], truth)} for name in others
+        ]
+
+    def document(self) -> dict[str, Any]:
+        """The JSON document of `sheetbench compare --duration`: metres, newtons, seconds, joules."""
+        truth = self.histories[self.reference]
+        return {
+            "scene": self.scene.document(),
+            "motion": {
+                "time": truth.time,
+                "probes": {name: history.probes for name, history in self.histories.items()},
+                "energies": {name: history.energies for name, history in self.histories.items()},
+                "reactions": {name: history.reactions for name, history in self.histories.items()},
+                "measures": {
+                    name: measured_alike(history, truth)[0].as_dict()
+                    for name, history in self.histories.items()
+                },
+                "differences": self.differences,
+                "uncertainty": self.uncertainty,
+            },
+            "solutions": [
+                {
+                    "model": name,
+                    "label": history.label,
+                    "integrator": history.integrator,
+                    "settings": history.settings,
+                    "status": str(history.status),
+                    "message": history.message,
+                    "steps": history.steps,
+                    "setup_seconds": history.setup_seconds,
+                    "solve_seconds": history.solve_seconds,
+                }
+                for name, history in self.histories.items()
+            ],
+        }
+
+    def heading(self) -> tuple[str, str, str]:
+        end = self.histories[self.reference].time[-1]
+        lead = f"moving for {end:g} s; differences from the {self.reference}"
+        return self.scene.name, self.scene.title, lead
+
+    def tables(self) -> tuple[Table, ...]:
+        return _measures(self), _differences(self), _runs(self)
+
+    def figures(self) -> tuple[Picture, ...]:
+        return (Picture("motion", "comparisons.motion.comparison_figure:compose", (self,)),)
+
+    def notes(self) -> list[str]:
+        own = (f"{name}: {note}" for name, history in self.histories.items() for note in history.notes())
+        return [*_bars(self), *own]
+
+    def complaints(self) -> list[str]:
+        return [f"{name}: {c}" for name, history in self.histories.items() for c in history.complaints()]
+
+    def files(self) -> dict[str, Write]:
+        """Samples of every model, and where frames were kept sheets at some moments."""
+        found: dict[str, Write] = {
+            f"{name}.csv": partial(_write_samples, found=self, name=name) for name in self.histories
+        }
+        if all(len(history.extra["frames"]) for history in self.histories.values()):
+            found |= {f"{n}.pvd": partial(_write_frames, found=self, name=n) for n in self.histories}
+            found["difference.pvd"] = partial(_write_difference, found=self)
+        return found
+
+    def choices(self) -> dict[str, Any]:
+        return {name: history.settings for name, history in self.histories.items()}
+
+    @property
+    def succeeded(self) -> bool:
+        return self.converged
 
 
 def _measures(found: MotionComparison) -> Table:

@@ -2,7 +2,8 @@
 
 Storage: row j holds column j of the lower triangle from the diagonal on, band[j, i − j] = A_ij, then zeros.
 PANEL columns are eliminated together and the rest is updated two columns at a time: a rank-PANEL update whose
-operands stay in registers. LAPACK's dpbtrf eliminates a column at a time at bandwidths below 65, which is
+operands stay in registers. Rows end with zeros, so that loops run over whole vectors, and what cannot overlap
+is said (`numerics.memory`). LAPACK's dpbtrf eliminates a column at a time at bandwidths below 65, which is
 what small lattices have.
 """
 
@@ -15,7 +16,10 @@ import scipy.sparse as sp
 from numba import njit
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
+from sheetbench.numerics.memory import load, store
+
 PANEL = 6  # the unknowns of a column of masses in two layers
+LANES, ONE = np.uint64(8), np.uint64(1)  # that loops run over at once; index arithmetic is unsigned
 TRY_OTHER_ORDER = 20_000  # unknowns up to which a second order is looked at: beyond, bands do not pay
 BACKWARD_ERROR = 1e-10  # ‖A x − b‖ relative to ‖A‖‖x‖ + ‖b‖ beyond which the matrix counts as singular
 REORDERED = {"reassoc", "contract", "nsz"}  # sums in any order, for vector instructions; infinities count
@@ -83,8 +87,8 @@ def band_of(
     r, c = place[rows], place[columns]
     lower = np.flatnonzero(r >= c)
     r, c, weight = r[lower], c[lower], weight[lower]
-    kind = np.int32 if n * (width + 1 + PANEL) < 2**31 else np.int64
-    target = (c * (width + 1 + PANEL) + r - c).astype(kind)
+    kind = np.int32 if n * row_length(width) < 2**31 else np.int64
+    target = (c * row_length(width) + r - c).astype(kind)
     weight = np.empty(0) if (weight == 1.0).all() else weight
     return Band(order.astype(np.intp), width, source[lower].astype(np.int32), target, weight)
 
@@ -96,9 +100,27 @@ def padded_length(n: int) -> int:
 
 
 @njit(cache=True, nogil=True)
+def row_length(width: int) -> int:
+    """Columns of the storage: those of the band, and zeros that the loops run over into."""
+    return width + 1 + PANEL + 8
+
+
+@njit(cache=True, nogil=True)
+def padded_vector(n: int, width: int) -> np.ndarray:
+    """Return zeros for a vector in the band's order that `substitute` takes."""
+    return np.zeros(padded_length(n) + row_length(width))
+
+
+@njit(cache=True, nogil=True)
 def shape(band: Band) -> tuple[int, int]:
     """Rows and columns of the storage."""
-    return padded_length(len(band.order)), band.width + 1 + PANEL
+    return padded_length(len(band.order)), row_length(band.width)
+
+
+@njit(cache=True, nogil=True)
+def _lanes(count: int) -> int:
+    """A number of steps up to that of whole vectors."""
+    return (np.uint64(count) + LANES - ONE) // LANES * LANES
 
 
 @njit(cache=True, nogil=True)
@@ -119,21 +141,45 @@ def factor(band: np.ndarray, n: int, width: int) -> bool:
     """Turn the matrix into its Cholesky factor in place; False where it is not positive definite."""
     for j in range(n, len(band)):
         band[j, 0] = 1.0
+    flat, stride = band.ravel(), np.uint64(band.shape[1])
     for k0 in range(0, n, PANEL):
         for k in range(k0, k0 + PANEL):
             pivot = band[k, 0]
+            for i in range(k0, k):
+                pivot -= band[i, k - i] ** 2
             if not (pivot > 0.0 and pivot < np.inf):
                 return False
-            own = band[k]
-            root = np.sqrt(pivot)
-            inverse = 1.0 / root
-            own[0] = root
-            for i in range(1, width + 1):
-                own[i] *= inverse
+            band[k, 0] = np.sqrt(pivot)
             for j in range(k + 1, k0 + PANEL):
-                share, off, other = own[j - k], j - k, band[j]
-                for i in range(width + 1 - off):
-                    other[i] -= share * own[i + off]
+                total = band[k, j - k]
+                for i in range(k0, k):
+                    total -= band[i, k - i] * band[i, j - i]
+                band[k, j - k] = total / band[k, 0]
+        own = band[k0 : k0 + PANEL]
+        i0, i1, i2 = 1.0 / own[0, 0], 1.0 / own[1, 0], 1.0 / own[2, 0]
+        i3, i4, i5 = 1.0 / own[3, 0], 1.0 / own[4, 0], 1.0 / own[5, 0]
+        c01, c02, c03, c04, c05 = own[0, 1], own[0, 2], own[0, 3], own[0, 4], own[0, 5]
+        c12, c13, c14, c15, c23 = own[1, 1], own[1, 2], own[1, 3], own[1, 4], own[2, 1]
+        c24, c25, c34, c35, c45 = own[2, 2], own[2, 3], own[3, 1], own[3, 2], own[4, 1]
+        p0 = np.uint64(k0) * stride + np.uint64(PANEL)  # places of the row behind the panel
+        p1 = p0 + stride - ONE
+        p2 = p1 + stride - ONE
+        p3 = p2 + stride - ONE
+        p4 = p3 + stride - ONE
+        p5 = p4 + stride - ONE
+        for i in range(_lanes(width)):
+            x0 = load(0, flat, p0 + i) * i0
+            x1 = (load(1, flat, p1 + i) - c01 * x0) * i1
+            x2 = (load(2, flat, p2 + i) - c02 * x0 - c12 * x1) * i2
+            x3 = (load(3, flat, p3 + i) - c03 * x0 - c13 * x1 - c23 * x2) * i3
+            x4 = (load(4, flat, p4 + i) - c04 * x0 - c14 * x1 - c24 * x2 - c34 * x3) * i4
+            x5 = (load(5, flat, p5 + i) - c05 * x0 - c15 * x1 - c25 * x2 - c35 * x3 - c45 * x4) * i5
+            store(0, flat, p0 + i, x0)
+            store(1, flat, p1 + i, x1)
+            store(2, flat, p2 + i, x2)
+            store(3, flat, p3 + i, x3)
+            store(4, flat, p4 + i, x4)
+            store(5, flat, p5 + i, x5)
         for j in range(k0 + PANEL, min(n, k0 + PANEL + width), 2):
             off = j - k0
             first, second = band[j], band[j + 1]
@@ -142,17 +188,20 @@ def factor(band: np.ndarray, n: int, width: int) -> bool:
             f0, f1, f2, f3, f4, f5 = l0[0], l1[0], l2[0], l3[0], l4[0], l5[0]
             g0, g1, g2, g3, g4, g5 = l0[1], l1[1], l2[1], l3[1], l4[1], l5[1]
             first[0] -= f0 * f0 + f1 * f1 + f2 * f2 + f3 * f3 + f4 * f4 + f5 * f5
-            for i in range(1, width + PANEL - off):
-                m0, m1, m2, m3, m4, m5 = l0[i], l1[i], l2[i], l3[i], l4[i], l5[i]
-                first[i] -= f0 * m0 + f1 * m1 + f2 * m2 + f3 * m3 + f4 * m4 + f5 * m5
-                second[i - 1] -= g0 * m0 + g1 * m1 + g2 * m2 + g3 * m3 + g4 * m4 + g5 * m5
+            for i in range(ONE, ONE + _lanes(width + PANEL - off - 1)):
+                m0, m1, m2 = load(0, l0, i), load(0, l1, i), load(0, l2, i)
+                m3, m4, m5 = load(0, l3, i), load(0, l4, i), load(0, l5, i)
+                by_first = f0 * m0 + f1 * m1 + f2 * m2 + f3 * m3 + f4 * m4 + f5 * m5
+                by_second = g0 * m0 + g1 * m1 + g2 * m2 + g3 * m3 + g4 * m4 + g5 * m5
+                store(1, first, i, load(1, first, i) - by_first)
+                store(2, second, i - ONE, load(2, second, i - ONE) - by_second)
     return True
 
 
 @njit(cache=True, nogil=True, fastmath=REORDERED)
 def substitute(factors: np.ndarray, n: int, width: int, x: np.ndarray) -> None:
-    """Solve with the factors in place, x in the band's order, with zeros behind it (`padded`)."""
-    last = (n - 1) // PANEL * PANEL
+    """Solve with the factors in place, x in the band's order in a `padded_vector`."""
+    last, count = (n - 1) // PANEL * PANEL, _lanes(width)
     for k0 in range(0, last + 1, PANEL):
         for k in range(k0, k0 + PANEL):
             x[k] /= factors[k, 0]
@@ -162,21 +211,23 @@ def substitute(factors: np.ndarray, n: int, width: int, x: np.ndarray) -> None:
         l0, l1, l2 = factors[k0, 6:], factors[k0 + 1, 5:], factors[k0 + 2, 4:]
         l3, l4, l5 = factors[k0 + 3, 3:], factors[k0 + 4, 2:], factors[k0 + 5, 1:]
         f0, f1, f2, f3, f4, f5 = x[k0], x[k0 + 1], x[k0 + 2], x[k0 + 3], x[k0 + 4], x[k0 + 5]
-        for i in range(width):
-            rest[i] -= f0 * l0[i] + f1 * l1[i] + f2 * l2[i] + f3 * l3[i] + f4 * l4[i] + f5 * l5[i]
+        for i in range(count):
+            taken = f0 * load(0, l0, i) + f1 * load(0, l1, i) + f2 * load(0, l2, i)
+            taken += f3 * load(0, l3, i) + f4 * load(0, l4, i) + f5 * load(0, l5, i)
+            store(1, rest, i, load(1, rest, i) - taken)
     for k0 in range(last, -1, -PANEL):
         rest = x[k0 + PANEL :]
         l0, l1, l2 = factors[k0, 6:], factors[k0 + 1, 5:], factors[k0 + 2, 4:]
         l3, l4, l5 = factors[k0 + 3, 3:], factors[k0 + 4, 2:], factors[k0 + 5, 1:]
         s0 = s1 = s2 = s3 = s4 = s5 = 0.0
-        for i in range(width):
-            value = rest[i]
-            s0 += l0[i] * value
-            s1 += l1[i] * value
-            s2 += l2[i] * value
-            s3 += l3[i] * value
-            s4 += l4[i] * value
-            s5 += l5[i] * value
+        for i in range(count):
+            value = load(1, rest, i)
+            s0 += load(0, l0, i) * value
+            s1 += load(0, l1, i) * value
+            s2 += load(0, l2, i) * value
+            s3 += load(0, l3, i) * value
+            s4 += load(0, l4, i) * value
+            s5 += load(0, l5, i) * value
         for q, total in enumerate((s0, s1, s2, s3, s4, s5)):
             x[k0 + q] -= total
         for k in range(k0 + PANEL - 1, k0 - 1, -1):
@@ -201,7 +252,7 @@ def subtract_product(matrix: np.ndarray, n: int, width: int, x: np.ndarray, out:
 @njit(cache=True, nogil=True)
 def solve_unrefined(factors: np.ndarray, width: int, order: np.ndarray, b: np.ndarray) -> np.ndarray:
     """x with A x = b as the factors have it."""
-    x = np.zeros(len(factors) + width)
+    x = padded_vector(len(order), width)
     for j in range(len(order)):
         x[j] = b[order[j]]
     substitute(factors, len(order), width, x)
@@ -216,8 +267,7 @@ def solve(
     matrix: np.ndarray, factors: np.ndarray, width: int, order: np.ndarray, b: np.ndarray
 ) -> tuple[np.ndarray, float]:
     """x with A x = b, refined once, and the largest residual left over ‖A‖‖x‖ + ‖b‖ (largest entries)."""
-    n, padded = len(order), len(matrix) + width
-    right, x = np.zeros(padded), np.zeros(padded)
+    n, right, x = len(order), padded_vector(len(order), width), padded_vector(len(order), width)
     for j in range(n):
         right[j] = b[order[j]]
     left = right.copy()

@@ -50,9 +50,8 @@ class VerletImplicitDamping(Integrator):
         self._factors: Factors | None = None
         self._made_for = 0.0
         places = np.empty(0, np.uint64)
-        nothing = Factors(
-            np.ones((banded.padded_length(1), 1 + banded.PANEL)), 1, 0, places, places, np.empty(0)
-        )
+        one = np.ones((banded.padded_length(1), banded.row_length(0)))
+        nothing = Factors(one, 1, 0, places, places, np.empty(0))
         self._flat.compile(self._steps_with(nothing))
 
     @classmethod
@@ -87,7 +86,7 @@ class VerletImplicitDamping(Integrator):
 
     def _steps_with(self, factors: Factors) -> Steps:
         guess, last = np.zeros(self._flat.size), np.zeros(self._flat.size)
-        solved = np.zeros(len(factors.band) + factors.width)
+        solved = banded.padded_vector(factors.unknowns, factors.width)
 
         def steps(
             count: int, h: float, arrays: ExplicitArrays, *tables: Any

@@ -66,7 +66,7 @@ class CompiledNewton:
         )
         size = system.assembly.pattern.size
         force, velocity, base_u, base_v = np.zeros((4, size, 3))
-        right = np.zeros(banded.padded_length(len(band.order)) + band.width)
+        right = banded.padded_vector(len(band.order), band.width)
         self.workspace = Workspace(force, velocity, base_u, base_v, right)
         self.factors = np.empty((0, 0))
         proportional = system.damping.time or not system.damping.dampers

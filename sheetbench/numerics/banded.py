@@ -9,7 +9,7 @@ what small lattices have.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
@@ -118,7 +118,7 @@ def shape(band: Band) -> tuple[int, int]:
 
 
 @njit(cache=True, nogil=True)
-def _lanes(count: int) -> int:
+def _lanes(count: int) -> Any:
     """A number of steps up to that of whole vectors."""
     return (np.uint64(count) + LANES - ONE) // LANES * LANES
 

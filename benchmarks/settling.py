@@ -97,7 +97,6 @@ def main() -> None:
     methods: dict[str, tuple[str, dict[str, Any]]] = {
         "generalised-alpha": ("generalised-alpha", {}),
         "esdirk": ("esdirk", {}),
-        "verlet-implicit-damping": ("verlet-implicit-damping", {}),
     }
     if asked.all:
         methods |= {name: (name, {}) for name in ("midpoint", "verlet")}

@@ -75,10 +75,9 @@ INTEGRATORS = {
     "generalised-alpha": "implicit, steps by their error",
     "esdirk": "implicit, fifth order, long steps by their error, no chains",
     "verlet": "explicit, steps below the limit of stability",
-    "verlet-implicit-damping": "the same steps however strong the damping, no chains",
     "midpoint": "implicit, conserves energy",
 }
-REMOVED_INTEGRATORS = ("projective", "reduced")  # esdirk is quicker, and nearer
+REMOVED_INTEGRATORS = ("projective", "reduced", "verlet-implicit-damping")  # esdirk is quicker, and nearer
 
 REFERENCE = "shell"
 REFERENCES = {

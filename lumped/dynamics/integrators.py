@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from lumped.dynamics.explicit.verlet import Verlet
-from lumped.dynamics.explicit.verlet_implicit_damping import VerletImplicitDamping
 from lumped.dynamics.implicit.esdirk import Esdirk
 from lumped.dynamics.implicit.generalised_alpha import GeneralisedAlpha
 from lumped.dynamics.implicit.midpoint import Midpoint
@@ -15,7 +14,7 @@ from sheetbench.choices import AUTO, REMOVED_INTEGRATORS
 from sheetbench.errors import BadInput
 
 INTEGRATORS: dict[str, type[Integrator]] = {
-    kind.name: kind for kind in (GeneralisedAlpha, Esdirk, Verlet, VerletImplicitDamping, Midpoint)
+    kind.name: kind for kind in (GeneralisedAlpha, Esdirk, Verlet, Midpoint)
 }
 
 

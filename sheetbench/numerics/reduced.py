@@ -83,7 +83,7 @@ class ReducedSystem:
         self.band: banded.Band | None = None
         small = symmetric and not constrained and self.unknowns < BANDED_LIMIT / banded.PANEL**2
         if small and banded.cost(self.unknowns, self._order[1]) < BANDED_LIMIT:
-            self.band = self.any_band
+            self.band = self._banded()
 
     @cached_property
     def _reduction(self) -> Reduction:
@@ -94,9 +94,7 @@ class ReducedSystem:
         found = self._reduction
         return banded.ordered(found.rows, found.columns(), self.unknowns)
 
-    @cached_property
-    def any_band(self) -> banded.Band:
-        """Where the entries go in a band, however wide."""
+    def _banded(self) -> banded.Band:
         found, entries = self._reduction, self._reduction.entries()
         rows, columns = np.repeat(found.rows, entries), np.repeat(found.columns(), entries)
         weight = found.weight if len(found.weight) else np.ones(len(rows))

@@ -6,17 +6,14 @@ factors of loads, are tabulated for a number of steps at a time.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from lumped.dynamics.explicit.follower_loads import Followers
-from lumped.dynamics.explicit.steps import ExplicitArrays, Workspace
+from lumped.dynamics.explicit.steps import ExplicitArrays, Workspace, march
 from lumped.dynamics.integrator import Advance, StepFailed
 from lumped.dynamics.system import State, System
 from lumped.springs.packing import pack, scratch
 
-Steps = Callable[..., tuple[bool, int, float, float]]  # as `lumped.dynamics.explicit.steps.march`
 CALL, PER_SPRING = 0.03, 1e-8  # s that a call takes, about, and a step of a spring
 LEAST = 8  # steps of a call: to lay a large lattice out for it and back takes as long as two of them
 
@@ -60,15 +57,15 @@ class FlatSystem:
             single,
         )
 
-    def march(self, state: State, step: float, most: int, steps_of: Steps) -> tuple[Advance, int]:
+    def march(self, state: State, step: float, most: int) -> tuple[Advance, int]:
         """At most so many steps, as many as take some hundredths of a second, or `LEAST`; fewer before one
-        that fails, or where `steps_of` ends. Raises StepFailed where the first one fails."""
+        that fails. Raises StepFailed where the first one fails."""
         count = min(most, self.at_once)
         while True:
             u, v, a = (self.flat(vector) for vector in (state.u, state.v, state.a))
             times = np.cumsum(np.append(state.time, np.full(count, step)))  # as they add up one by one
             tables = self._factors(times), *self._placed(times)
-            whole, taken, dissipated, work = steps_of(
+            whole, taken, dissipated, work = march(
                 count, step, self.arrays, *tables, u, v, a, self._workspace(u)
             )
             if whole:
@@ -78,11 +75,11 @@ class FlatSystem:
                 raise StepFailed("a number overflowed")
             count = taken
 
-    def compile(self, steps_of: Steps) -> None:
-        """Compile steps, or load what was compiled, before there is anything to do."""
+    def compile(self) -> None:
+        """Compile the steps, or load what was compiled, before there is anything to do."""
         still, at_once = np.zeros(self.size), np.zeros(1)
         tables = self._factors(at_once), *self._placed(at_once)
-        steps_of(0, 1.0, self.arrays, *tables, still, still.copy(), still.copy(), self._workspace(still))
+        march(0, 1.0, self.arrays, *tables, still, still.copy(), still.copy(), self._workspace(still))
 
     def flat(self, vector: np.ndarray) -> np.ndarray:
         """A vector (n, 3) at the places, (3 s,)."""

@@ -14,7 +14,6 @@ import numpy as np
 from lumped.dynamics.explicit.flat_system import FlatSystem
 from lumped.dynamics.explicit.projection import Projection
 from lumped.dynamics.explicit.step_limit import StepLimit, step_limit
-from lumped.dynamics.explicit.steps import march
 from lumped.dynamics.integrator import Advance, Integrator, StepFailed
 from lumped.dynamics.system import State, System
 
@@ -30,7 +29,7 @@ class Verlet(Integrator):
         chains = system.coupling is not None and system.coupling.bodies
         self._flat = None if chains else FlatSystem(system)
         if self._flat is not None:
-            self._flat.compile(march)
+            self._flat.compile()
 
     @classmethod
     def limit(cls, system: System, u: np.ndarray) -> StepLimit:
@@ -41,7 +40,7 @@ class Verlet(Integrator):
         """Steps in one compiled call; one at a time where there are chains. Raises StepFailed."""
         if self._flat is None:
             return super().march(state, step, most)
-        return self._flat.march(state, step, most, march)
+        return self._flat.march(state, step, most)
 
     def advance(self, state: State, at_most: float) -> Advance:
         """One explicit step. Raises StepFailed when a number overflows or constraints find no solution."""

@@ -246,7 +246,7 @@ def test_the_trade_of_a_motion_is_of_one_lattice(tmp_path: Path) -> None:
     stiff = {name: 4.0 * k for name, k in springs.as_dict()["springs"].items() if isinstance(k, float)}
     table = {**stiff, "layer_distance": springs.layer_distance, "grid": [3, 3, 2]}
     own = scene.replace(springs=table)
-    names = ("verlet-implicit-damping",)
+    names = ("verlet",)
     options = {"integrators": names, "reference": 400, "pool": Here}
     with campaign(tmp_path) as store:
         found = dynamic_tradeoff(own, 0.02, store, **options)

@@ -91,7 +91,6 @@ def test_integrators_agree_with_solve_ivp(reference, name, step):
 
 ORDER_STEPS = {
     "verlet": 4e-5,
-    "verlet-implicit-damping": 4e-5,
     "generalised-alpha": 4e-5,
     "esdirk": 4e-4,
     "midpoint": 4e-5,
@@ -283,6 +282,7 @@ def test_unknown_choices_are_refused():
         ({"integrator": "euler"}, "choose from generalised-alpha"),
         ({"integrator": "reduced"}, "removed; esdirk, in its place"),
         ({"integrator": "projective"}, "removed; esdirk, in its place"),
+        ({"integrator": "verlet-implicit-damping"}, "removed; esdirk, in its place"),
         ({"step": -1.0}, "step = -1 s"),
         ({"integrator": "verlet", "radius": 0.5}, "does not take radius"),
     ):

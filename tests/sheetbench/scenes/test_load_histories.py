@@ -281,7 +281,6 @@ def test_weight_with_a_history_does_work_and_has_no_potential():
 
 ORDER_STEPS = {
     "verlet": 4e-5,
-    "verlet-implicit-damping": 4e-5,
     "generalised-alpha": 4e-5,
     "midpoint": 4e-5,
 }

@@ -15,7 +15,7 @@ from fem_reference.plate.rods import PlateRods
 from fem_reference.surface import loads, rod
 from fem_reference.surface.bound_rods import BoundRods, on_surface
 from fem_reference.surface.loads import Follower
-from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from fem_reference.surface.mesh import Elements, divisions, field_mesh, mesh_of
 from sheetbench.errors import BadInput
 from sheetbench.numerics.direct import DirectSolver, solve_free
 from sheetbench.scenes import EdgeMotion, FieldMesh, Scene
@@ -124,8 +124,8 @@ class MovingPlate(Moving):
         return self._supports.reactions(self.displacement(exerted))
 
     def mesh(self, displacement: np.ndarray) -> FieldMesh:
-        flat = np.column_stack([displacement, np.zeros((len(displacement), 2))])
-        return plate.field_mesh(self._plate, flat, {})
+        up = np.tile([0.0, 0.0, 1.0], (len(displacement), 1))
+        return field_mesh(self._plate.nodes, self._plate.elements.nodes, displacement, up)
 
 
 def _widened(matrix: csr_matrix, size: int) -> csr_matrix:

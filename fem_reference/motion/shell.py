@@ -1,30 +1,30 @@
-"""The shell in motion: positions and directors, kinetic energy ½ ρh |u̇|² + ½ ρh³/12 |ḋ|² per area."""
+"""The shell in motion: positions and directors, of the kinetic energy of `shell.inertia`."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
-from scipy.sparse import block_diag, csc_matrix, csr_matrix, kron
+from scipy.sparse import csc_matrix, csr_matrix
 
 from fem_reference.motion.loads import factor_at
 from fem_reference.motion.moving import MovingElements
 from fem_reference.motion.rods import MovingRods, components_of
+from fem_reference.shell import inertia
 from fem_reference.shell.directors import multiplier
 from fem_reference.shell.element import Element, add_tangents
 from fem_reference.shell.reduction import projected
 from fem_reference.shell.state import State
-from fem_reference.shell.statics import discretise, field_mesh, trace_on
+from fem_reference.shell.statics import discretise, trace_on
 from fem_reference.shell.structure import UP
 from fem_reference.surface import loads, rod
-from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.bound_rods import BoundRods, on_surface
 from fem_reference.surface.loads import Follower
 from fem_reference.surface.location import interpolate
-from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from fem_reference.surface.mesh import Elements, divisions, field_mesh, mesh_of
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.numerics.sparsity import Pattern, add_blocks
+from sheetbench.numerics.sparsity import add_blocks
 from sheetbench.scenes import FieldMesh, Scene
 from sheetbench.scenes.kinematics import MovedEdge, bent_or_tilted
 
@@ -49,9 +49,11 @@ class MovingShell(MovingElements):
         turns = np.concatenate([structure.supports.director, structure.rods.held])
         self._held = np.concatenate([structure.supports.position, np.tile(turns, (3, 1)).T])
         self._upright = np.concatenate([np.tile(UP, (self.nodes, 1)), structure.rods.own])
-        self._set_mass(scene.material.density * thickness, thickness**2 / 12.0)
-        self.unknowns = structure.unknowns
-        self._set_basis()
+        products = inertia.products(structure, scene.material.density * thickness)
+        self.mass = inertia.mass(structure, products, thickness**2 / 12.0)
+        self._on_places = np.einsum("eij,ab->eiajb", products, np.eye(3)).reshape(-1, 27, 27)
+        self._on_turns = thickness**2 / 12.0 * products
+        self.unknowns, self._basis = structure.unknowns, inertia.Basis(structure)
         sides = rod.sides(scene, self._plan, self._on, self._nodes)
 
         def bound(alone: Scene) -> BoundRods:
@@ -61,27 +63,6 @@ class MovingShell(MovingElements):
         self.load(scene, lambda alone: loads.of_scene(alone, self._plan, self._on, self._nodes))
         moved = structure.supports.moved.values()
         self._edges = [(d.edge, d.nodes, d.points) for d in moved if isinstance(d.edge, MovedEdge)]
-
-    def _set_mass(self, per_area: float, rotary: float) -> None:
-        value = AT_GAUSS[0]
-        products = np.einsum("eg,gi,gj->eij", per_area * self.element.areas, value, value)
-        by_axis = kron(Pattern(self._on, size=self.nodes).matrix(products), np.eye(3))
-        none = csr_matrix((self._held.size - 2 * by_axis.shape[0],) * 2)
-        self.mass = block_diag([by_axis, rotary * by_axis, none], format="csr")
-        self._on_places = np.einsum("eij,ab->eiajb", products, np.eye(3)).reshape(-1, 27, 27)
-        self._on_turns = rotary * products
-
-    def _set_basis(self) -> None:
-        """Where the entries of Z lie: a column has one of a displacement, three of a rotation."""
-        node, field = np.nonzero(self._structure.number >= 0)  # in the order of the unknowns
-        of_rod, tangent = np.nonzero(self._structure.turns[self.nodes :] >= 0)
-        node, field = np.append(node, self.nodes + of_rod), np.append(field, 3 + tangent)
-        self._turn = node[field >= 3], field[field >= 3] - 3
-        widths = np.where(field < 3, 1, 3)
-        self._starts = np.concatenate([[0], np.cumsum(widths)])
-        rows = np.where(field < 3, 3 * node + field, 3 * (self.nodes + node))
-        within = np.arange(self._starts[-1]) - np.repeat(self._starts[:-1], widths)
-        self._rows, self._turning = np.repeat(rows, widths) + within, np.repeat(field >= 3, widths)
 
     def start(self) -> np.ndarray:
         state = self._structure.rest()
@@ -117,10 +98,7 @@ class MovingShell(MovingElements):
         return np.append(np.zeros((self.nodes, 3)), turns)
 
     def basis(self, q: np.ndarray) -> csc_matrix:
-        data = np.ones(len(self._rows))
-        node, tangent = self._turn
-        data[self._turning] = self._frames(q)[node, :, tangent].ravel()
-        return csc_matrix((data, self._rows, self._starts), (self._held.size, self.unknowns))
+        return self._basis.at(self._frames(q))
 
     def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
         """Dead forces turn no director."""
@@ -144,20 +122,18 @@ class MovingShell(MovingElements):
     ) -> csr_matrix:
         self.memory.now, change = time, self.gather(q)
         vectors, (strain, rate) = self.element.reference + change, self.strained(change, v)
-        moduli, frames = (
-            (1.0 + by_v * self.tau + self.memory.gain) * self.element.moduli(strain),
-            self._frames(q),
-        )
+        moduli = (1.0 + by_v * self.tau + self.memory.gain) * self.element.moduli(strain)
+        frames = self._frames(q)
         along = multiplier(self._directors(q), residual.reshape(-1, 3)[self.nodes :])
-        pattern, on_turns = self._structure.pattern, np.zeros(self.unknowns)
-        on_turns[np.diff(self._starts) == 3] = along[self._turn[0]]
+        on_turns = self._structure.of_unknowns(np.zeros((self.nodes, 3)), np.tile(along, (2, 1)).T)
+        pattern = self._structure.pattern
         data, slots = pattern.zeros(on_turns), pattern.slots[0]
         add_tangents(data, slots, self.element, vectors, moduli, self.stress(strain, rate), self._on, frames)
-        of_elements, inertia = frames[self._on], by_a + self.alpha * by_v
+        of_elements, share = frames[self._on], by_a + self.alpha * by_v
         blocks = np.zeros(slots.shape)
-        blocks[:, :27, :27] = inertia * self._on_places
+        blocks[:, :27, :27] = share * self._on_places
         turned = np.einsum("eica,ejcb->eiajb", of_elements, of_elements)
-        turned *= inertia * self._on_turns[:, :, None, :, None]
+        turned *= share * self._on_turns[:, :, None, :, None]
         blocks[:, 27:, 27:] = turned.reshape(-1, 18, 18)
         for follower, factor in self.followers:
             on = follower.elements

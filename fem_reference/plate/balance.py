@@ -16,7 +16,7 @@ from scipy.sparse import csr_matrix
 
 from fem_reference.plate.rods import PlateRods
 from fem_reference.surface.actuator_forces import OnEdge
-from fem_reference.surface.balance import Surface, applied
+from fem_reference.surface.balance import Surface, left_over
 from sheetbench.scenes import Balance, Scene
 
 EPSILON = float(np.finfo(float).eps)
@@ -69,16 +69,11 @@ def balance(
     edges: Sequence[OnEdge],
 ) -> Balance:
     """The balance of what is solved; reactions (3,) [N] by name; edges: what the rods exert there."""
-    force, moment = applied(scene, surface, edges)
     vectors = np.concatenate([surface.position, surface.director, rods.bound.own])
     on_vectors = np.where(rods.number >= 0, solved.held[rods.number], 0.0)
-    lever = float(np.ptp(surface.plan, axis=0).max())
-    per_unknown = np.full(len(solved.u), 1.0 / lever)  # of couples
-    per_unknown[rods.number[: len(surface.plan)]] = 1.0
-    return Balance(
-        force=force + np.sum(list(reactions.values()), axis=0),
-        moment=moment + np.cross(vectors, on_vectors).sum(axis=0),
-        size=solved.size,
-        allowed=float(per_unknown @ solved.rounding),
-        arm=max(lever, float(np.linalg.norm(surface.plan, axis=1).max())),
+    n, per_unknown = len(surface.plan), np.full(len(solved.u), 1.0 / surface.lever)  # of couples
+    per_unknown[rods.number[:n]] = 1.0
+    held = [(vectors[:n], on_vectors[:n]), (vectors[n:], on_vectors[n:])]
+    return left_over(
+        scene, surface, edges, reactions, held, solved.size, float(per_unknown @ solved.rounding)
     )

@@ -35,11 +35,11 @@ from fem_reference.surface import loads, rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import Held, exerted, on_edges
 from fem_reference.surface.balance import Surface
-from fem_reference.surface.biquadratic import GAUSS, NODES, shape
+from fem_reference.surface.biquadratic import GAUSS, integrated, shape
 from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
-from fem_reference.surface.mesh import Elements, divisions, mesh_of, quarters, require_upright
+from fem_reference.surface.mesh import Elements, divisions, field_mesh, mesh_of, require_upright
 from fem_reference.surface.rod import Rod
 from fem_reference.surface.supports import Supports
 from sheetbench.clock import now
@@ -48,7 +48,6 @@ from sheetbench.numerics.sparsity import Pattern
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import (
     EDGES,
-    FieldMesh,
     Iteration,
     Scene,
     Solution,
@@ -163,6 +162,8 @@ def _solved(
     wrenches, line = exerted(scene, edges, supports.moved, holding)
     reactions = supports.reactions(nodal[:, :3])
     surface = Surface(mesh, plate.elements.nodes, plate.nodes, flat, up, own)
+    director = up + np.pad(fields[:, 3:], ((0, 0), (0, 1)))
+    of_rods = {"actuator_line_force": line} if scene.actuators else {}
     singular = status is Status.SINGULAR
     by_part = energies(scene, plate, u[: fields.size], section)
     return Solution(
@@ -177,7 +178,7 @@ def _solved(
         sample=lambda points: plate.sample(fields[:, :3], points),
         reactions=reactions,
         energies={**by_part, "rod": rods.energy(u)} if scene.actuators else by_part,
-        mesh=field_mesh(plate, fields, {"actuator_line_force": line} if scene.actuators else {}),
+        mesh=field_mesh(plate.nodes, plate.elements.nodes, fields[:, :3], director, **of_rods),
         history=(Iteration(1.0, solved.residual, 1.0),),
         load_factor=0.0 if singular else 1.0,
         actuators=wrenches,
@@ -196,7 +197,8 @@ def stiffness_matrix(
 ) -> csr_matrix:
     """Stiffness of the free plate, (5 n, 5 n) [N/m, N, N·m], or of the plate and its rods."""
     sections = section_stiffness(scene, section)
-    blocks = [_integrate(b, sections[part], plate.elements.areas) for part, b in plate.strains().items()]
+    areas, strains = plate.elements.areas, plate.strains()
+    blocks = [integrated(b, sections[part], areas) for part, b in strains.items()]
     total = np.sum(blocks, axis=0)
     if rods is None or not rods.bound.rods:
         return _assemble(plate, total)
@@ -268,26 +270,6 @@ def on_flat_sheet(plate: Plate, followers: Sequence[loads.Follower]) -> np.ndarr
     return force
 
 
-def field_mesh(plate: Plate, fields: np.ndarray, more: dict[str, np.ndarray]) -> FieldMesh:
-    """Nodes and bilinear quarters of the elements, with displacement [m] and director of fields (n, 5), and
-    more data of the nodes."""
-    flat = np.zeros(len(fields))
-    return FieldMesh(
-        np.column_stack([plate.nodes, flat]),
-        [("quad", quarters(plate.basis.element_dofs))],
-        {"displacement": fields[:, :3], "director": np.column_stack([fields[:, 3:], flat + 1.0]), **more},
-    )
-
-
-def _integrate(operator: np.ndarray, section: np.ndarray, areas: np.ndarray) -> np.ndarray:
-    """∫ Bᵀ C B dA over every element, (m, 45, 45)."""
-    m, q, strains, columns = operator.shape
-    stress = (section @ operator) * areas[:, :, None, None]
-    flat = operator.reshape(m, q * strains, columns)
-    return flat.transpose(0, 2, 1) @ stress.reshape(m, q * strains, columns)
-
-
 def _assemble(plate: Plate, blocks: np.ndarray) -> csr_matrix:
-    size = 5 * plate.basis.N
-    blocks = blocks.reshape(-1, 5 * NODES, 5 * NODES)
-    return Pattern(plate.elements.unknowns, size=size).matrix(blocks)
+    number = plate.elements.unknowns
+    return Pattern(number, size=5 * plate.basis.N).matrix(blocks.reshape(*number.shape, -1))

@@ -18,8 +18,7 @@ from fem_reference.shell.structure import ShellStructure
 from fem_reference.solving.newton import TOLERANCE
 from fem_reference.solving.path import Path
 from fem_reference.surface.actuator_forces import OnEdge
-from fem_reference.surface.balance import Surface, applied
-from fem_reference.surface.biquadratic import cross
+from fem_reference.surface.balance import Surface, left_over
 from sheetbench.scenes import Balance, Scene
 
 
@@ -33,20 +32,12 @@ def balance(
 ) -> Balance:
     """The balance at the end of a path, where the sheet lies as `surface` and the rods on its edges exert
     `edges`."""
-    share = path.load_factor
-    force, moment = applied(scene, surface, edges)
     reactions = structure.supports.reactions(forces.residual[0])
     on_nodes, on_directors = _held(structure, forces)
-    moment = share * moment + cross(surface.position, on_nodes).sum(axis=0)
-    moment += cross(forces.directors, on_directors).sum(axis=0)
+    held = [(surface.position, on_nodes), (forces.directors, on_directors)]
     left = max(TOLERANCE * forces.size, structure.imbalance(path.state, forces))
-    return Balance(
-        force=share * force + np.sum(list(reactions.values()), axis=0),
-        moment=moment,
-        size=forces.size,
-        allowed=left + float(np.finfo(float).eps) * _summed(structure, forces),
-        arm=max(structure.lever, float(np.linalg.norm(surface.position, axis=1).max())),
-    )
+    allowed = left + float(np.finfo(float).eps) * _summed(structure, forces)
+    return left_over(scene, surface, edges, reactions, held, forces.size, allowed, path.load_factor)
 
 
 def _held(structure: ShellStructure, forces: Forces) -> tuple[np.ndarray, np.ndarray]:

@@ -38,6 +38,7 @@ from fem_reference.surface.biquadratic import (
     GAUSS_WEIGHTS,
     THREE,
     TYING,
+    integrated,
     interpolation,
     jacobians,
     product_grid,
@@ -225,9 +226,9 @@ def _built(
     """Reference, stiffness and areas of elements with nodes (m, 9, 2) and a section."""
     areas, stretching, bent, slanted = _geometry(nodes)
     stiffness = np.zeros((len(nodes), STRAINS, STRAINS))
-    stiffness[:, MEMBRANE, MEMBRANE] = _integrate(stretching, membrane, areas)
-    stiffness[:, BENDING, BENDING] = _integrate(bent, bending, areas)
-    stiffness[:, SHEAR, SHEAR] = _integrate(slanted, shear, areas)
+    stiffness[:, MEMBRANE, MEMBRANE] = integrated(stretching, membrane, areas)
+    stiffness[:, BENDING, BENDING] = integrated(bent, bending, areas)
+    stiffness[:, SHEAR, SHEAR] = integrated(slanted, shear, areas)
     reference = np.zeros((len(nodes), 18, 3))
     reference[:, :9, :2] = nodes
     reference[:, 9:, 2] = 1.0
@@ -250,14 +251,6 @@ def _geometry(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np
     areas = GAUSS_WEIGHTS * np.abs(area)
     in_plane, bending = _cartesian_in_plane(inverse, areas), _cartesian_in_plane(inverse, areas, np.eye(9))
     return areas, in_plane, bending, _cartesian_shear(inverse)
-
-
-def _integrate(to_cartesian: np.ndarray, moduli: np.ndarray, areas: np.ndarray) -> np.ndarray:
-    """∫ Tᵀ C T (m, k, k) of T (m, 9, a, k)."""
-    m, g, a, k = to_cartesian.shape
-    weighed = areas[:, :, None, None] * np.moveaxis(np.tensordot(to_cartesian, moduli, (2, 1)), -1, 2)
-    flat = to_cartesian.reshape(m, g * a, k)
-    return np.asarray(flat.swapaxes(1, 2) @ weighed.reshape(m, g * a, k))
 
 
 def _cartesian_in_plane(

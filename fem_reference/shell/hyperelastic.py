@@ -18,6 +18,7 @@ import numpy as np
 
 from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, STRAINS, Element, cartesian
 from fem_reference.shell.laws import Law, Response
+from fem_reference.surface.biquadratic import integrated
 from fem_reference.surface.materials import section_of
 from sheetbench.scenes import Material
 
@@ -77,14 +78,14 @@ class HyperelasticElement(Element):
 
     def moduli(self, strain: np.ndarray) -> np.ndarray:
         """D (m, 54, 54)."""
-        found = self._response(strain).tangent * self._volumes[..., None, None]
+        found, areas = self._response(strain).tangent * self.weights[:, None, None], self.areas
         stretch, mixed, turn = (np.einsum("egzab,z->egab", found, self.heights**n) for n in range(3))
         out = self.drag * self.stiffness
-        out[:, MEMBRANE, MEMBRANE] += _sandwich(self.membrane, stretch, self.membrane)
-        coupled = _sandwich(self.membrane, mixed, self.bending)
+        out[:, MEMBRANE, MEMBRANE] += integrated(self.membrane, stretch, areas)
+        coupled = integrated(self.membrane, mixed, areas, self.bending)
         out[:, MEMBRANE, BENDING] += coupled
         out[:, BENDING, MEMBRANE] += coupled.swapaxes(1, 2)
-        out[:, BENDING, BENDING] += _sandwich(self.bending, turn, self.bending)
+        out[:, BENDING, BENDING] += integrated(self.bending, turn, areas)
         out[:, SHEAR, SHEAR] += self.stiffness[:, SHEAR, SHEAR]
         return out
 
@@ -112,10 +113,3 @@ class HyperelasticElement(Element):
     def _volumes(self) -> np.ndarray:
         """(m, 9, 3) [m³]."""
         return self.areas[:, :, None] * self.weights
-
-
-def _sandwich(left: np.ndarray, moduli: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """Σ Tᵀ C T over the Gauss points, (m, 21, 21)."""
-    m, q, a, k = left.shape
-    inner = (moduli @ right).reshape(m, q * a, k)
-    return np.asarray(left.reshape(m, q * a, k).swapaxes(1, 2) @ inner)

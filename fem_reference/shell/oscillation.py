@@ -9,12 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.sparse import csr_matrix, kron
+from scipy.sparse import csr_matrix
 
-from fem_reference.plate import statics as plate
-from fem_reference.shell.state import State
+from fem_reference.shell.inertia import Basis, mass, products
 from fem_reference.shell.statics import discretise, trace_on
-from fem_reference.shell.structure import ShellStructure
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import mesh_of
@@ -40,31 +38,13 @@ def about_equilibrium(
     if status is not Status.CONVERGED:
         raise NoEquilibrium(f"shell: {status}: {'; '.join([*notes, status.advice])}")
     stiffness, _ = structure.system(state, structure.forces(state, 1.0), 1.0, mixed=False)
-    bare = plate.Plate.on(mesh)
+    thickness, basis = scene.sheet.thickness, Basis(structure).at(structure.frames(state))
+    per_node = products(structure, scene.material.density * thickness)
+    whole = mass(structure, per_node, thickness**2 / 12.0)
 
     def sample(shape: np.ndarray, points: np.ndarray) -> np.ndarray:
         number = structure.number[:, :3]
         moved = np.where(number >= 0, shape.ravel()[number], 0.0)
         return interpolate(mesh, structure.element_nodes, moved, points)
 
-    return stiffness, _mass(scene, structure, state, plate.mass_matrix(scene, bare)), sample
-
-
-def _mass(scene: Scene, structure: ShellStructure, state: State, flat: csr_matrix) -> csr_matrix:
-    """M from that of the flat plate, five unknowns a node."""
-    products = flat[::5][:, ::5]  # ρh ∫ N_i N_j
-    frames = structure.frames(state)[: structure.count]
-    onto = []
-    turned = np.einsum("nck->nkc", frames)
-    for number, vectors in (
-        (structure.number[:, :3], np.tile(np.eye(3), (structure.count, 1, 1))),
-        (structure.turns[: structure.count], turned),
-    ):
-        node, column = np.nonzero(number >= 0)
-        rows = 3 * node[:, None] + np.arange(3)
-        columns = np.repeat(number[node, column][:, None], 3, axis=1)
-        entries = (vectors[node, column].ravel(), (rows.ravel(), columns.ravel()))
-        onto.append(csr_matrix(entries, shape=(3 * structure.count, structure.unknowns)))
-    spread = kron(products, np.eye(3), format="csr")
-    rotary = scene.sheet.thickness**2 / 12.0
-    return (onto[0].T @ spread @ onto[0] + rotary * (onto[1].T @ spread @ onto[1])).tocsr()
+    return stiffness, (basis.T @ whole @ basis).tocsr(), sample

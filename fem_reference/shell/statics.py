@@ -35,13 +35,13 @@ from fem_reference.surface.biquadratic import cross
 from fem_reference.surface.bound_rods import on_surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import Section, section_of
-from fem_reference.surface.mesh import Elements, divisions, mesh_of, nodes_of, on_boundary, quarters
+from fem_reference.surface.mesh import Elements, divisions, field_mesh, mesh_of, nodes_of, on_boundary
 from fem_reference.surface.rubber import require_law
 from sheetbench.choices import BRANCHES, STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import FieldMesh, Scene, Solution, Status
+from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.rigid_motions import require_static
 
 
@@ -235,16 +235,3 @@ def _elements(nodes: np.ndarray, scene: Scene, section: Section | None, law: str
     if section is not None:
         raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")
     return HyperelasticElement.of(nodes, material, thickness, LAWS[law])
-
-
-def field_mesh(
-    nodes: np.ndarray,
-    element_nodes: np.ndarray,
-    displacement: np.ndarray,
-    director: np.ndarray,
-    **more: np.ndarray,
-) -> FieldMesh:
-    """Nodes and bilinear quarters of the elements, with displacement [m], director and more nodal fields."""
-    points = np.column_stack([nodes, np.zeros(len(nodes))])
-    fields = {"displacement": displacement, "director": director, **more}
-    return FieldMesh(points, [("quad", quarters(element_nodes.T))], fields)

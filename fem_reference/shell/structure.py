@@ -178,7 +178,7 @@ class ShellStructure:
 
     def imbalance(self, state: State, forces: Forces) -> float:
         """Sum of the free unknowns' residuals [N], directors' moments over the sheet's size."""
-        left = self._of_unknowns(forces.residuals[: self.count], forces.couple / self.lever)
+        left = self.of_unknowns(forces.residuals[: self.count], forces.couple / self.lever)
         return float(np.abs(left).sum())
 
     def gap(self, state: State, load_factor: float) -> float:
@@ -201,7 +201,7 @@ class ShellStructure:
                 pressing += self.rods.scatter(more, self._vectors)
 
         along = np.repeat(multiplier(forces.directors, pressing[n:])[:, None], 2, axis=1)
-        data, nodes = self.pattern.zeros(self._of_unknowns(np.zeros((n, 3)), along)), self.element_nodes
+        data, nodes = self.pattern.zeros(self.of_unknowns(np.zeros((n, 3)), along)), self.element_nodes
         add_tangents(data, self.pattern.slots[0], self.element, vectors, moduli, stress, nodes, frames)
         of_step = self.gather(step)
         pull = forces_of(vectors, weighed(moduli, strain_of(vectors, of_step))) + forces_of(of_step, stress)
@@ -218,7 +218,7 @@ class ShellStructure:
             add_blocks(data, self.pattern.slots[1], onto.swapaxes(1, 2) @ full @ onto)
             total += self.rods.scatter(on_rods, self._vectors)
         couple = np.einsum("nc,nck->nk", total[n:], frames)
-        return self.pattern.with_data(data), -self._of_unknowns(total[:n], couple)
+        return self.pattern.with_data(data), -self.of_unknowns(total[:n], couple)
 
     def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
         """The state after a step (unknowns,), with the stresses it extrapolates."""
@@ -324,7 +324,7 @@ class ShellStructure:
             step[2 * n :][self.rods.held] = -state.aside[self.rods.held]
         return step
 
-    def _of_unknowns(self, positions: np.ndarray, turns: np.ndarray) -> np.ndarray:
+    def of_unknowns(self, positions: np.ndarray, turns: np.ndarray) -> np.ndarray:
         """Values (n, 3) of displacements and (n + q, 2) of rotations, of the free ones (unknowns,)."""
         values = np.concatenate([positions.ravel(), turns.ravel()])
         out: np.ndarray = values[self._free]

@@ -17,7 +17,7 @@ from fem_reference.solid.supports import from_forces, into_forces
 from fem_reference.solving.newton import TOLERANCE
 from fem_reference.solving.path import Path
 from fem_reference.surface.actuator_forces import OnEdge
-from fem_reference.surface.balance import Surface, applied
+from fem_reference.surface.balance import Surface, left_over
 from sheetbench.scenes import Balance, Scene
 
 
@@ -36,20 +36,16 @@ def balance(
     position = columns.positions + state.displacement
     mean, director = np.einsum("pl,nlc->pnc", columns.averages, position)
     surface = Surface(columns.plan.mesh, columns.plan_elements, columns.plan_nodes, mean, director, own)
-    force, moment = applied(scene, surface, edges)
     reactions = structure.supports.reactions(forces.residual, share)
     held = np.where(structure.free, 0.0, into_forces(forces.bases, forces.residual))
-    moment = share * moment + np.cross(position, from_forces(forces.bases, held)).sum(axis=(0, 1))
-    moment += np.cross(rods.own + state.aside, np.where(rods.held[:, None], forces.aside, 0.0)).sum(axis=0)
+    at = [
+        (position, from_forces(forces.bases, held)),
+        (rods.own + state.aside, np.where(rods.held[:, None], forces.aside, 0.0)),
+    ]
     # a sum of n numbers is at most √n times their norm, in which residuals are measured
     left = np.sqrt(structure.unknowns) * max(TOLERANCE * forces.size, structure.imbalance(state, forces))
-    return Balance(
-        force=share * force + np.sum(list(reactions.values()), axis=0),
-        moment=moment,
-        size=forces.size,
-        allowed=float(left + np.finfo(float).eps * _summed(structure, forces)),
-        arm=max(structure.lever, float(np.linalg.norm(position, axis=2).max())),
-    )
+    allowed = float(left + np.finfo(float).eps * _summed(structure, forces))
+    return left_over(scene, surface, edges, reactions, at, forces.size, allowed, share)
 
 
 def _summed(structure: SolidStructure, forces: Forces) -> float:

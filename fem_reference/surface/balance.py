@@ -15,17 +15,17 @@ exactly but t̂, which is taken at the points where `loads` has the moment act.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.surface.actuator_forces import OnEdge
-from fem_reference.surface.biquadratic import GAUSS, THREE, THREE_WEIGHTS, areas, shape, side_shape
+from fem_reference.surface.biquadratic import GAUSS, THREE, THREE_WEIGHTS, areas, cross, shape, side_shape
 from fem_reference.surface.loads import Line
 from fem_reference.surface.location import interpolate
-from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene, dead_force
+from sheetbench.scenes import Balance, EdgeLoad, PointLoad, Pressure, Scene, dead_force
 
 _VALUE, _SLOPE = side_shape(THREE)  # (3 points, 3 nodes)
 _AT_GAUSS, _ = shape(*GAUSS)  # (9 points, 9 nodes)
@@ -44,6 +44,11 @@ class Surface:
     position: np.ndarray
     director: np.ndarray
     own: bool = False
+
+    @property
+    def lever(self) -> float:
+        """The longer side of the flat sheet [m]."""
+        return float(np.ptp(self.plan, axis=0).max())
 
     @property
     def corners(self) -> np.ndarray:
@@ -81,6 +86,29 @@ def applied(scene: Scene, surface: Surface, edges: Sequence[OnEdge]) -> tuple[np
                 pushed, turned = _pressure(surface)
                 force, moment = force + factor * load.value * pushed, moment + factor * load.value * turned
     return force, moment
+
+
+def left_over(
+    scene: Scene,
+    surface: Surface,
+    edges: Sequence[OnEdge],
+    reactions: Mapping[str, np.ndarray],
+    held: Sequence[tuple[np.ndarray, np.ndarray]],
+    size: float,
+    allowed: float,
+    share: float = 1.0,
+) -> Balance:
+    """The balance of a model under a share of the load: what its supports exert, by name, and where and with
+    which forces it is held, pairs (…, 3); size and allowed: as `scenes.Balance` has them."""
+    force, moment = applied(scene, surface, edges)
+    turning = [cross(places, forces).reshape(-1, 3).sum(axis=0) for places, forces in held]
+    return Balance(
+        force=share * force + np.sum(list(reactions.values()), axis=0),
+        moment=share * moment + np.sum(turning, axis=0),
+        size=size,
+        allowed=allowed,
+        arm=max(surface.lever, float(np.linalg.norm(held[0][0], axis=-1).max())),
+    )
 
 
 def _dead_force(scene: Scene, surface: Surface) -> np.ndarray:

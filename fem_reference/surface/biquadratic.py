@@ -63,6 +63,16 @@ def jacobians(nodes: np.ndarray, slope: np.ndarray) -> np.ndarray:
     return np.einsum("agi,eib->egba", slope, nodes)
 
 
+def integrated(
+    left: np.ndarray, moduli: np.ndarray, areas: np.ndarray, right: np.ndarray | None = None
+) -> np.ndarray:
+    """∫ Lᵀ C R dA (m, k, k) of L and R (m, q, a, k), R being L unless given; C: (a, a) or (m, q, a, a)."""
+    m, q, a, k = left.shape
+    weighed = (moduli @ (left if right is None else right)) * areas[:, :, None, None]
+    flat = left.reshape(m, q * a, k).swapaxes(1, 2)
+    return np.asarray(flat @ weighed.reshape(m, q * a, -1))
+
+
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """a × b of vectors (…, 3), in a third of NumPy's time."""
     after, last = [1, 2, 0], [2, 0, 1]

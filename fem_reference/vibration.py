@@ -40,7 +40,8 @@ from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import About, AnyScene, Scene, require_static, scene_of, summary
+from sheetbench.scenes import About, AnyScene, Scene, require_static, scene_of
+from sheetbench.scenes.modes import NaturalModes
 
 REACH = 0.375  # of the grading
 
@@ -61,7 +62,7 @@ class RestState(NamedTuple):
 
 
 @dataclass(frozen=True, repr=False)
-class Modes(summary.Summarised):
+class Modes(NaturalModes):
     """The lowest modes, rigid motions left out; rigid_modes is the number of those.
 
     frequencies: (count,) [Hz], rising; shapes: (count, n, k), nodal unknowns scaled to φᵀ M φ = 1.
@@ -82,12 +83,12 @@ class Modes(summary.Summarised):
         """Mid-surface displacement (n, 3) of one mode, counted from 0, at plan points (n, 2) [m]."""
         return self.sample(self.shapes[mode], np.asarray(points, dtype=float).reshape(-1, 2))
 
-    def _summary(self) -> tuple[str, summary.Facts]:
-        return f"{len(self.frequencies)} modes of {self.label}", [
-            ("frequencies", summary.numbers(self.frequencies.tolist(), "Hz")),
-            ("rigid motions", f"{self.rigid_modes} left out" if self.rigid_modes else ""),
-            ("unknowns", str(self.unknowns)),
-        ]
+    def heading(self) -> tuple[str, str, str]:
+        return f"{len(self.frequencies)} modes of {self.label}", "", ""
+
+    @property
+    def left_out(self) -> int:
+        return self.rigid_modes
 
 
 def modes(

@@ -31,12 +31,12 @@ from sheetbench.scenes import (
     free_rigid_motions,
     require_static,
     scene_of,
-    summary,
 )
+from sheetbench.scenes.modes import NaturalModes
 
 
 @dataclass(frozen=True, repr=False)
-class Modes(summary.Summarised):
+class Modes(NaturalModes):
     """frequencies: (count,) [Hz], ascending; shapes: (count, n, 3), largest component 1, of the masses of
     `lattice`; rigid: rigid motions left out; unknowns of the eigenproblem."""
 
@@ -51,12 +51,12 @@ class Modes(summary.Summarised):
         at = MidSurface(self.lattice, points)
         return np.stack([at.of(shape) for shape in self.shapes])
 
-    def _summary(self) -> tuple[str, summary.Facts]:
-        return f"{len(self.frequencies)} modes of the lattice", [
-            ("frequencies", summary.numbers(self.frequencies.tolist(), "Hz")),
-            ("rigid motions", f"{self.rigid} left out" if self.rigid else ""),
-            ("unknowns", str(self.unknowns)),
-        ]
+    def heading(self) -> tuple[str, str, str]:
+        return f"{len(self.frequencies)} modes of the lattice", "", ""
+
+    @property
+    def left_out(self) -> int:
+        return self.rigid
 
 
 def modes(

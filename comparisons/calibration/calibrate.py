@@ -70,7 +70,7 @@ def calibrate(scene: Scene, lattice: Lattice, named: bool = True) -> lumped.Cali
     found = resolve(scene, lattice, "springs", own=False)
     springs = found.calibrated([scene] if named else None)
     known = [said] if named and (said := lumped.polygons(scene, found.grid)) else []
-    return replace(springs, notes=(*told(found.settings), *known, *springs.notes))
+    return replace(springs, remarks=(*told(found.settings), *known, *springs.remarks))
 
 
 def expected(scene: Scene, springs: lumped.Calibration) -> ExpectedError | None:

@@ -7,8 +7,6 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from comparisons.calibration import damping
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Report
@@ -22,33 +20,6 @@ if TYPE_CHECKING:
     from comparisons.models.expected_error import ExpectedError
     from lumped import Calibration
     from sheetbench.scenes import Material, Sheet
-
-_UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
-_MEANINGS = {
-    "axial": "ka, along x and y in a layer",
-    "diagonal": "kd, diagonal in a layer",
-    "vertical": "kz, through the thickness",
-    "cross": "kdT, between layers, along x and y",
-    "cross_diagonal": "kddT, between layers, diagonal",
-    "area": "area spring of a cell in a layer",
-    "mid_area": "area spring of a mid-surface cell",
-    "shear": "strain spring of a cell in a layer, in-plane shear",
-    "stretch": "strain spring of a cell in a layer, stretching",
-    "mid_shear": "strain spring of a mid-surface cell, in-plane shear",
-    "neo_hookean_shear": "2 f'(0) of a layer's cells as a rubber membrane",
-    "neo_hookean_volume": "Λ of that membrane",
-    "mooney_rivlin": "of I2 - 3 of that membrane",
-    "yeoh_square": "of (I1 - 3)² of that membrane",
-    "yeoh_cube": "of (I1 - 3)³ of that membrane",
-    "gent_limit": "I1 - 3 that no load reaches",
-    "face_shear": "strain spring of an upright face along a cell's side, transverse shear",
-    "face_diagonal_shear": "the same over a cell's diagonals",
-    "edge_shear": "correction to the shear spring of a layer's cells along a free, hinged or held edge",
-    "strip_shear": "the same where the opposite edge is free, hinged or held too; by the width between them",
-    "far_edge_shear": "edge_shear of the edges x1 and y1",
-    "far_strip_shear": "strip_shear of the edges x1 and y1",
-    "mid_stretch": "strain spring of a mid-surface cell, stretching",
-}
 
 
 def report(
@@ -73,8 +44,7 @@ def report(
         lead=sheet_in_words(sheet, material),
         document=found,
         tables=(
-            springs(found),
-            moduli(found),
+            *calibration.tables(),
             *([fit(found)] if "fit" in found else []),
             *damping.tables(material, damped),
         ),
@@ -92,7 +62,7 @@ def document(calibration: Calibration) -> dict[str, Any]:
     """
     from lumped import FittedCalibration
 
-    found = calibration.as_dict()
+    found = calibration.document()
     if isinstance(calibration, FittedCalibration):
         known = calibration.identifiability
         found["fit"] = {
@@ -115,71 +85,6 @@ def fit(calibration: dict[str, Any]) -> Table:
     )
     columns = (Column("spring"), Column("share"), Column("±", "", "%", 100.0, ".2f"))
     return Table("What the data tell of each spring: 95 % intervals", columns, rows, "fit")
-
-
-def springs(calibration: dict[str, Any]) -> Table:
-    """A row per family, and per direction where they differ, of unequal cells the softest and the stiffest;
-    `calibration` as its `as_dict` gives it."""
-    rows = []
-    for name, value in calibration["springs"].items():
-        directions = value if isinstance(value, dict) else {"": value}
-        for axis, k in directions.items():
-            ends = [float(np.min(k)), float(np.max(k))] if calibration.get("grading") else [k]
-            rows.append((f"{name} {axis}".strip(), _MEANINGS.get(name, ""), *ends))
-    headings = ("least", "largest") if calibration.get("grading") else ("stiffness",)
-    columns = (
-        Column("spring"),
-        Column("what it is", prose=True),
-        *(Column(heading, "N/m", "N/m", 1.0, "#.6g") for heading in headings),
-    )
-    said = f"layer distance {1e3 * calibration['layer_distance']:.6g} mm"
-    return Table("Spring constants", columns, tuple(rows), "springs", text=said)
-
-
-def moduli(calibration: dict[str, Any]) -> Table:
-    """A row per modulus: the sheet's, the target of the springs on this grid, the lattice's.
-
-    Targets are the sheet's moduli, but for the transverse shear: the sheet has κGh, the target is MacNeal's
-    S* (`lumped.moduli`), with which cells bend as the sheet does.
-    """
-    rows = []
-    for row in calibration["moduli"]:
-        asked, got = row["asked"], row["got"]
-        off = (got - asked) / asked if asked else None
-        sheet = row.get("kappa_G_h", asked)
-        rows.append((row["name"], _UNITS.get(row["name"][:1], ""), sheet, asked, got, off))
-    columns = (
-        Column("modulus"),
-        Column("unit"),
-        Column("sheet", form="#.6g"),
-        Column("target", form="#.6g"),
-        Column("lattice", form="#.6g"),
-        Column("off target by", "", "%", 100.0, "z.2f"),
-    )
-    said = (
-        "S: the target is S*, 1/S* = 1/κGh + l²/12D11, smaller than the sheet's κGh on purpose: it cancels "
-        "the shear error of cells of length l"
-    )
-    return Table(
-        "Moduli of the sheet and of the lattice",
-        columns,
-        tuple(rows),
-        "moduli",
-        text=said + _edges(calibration),
-    )
-
-
-def _edges(calibration: dict[str, Any]) -> str:
-    """What cells along edges that let twist go have of D66, as the end of a sentence."""
-    shear, layers = calibration["springs"].get("edge_shear"), calibration["grid"][2]
-    if not shear:
-        return ""
-    square = ((np.arange(layers) - (layers - 1) / 2) ** 2).sum() * calibration["layer_distance"] ** 2
-    (twisting,) = (row["got"] for row in calibration["moduli"] if row["name"] == "D66")
-    cells = np.hstack([*shear.values()]) if isinstance(shear, dict) else shear
-    shares = sorted({f"{1.0 + k * square / twisting:.3f}" for k in (np.min(cells), np.max(cells))})
-    share = " to ".join(shares)
-    return f". D66: times {share} in cells along free, hinged and held edges, to match the torsion of a strip"
 
 
 def to_toml(calibration: dict[str, Any]) -> str:

@@ -148,5 +148,6 @@ def command(
         if export is not None:
             report = out.export(export, of, springs, report, simulators or ())
         out.show(
-            report, instead=tables.to_toml(springs.as_dict()) + damping.to_toml(of.material) if toml else None
+            report,
+            instead=tables.to_toml(springs.document()) + damping.to_toml(of.material) if toml else None,
         )

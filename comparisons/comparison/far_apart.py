@@ -108,7 +108,7 @@ def reasons(lattice: Resolved[Lattice], first: Solution, reference: Solution) ->
     layer = min(layers(scene), default=None)
     if layer is not None and layer.width < cell:
         found.append(f"{layer}, {few(layer.width / cell)} cells of {1e3 * cell:.3g} mm")
-    moduli = lattice.springs.as_dict()["moduli"]
+    moduli = lattice.springs.document()["moduli"]
     off = [(abs(row["got"] / row["asked"] - 1.0), row["name"]) for row in moduli if row["asked"]]
     if (missed := max(off, default=(0.0, "")))[0] > MISSED:
         found.append(f"the springs miss {missed[1]} by {few(100.0 * missed[0])} %")

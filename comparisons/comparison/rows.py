@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
-from sheetbench.answers.table import MILLIMETRES, MILLISECONDS, NUMBER, PERCENT, SECONDS, Column, Unit
+from sheetbench.answers.table import MILLIMETRES, MILLISECONDS, NEWTONS, NUMBER, PERCENT, SECONDS, Column
 
 
 @dataclass(frozen=True)
@@ -56,4 +56,4 @@ class ReactionRow:
 
     edge: str
     model: str
-    force: Annotated[Mapping[str, float], Unit("N", "N")("z.4f")]
+    force: Annotated[Mapping[str, float], NEWTONS("z.4f")]

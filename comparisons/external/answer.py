@@ -97,5 +97,5 @@ def solution_on_bricks(
         energies={},
         mesh=FieldMesh(bricks.positions, [("hexahedron20", bricks.elements)], {"displacement": displacement}),
         load_factor=load_factor,
-        notes=(note,) if note else (),
+        remarks=(note,) if note else (),
     )

@@ -236,7 +236,7 @@ def _solution(
         energies={},
         mesh=FieldMesh(plan, [("quad", quads)], {"displacement": displacement.reshape(-1, 3)}),
         load_factor=1.0 if status is Status.CONVERGED else 0.0,
-        notes=(message,) if message else (),
+        remarks=(message,) if message else (),
     )
 
 

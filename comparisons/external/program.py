@@ -166,7 +166,7 @@ def _solution(
             {"displacement": values},
         ),
         load_factor=float(document.get("load_factor", 1.0)) if document else 0.0,
-        notes=tuple(filter(None, [why, document.get("message", "")])),
+        remarks=tuple(filter(None, [why, document.get("message", "")])),
     )
 
 

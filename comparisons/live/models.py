@@ -49,7 +49,7 @@ class Models:
         if question.copy == "scene":
             return to_toml(scene)
         springs = await self._on_thread(lambda: resolve(scene, question.lattice, "springs").springs)
-        return springs_to_toml(springs.as_dict())
+        return springs_to_toml(springs.document())
 
     def close(self) -> None:
         """End both, whatever they are at."""

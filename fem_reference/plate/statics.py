@@ -183,7 +183,7 @@ def _solved(
         load_factor=0.0 if singular else 1.0,
         actuators=wrenches,
         balance=None if singular else balance(scene, surface, rods, solved, reactions, edges),
-        notes=notes,
+        remarks=notes,
     )
 
 

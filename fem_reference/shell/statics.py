@@ -205,7 +205,7 @@ def _solution(
         balance=balance(scene, structure, path, forces, surface, edges),
         snaps=tuple(path.snaps),
         fallback=fallback,
-        notes=tuple(notes),
+        remarks=tuple(notes),
         stretch=stretched,
     )
 

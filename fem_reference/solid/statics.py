@@ -123,7 +123,7 @@ def _solved(
         load_factor=path.load_factor,
         actuators=wrenches,
         balance=balance(scene, structure, path, forces, edges, own),
-        notes=tuple(notes),
+        remarks=tuple(notes),
         stretch=stretch,
     )
 

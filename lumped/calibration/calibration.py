@@ -7,29 +7,34 @@ from typing import Any
 
 import numpy as np
 
+from lumped.calibration import tables
 from lumped.springs import by_cell, constants
-from sheetbench.scenes import Cells, PerDirection, Sheet, SpringSet, summary
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.table import Table
+from sheetbench.scenes import Cells, PerDirection, Sheet, SpringSet
 from sheetbench.scenes.grading import Graded, as_settings
 from sheetbench.scenes.grid import Grid
 from sheetbench.scenes.springs import Distribution, Either
 
 
 @dataclass(frozen=True, repr=False)
-class Calibration(summary.Summarised):
+class Calibration(Answer):
     """Springs of a lattice: method, grid (nx, ny, layers), spring constants [N/m] and layer distance [m].
 
     moduli: one row per plate modulus with what the sheet asks and what the lattice's interior gives
     (A, S [N/m], D [N·m]; S is asked as MacNeal's S* of the grid), of unequal cells that of the one that
-    misses it most; notes: what the method could not meet; masses: how the sheet's mass is shared out
+    misses it most; remarks: what the method could not meet; masses: how the sheet's mass is shared out
     (`lumped.masses`) when it vibrates or moves; grading: of the grid's lines (`lumped.grid_lines`); half:
     the axes along which they end at a plane of symmetry; cells: what they are made of, where they differ.
     """
 
+    file_name = "calibration"
+    page_name = "table"
     method: str
     grid: Grid
     springs: SpringSet
     moduli: tuple[dict[str, Any], ...]
-    notes: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
     masses: Distribution = "tributary"
     grading: Graded = 0.0
     half: tuple[bool, bool] = (False, False)
@@ -65,7 +70,7 @@ class Calibration(summary.Summarised):
         """The same with one spring constant changed, by its name (`lumped.springs.constants`)."""
         return replace(self, springs=constants.changed(self.springs, name, value))
 
-    def as_dict(self) -> dict[str, Any]:
+    def document(self) -> dict[str, Any]:
         """The JSON document of `sheetbench calibrate`; strain springs only where there are any."""
         springs = self.springs.model_dump(exclude_none=True)
         always = ("axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area")
@@ -82,25 +87,25 @@ class Calibration(summary.Summarised):
             "moduli": [dict(row) for row in self.moduli],
             "masses": self.masses,
             **as_settings(self.grading),
-            "notes": list(self.notes),
+            "notes": list(self.remarks),
         }
 
-    def _summary(self) -> tuple[str, summary.Facts]:
-        own = {name: value for name, value in self.springs if name != "layer_distance"}
-        pairs = {name: value for name, value in own.items() if isinstance(value, PerDirection | Either)}
-        numbers = [f"{name} {shown(k)}" for name, k in own.items() if name not in pairs and np.any(k)]
-        along = [
-            f"{name} {' × '.join(shown(k) for _, k in pair if k is not None)}" for name, pair in pairs.items()
-        ]
-        missed = [row for row in self.moduli if abs(row["miss"]) > 0.01]
-        return f"Calibration {self.method} of {' × '.join(map(str, self.grid))} masses", [
-            ("springs [N/m]", ", ".join(numbers)),
-            ("x × y [N/m]", ", ".join(along)),
-            ("grading", f"{self.grading:g}" if self.grading else ""),
-            ("layers", f"{1e3 * self.layer_distance:.5g} mm apart"),
-            ("moduli", ", ".join(f"{row['name']} off by {row['miss']:+.2%}" for row in missed) or "all met"),
-            ("notes", "; ".join(self.notes)),
-        ]
+    def heading(self) -> tuple[str, str, str]:
+        """Method, grid and grading."""
+        nx, ny, layers = self.grid
+        graded = f", grading {self.grading:g}" if self.grading else ""
+        return f"{self.method} calibration", f"of {nx} × {ny} × {layers} masses{graded}", ""
+
+    def tables(self) -> tuple[Table, ...]:
+        """The springs, and the moduli that they meet."""
+        found = self.document()
+        return tables.springs(found), tables.moduli(found)
+
+    def notes(self) -> tuple[str, ...]:
+        return self.remarks
+
+    def choices(self) -> dict[str, Any]:
+        return {"method": self.method, "grid": list(self.grid)}
 
 
 def plan_spacing(sheet: Sheet, grid: Grid) -> tuple[float, float]:

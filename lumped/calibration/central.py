@@ -59,7 +59,7 @@ def central(sheet: Sheet, material: Material, grid: Grid) -> Calibration:
         f"the moduli make the worst of the training scenes wrong by {bent:.1%} where they bend and by "
         f"{stretched:.1%} where they stretch; those of 'cauchy' by {cauchy:.1%} where they bend"
     )
-    return replace(found, notes=(*found.notes, cost))
+    return replace(found, remarks=(*found.remarks, cost))
 
 
 def _springs(

@@ -71,7 +71,7 @@ def consistent_oblique(
 
 def _with_twist(method: str, sheet: Sheet, found: Calibration, grading: Graded) -> Calibration:
     springs, notes = with_edges(sheet, found.grid, found.springs, grading, found.cells)
-    return replace(found, method=method, springs=springs, notes=(*found.notes, *notes))
+    return replace(found, method=method, springs=springs, remarks=(*found.remarks, *notes))
 
 
 def consistent_interior(

@@ -86,4 +86,4 @@ def _rubber(method: str, sheet: Sheet, material: Material, grid: Grid, grading: 
         springs = of_cell(sheet.model_copy(update={"length_x": lx, "length_y": ly}), material)
     springs, notes = with_edges(sheet, grid, springs, grading)
     found = report(method, sheet, material, grid, springs, grading)
-    return replace(found, notes=(*found.notes, *notes))
+    return replace(found, remarks=(*found.remarks, *notes))

@@ -144,7 +144,7 @@ def _fit(
         first.grid,
         plain.springs,
         plain.moduli,
-        (*plain.notes, *(known.warnings if known else ("too few data for intervals of the springs",))),
+        (*plain.remarks, *(known.warnings if known else ("too few data for intervals of the springs",))),
         first.masses,
         grading=first.grading,
         residual=float(np.abs(misses).max()),

@@ -68,7 +68,7 @@ def solution(
         actuators=wrenches,
         balance=balance(scene, problem, state, reactions, exerted, linear),
         snaps=outcome.snaps,
-        notes=outcome.notes,
+        remarks=outcome.notes,
     )
 
 

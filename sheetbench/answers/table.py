@@ -40,7 +40,8 @@ class Unit(NamedTuple):
         return Column(name, self.si, self.shown, self.scale, form, detail=detail)
 
 
-NUMBER, PERCENT, HERTZ = Unit("", ""), Unit("", "%", 100.0), Unit("Hz", "Hz")
+NUMBER, PERCENT = Unit("", ""), Unit("", "%", 100.0)
+HERTZ, NEWTONS = Unit("Hz", "Hz"), Unit("N", "N")
 MILLIMETRES, MILLISECONDS, SECONDS = Unit("m", "mm", 1e3), Unit("s", "ms", 1e3), Unit("s", "s")
 _SHOWN = {unit.si: unit for unit in (Unit("Pa", "MPa", 1e-6), MILLIMETRES, MILLISECONDS)}
 

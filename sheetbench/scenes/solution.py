@@ -5,14 +5,17 @@ Part of the question's language: it holds no mechanics, so both solvers and any 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import RASTER, Picture, Write
+from sheetbench.answers.table import MILLIMETRES, MILLISECONDS, NEWTONS, NUMBER, Table
 from sheetbench.errors import BadInput
 from sheetbench.scenes import summary
 from sheetbench.scenes.balance import Balance
@@ -120,8 +123,35 @@ class FieldMesh:
         return f"FieldMesh of {len(self.points)} points and {cells} with {fields}"
 
 
+@dataclass(frozen=True)
+class CostRow:
+    """What an answer cost, and how far the sheet moves."""
+
+    unknowns: Annotated[int, NUMBER("d")]
+    iterations: Annotated[int, NUMBER("d", "factorisations")]
+    setup_seconds: Annotated[float, MILLISECONDS(".3g", "set-up")]
+    solve_seconds: Annotated[float, MILLISECONDS(".3g", "solve")]
+    largest: Annotated[float, MILLIMETRES(".4g", "largest displacement")]
+
+
+@dataclass(frozen=True)
+class VectorRow:
+    """A probe's displacement by component."""
+
+    probe: str
+    displacement: Annotated[Mapping[str, float], MILLIMETRES("z.3f")]
+
+
+@dataclass(frozen=True)
+class ForceRow:
+    """A support's force by component."""
+
+    edge: str
+    force: Annotated[Mapping[str, float], NEWTONS("z.4f")]
+
+
 @dataclass(frozen=True, repr=False)
-class Solution(summary.Summarised):
+class Solution(Answer):
     """A model's answer to a static scene.
 
     sample: plan points (n, 2) [m] → mid-surface displacement (n, 3) [m]; reactions: force (3,) [N] that a
@@ -132,12 +162,13 @@ class Solution(summary.Summarised):
     over, None where a model does not tell; an equilibrium that is out of balance is none, its status
     `diverged`. snaps: load factors at which the
     sheet left its load path for an equilibrium far away; fallback: what was solved in place of what was
-    asked, and why; notes: what else there is to say, a clause each. stretch: the largest elongation of the
+    asked, and why; remarks: what else there is to say, a clause each. stretch: the largest elongation of the
     mid-surface, None where a model does not tell. bar: plan points (n, 2) [m] → how far each component of
     the displacement (n, 3) [m] may be off, None where a model does not tell. points: plan points [m] of the
     scene's probes by name, as far as a verb knows them.
     """
 
+    file_name = "solution"
     model: str
     label: str
     settings: dict[str, Any]
@@ -156,7 +187,7 @@ class Solution(summary.Summarised):
     balance: Balance | None = None
     snaps: tuple[float, ...] = ()
     fallback: str = ""
-    notes: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
     stretch: float | None = None
     bar: Callable[[np.ndarray], np.ndarray] | None = None
     points: dict[str, PlanPoint] = field(default_factory=dict)
@@ -164,13 +195,13 @@ class Solution(summary.Summarised):
     def __post_init__(self) -> None:
         if self.status in _EQUILIBRIA and self.balance is not None and not self.balance.holds:
             object.__setattr__(self, "status", Status.DIVERGED)
-            object.__setattr__(self, "notes", (self.balance.said(), *self.notes))
+            object.__setattr__(self, "remarks", (self.balance.said(), *self.remarks))
 
     @property
     def message(self) -> str:
-        """Fallback, snaps and notes in a line, for people."""
+        """Fallback, snaps and remarks in a line, for people."""
         snapped = (f"snapped at load factor {load_factor:.4g}" for load_factor in self.snaps)
-        return "; ".join(filter(None, [self.fallback, *snapped, *self.notes]))
+        return "; ".join(filter(None, [self.fallback, *snapped, *self.remarks]))
 
     @property
     def status_text(self) -> str:
@@ -181,7 +212,7 @@ class Solution(summary.Summarised):
     def document(self, scene: Scene | None = None) -> dict[str, Any]:
         """The JSON document, SI units; probes are the scene's, or else those whose points are known."""
         points = self.points if scene is None else scene.probes
-        moved = self.displacement(np.array([*points.values()]))
+        moved = self.displacement(np.array([*points.values()])) if points else []
         return {
             "model": self.model,
             "label": self.label,
@@ -226,17 +257,42 @@ class Solution(summary.Summarised):
         """The model's mesh with its fields, for pyvista: `solution.to_pyvista().warp_by_vector().plot()`."""
         return self.mesh.to_pyvista()
 
-    def _summary(self) -> tuple[str, summary.Facts]:
-        moved = self.mesh.point_data.get("displacement", np.zeros((1, 3)))
-        return f"Solution of {self.label}: {self.status_text}", [
-            ("unknowns", f"{self.unknowns}, {self.iterations} factorisations"),
-            (
-                "time",
-                f"{summary.milliseconds(self.solve_seconds)}, "
-                f"set-up {summary.milliseconds(self.setup_seconds)}",
-            ),
-            ("largest", f"|u| = {1e3 * float(np.max(np.linalg.norm(moved, axis=1))):.4g} mm"),
-            ("reactions", summary.forces(self.reactions)),
-            ("energies", summary.energies(self.energies)),
-            ("notes", self.message),
-        ]
+    def heading(self) -> tuple[str, str, str]:
+        return f"Solution of {self.label}", self.status_text, ""
+
+    def tables(self) -> tuple[Table, ...]:
+        """What it cost and how far it goes, displacement at the scene's probes, forces of the supports."""
+        u = self.mesh.point_data.get("displacement", np.zeros((1, 3)))
+        largest = float(np.max(np.linalg.norm(u, axis=1)))
+        cost = CostRow(self.unknowns, self.iterations, self.setup_seconds, self.solve_seconds, largest)
+        moved = self.probes.items()
+        probes = [VectorRow(at, dict(zip(("ux", "uy", "uz"), u, strict=True))) for at, u in moved]
+        forces = summary.without_rounding(self.reactions)
+        held = [ForceRow(at, dict(zip(("Fx", "Fy", "Fz"), f, strict=True))) for at, f in forces.items()]
+        return (
+            Table.of(CostRow, [cost], "Cost and largest displacement", "solution"),
+            *([Table.of(VectorRow, probes, "Displacement of the mid-surface", "probes")] if probes else []),
+            *([Table.of(ForceRow, held, "Force of each support on the sheet", "reactions")] if held else []),
+        )
+
+    def figures(self) -> tuple[Picture, ...]:
+        """Heights over the plan."""
+        compose = "sheetbench.scenes.solution_figure:compose"
+        return (Picture("solution", compose, (self,), formats=RASTER),)
+
+    def files(self) -> dict[str, Write]:
+        return {f"{self.model}.vtu": self.mesh.save}
+
+    def notes(self) -> list[str]:
+        found = ", ".join(f"{name} {value:.4g} J" for name, value in self.energies.items())
+        return [text for text in (f"energies: {found}" if found else "", self.message) if text]
+
+    def complaints(self) -> list[str]:
+        return [] if self.succeeded else [f"{self.status_text}: {self.status.advice}"]
+
+    def choices(self) -> dict[str, Any]:
+        return self.settings
+
+    @property
+    def succeeded(self) -> bool:
+        return self.status is Status.CONVERGED

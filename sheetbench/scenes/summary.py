@@ -2,30 +2,16 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from html import escape
-from typing import Any
+
+import numpy as np
 
 from sheetbench.errors import printable
 
 WIDEST = 100  # characters of a value
 ROUNDING = 1e-9  # of the largest force: equilibria are balanced to that
 Facts = Iterable[tuple[str, str]]
-
-
-class Summarised(ABC):
-    """Base of answers, which show what matters of them instead of every number that they hold."""
-
-    @abstractmethod
-    def _summary(self) -> tuple[str, Facts]:
-        """A heading, and facts by name."""
-
-    def __repr__(self) -> str:
-        return text(*self._summary())
-
-    def _repr_html_(self) -> str:
-        return html(*self._summary())
 
 
 def text(title: str, facts: Facts) -> str:
@@ -57,25 +43,10 @@ def few(value: float, digits: int = 2) -> str:
     return f"{rounded:.7g}" if 1e-3 <= abs(rounded) <= 1e6 else f"{value:.{digits}g}"
 
 
-def forces(named: Mapping[str, Any]) -> str:
+def without_rounding(forces: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     """Forces (3,) [N] by name; what is rounding beside the largest of them is 0."""
-    largest = max((abs(float(part)) for force in named.values() for part in force), default=0.0)
-
-    def shown(part: float) -> str:
-        return f"{part:.3g}" if abs(part) > ROUNDING * largest else "0"
-
-    return ", ".join(f"{name} ({', '.join(map(shown, force))}) N" for name, force in named.items())
-
-
-def energies(named: Mapping[str, float]) -> str:
-    """Energies [J] by name."""
-    return ", ".join(f"{name} {value:.4g} J" for name, value in named.items())
-
-
-def numbers(values: Sequence[float], unit: str, shown: int = 5) -> str:
-    """The first numbers of a list."""
-    more = ", …" if len(values) > shown else ""
-    return f"{', '.join(f'{value:.4g}' for value in values[:shown])}{more} {unit}"
+    largest = max((float(np.abs(force).max()) for force in forces.values()), default=0.0)
+    return {name: np.where(np.abs(f) > ROUNDING * largest, f, 0.0) for name, f in forces.items()}
 
 
 def _short(value: str) -> str:

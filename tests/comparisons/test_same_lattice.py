@@ -175,7 +175,7 @@ def test_so_are_a_scene_s_own_springs(name: str, tmp_path: Path) -> None:
     ask, words = VERBS[name]
     plain = sb.load(SCENE)
     springs = lumped.calibrate(plain.sheet, plain.material, grid=(4, 6), method="uniform", k=400.0)
-    table = {**springs.as_dict()["springs"], "layer_distance": springs.layer_distance, "grid": [4, 6, 2]}
+    table = {**springs.document()["springs"], "layer_distance": springs.layer_distance, "grid": [4, 6, 2]}
     scene = plain.replace(springs=SpringTable.model_validate(table))
     scene.save(tmp_path / "own.toml")
     (tmp_path / "measured.csv").write_text(FILE, encoding="utf-8")
@@ -191,5 +191,5 @@ def test_so_are_a_scene_s_own_springs(name: str, tmp_path: Path) -> None:
 def constants(found: Any) -> Any:
     """What a lattice is made of."""
     springs = found.value.args[0] if isinstance(found, pytest.ExceptionInfo) else found
-    document = springs.as_dict()
+    document = springs.document()
     return {key: document.get(key) for key in ("method", "grid", "grading", "springs", "layer_distance")}

@@ -16,7 +16,6 @@ from matplotlib.pyplot import subplots
 import fem_reference
 import lumped
 from comparisons.advice import probing
-from comparisons.calibration.tables import moduli
 from comparisons.cli import modes
 from comparisons.linearisation.answer import Linearisation
 from comparisons.models.spec import Spec, spec_of
@@ -29,6 +28,7 @@ from comparisons.tradeoff import statics
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.motion import DynamicTradeoff
 from comparisons.tradeoff.row import TradeoffRow
+from lumped.calibration.tables import moduli
 from sheetbench import scenes
 from sheetbench.answers.figure_style import PLAIN, WIDTHS
 from sheetbench.answers.table import Table
@@ -136,7 +136,7 @@ def test_a_fit_is_shown_in_the_tables_units() -> None:
     sought = {"young": 2.5e6, "k": 321.0, "layer_distance": 1.5e-3, "tilt": np.pi / 6.0, "curvature": 4.0}
     fit = SimpleNamespace(
         tests=(1,), kind="sheet", source="model", sought=sought, by="misfit", rms=0.25, error=0.5, entries=12,
-        met=np.array([True, True, False]),
+        matches=np.array([True, True, False]),
     )  # fmt: skip
     row = shown(nearest(SimpleNamespace(fits=[fit])))  # type: ignore[arg-type]
     assert [float(row[name]) for name in ("E", "k", "lz", "tilt", "κ")] == [2.5, 321.0, 1.5, 30.0, 4.0]

@@ -49,7 +49,7 @@ def test_lines_are_even_at_0_and_chebyshevs_at_1() -> None:
 def test_every_cell_meets_every_modulus(grading: float, method: str) -> None:
     springs = lumped.calibrate(SHEET, RUBBER, (7, 6), method, grading=grading)
     assert all(abs(row["miss"]) < 1e-9 for row in springs.moduli) and len(springs.moduli) == 10
-    assert springs.as_dict()["grading"] == grading
+    assert springs.document()["grading"] == grading
 
 
 @pytest.mark.parametrize("grading", GRADINGS)
@@ -174,7 +174,7 @@ def test_springs_of_a_scene_file_are_the_calibrations(method: str) -> None:
     """Through JSON and back, every digit; another grading is refused, and other counts of cells."""
     scene = load("one-edge-clamped")
     springs = lumped.calibrate(scene.sheet, scene.material, (5, 6), method, grading=0.7)
-    written = json.loads(json.dumps(springs.as_dict()))
+    written = json.loads(json.dumps(springs.document()))
     kept = {name: written[name] for name in ("grid", "grading", "masses", "layer_distance")}
     table = SpringTable.model_validate(written["springs"] | kept)
     pasted = scene.model_copy(update={"springs": table})

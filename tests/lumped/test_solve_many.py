@@ -17,7 +17,7 @@ def stiffer(share):
 
 
 def same(many, single):
-    assert (many.status, many.iterations, many.notes) == (single.status, single.iterations, single.notes)
+    assert (many.status, many.iterations, many.remarks) == (single.status, single.iterations, single.remarks)
     points = np.array(list(SCENE.probes.values()))
     assert np.array_equal(many.displacement(points), single.displacement(points))
     assert many.energies == single.energies

@@ -42,7 +42,7 @@ def test_springs_are_found_from_numbers_as_the_command_line_finds_them() -> None
     found = sb.calibrate(young="0.6 MPa", poisson=0.45, thickness="2 mm", side=(0.12, 0.04), grid=3)
     sheet, material = sb.Sheet(0.12, 0.04, 0.002), sb.Material(0.6e6, 0.45, 1000.0)
     scene = sb.Scene("s", sheet, material, supports=(sb.Clamped("y0"),), loads=(sb.Pressure(1.0),))
-    assert found.as_dict() == sb.calibrate(scene, grid=3).as_dict()
+    assert found.document() == sb.calibrate(scene, grid=3).document()
     assert sb.calibrate(scene, young=1.2e6, grid=3) == sb.calibrate(scene.replace(young=1.2e6), grid=3)
     with pytest.raises(sb.BadInput, match="missing poisson, thickness, side"):
         sb.calibrate(young=1e6)

@@ -100,7 +100,7 @@ class Kratos:
             energies={},
             mesh=FieldMesh(mesh.positions, [("triangle", mesh.elements)], {"displacement": displacement}),
             load_factor=load_factor,
-            notes=(note,) if note else (),
+            remarks=(note,) if note else (),
         )
 
 

@@ -106,7 +106,7 @@ def simulate(
     drawn = np.concatenate([np.arange(masses), *(rows for rows, _ in axes.values())])
     asked = {
         "scene": scene.document(),
-        "springs": calibration.as_dict()["springs"],
+        "springs": calibration.document()["springs"],
         "integrator": integrator,
         "step": step,
         "every": every,

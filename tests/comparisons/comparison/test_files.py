@@ -129,7 +129,7 @@ def test_a_file_is_whole_or_absent(tmp_path: Path) -> None:
 def test_springs_as_toml_are_the_same_springs(scene: Scene) -> None:
     import lumped
 
-    found = lumped.calibrate(scene.sheet, scene.material, grid=(9, 13)).as_dict()
+    found = lumped.calibrate(scene.sheet, scene.material, grid=(9, 13)).document()
     table = tomllib.loads(calibration.to_toml(found))["springs"]
     assert scenes.SpringTable(**table).grid == (9, 13, 2)
     lattice = {name: table.pop(name) for name in ("grid", "masses", "layer_distance")}

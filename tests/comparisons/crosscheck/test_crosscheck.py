@@ -53,7 +53,7 @@ class Fake:
             self.name, f"{self.name} {n}", {"elements": [n, n]}, status, 0, 1, 0.0, 0.0,
             lambda points: np.tile(u, (len(points), 1)), {}, {}, mesh,
             load_factor=1.0 * (status == "converged"),
-            notes=("takes no such scene",) if status is Status.REFUSED else (),
+            remarks=("takes no such scene",) if status is Status.REFUSED else (),
         )
 
 

@@ -149,7 +149,7 @@ def test_a_judge_refuses_what_it_cannot_take_in_a_sentence(judge: ExternalCode) 
         changed(loads=(EdgeLoad(edge="x1", moment_per_length=0.1),)),
     ):
         solution = judge.solve(scene, judge.settings)
-        assert solution.status is Status.REFUSED and len(solution.notes) == 1
+        assert solution.status is Status.REFUSED and len(solution.remarks) == 1
 
 
 @pytest.mark.parametrize("judge", JUDGES, ids=lambda judge: judge.name)

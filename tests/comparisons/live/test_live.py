@@ -174,7 +174,7 @@ def test_springs_and_scene_can_be_had_as_text(address, panel):
         springs, scene = (m["text"] for m in hear(page, lambda m: m.get("of") == "scene"))
     changed = SCENE.replace(material=SCENE.material.replace(young=2e6))
     expected = sb.calibrate(changed, grid=3)
-    assert f"axial = {expected.as_dict()['springs']['axial']!r}" in springs
+    assert f"axial = {expected.document()['springs']['axial']!r}" in springs
     assert springs.startswith("[springs]\ngrid = [3, 3, 2]") and "young = 2e6" in scene
 
 

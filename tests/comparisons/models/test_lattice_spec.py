@@ -26,7 +26,7 @@ def scene() -> Scene:
 def springy(scene: Scene) -> Scene:
     """The scene with springs of its own, of no calibration."""
     springs = lumped.calibrate(scene.sheet, scene.material, grid=3, method="uniform", k=400.0)
-    table = {**springs.as_dict()["springs"], "layer_distance": springs.layer_distance, "grid": [3, 3, 2]}
+    table = {**springs.document()["springs"], "layer_distance": springs.layer_distance, "grid": [3, 3, 2]}
     return scene.replace(springs=SpringTable.model_validate(table))
 
 

@@ -243,7 +243,7 @@ def test_the_trade_of_a_motion_is_of_one_lattice(tmp_path: Path) -> None:
     """The scene's own springs, four times as stiff: limit, period and runs are all of them."""
     scene = scenes.load("two-edges-settling")
     springs = lumped.calibrate(scene.sheet, scene.material, grid=3)
-    stiff = {name: 4.0 * k for name, k in springs.as_dict()["springs"].items() if isinstance(k, float)}
+    stiff = {name: 4.0 * k for name, k in springs.document()["springs"].items() if isinstance(k, float)}
     table = {**stiff, "layer_distance": springs.layer_distance, "grid": [3, 3, 2]}
     own = scene.replace(springs=table)
     names = ("verlet",)

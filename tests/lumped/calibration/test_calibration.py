@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import lumped
-from comparisons.calibration import tables
 from lumped import moduli
 from lumped.assembly import Assembly
+from lumped.calibration import tables
 from lumped.calibration.report import _admissible, _require_positive, report
 from sheetbench import scenes
 from sheetbench.scenes import BadInput, Material, PerDirection, Sheet, SpringSet
@@ -132,7 +132,7 @@ def test_least_squares_finds_the_closed_form_on_square_cells(masses):
     grid = (masses, masses)
     closed = lumped.calibrate(SEED.sheet, SEED.material, grid, "consistent-interior").springs.model_dump()
     fitted = lumped.calibrate(SEED.sheet, SEED.material, grid, "moduli")
-    assert fitted.notes == ()
+    assert fitted.remarks == ()
     for name, value in fitted.springs.model_dump().items():
         known = closed[name]
         assert value == (known if known is None else pytest.approx(known, rel=1e-5, abs=1e-6)), name
@@ -143,7 +143,7 @@ def test_least_squares_finds_the_closed_form_on_square_cells(masses):
 def test_every_modulus_is_met_on_long_cells_too(method, grid):
     calibration = lumped.calibrate(SEED.sheet, SEED.material, grid, method)
     within = 1e-9 if method == "consistent" else 1e-5
-    assert all(abs(row["miss"]) < within for row in calibration.moduli) and calibration.notes == ()
+    assert all(abs(row["miss"]) < within for row in calibration.moduli) and calibration.remarks == ()
     springs = calibration.springs
     links = (springs.axial, springs.diagonal, springs.vertical, springs.cross, springs.cross_diagonal)
     assert all(min(k.x, k.y) > 0.0 if isinstance(k, PerDirection) else k > 0.0 for k in links)
@@ -154,12 +154,12 @@ def test_without_strain_springs_long_cells_cannot_be_met():
     calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 25))
     bare = calibration.springs.model_copy(update={"shear": 0.0, "mid_shear": 0.0, "mid_stretch": 0.0})
     stripped = report("stripped", SEED.sheet, SEED.material, (9, 25, 2), bare)
-    assert any("D66 is missed" in note for note in stripped.notes)
+    assert any("D66 is missed" in note for note in stripped.remarks)
 
 
 def test_layers_too_many_for_the_grid_are_said():
     calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9, 3))
-    assert any("is missed by" in note for note in calibration.notes)
+    assert any("is missed by" in note for note in calibration.remarks)
 
 
 def test_a_given_layer_distance_is_kept():
@@ -173,7 +173,7 @@ def test_cauchy_relation_is_named():
         calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), method)
         got = {row["name"]: row["got"] for row in calibration.moduli}
         assert got["D12"] == pytest.approx(got["D66"], rel=1e-12)
-        assert any("Cauchy's relation" in note for note in calibration.notes)
+        assert any("Cauchy's relation" in note for note in calibration.remarks)
 
 
 def test_textbook_constructions_on_squares():
@@ -201,7 +201,7 @@ def test_negative_area_springs_are_said():
     rubbery = Material(young=54.5e6, poisson=0.2, density=1678.0)
     calibration = lumped.calibrate(SEED.sheet, rubbery, (9, 9))
     assert calibration.springs.area < 0.0
-    assert "energy is positive" in " ".join(calibration.notes)
+    assert "energy is positive" in " ".join(calibration.remarks)
 
 
 @pytest.mark.parametrize(
@@ -220,9 +220,9 @@ def test_misuse_is_refused(arguments, said):
 
 
 def test_json_document():
-    long_cells = lumped.calibrate(SEED.sheet, SEED.material, (9, 17)).as_dict()["springs"]
+    long_cells = lumped.calibrate(SEED.sheet, SEED.material, (9, 17)).document()["springs"]
     assert {"shear", "mid_shear", "mid_stretch"} < set(long_cells) and set(long_cells["axial"]) == {"x", "y"}
-    document = lumped.calibrate(SEED.sheet, SEED.material, (9, 9)).as_dict()
+    document = lumped.calibrate(SEED.sheet, SEED.material, (9, 9)).document()
     assert set(document["springs"]) == {
         "axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area",
         "edge_shear", "strip_shear",
@@ -233,7 +233,7 @@ def test_json_document():
 def test_the_table_shows_the_sheets_shear_stiffness_beside_the_grids():
     """A strip of 250 × 120 × 1.5 mm, 9 × 9 masses: κGh = 52.4 N/m, S* of the long cells a 93rd of it."""
     sheet = Sheet(length_x=0.25, length_y=0.12, thickness=0.0015)
-    found = lumped.calibrate(sheet, Material(young=125e3, poisson=0.49, density=1070.0), (9, 9)).as_dict()
+    found = lumped.calibrate(sheet, Material(young=125e3, poisson=0.49, density=1070.0), (9, 9)).document()
     shown = {row[0]: row for row in tables.moduli(found).rows}
     row = next(row for row in found["moduli"] if row["name"] == "Sx")
     assert row["kappa_G_h"] == pytest.approx(5 / 6 * 125e3 / 2.98 * 0.0015, rel=1e-12)

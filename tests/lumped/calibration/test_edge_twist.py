@@ -127,7 +127,7 @@ def test_a_symmetric_sheet_is_twice_its_half() -> None:
 @pytest.mark.parametrize("grid", [(9, 9), (5, 9), (4, 9)])
 def test_the_springs_of_a_scene_file_are_the_calibrations(grid: tuple[int, int]) -> None:
     springs = lumped.calibrate(SEED.sheet, SEED.material, grid, "consistent")
-    written = springs.as_dict()
+    written = springs.document()
     table = {**written["springs"], "layer_distance": written["layer_distance"]}
     assert SpringSet.model_validate(table) == springs.springs
     assert springs.springs.edge_shear != 0.0

@@ -50,7 +50,7 @@ def test_fit_static_to_the_shell(shell):
         assert np.abs(found - right).max() < 0.003 * np.abs(right).max()
     known = fitted.identifiability
     assert known.half_widths["axial"] < 0.05 and known.half_widths["mid_area"] == np.inf
-    assert any("mid_area" in note for note in fitted.notes)
+    assert any("mid_area" in note for note in fitted.remarks)
 
 
 def test_fit_modal_to_the_shell(shell):

@@ -58,7 +58,7 @@ def test_a_lattice_whose_stability_is_not_known_says_so(monkeypatch):
     springs = lumped.calibrate(asked.sheet, asked.material, grid=(5, 5))
     for kind in (Factor, SymmetricPartFactor):
         monkeypatch.setattr(kind, "negative_real", lambda self: None)
-    assert any("stability not known" in note for note in lumped.solve(asked, springs).notes)
+    assert any("stability not known" in note for note in lumped.solve(asked, springs).remarks)
 
 
 def test_descent_refuses_a_direction_along_which_the_energy_rises(monkeypatch):

@@ -212,7 +212,7 @@ class Solution(Answer):
     def document(self, scene: Scene | None = None) -> dict[str, Any]:
         """The JSON document, SI units; probes are the scene's, or else those whose points are known."""
         points = self.points if scene is None else scene.probes
-        moved = self.displacement(np.array([*points.values()])) if points else []
+        moved = [*self.displacement(np.array([*points.values()]))] if points else []
         return {
             "model": self.model,
             "label": self.label,

@@ -117,7 +117,7 @@ def solve_with_bar(
 def of_solutions(
     scene: Scene, solutions: Sequence[Solution], sizes: Sequence[float], points: np.ndarray
 ) -> Uncertainty | None:
-    """The same from solutions of a scene on meshes of the given sizes, the finest first."""
+    """Return the uncertainty that solutions on meshes of these sizes show, finest first; None as above."""
     usable = [
         (solution.displacement(points), size, missed_by(scene, solution.settings))
         for solution, size in zip(solutions, sizes, strict=True)

@@ -13,9 +13,10 @@ The rigid motions that the supports leave free are counted exactly (the null spa
 the held unknowns); so many lowest modes, whose frequency is zero, are left out and their number is reported.
 
 Plate and shell are divided finer towards the edges, over `REACH` of their elements: there the clamps' ends
-have singularities, but modes have waves in the middle too. Of the first ten frequencies of the seed's sheet
-on 16 × 16 elements the largest error, against 64 × 64, falls from 0.31 % (one edge clamped) and 0.23 % (two)
-of even elements to 0.05 and 0.09 %; graded over all elements it is 0.04 and 0.14 %, more on coarse meshes.
+have singularities, but modes have waves in the middle too. Of the first ten frequencies of Habibi et al.'s
+sheet on 16 × 16 elements the largest error, against 64 × 64, falls from 0.31 % (one edge clamped) and 0.23 %
+(two) of even elements to 0.05 and 0.09 %; graded over all elements it is 0.04 and 0.14 %, more on coarse
+meshes.
 
 Masses: plate and shell, ρh on the displacements and ρh³/12 on the director's rotations; solid, ρ. SI units.
 """

@@ -6,7 +6,7 @@ thickness   1.2 (h/a)², a the shorter side, 1.2 = 1/κ: shear-deformable plates
 strain law  2.3 ε √m, ε the largest stretch, m the share of stretching in the energy: at one force
             St Venant–Kirchhoff's and neo-Hooke's sheets differ by 2.3 ε of a stretch (1.5 and −0.77 of
             `comparisons.comparison.strain_law`), and where loads bend the sheet by less; nothing where the
-            user has chosen the law: then it is part of the scene
+            user has chosen the law or the material has one: then it is part of the scene
 clamp       0.75 |ν|/(1 − ν) h/a where an edge is clamped: a clamp holds the mid-surface and its normal, and
             leaves the thickness free to change (docs/theory.md, section 8). One that holds the whole face
             stops the change of thickness that bending brings, within a zone of length h
@@ -69,10 +69,11 @@ def model_error(scene: Scene, answer: Solution, law_chosen: bool = False) -> Mod
         return None
     slenderness, poisson = scene.sheet.thickness / min(scene.sheet.lengths), scene.material.poisson
     clamped = any(isinstance(support, Clamped | Curved) for support in scene.supports)
+    stated = scene.material.law is not None and answer.settings.get("law") == scene.material.law
     membrane = answer.energies.get("membrane", 0.0) / (sum(answer.energies.values()) or 1.0)
     solid = answer.model == "solid"
     return ModelError(
         thickness=0.0 if solid else SHEAR * slenderness**2,
-        strain_law=0.0 if law_chosen else LAW * answer.stretch * (1.0 if solid else membrane**0.5),
+        strain_law=0.0 if law_chosen or stated else LAW * answer.stretch * (1.0 if solid else membrane**0.5),
         clamp=CLAMP * abs(poisson) / (1.0 - poisson) * slenderness if clamped else 0.0,
     )

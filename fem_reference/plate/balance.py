@@ -39,7 +39,7 @@ class Solved:
 
     @property
     def held(self) -> np.ndarray:
-        """The same, zero where free."""
+        """K u − f (N,), zero where free."""
         out = self.unbalanced.copy()
         out[self.free] = 0.0
         return out

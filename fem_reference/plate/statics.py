@@ -11,9 +11,9 @@ orders of `sheetbench.scenes.kinematics`): the shortening of a bent edge's mid-l
 
 Along an edge whose director nothing holds (free, hinged, held) the twisting moment fades within a layer of
 width √(D66/κGh) = h/√10, far less than an element. On equal elements the answer then converges like the width
-of the elements there: on 16 × 16 of the seed's sheet it is 0.06 to 0.4 % off with such edges, and 0.01 % with
-all edges clamped. Divided finer towards all edges it is 0.002 to 0.03 % off with such edges, and 0.04 % with
-all edges clamped: so it is graded where an edge lets twist go.
+of the elements there: on 16 × 16 of Habibi et al.'s sheet it is 0.06 to 0.4 % off with such edges, and 0.01 %
+with all edges clamped. Divided finer towards all edges it is 0.002 to 0.03 % off with such edges, and 0.04 %
+with all edges clamped: so it is graded where an edge lets twist go.
 Source: Hughes, The Finite Element Method (2000), ch. 5. SI units.
 """
 
@@ -115,7 +115,7 @@ def solve(
 
 
 def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
-    """The same on any flat mesh of straight-sided quadrilaterals [m] with boundaries of the edges' names."""
+    """Return the linear answer on any flat mesh of straight-sided quadrilaterals [m], its edges named."""
     return _solved(mesh, scene, "plate", {"elements": mesh.nelements}, own=True)
 
 

@@ -88,7 +88,7 @@ def solve(
 
 
 def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
-    """The same on any flat mesh of quadrilaterals [m], straight-sided (MeshQuad) or biquadratic (MeshQuad2).
+    """Return the equilibrium on any flat mesh of quadrilaterals [m], straight-sided or biquadratic.
 
     Supports and loads act on the mesh's boundaries of their edges' names ("x0", …), which may lie
     anywhere; of the scene's sheet only the thickness is used, and the lengths of edges with actuators.

@@ -69,7 +69,7 @@ def solve(
 
 
 def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
-    """The same on columns over any flat mesh of straight-sided quadrilaterals [m]."""
+    """Return the equilibrium on columns over any flat mesh of straight-sided quadrilaterals [m]."""
     return _solved(mesh, scene, "solid", {"elements": mesh.nelements}, own=True)
 
 

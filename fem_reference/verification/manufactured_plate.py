@@ -71,7 +71,7 @@ def _of_plate(scene: Scene, elements: int) -> tuple[float, float]:
 
 
 def _of_shell(scene: Scene, elements: int) -> tuple[float, float]:
-    """The same of the shell's first linear step from the flat sheet."""
+    """Errors of deflection and tilt of the shell's first linear step from the flat sheet."""
     structure, _ = shell.discretise(rectangle(scene.sheet, elements), scene)
     basis = plate.Plate.on(rectangle(scene.sheet, elements)).basis
     structure.dead[:, 2] = share(basis, pressure(scene))

@@ -132,3 +132,11 @@ def test_the_advisor_counts_what_the_shell_leaves_out() -> None:
     assert json.loads(json.dumps(predicted))["model_parts"]["thickness"] == pytest.approx(0.027)
     assert advise(THICK, 0.05).met
     assert np.isclose(advise(load("one-edge-clamped"), 0.01).document()["predicted"]["model"], 0.0, atol=1e-3)
+
+
+def test_a_law_that_the_material_states_is_no_part_of_the_error() -> None:
+    rubber = Material(young=1e6, poisson=0.49, density=1000.0, law="neo-hookean")
+    scene = pulled((3000.0, 0.0), material=rubber)
+    for law, part in (("neo-hookean", False), ("biot", True)):
+        found = model_error(scene, fem_reference.solve(scene, "solid", elements=2, law=law))
+        assert found is not None and (found.strain_law > 0.1) is part

@@ -16,6 +16,7 @@ from lumped.calibration import Calibration
 from lumped.lattice import Lattice
 from lumped.loads import Loads
 from lumped.masses import masses
+from lumped.springs.cell_laws import AREA_AND_STRAINS, ENERGIES
 from lumped.springs.families import Cells, Links, table_dampers
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, solve
@@ -39,8 +40,9 @@ class LinkTable:
 
 @dataclass(frozen=True)
 class CellTable:
-    """Springs of one kind, "area" or "strain": corners (c, 4, p), the masses whose mean each corner is;
-    rest_area (c,) [m²]; stiffness (c, 3) [N/m], of area springs the first alone; damping (c, 3) [N·s/m]."""
+    """Springs of one kind of `lumped.springs.cell_laws.ENERGIES`: corners (c, 4, p), the masses whose mean
+    each corner is; rest_area (c,) [m²]; stiffness (c, n) [N/m], of rubber its limit [-] too; damping (c, n)
+    [N·s/m]."""
 
     kind: str
     corners: np.ndarray
@@ -116,8 +118,6 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     assembly, lattice = problem.assembly, problem.assembly.lattice
     if not assembly.conservative:
         raise BadInput("export: per-direction springs have no energy, and no stiffness along their links")
-    if assembly.any_strain:
-        raise BadInput("export: neo-hookean cells have no columns in cells.csv; export another calibration")
     nx, ny, layers = lattice.grid
     j, i, k = (at.ravel() for at in np.meshgrid(*map(np.arange, (ny, nx, layers)), indexing="ij"))
     moments, pressure = problem.loads.at_time(None)
@@ -164,14 +164,17 @@ def _table(links: Links, stiffness: np.ndarray, damping: np.ndarray) -> LinkTabl
 
 
 def _cells(scene: Scene, assembly: Assembly) -> Iterator[CellTable]:
-    """Yield the area springs of the layers and of the mid-surface, then the springs against strain."""
+    """Yield the springs of each kind, and dampers where there are no springs."""
     time = 0.0 if scene.dampers is not None else scene.material.dashpot_time
-    for kind, columns in (("area", slice(0, 1)), ("strain", slice(1, 4))):
-        for family in assembly.springs:
-            if isinstance(family, Cells) and (on := (family.stiffness[:, columns] != 0.0).any(axis=1)).any():
-                table = np.zeros((on.sum(), 3))
-                table[:, : columns.stop - columns.start] = family.stiffness[on, columns]
-                yield CellTable(kind, family.nodes[on], family.area[on], table, time * table)
+    families = [family for family in assembly.springs if isinstance(family, Cells)]
+    for kind in ENERGIES:
+        for family in families:
+            stiffness = family.law.parts(family.stiffness, family.others, family.area).get(kind)
+            damping = AREA_AND_STRAINS.parts(time * family.stiffness, None, family.area).get(kind)
+            pair = [np.zeros_like(damping) if stiffness is None else stiffness]
+            pair.append(np.zeros_like(pair[0]) if damping is None else damping)
+            if (on := np.any(pair[0], axis=-1) | np.any(pair[1], axis=-1)).any():
+                yield CellTable(kind, family.nodes[on], family.area[on], *(each[on] for each in pair))
 
 
 def _holds(problem: Problem) -> tuple[Hold, ...]:

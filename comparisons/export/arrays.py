@@ -32,6 +32,12 @@ NAMES = {  # and what they are
     "strain_rest": "(s,) rest area [m2]",
     "strain_stiffness": "(s, 3) of e1, e2, g [N/m]",
     "strain_damping": "(s, 3) [N s/m]",
+    "rubber_corners": "(r, 4, p) as area_corners",
+    "rubber_rest": "(r,) rest area [m2]",
+    "rubber_stiffness": "(r, 8) c10, c01, c20, c30, volume [N/m], limit [-], two of the sides [N/m]",
+    "face_corners": "(f, 4, p) as area_corners",
+    "face_rest": "(f,) rest area [m2]",
+    "face_stiffness": "(f,) [N/m]",
     "hold_masses": "(h, p) masses whose mean displacement is held",
     "hold_axis": "(h,) along 0 = x, 1 = y, 2 = z",
     "hold_displacement": "(h,) [m]",
@@ -74,13 +80,13 @@ def arrays(lattice: Description) -> dict[str, np.ndarray]:
             for name in ("displacement", "force", "energy")
         },
     }
-    for kind, components in (("area", 1), ("strain", 3)):
+    for kind, components in (("area", 1), ("strain", 3), ("rubber", 8), ("face", 1)):
         cells = [table for table in lattice.cells if table.kind == kind]
         corners = [np.repeat(t.corners, layers // t.corners.shape[2], axis=2) for t in cells]
         found[f"{kind}_corners"] = np.concatenate([np.empty((0, 4, layers), dtype=int), *corners])
         found[f"{kind}_rest"] = np.concatenate([np.empty(0), *(table.rest_area for table in cells)])
         for name in ("stiffness", "damping"):
-            values = np.concatenate([np.empty((0, 3)), *(getattr(table, name) for table in cells)])
+            values = np.concatenate([np.empty((0, components)), *(getattr(table, name) for table in cells)])
             found[f"{kind}_{name}"] = values[:, 0] if components == 1 else values
     return {name: found[name] for name in NAMES}
 

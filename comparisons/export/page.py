@@ -37,13 +37,26 @@ supports and loads balance at rest.
   strains e1 = (|A|² − |A0|²)/(2 |A0|²), e2 = (|B|² − |B0|²)/(2 |B0|²), g = A·B/a0. E = ½ (k1 e1² + k2 e2² +
   k3 g²) a0. With t = (k1 e1, k2 e2, k3 g) the gradient by A is P = a0 (t1 A/|A0|² + t3 B/a0), by B it is Q
   = a0 (t2 B/|B0|² + t3 A/a0); on corners 1 to 4 it is ½ (−P − Q), ½ (P − Q), ½ (P + Q), ½ (Q − P).
+- kind `rubber`: a membrane of rubber. With A and B as above, q = corner 1 − 2 + 3 − 4, C11 = (|A|² +
+  |q|²/12)/|A0|², C22 = (|B|² + |q|²/12)/|B0|², C12 = A·B/a0, T = C11 + C22, D = C11 C22 − C12², x = T + θ
+  − 3 and c10, c01, c20, c30, v, limit = k1 … k6 it stores W a0, W = f + c01 (D + θ T − 3) − (c10 + 2 c01)
+  ln(D θ) + v/8 ln²(D θ), f = c10 x + c20 x² + c30 x³ or, of a limit that is not 0, −c10 limit ln(1 −
+  x/limit). θ, the square of the thickness' stretch, is where nothing pulls: with F = f′ the one root of θ
+  (F + c01 T) − c10 − 2 c01 + v/4 ln(D θ). Less ½ k7 (la − |A0|)² + ½ k8 (lb − |B0|)², la² = |A|² + |q|²/4,
+  lb² = |B|² + |q|²/4. With wT = F + c01 θ, wD = c01 − θ (F + c01 T)/D, s = a0 (wT + wD C22)/|A0|², t = a0
+  (wT + wD C11)/|B0|², pa = k7 (1 − |A0|/la) and pb = k8 (1 − |B0|/lb) P = (2 s − pa) A − 2 wD C12 B, Q =
+  (2 t − pb) B − 2 wD C12 A, and R = ((s + t)/6 − (pa + pb)/4) q on corners 1 and 3, −R on 2 and 4, beside
+  what P and Q give.
+- kind `face`: sides A along the sheet and B between layers, γ = A·B/(|A| |B0|), E = ½ k1 γ² a0. P = a0 k1
+  γ (B/(|A| |B0|) − γ A/|A|²), Q = a0 k1 γ A/(|A| |B0|).
 - What acts on a corner is shared equally by the masses it is the mean of. A stiffness may be negative: the
   energy of all springs together is positive all the same.
 
 ## Motion
 
 `nodes.csv` has the masses. Dampers resist the rates of what the springs resist: force c d|r|/dt along a
-link, the gradients above with c1 (da/dt)/a0 and (c1 de1/dt, c2 de2/dt, c3 dg/dt) in place of τ and t. Every
+link, the gradients above with c1 (da/dt)/a0 and (c1 de1/dt, c2 de2/dt, c3 dg/dt) in place of τ and t; of rubber those of its
+small strains, rows of kind `area` and `strain` without stiffness. Every
 mass is also dragged by {rate:g} 1/s × its mass × its velocity.
 
 ## Supports and loads
@@ -63,7 +76,8 @@ mass is also dragged by {rate:g} 1/s × its mass × its velocity.
 
 {arrays}
 
-Programs in NumPy, MATLAB and C++ that read this folder and solve it: `examples/other-codes` of sheetbench.
+Programs in NumPy, MATLAB and C++ that read this folder and solve it, of rubber the one in NumPy:
+`examples/other-codes` of sheetbench.
 """
 
 

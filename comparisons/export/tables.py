@@ -10,18 +10,22 @@ import io
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 if TYPE_CHECKING:
     from lumped import Description
 
 
-ENERGIES = {"area": "0.5 k1 (a/a0 - 1)^2 a0", "strain": "0.5 (k1 e1^2 + k2 e2^2 + k3 g^2) a0"}
-FORMULA = "; ".join(f"{kind}: E = {energy}" for kind, energy in ENERGIES.items()) + "; force -dE/dx"
 AXES = "xyz"
 
 
 def tables(lattice: Description) -> dict[str, str]:
     """The text of every file by its name."""
+    from lumped.springs.cell_laws import ENERGIES
+
     x, y, z = (f"u{axis}" for axis in AXES)
+    formulas = "; ".join(f"{kind}: E = {energy}" for kind, energy in list(ENERGIES.items())[:2])
+    width = max(3, *(table.stiffness.shape[1] for table in lattice.cells), 0)
     return {
         "nodes.csv": _csv(
             ["number", "i", "j", "k", "x", "y", "z", "mass"],
@@ -48,9 +52,9 @@ def tables(lattice: Description) -> dict[str, str]:
                 "kind",
                 *(f"corner_{n}" for n in range(1, 5)),
                 "rest_area",
-                *(f"stiffness_{n}" for n in range(1, 4)),
+                *(f"stiffness_{n}" for n in range(1, width + 1)),
                 *(f"damping_{n}" for n in range(1, 4)),
-                FORMULA,
+                f"{formulas}; force -dE/dx",
             ],
             (
                 [table.kind, *map(_joined, corners), area, *stiffness, *damping, ENERGIES[table.kind]]
@@ -58,8 +62,8 @@ def tables(lattice: Description) -> dict[str, str]:
                 for corners, area, stiffness, damping in zip(
                     table.corners.tolist(),
                     table.rest_area.tolist(),
-                    table.stiffness.tolist(),
-                    table.damping.tolist(),
+                    _wide(table.stiffness, width),
+                    _wide(table.damping[:, :3], 3),
                     strict=True,
                 )
             ),
@@ -102,6 +106,12 @@ def _followers(lattice: Description) -> Iterable[list[Any]]:
             _joined(couple.after),
             couple.moment,
         ]
+
+
+def _wide(values: np.ndarray, width: int) -> list[list[float]]:
+    """Rows with zeros behind them, of so many columns."""
+    rows: list[list[float]] = np.pad(values, ((0, 0), (0, width - values.shape[1]))).tolist()
+    return rows
 
 
 def _joined(masses: Sequence[int]) -> str:

@@ -55,6 +55,7 @@ int main(int count, char** words) {
     springs.push_back({"link", mean(c[1]) + mean(c[0], -1), {}, rest, k1, 0, 0, k1});
   for (auto in = open(at + "cells.csv"); in >> kind >> c[0] >> c[1] >> c[2] >> c[3] >> rest >> k1 >> k2 >> k3;) {
     Sum a = mean(c[2]) + mean(c[0], -1), b = mean(c[3]) + mean(c[1], -1);  // diagonals, for strains mean sides
+    if (kind != "area" && kind != "strain") return std::cerr << "knows no rubber; read_lattice.py does\n", 2;
     if (kind == "strain") a = mean(c[1] + "+" + c[2]) + mean(c[0] + "+" + c[3], -1);
     if (kind == "strain") b = mean(c[2] + "+" + c[3]) + mean(c[0] + "+" + c[1], -1);
     springs.push_back({kind, a, b, rest, k1, k2, k3, std::max({fabs(k1), fabs(k2), fabs(k3)})});

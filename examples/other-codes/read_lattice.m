@@ -6,6 +6,7 @@ function read_lattice(folder, steps)
   if nargin < 2, steps = 1; end
   lattice = load([folder '/lattice.mat']);
   if lattice.pressure ~= 0 || ~isempty(lattice.couple_moment), error('dead loads only'); end
+  if ~isempty(lattice.rubber_rest), error('knows no rubber; read_lattice.py does'); end
   along = differences(lattice);
   largest = 0;
   for state = 1:numel(lattice.state_energy)

@@ -12,9 +12,10 @@ def differences(lattice):
     """Matrices that take positions (n, 3) to the vectors that springs see: along links, across cells."""
     of = np.eye(len(lattice["positions"]))
     found = {"link": of[lattice["link_masses"][:, 1]] - of[lattice["link_masses"][:, 0]]}
-    for kind in ("area", "strain"):
+    for kind in ("area", "strain", "rubber", "face"):
         corner = of[lattice[f"{kind}_corners"]].mean(axis=2)  # of one mass or several
         found[kind] = corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1]
+        found[f"{kind}_warp"] = corner[:, 0] - corner[:, 1] + corner[:, 2] - corner[:, 3]
     return found
 
 
@@ -42,7 +43,48 @@ def gradient(lattice, along, u):
     t1, t2, t3 = np.hsplit(k * e, 3)
     energy += 0.5 * np.sum(k * e**2 * a0)
     g += over_a.T @ (t1 * a0 / aa * a + t3 * b) + over_b.T @ (t2 * a0 / bb * b + t3 * a)
-    return energy, g
+    return energy + rubber(lattice, along, x, g) + faces(lattice, along, x, g), g
+
+
+def rubber(lattice, along, x, g):
+    """Energy [J] of rubber membranes at places x (n, 3) [m]; its gradient is added to g."""
+    (first, second), warp, a0 = along["rubber"], along["rubber_warp"], lattice["rubber_rest"][:, None]
+    over_a, over_b = (first - second) / 2, (first + second) / 2
+    aa, bb = (dot(side @ lattice["positions"], side @ lattice["positions"]) for side in (over_a, over_b))
+    c10, c01, c20, c30, v, limit, ka, kb = np.hsplit(lattice["rubber_stiffness"], 8)
+    a, b, q, of_limit = over_a @ x, over_b @ x, warp @ x, 1 / np.where(limit > 0, limit, np.inf)
+    c11, c22, c12 = (dot(a, a) + dot(q, q) / 12) / aa, (dot(b, b) + dot(q, q) / 12) / bb, dot(a, b) / a0
+    trace, area = c11 + c22, c11 * c22 - c12**2
+    log = -v / (v + 4 * (c10 + c01)) * np.log(area)
+    for _ in range(50):  # Newton's method for the thickness
+        theta, i = np.exp(log), trace + np.exp(log) - 3
+        f1 = c10 / (1 - i * of_limit) + 2 * c20 * i + 3 * c30 * i**2
+        f2 = c10 * of_limit / (1 - i * of_limit) ** 2 + 2 * c20 + 6 * c30 * i
+        pull = theta * (f1 + c01 * trace)
+        miss = pull - c10 - 2 * c01 + v / 4 * np.log(area * theta)
+        log = log - miss / (pull + theta**2 * f2 + v / 4)
+    f = np.where(limit > 0, -c10 * limit * np.log1p(-i * of_limit), c10 * i + c20 * i**2 + c30 * i**3)
+    volume = np.log(area * theta)
+    stored = f + c01 * (area + theta * trace - 3) - (c10 + 2 * c01) * volume + v / 8 * volume**2
+    la, lb = (np.sqrt(dot(side, side) + dot(q, q) / 4) for side in (a, b))
+    pa, pb = ka * (1 - np.sqrt(aa) / la), kb * (1 - np.sqrt(bb) / lb)
+    by_trace, by_area = f1 + c01 * theta, c01 - pull / area
+    s, t, st = a0 * (by_trace + by_area * c22) / aa, a0 * (by_trace + by_area * c11) / bb, -2 * by_area * c12
+    g += over_a.T @ ((2 * s - pa) * a + st * b) + over_b.T @ ((2 * t - pb) * b + st * a)
+    g += warp.T @ (((s + t) / 6 - (pa + pb) / 4) * q)
+    return np.sum(a0 * stored - 0.5 * ka * (la - np.sqrt(aa)) ** 2 - 0.5 * kb * (lb - np.sqrt(bb)) ** 2)
+
+
+def faces(lattice, along, x, g):
+    """Energy [J] of upright faces sheared; its gradient is added to g."""
+    (first, second), k, a0 = along["face"], lattice["face_stiffness"][:, None], lattice["face_rest"][:, None]
+    over_a, over_b = (first - second) / 2, (first + second) / 2
+    a, b, up = over_a @ x, over_b @ x, over_b @ lattice["positions"]
+    long, high = np.sqrt(dot(a, a)), np.sqrt(dot(up, up))
+    shear = dot(a, b) / (long * high)
+    g += over_a.T @ (a0 * k * shear * (b / (long * high) - shear * a / long**2))
+    g += over_b.T @ (a0 * k * shear * a / (long * high))
+    return 0.5 * np.sum(k * shear**2 * a0)
 
 
 def equilibrium(lattice, along, steps=1):

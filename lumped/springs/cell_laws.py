@@ -60,7 +60,9 @@ class Law:
     takes, stress; stiffness: (δg and s, g, area, that, share, constants) → M + share (D − M) of g, and of s;
     mean_stress: (of two states, g, area, constants) → the stress whose work is the energy stored; constants:
     (array, cell) → a cell's; measures: 3, or 4 with s; any_strain: whether it means something at any strain;
-    example: constants of a cell of 1 × 1 m to test it by."""
+    parts:
+    (stiffness (c, 4), other constants, area) → constants of each kind that `ENERGIES` names, (c, n);
+    examples: constants of a cell of 1 × 1 m to test it by."""
 
     tag: type[Tag]
     respond: Callable[..., Any]
@@ -69,7 +71,25 @@ class Law:
     constants: Callable[..., Any]
     measures: int
     any_strain: bool
+    parts: Callable[..., dict[str, np.ndarray]]
     examples: tuple[tuple[float, ...], ...]
+
+
+ENERGIES = {  # of an exported cell with the constants k1, k2, …; see the README of an export
+    "area": "0.5 k1 (a/a0 - 1)^2 a0",
+    "strain": "0.5 (k1 e1^2 + k2 e2^2 + k3 g^2) a0",
+    "rubber": "W(k1 .. k6) a0 - 0.5 k7 (la - |A0|)^2 - 0.5 k8 (lb - |B0|)^2",
+    "face": "0.5 k1 (A.B/|A||B0|)^2 a0",
+}
+
+
+def _parts_of_rubber(_stiffness: np.ndarray, others: np.ndarray, area: np.ndarray) -> dict[str, np.ndarray]:
+    none = np.zeros(len(area))
+    return {
+        "rubber": np.column_stack([others[:, :5] / area[:, None], others[:, 5:8]]),
+        "strain": np.column_stack([none, none, others[:, 8] * area]),
+        "face": others[:, 9:] * area[:, None],
+    }
 
 
 AREA_AND_STRAINS = Law(
@@ -80,6 +100,7 @@ AREA_AND_STRAINS = Law(
     _four,
     3,
     False,
+    lambda stiffness, _others, _area: {"area": stiffness[:, :1], "strain": stiffness[:, 1:]},
     ((-30.0, 200.0, 150.0, 80.0),),
 )
 RUBBER = Law(
@@ -90,6 +111,7 @@ RUBBER = Law(
     _fourteen,
     4,
     True,
+    _parts_of_rubber,
     (  # neo-hookean, mooney-rivlin, yeoh, gent
         (164.0, 132.0, 140.0, 87.0, 50.0, 0.0, 0.0, 0.0, 900.0, 0.0, 68.0, 60.0, -13.0, 25.0),
         (141.0, 152.0, 160.0, 107.0, 40.0, 20.0, 0.0, 0.0, 500.0, 0.0, 68.0, 60.0, -13.0, 25.0),

@@ -46,6 +46,14 @@ HALF = Scene(
     ),
 )
 
+LAWS = {
+    "neo-hookean": {"young": 1e6},
+    "mooney-rivlin": {"c1": 1.5e5, "c2": 2e4},
+    "yeoh": {"c1": 1.7e5, "c2": -2e3, "c3": 60.0},
+    "gent": {"shear": 3.4e5, "limit": 20.0},
+}
+RUBBERS = [Material(law=law, poisson=0.45, density=1000.0, damping_time=1e-3, **LAWS[law]) for law in LAWS]
+
 
 def spring_set(scene: Scene, grid: int, **settings: Any) -> lumped.Calibration:
     return lumped.calibrate(scene.sheet, scene.material, grid=grid, **settings)
@@ -107,8 +115,9 @@ def test_matlab_and_numpy_files_hold_the_same(folder: Path) -> None:
         (HINGED, {"method": "moduli"}),
         (HALF, {"method": "consistent"}),
         (scenes.load("one-edge-clamped"), {"method": "uniform"}),
+        *((HALF.replace(material=material), {"method": "hyperelastic"}) for material in RUBBERS),
     ],
-    ids=["curved, graded", "hinged and held", "half, point and edge loads", "uniform"],
+    ids=["curved, graded", "hinged and held", "half, point and edge loads", "uniform", *LAWS],
 )
 def test_numpy_alone_finds_our_displacements(scene: Scene, settings: dict[str, Any]) -> None:
     lattice = arrays(lumped.describe(scene, spring_set(scene, 3, **settings)))
@@ -171,11 +180,20 @@ def test_cpp_steps_to_our_displacements(folder: Path, tmp_path: Path) -> None:
     export(tmp_path / "blown", BLOWN, spring_set(BLOWN, 3))
     refused = subprocess.run([str(program), str(tmp_path / "blown")], capture_output=True, text=True)
     assert refused.returncode == 2 and "dead loads only" in refused.stderr
+    export(
+        tmp_path / "rubber",
+        rubber := HALF.replace(material=RUBBERS[0]),
+        spring_set(rubber, 3, method="hyperelastic"),
+    )
+    refused = subprocess.run([str(program), str(tmp_path / "rubber")], capture_output=True, text=True)
+    assert refused.returncode == 2 and "knows no rubber; read_lattice.py does" in refused.stderr
 
 
 def test_readers_are_short() -> None:
     for path in READERS.glob("read_lattice.*"):
-        assert len(path.read_text(encoding="utf-8").splitlines()) <= 92, path
+        assert len(path.read_text(encoding="utf-8").splitlines()) <= 140, (
+            path
+        )  # three kinds of springs, rubber and faces
 
 
 BLOWN = Scene(

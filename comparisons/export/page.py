@@ -56,7 +56,8 @@ supports and loads balance at rest.
 
 `nodes.csv` has the masses. Dampers resist the rates of what the springs resist: force c d|r|/dt along a
 link, the gradients above with c1 (da/dt)/a0 and (c1 de1/dt, c2 de2/dt, c3 dg/dt) in place of τ and t; of
-rubber those of its small strains, rows of kind `area` and `strain` without stiffness. Every mass is also dragged by {rate:g} 1/s × its mass × its velocity.
+rubber those of its small strains, rows of kind `area` and `strain` without stiffness. Every mass is also
+dragged by {rate:g} 1/s × its mass × its velocity.
 
 ## Supports and loads
 

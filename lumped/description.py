@@ -42,13 +42,14 @@ class LinkTable:
 class CellTable:
     """Springs of one kind of `lumped.springs.cell_laws.ENERGIES`: corners (c, 4, p), the masses whose mean
     each corner is; rest_area (c,) [m²]; stiffness (c, n) [N/m], of rubber its limit [-] too; damping (c, n)
-    [N·s/m]."""
+    [N·s/m]; energy: the formula of it."""
 
     kind: str
     corners: np.ndarray
     rest_area: np.ndarray
     stiffness: np.ndarray
     damping: np.ndarray
+    energy: str
 
 
 @dataclass(frozen=True)
@@ -167,14 +168,14 @@ def _cells(scene: Scene, assembly: Assembly) -> Iterator[CellTable]:
     """Yield the springs of each kind, and dampers where there are no springs."""
     time = 0.0 if scene.dampers is not None else scene.material.dashpot_time
     families = [family for family in assembly.springs if isinstance(family, Cells)]
-    for kind in ENERGIES:
+    for kind, energy in ENERGIES.items():
         for family in families:
             stiffness = family.law.parts(family.stiffness, family.others, family.area).get(kind)
             damping = AREA_AND_STRAINS.parts(time * family.stiffness, None, family.area).get(kind)
             pair = [np.zeros_like(damping) if stiffness is None else stiffness]
             pair.append(np.zeros_like(pair[0]) if damping is None else damping)
             if (on := np.any(pair[0], axis=-1) | np.any(pair[1], axis=-1)).any():
-                yield CellTable(kind, family.nodes[on], family.area[on], *(each[on] for each in pair))
+                yield CellTable(kind, family.nodes[on], family.area[on], *(each[on] for each in pair), energy)
 
 
 def _holds(problem: Problem) -> tuple[Hold, ...]:

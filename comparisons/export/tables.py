@@ -21,10 +21,8 @@ AXES = "xyz"
 
 def tables(lattice: Description) -> dict[str, str]:
     """The text of every file by its name."""
-    from lumped.springs.cell_laws import ENERGIES
-
     x, y, z = (f"u{axis}" for axis in AXES)
-    formulas = "; ".join(f"{kind}: E = {energy}" for kind, energy in list(ENERGIES.items())[:2])
+    formulas = dict.fromkeys(f"{table.kind}: E = {table.energy}" for table in lattice.cells)
     width = max(3, *(table.stiffness.shape[1] for table in lattice.cells), 0)
     return {
         "nodes.csv": _csv(
@@ -54,10 +52,10 @@ def tables(lattice: Description) -> dict[str, str]:
                 "rest_area",
                 *(f"stiffness_{n}" for n in range(1, width + 1)),
                 *(f"damping_{n}" for n in range(1, 4)),
-                f"{formulas}; force -dE/dx",
+                "; ".join((*formulas, "force -dE/dx")),
             ],
             (
-                [table.kind, *map(_joined, corners), area, *stiffness, *damping, ENERGIES[table.kind]]
+                [table.kind, *map(_joined, corners), area, *stiffness, *damping, table.energy]
                 for table in lattice.cells
                 for corners, area, stiffness, damping in zip(
                     table.corners.tolist(),

@@ -175,7 +175,8 @@ def _cells(scene: Scene, assembly: Assembly) -> Iterator[CellTable]:
             pair = [np.zeros_like(damping) if stiffness is None else stiffness]
             pair.append(np.zeros_like(pair[0]) if damping is None else damping)
             if (on := np.any(pair[0], axis=-1) | np.any(pair[1], axis=-1)).any():
-                yield CellTable(kind, family.nodes[on], family.area[on], *(each[on] for each in pair), energy)
+                springs, dampers = (each[on] for each in pair)
+                yield CellTable(kind, family.nodes[on], family.area[on], springs, dampers, energy)
 
 
 def _holds(problem: Problem) -> tuple[Hold, ...]:

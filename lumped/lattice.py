@@ -114,11 +114,11 @@ class Lattice:
         x, y = self.lines
         return x.mean, y.mean, self.layer_distance
 
-    @property
+    @cached_property
     def cell_areas(self) -> np.ndarray:
         """Plan areas of the cells, (ny − 1, nx − 1) [m²]."""
         x, y = self.lines
-        return np.outer(y.widths, x.widths)
+        return frozen(np.outer(y.widths, x.widths))
 
     @cached_property
     def sides(self) -> dict[str, np.ndarray]:

@@ -18,8 +18,8 @@ from numba.extending import overload
 
 from lumped.springs.cell_laws import AreaAndStrains, Rubber, Tag, measures, respond
 from lumped.springs.laws import Constants
-from lumped.springs.memory import FORCE_X, FORCE_Y, FORCE_Z, GIVEN, KEPT, ROW, load, store
-from lumped.springs.tiles import LANES, OPTIONS, ROWS
+from lumped.springs.tiles import FORCE_X, FORCE_Y, FORCE_Z, GIVEN, KEPT, LANES, OPTIONS, ROW, ROWS
+from sheetbench.numerics.memory import load, store
 
 (R0, R1, R2, R3, R4, R5, R6, R7, R8, R9, R10, R11, R12, R13, R14, R15, R16, R17) = ROWS[:18]
 DATA = {AreaAndStrains: 18, Rubber: 24}  # rows of rest data

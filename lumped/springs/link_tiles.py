@@ -12,8 +12,8 @@ import math
 import numpy as np
 from numba import njit
 
-from lumped.springs.memory import FORCE_X, FORCE_Y, FORCE_Z, GIVEN, KEPT, ROW, load, store
-from lumped.springs.tiles import LANES, OPTIONS, ROWS
+from lumped.springs.tiles import FORCE_X, FORCE_Y, FORCE_Z, GIVEN, KEPT, LANES, OPTIONS, ROW, ROWS
+from sheetbench.numerics.memory import load, store
 
 R0, R1, R2, R3, R4, R5, R6, R7 = ROWS[:8]
 DATA, SHAPE = 8, 3  # rows of rest data, and of what is kept

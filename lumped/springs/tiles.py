@@ -24,6 +24,9 @@ NUMBA_TRUE: Any = np.True_  # for Python's own numba compiles a kernel once for 
 NUMBA_FALSE: Any = np.False_
 STRIDE = WIDTH + 8  # of rows; a power of two would put them all in the same few places of a cache
 ROWS = tuple(np.uint64(row * STRIDE) for row in range(24))
+# kinds of memory that never overlap (`numerics.memory`): what is only read (rest data, displacements,
+# velocities), what springs keep of their shape, rows of a tile, and the three components of forces
+GIVEN, KEPT, ROW, FORCE_X, FORCE_Y, FORCE_Z = range(6)
 OPTIONS: dict[str, Any] = {
     "cache": True,
     "error_model": "numpy",

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from comparisons.cells.cell import Cell
+from comparisons.cells.codes import Parameter, parameters
 from comparisons.cells.coefficients import best_hinge, limit_error, nearest
 from comparisons.cells.homogenise import Moduli, moduli_of
 from fem_reference.surface.materials import section_of
@@ -75,8 +76,11 @@ class CellModuli(Answer):
     def tables(self) -> tuple[Table, ...]:
         units = self.cell.units()
         coefficients = [Coefficient(name, units[name], value) for name, value in self.coefficients.items()]
+        codes = parameters(self.cell.hinge, self.coefficients) if self.cell.triangles else []
+        caption = "The same as parameters of codes with such cells"
         return (
             Table.of(Coefficient, coefficients, "Coefficients", "coefficients"),
+            *([Table.of(Parameter, codes, caption, "codes", grouped=True)] if codes else []),
             Table.of(Modulus, self.rows, "Moduli of the sheet and of the cell", "moduli"),
         )
 

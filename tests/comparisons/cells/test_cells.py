@@ -9,6 +9,7 @@ from commands import one_line, run
 
 import sheetbench as sb
 from comparisons.cells.cell import Cell
+from comparisons.cells.codes import parameters
 from comparisons.cells.coefficients import limit_error, nearest
 from comparisons.cells.homogenise import moduli_of
 from comparisons.cells.meshes import MESHES, mesh
@@ -125,6 +126,25 @@ def test_the_limit_is_that_of_discrete_shells_on_the_published_sheet(name, share
     rigidity = MATERIAL.young * THICKNESS**3 / 12 / (1 - MATERIAL.poisson**2)
     coefficients = nearest(cell, MATERIAL, THICKNESS) | {"hinge": share * rigidity / (0.188 / 16)}
     assert limit_error(SCENE, moduli_of(cell, coefficients), elements=8) == pytest.approx(off, abs=0.02)
+
+
+def test_newtons_membrane_is_the_sheet_at_small_strain():
+    """Its neo-Hookean energy, as its source has it, twice differentiated by small principal stretches."""
+    stretching = {"lambda_h": 3.0, "mu_h": 2.0, "hinge": 1.0}
+    own = {p.parameter: p.value for p in parameters("length", stretching) if p.code.startswith("Newton 1.8")}
+    mu, lame = own["tri_ke"], own["tri_ka"]
+
+    def energy(a: float, b: float) -> float:
+        return mu / 2 * (a**2 + b**2 - 2) + lame / 2 * (a * b - 1 - mu / lame) ** 2
+
+    step = 1e-4
+    rest = energy(1.0, 1.0)
+    slope = (energy(1 + step, 1.0) - energy(1 - step, 1.0)) / (2 * step)
+    along = (energy(1 + step, 1.0) - 2 * rest + energy(1 - step, 1.0)) / step**2
+    across = (energy(1 + step, 1 + step) - energy(1 + step, 1 - step)) / (2 * step**2)
+    across -= (energy(1.0, 1 + step) - energy(1.0, 1 - step)) / (2 * step**2)
+    assert slope == pytest.approx(0.0, abs=1e-6)
+    assert (along, across) == pytest.approx((3.0 + 2 * 2.0, 3.0), abs=1e-3)
 
 
 def test_the_verb_shows_and_writes_a_cell_of_a_file(tmp_path, capsys):

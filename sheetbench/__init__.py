@@ -25,6 +25,7 @@ if _TYPE_CHECKING:
     from comparisons.identification.identification import identify
     from comparisons.identification.measurements import Displacements
     from comparisons.linearisation.linearisation import linearise
+    from comparisons.models.spec import Elements, External, Lattice, LatticePair
     from comparisons.modes.spectra import spectra as modes
     from comparisons.reproduction.reproduction import reproduce
     from comparisons.scoring.suite_tables import report as suite
@@ -58,6 +59,7 @@ if _TYPE_CHECKING:
 _ELSEWHERE = {  # name: module and what it is called there; all else is of sheetbench.scenes
     "Cell": ("comparisons.cells.cell", "Cell"),
     "Displacements": ("comparisons.identification.measurements", "Displacements"),
+    **{n: ("comparisons.models.spec", n) for n in ("Elements", "External", "Lattice", "LatticePair")},
     "advise": ("comparisons.advice.advisor", "advise"),
     "calibrate": ("sheetbench.face", "calibrate"),
     "cell": ("comparisons.cells.meshes", "cell_of"),
@@ -91,11 +93,15 @@ __all__ = [
     "Displacements",
     "EdgeLoad",
     "EdgeMotion",
+    "Elements",
+    "External",
     "Gravity",
     "Held",
     "Hinged",
     "History",
     "Implausible",
+    "Lattice",
+    "LatticePair",
     "Material",
     "PointLoad",
     "Pressure",

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Unpack, overload
 
 from comparisons.models import solve as solvers
 from comparisons.models.context import in_context, large_in_context
+from comparisons.models.grids import Elements as Count
 from comparisons.models.grids import GridLike
 from comparisons.models.resolve import resolve, resolve_each
 from comparisons.models.spec import (
@@ -21,12 +22,14 @@ from comparisons.models.spec import (
     LatticeKeywords,
     Spec,
     SpringKeywords,
+    StaticKeywords,
     lattices,
     parse,
     spec_of,
 )
 from comparisons.report.work import silent
 from sheetbench.choices import CALIBRATION, INTEGRATOR, REFERENCE, REFERENCES
+from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, History, Solution, scene_of
 
 if TYPE_CHECKING:
@@ -144,30 +147,47 @@ def compare(
 ) -> MotionComparison: ...
 
 
+@in_context  # type: ignore[misc]  # the overloads leave their keywords to this signature
 def compare(
     scene: AnyScene,
     lattice: Lattice | None = None,
     reference: Elements | str = REFERENCE,
     *,
     duration: float | None = None,
-    **settings: Any,
+    elements: Count | None = None,
+    law: str | None = None,
+    uncertainty: bool | None = None,
+    companion: bool = True,
+    others: Sequence[Spec | str] = (),
+    every: float | None = None,
+    frames: int = 0,
+    large: bool = False,
+    progress: Callable[[Any], None] = silent,
+    **keywords: Unpack[StaticKeywords],
 ) -> Comparison | MotionComparison:
     """The lattice beside a reference: at rest, or over `duration` [s] of motion.
 
-    lattice: a `Lattice`, or its flat keywords `grid`, `calibration`, `k`, `layer_distance`, `grading`: 9
-    masses along the shorter side unless given. reference: an `Elements`, or "plate", "shell" or "solid", with
-    `elements`, 16 unless given and 8 in motion, and `law`. settings: these and further ones of
-    `comparisons.comparison.comparison.compare` (`uncertainty`, `branch`, `others` …) or, with a duration, of
-    `comparisons.motion.comparison.compare_motion` (`every`, `frames` …). Raises SceneError for a scene
-    without an answer, BadInput for choices that do not exist; a solve that fails is a status.
+    lattice: a `Lattice`, or its flat keywords: 9 masses along the shorter side unless given. reference: an
+    `Elements`, or "plate", "shell" or "solid" with elements, 16 unless given and 8 in motion, and law of
+    strain. uncertainty: find the reference's error bar too. At rest: companion, others, and symmetry, branch
+    and linear of the lattice, see `comparisons.comparison.comparison.compare`; in motion: every, frames, see
+    `comparisons.motion.comparison.compare_motion`. Raises SceneError for a scene without an answer, BadInput
+    for choices that do not exist or do not go together; a solve that fails is a status.
     """
+    both: dict[str, Any] = {"elements": elements, "law": law, **keywords}
     if duration is not None:
         from comparisons.motion.comparison import compare_motion
 
-        return compare_motion(scene, duration, lattice, reference, **settings)
+        if others or not companion:
+            raise BadInput("others, companion: are for statics; leave them out with a duration")
+        both |= {"uncertainty": uncertainty is not False, "every": every, "frames": frames}
+        return compare_motion(scene, duration, lattice, reference, **both)
     from comparisons.comparison.comparison import compare
 
-    return compare(scene, lattice, reference, **settings)
+    if every is not None or frames:
+        raise BadInput("every, frames: are for motions; give a duration")
+    both |= {"uncertainty": uncertainty, "companion": companion, "others": others}
+    return compare(scene, lattice, reference, **both)
 
 
 @large_in_context

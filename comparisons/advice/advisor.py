@@ -14,14 +14,15 @@ stiffening" where they hold a share of the energy; "large displacements" where t
 
 from __future__ import annotations
 
+from typing import Unpack
+
 from comparisons.advice.answer import Advice, Tried
 from comparisons.advice.probing import Probing, Trial
 from comparisons.models.context import in_context
 from comparisons.models.scales import Scales, scales
-from comparisons.models.spec import Grading, Lattice, Spec
+from comparisons.models.spec import Lattice, Spec, SpringKeywords
 from comparisons.report.work import Progress, silent
 from comparisons.runs import load
-from sheetbench.choices import CALIBRATION
 from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, require_static, scene_of
 from sheetbench.scenes.grid import MASSES
@@ -36,25 +37,27 @@ def advise(
     scene: AnyScene,
     tolerance: float | None = 0.01,
     budget: float | None = None,
+    lattice: Lattice | None = None,
     *,
-    grading: Grading = None,
     calibration: str | None = None,
     large: bool = False,
     progress: Progress = silent,
+    **keywords: Unpack[SpringKeywords],
 ) -> Advice:
     """The cheapest model predicted to meet `tolerance` (a fraction), or the most accurate in `budget` [s].
 
     With both, the cheapest that meets the tolerance; where that takes longer, the most accurate in time, and
-    `met` is false. grading: lattices so graded may be chosen too, a number or "auto"
-    (`comparisons.models.grading`); calibration: lattices with these springs too, "auto" as
-    `comparisons.models.method` chooses, which the grading "auto" brings along. Models that take more memory
+    `met` is false. lattice, or calibration, k, layer_distance: lattices with these springs may be chosen too,
+    "auto" as `comparisons.models.method` chooses; grading: lattices so graded too, a number or "auto"
+    (`comparisons.models.grading`), which brings the calibration "auto" along. Models that take more memory
     than there is are left out unless `large`. progress: told of every solve. Raises SceneError for a scene
-    without a static answer, BadInput where not even the coarsest judges fit or grading and calibration do not
-    go together.
+    without a static answer, BadInput where not even the coarsest judges fit, for a grid, and where springs
+    and grading do not go together.
     """
     scene = scene_of(scene)
     require_static(scene)
-    probing = Probing(scene, grading, calibration)
+    asked = Lattice.given(lattice, keywords)
+    probing = Probing(scene, asked if calibration is None else asked.but(calibration=calibration))
     sizes = scales(scene)
     resolution = tolerance or 0.01
     for _ in range(3):
@@ -198,9 +201,10 @@ def _grading(probing: Probing, chosen: Trial | None) -> str:
 
 def _calibration(probing: Probing, chosen: Trial | None) -> str:
     """What was made of the springs that were asked for."""
-    if probing.method == CALIBRATION and not probing.because:
+    if not (probing.springs or probing.because):
         return ""
-    taken = chosen is not None and getattr(chosen.candidate, "calibration", None) == probing.method
+    settings = {} if chosen is None else chosen.candidate.settings
+    taken = settings.items() >= {"calibration": probing.method, **probing.springs}.items()
     said = f"calibration {probing.method} {'taken' if taken else 'not taken'}"
     return f"{said}: {probing.because}" if probing.because else said
 

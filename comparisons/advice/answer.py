@@ -171,6 +171,9 @@ class Advice(Answer):
         if isinstance(spec, Lattice) and not spec.linear:
             options = ["--lumped", counted(spec.grid).replace("×", "x")]
             options += [] if spec.calibration == CALIBRATION else ["--calibration", str(spec.calibration)]
+            for name in ("k", "layer_distance"):
+                if name in spec.settings:
+                    options += [f"--{name.replace('_', '-')}", f"{spec.settings[name]:g}"]
             options += symmetry
             options += ["--grading", f"{read(spec.grading):g}"] if spec.grading else []
         elif isinstance(spec, Elements):

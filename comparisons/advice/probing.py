@@ -22,11 +22,12 @@ from comparisons.models.grading import fixed
 from comparisons.models.resolve import resolve
 from comparisons.models.sizes import has_room, require_room
 from comparisons.models.solve import solve
-from comparisons.models.spec import Elements, Grading, Lattice, Spec
+from comparisons.models.spec import Elements, Lattice, Spec, counted
 from comparisons.models.symmetry import planes
 from comparisons.report.work import silent
 from comparisons.runs import load
 from sheetbench.choices import CALIBRATION
+from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Solution, Status
 from sheetbench.scenes.grading import Graded
 from sheetbench.scenes.grid import MASSES, near_square
@@ -56,13 +57,17 @@ class Trial:
 class Probing:
     """The solves of a scene so far."""
 
-    def __init__(self, scene: Scene, grading: Grading = None, calibration: str | None = None) -> None:
-        """grading: by how much lattices may be graded too; calibration: which springs they may have too, by
-        `comparisons.models.method`. Raises BadInput where these are none or do not go together and where the
-        first judges take too much memory, otherwise the larger models are left out."""
+    def __init__(self, scene: Scene, asked: Lattice = Lattice()) -> None:  # noqa: B008  # frozen
+        """asked: the springs that lattices may have too, and by how much they may be graded too. Raises
+        BadInput for a grid, where springs and grading are none or do not go together, and where the first
+        judges take too much memory; otherwise the larger models are left out."""
+        if asked.grid is not None:
+            raise BadInput(f"grid = {counted(asked.grid)}: is chosen here; leave it out")
         self.scene = scene
-        usual = resolve(scene, Lattice(MASSES, calibration, grading=grading), "springs", own=False)
-        self.grading, self.method = grading, usual.spec.calibration or CALIBRATION
+        usual = resolve(scene, asked.but(grid=MASSES), "springs", own=False)
+        self.grading, self.method = asked.grading, usual.spec.calibration or CALIBRATION
+        own = {"calibration": self.method, "k": asked.k, "layer_distance": asked.layer_distance}
+        self.springs = {name: value for name, value in own.items() if value not in (None, CALIBRATION)}
         self.because = usual.reasons.get("calibration_reason", "")
         self.points = scene.probe_points()
         self.planes = planes(scene)
@@ -91,7 +96,7 @@ class Probing:
     def candidates(self, linear: bool) -> list[Spec]:
         """What may be chosen: lattices and shells; the linear lattice and the plate where `linear`."""
         usual = [self.lattice(n) for n in CELLS["lumped"]]
-        others = [one.but(calibration=self.method) for one in usual] if self.method != CALIBRATION else []
+        others = [one.but(**self.springs) for one in usual] if self.springs else []
         found: list[Spec] = [*usual, *others, *self.graded(others or usual)]
         found += [self.elements("shell", n) for n in CELLS["shell"]]
         if linear:

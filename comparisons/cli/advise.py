@@ -7,13 +7,15 @@ from typing import Annotated
 
 import typer
 
-from comparisons.cli.options import Large, Scene
+from comparisons.cli.lattice_options import SpringOptions
+from comparisons.cli.options import Calibration, Large, Scene
 from comparisons.cli.quantity import quantity_in
 from comparisons.cli.verb import OutputOptions
 
 
 def command(
     scene: Scene,
+    lattice: SpringOptions,
     tolerance: Annotated[
         float | None,
         typer.Option(metavar="FRACTION", help="Error allowed; 0.01 unless a budget alone is given."),
@@ -24,29 +26,16 @@ def command(
             metavar="SECONDS", parser=quantity_in("s"), help="Time that a solve may take, without setting up."
         ),
     ] = None,
-    grading: Annotated[
-        str | None,
-        typer.Option(
-            metavar="G",
-            help="Lattices graded by this, 0 to 1, may be chosen too; auto: as the scene's layers need.",
-            show_default=False,
-        ),
-    ] = None,
-    calibration: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAME",
-            help="Lattices with these springs may be chosen too; auto: by the scene, as for --grading auto.",
-            show_default=False,
-        ),
-    ] = None,
+    calibration: Calibration = None,
     large: Large = False,
     *,
     output: OutputOptions,
 ) -> None:
     """Name the cheapest model that meets a tolerance, or the most accurate one within a budget.
 
-    A few quick solves measure this machine and this scene. Exit status 3 where no model meets it.
+    A few quick solves measure this machine and this scene. Lattices with the springs of --calibration, --k
+    and --layer-distance may be chosen beside the usual ones, and graded by --grading. Exit status 3 where no
+    model meets it.
     """
     from comparisons.advice.advisor import advise, checked_tolerance
     from comparisons.comparison.comparison import load_static
@@ -60,11 +49,5 @@ def command(
     if tolerance is not None:
         checked_tolerance(tolerance)
     with output.open(scene=loaded) as out:
-        advice = advise(
-            loaded,
-            tolerance,
-            budget,
-            grading=grading,
-            calibration=calibration,
-        )
+        advice = advise(loaded, tolerance, budget, lattice.spec, calibration=calibration)
         out.show(replace(advice, called=scene).report())

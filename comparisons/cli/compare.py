@@ -65,12 +65,13 @@ def command(
     from comparisons.models.context import running
     from comparisons.models.grids import parse_elements
     from comparisons.models.resolve import resolve
-    from comparisons.motion.comparison import compare_motion
     from comparisons.report.vtk import write_solution
     from sheetbench import scenes
     from sheetbench.errors import BadInput
 
     if duration is not None:
+        from comparisons.motion.comparison import compare_motion
+
         statics: dict[str, object] = {"--symmetry": symmetry, "--model": model, "--branch": branch != "path"}
         statics |= {"--export": export}
         for option, value in statics.items():

@@ -88,8 +88,8 @@ def verb(name: str, *others: str, renamed: dict[str, str] | None = None) -> Call
 def python(ask: Callable[..., Any]) -> Callable[..., None]:
     """A function of the package: a grid as text is a number there, or numbers."""
 
-    def call(scene: str, folder: Path, grid: str | None = None, **options: Any) -> None:
-        shape = {} if grid is None else {"grid": int(grid) if grid.isdigit() else grid}
+    def call(scene: str, folder: Path, grid: Any = None, **options: Any) -> None:
+        shape = {} if grid is None else {"grid": int(grid) if str(grid).isdigit() else grid}
         found = ask(sb.load(scene), folder, **shape, **options)
         if isinstance(found, lumped.Calibration):
             raise Used(found)
@@ -99,7 +99,7 @@ def python(ask: Callable[..., Any]) -> Callable[..., None]:
 
 def of_advice(scene: Scene, folder: Path, **options: Any) -> lumped.Calibration:
     """Of the last lattice of 9 × 9 masses that may be chosen."""
-    found = [c for c in Probing(scene, **options).candidates(linear=False) if c.model == "lumped"]
+    found = [c for c in Probing(scene, Lattice(**options)).candidates(linear=False) if c.model == "lumped"]
     (*_, last) = [c for c in found if c.settings["grid"] == [9, 9, 2]]
     return resolve(scene, last).springs
 
@@ -122,9 +122,9 @@ VERBS: dict[str, tuple[Callable[..., None], frozenset[str]]] = {
         WORDS,
     ),
     "tradeoff of a motion": (verb("tradeoff", "{scene}", "--duration", "0.01"), WORDS),
-    "tradeoff": (verb("tradeoff", "{scene}", "--shell", "", "--solid", "", "--plate", ""), GRIDS),
-    "crosscheck": (verb("crosscheck", "{scene}", "--grid", "9,13", "--shell", ""), GRIDS - {"grid"}),
-    "advise": (python(of_advice), GRIDS - {"grid"}),
+    "tradeoff": (verb("tradeoff", "{scene}", "--shell", "", "--solid", "", "--plate", ""), WORDS),
+    "crosscheck": (verb("crosscheck", "{scene}", "--grid", "9,13", "--shell", ""), WORDS - {"grid"}),
+    "advise": (python(of_advice), WORDS - {"grid"}),
     "live": (verb("live", "{scene}", "--no-browser"), GRIDS),
     "sb.solve": (python(lambda scene, _, **own: sb.solve(scene, **own)), WORDS),
     "sb.compare": (python(lambda scene, _, **own: sb.compare(scene, **own)), WORDS),
@@ -144,7 +144,7 @@ VERBS: dict[str, tuple[Callable[..., None], frozenset[str]]] = {
         WORDS,
     ),
     "sb.export": (python(lambda scene, at, **own: sb.export(scene, at / "lattice", **own)), WORDS),
-    "sb.tradeoff": (python(listed), GRIDS),
+    "sb.tradeoff": (python(listed), WORDS),
 }
 ANEW = {"calibrate", "sb.calibrate", "identify", "sb.identify"}  # make the springs, whatever the scene has
 NAMED = {"tradeoff", "sb.tradeoff"}  # list their calibrations, where the others leave them open
@@ -160,12 +160,24 @@ def test_the_same_words_are_the_same_lattice(name: str, tmp_path: Path) -> None:
     for options in OPTIONS:
         if not words >= options.keys() or not set(UNABLE.get(name, ())).isdisjoint(options.values()):
             continue
-        usual = {key: value for key, value in LISTS.items() if key in words} if name in NAMED else {}
+        usual = {**LISTS, **({"calibration": "uniform"} if "k" in options else {})} if name in NAMED else {}
         meant = Lattice(**{**usual, **options})
         with pytest.raises(Used) as asked:
             ask(SCENE, tmp_path, **{**usual, **options})
         expected = resolve(scene, meant).springs
         assert constants(asked) == constants(expected), options
+
+
+@pytest.mark.parametrize("name", [name for name in VERBS if name.startswith("sb.") and name != "sb.solve"])
+def test_a_spec_is_what_its_flat_keywords_are(name: str, tmp_path: Path) -> None:
+    """Flat keywords beside a spec change it."""
+    (tmp_path / "measured.csv").write_text(FILE, encoding="utf-8")
+    spec = sb.Lattice(grid=5, calibration="uniform", k=550.0)
+    expected = constants(resolve(sb.load(SCENE), spec.but(layer_distance=0.004)).springs)
+    listed = {"grid": 5, "calibration": "uniform"} if name in NAMED else {}
+    with pytest.raises(Used) as asked:
+        VERBS[name][0](SCENE, tmp_path, **listed, lattice=spec, layer_distance=0.004)
+    assert constants(asked) == expected
 
 
 @pytest.mark.parametrize("name", [name for name in VERBS if name not in CHOSEN])

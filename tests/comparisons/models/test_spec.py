@@ -1,0 +1,107 @@
+"""Specs: one noun for a model, in Python, as text and as JSON."""
+
+from __future__ import annotations
+
+import json
+from inspect import signature
+
+import numpy as np
+import pytest
+
+import sheetbench as sb
+from comparisons.models.context import context, running
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Spec, parse, spec_of
+from sheetbench.scenes.grading import Grading
+
+SPECS: dict[str, Spec] = {
+    "lumped": sb.Lattice(),
+    "lumped:grid=9x13x2,k=550.0,grading=0.5:x0,symmetry=true": sb.Lattice(
+        (9, 13, 2), k=550.0, grading="0.5:x0", symmetry=True
+    ),
+    "lumped-pair:grid=9,coarser=5,calibration=consistent": sb.LatticePair(9, 5, "consistent"),
+    "shell:elements=8x4,law=biot": sb.Elements("shell", (8, 4), law="biot"),
+    "solid:elements=4,layers=2": sb.Elements("solid", 4, layers=2),
+    "mujoco:grid=9": sb.External("mujoco", {"grid": 9}),
+}
+
+
+@pytest.mark.parametrize("text", SPECS)
+def test_a_spec_reads_and_writes_itself(text: str) -> None:
+    spec = SPECS[text]
+    assert str(spec) == text and parse(text) == spec
+    assert spec_of(spec.model, json.loads(json.dumps(spec.settings))) == spec
+
+
+def test_what_comes_from_elsewhere_is_plain_data() -> None:
+    spec = sb.Lattice(np.array([5, 7]), grading=Grading(0.5, ("x0",)))
+    assert json.loads(json.dumps(spec.settings)) == {"grid": [5, 7], "grading": "0.5:x0"}
+
+
+def test_a_reference_is_a_spec_or_its_name_and_keywords() -> None:
+    flat = sb.compare(
+        "one-edge-clamped", grid=3, reference="shell", elements=3, law="biot", uncertainty=False
+    )
+    spec = sb.Elements("shell", 3, law="biot")
+    both = sb.compare("one-edge-clamped", sb.Lattice(3), spec, uncertainty=False)
+    assert both.reference.settings == flat.reference.settings
+    answer = sb.solve("one-edge-clamped", spec)
+    points = both.scene.probe_points()
+    assert np.array_equal(answer.displacement(points), both.reference.displacement(points))
+    assert [
+        one.model for one in sb.compare("one-edge-clamped", sb.Lattice(3), spec, others=["plate"]).solutions
+    ]
+
+
+@pytest.mark.parametrize(
+    ("ask", "said"),
+    [
+        (lambda scene: sb.modes(scene, sb.Lattice(symmetry=True)), "symmetry = True: is for statics"),
+        (
+            lambda scene: sb.simulate(scene, 0.1, sb.Lattice(masses="gregory")),
+            "masses = gregory: is for modes",
+        ),
+        (lambda scene: sb.compare(scene, duration=0.1, branch="buckled"), "branch = buckled: is for statics"),
+        (lambda scene: sb.compare(scene, duration=0.1, companion=False), "companion: are for statics"),
+        (lambda scene: sb.compare(scene, every=0.1), "every, frames: are for motions"),
+        (lambda scene: sb.advise(scene, lattice=sb.Lattice(9)), "grid = 9: is chosen here"),
+        (lambda scene: sb.solve(scene, sb.External("nosuch")), "model = 'nosuch': unknown"),
+        (lambda scene: sb.solve(scene, "shell", k=3.0), "shell: no option 'k'"),
+    ],
+)
+def test_what_does_not_go_with_a_question_is_refused(ask, said: str) -> None:
+    with pytest.raises(sb.BadInput, match=said):
+        ask("one-edge-clamped")
+
+
+def test_flat_keywords_stand_in_the_signature() -> None:
+    for function in (
+        sb.compare,
+        sb.modes,
+        sb.identify,
+        sb.simulate,
+        sb.linearise,
+        sb.calibrate,
+        sb.stability,
+    ):
+        assert {"grid", "calibration", "k", "layer_distance", "grading"} <= signature(
+            function
+        ).parameters.keys()
+
+
+def test_a_context_holds_for_a_block_and_for_a_call() -> None:
+    told: list[object] = []
+    with running(progress=told.append):
+        sb.solve("one-edge-clamped", "plate", elements=2)
+        assert context().progress == told.append and not context().large
+    assert told and context().progress != told.append
+    sb.solve("one-edge-clamped", "plate", elements=2, large=True)
+    assert not context().large
+
+
+def test_the_choices_for_a_scene_hold_for_another_one() -> None:
+    scene = sb.load("curved-edge")
+    meant = resolve(scene, sb.Lattice(calibration="auto", grading="auto"))
+    softer = scene.replace(material=scene.material.replace(young=1e6))
+    assert meant.on(softer).spec == meant.spec and meant.on(softer).springs != meant.springs
+    assert set(meant.reasons) == {"calibration_reason", "grading_reason"}

@@ -82,10 +82,13 @@ def trace(
             more = 0 if isinstance(ended, Fault) else worth(path)
             careful = more > 0
             if careful:
-                reached = path.state if ended is None else None
+                reached, stuck = path.state if ended is None else None, (path.state, path.load_factor, ended)
                 path.state, path.load_factor, path.factor = structure.rest(), 0.0, None
                 path.limit = path.factorisations + more
                 ended = _follow(path, inspect, careful)
+                if reached is None and path.load_factor == 0.0:  # which says less than large steps did
+                    path.state, path.load_factor, ended = stuck
+                    careful = False
         while isinstance(ended, StepFailed):
             tried = ""
             if settle is not None and structure.symmetric and _at_limit_point(path, ended):
@@ -158,7 +161,8 @@ def _follow(
                 found, longest = continuous(path, first, state, negative, TOLERANCE)
         except StepFailed as failure:
             size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
-            shortest = size < SMALLEST_STEP and (not careful or reach < SHORTEST)
+            rested = path.load_factor == 0.0  # no limit point is there, however far the first step
+            shortest = size < SMALLEST_STEP and (reach < SHORTEST or not (careful or rested))
             if shortest or path.factorisations >= path.limit:
                 if careful and path.load_factor > 0.0:
                     _refine(path)

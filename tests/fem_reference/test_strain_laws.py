@@ -27,7 +27,7 @@ from fem_reference.verification.rows import EXACT
 from fem_reference.verification.strain_laws import LARGE, RUBBERS, STRAINS, WAYS, stress
 from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, Scene, Sheet, Status
+from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet, Status
 from sheetbench.scenes.material import WORDS
 
 PLAN = np.array([[0, 0], [2, 0.1], [2.1, 1.2], [-0.1, 1], [1, 0.05], [2.05, 0.65], [1, 1.1], [-0.05, 0.5]])
@@ -218,3 +218,16 @@ def test_the_law_is_an_option_of_the_reference(capsys: pytest.CaptureFixture[str
     with pytest.raises(BadInput, match="section of its own"):
         section = section_of(material(STRAIN_LAW), 0.01)
         fem_reference.solve(bent(), "shell", elements=2, section=section, law="biot")
+
+
+@pytest.mark.parametrize(("law", "found"), [("mooney-rivlin", 1.0), ("neo-hookean", 0.594)])
+def test_a_square_blown_up_is_followed_to_the_load_at_which_it_softens(law: str, found: float) -> None:
+    """Neo-Hooke's has a limit point of inflation, Mooney's with c2 = c1/4 none up to here."""
+    rubber = next(rubber for rubber in RUBBERS if rubber.law == law)
+    sheet = Sheet(length_x=0.1, length_y=0.1, thickness=0.001)
+    edges = tuple(Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1"))
+    scene = Scene(name="blown", sheet=sheet, material=rubber, supports=edges, loads=(Pressure(value=20e3),))
+    solution = fem_reference.solve(scene, "shell", elements=6)
+    assert solution.load_factor == pytest.approx(found, abs=0.01)
+    assert solution.displacement([[0.05, 0.05]])[0, 2] > 0.25 * sheet.length_x
+    assert solution.comparable or f"beyond load factor {found:.2f}"[:-1] in solution.message

@@ -96,7 +96,6 @@ FLOORS = {  # of comparisons; CONTRIBUTING.md says what is in each room
     **dict.fromkeys(("live", "reproduction", "stability", "pages"), 4),
     "cli": 5,
 }
-ONE_ROOM = {"external": "models"}  # plug-ins are models, and executables are plug-ins
 
 
 def test_rooms_of_the_comparisons_import_from_lower_floors():
@@ -104,14 +103,14 @@ def test_rooms_of_the_comparisons_import_from_lower_floors():
 
     Tasks, "module:function", are called by name by whoever carries them out, and count for nothing.
     """
-    below: dict[str, set[str]] = {ONE_ROOM.get(room, room): set() for room in FLOORS}
+    below: dict[str, set[str]] = {room: set() for room in FLOORS}
     for path in sorted((ROOT / "comparisons").rglob("*/*.py")):
         room = path.relative_to(ROOT / "comparisons").parts[0]
         for name in names_in(path):
             parts = name.split(".")
             if parts[0] == "comparisons" and len(parts) > 2 and ":" not in name:
                 assert FLOORS[parts[1]] <= FLOORS[room], f"{path.relative_to(ROOT)} imports {name}"
-                below[ONE_ROOM.get(room, room)].add(ONE_ROOM.get(parts[1], parts[1]))
+                below[room].add(parts[1])
     while leaves := {room for room, others in below.items() if not others & below.keys() - {room}}:
         below = {room: others for room, others in below.items() if room not in leaves}
     assert not below, f"rooms that import each other: {', '.join(sorted(below))}"

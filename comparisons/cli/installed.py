@@ -12,8 +12,8 @@ def installed_parts() -> str:
     from llvmlite import binding
     from threadpoolctl import threadpool_info
 
+    from comparisons.external import memory, plugins
     from comparisons.external.installed import find_codes
-    from comparisons.models import memory, plugins
     from comparisons.report import amounts, offscreen
     from comparisons.runs import load, manifest
     from sheetbench.numerics import pardiso

@@ -10,10 +10,10 @@ from comparisons.comparison import branches, far_apart, strain_law
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.differences import error
 from comparisons.comparison.error_bar import CHEAP, error_bar
+from comparisons.external.plugins import shown_name
 from comparisons.models.context import context, in_context
 from comparisons.models.expected_error import expected_error
 from comparisons.models.grids import Elements as Count
-from comparisons.models.plugins import shown_name
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.sizes import has_room
 from comparisons.models.solve import solve

@@ -7,8 +7,8 @@ from typing import Any
 
 from comparisons.crosscheck.answer import Crosscheck
 from comparisons.crosscheck.convergence import Convergence
+from comparisons.external import plugins
 from comparisons.external.installed import InstalledCode
-from comparisons.models import plugins
 from comparisons.models.context import large_in_context
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Spec

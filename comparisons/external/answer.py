@@ -8,7 +8,7 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from comparisons.external.bricks import Bricks
-from comparisons.models.plugins import Model
+from comparisons.external.plugins import Model
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Chain, EdgeLoad, FieldMesh, Scene, Solution, Status
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from comparisons.external import plugins
 from comparisons.external.answer import ExternalCode
-from comparisons.models import plugins
 from sheetbench.errors import BadInput, require_choice
 
 

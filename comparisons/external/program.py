@@ -26,8 +26,8 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.external import memory
 from comparisons.external.process import run
-from comparisons.models import memory
 from sheetbench.errors import BadInput
 from sheetbench.scenes import FieldMesh, Scene, Solution, Status
 from sheetbench.scenes.quantities import LARGEST
@@ -41,7 +41,7 @@ NUMBERS = ("solve_seconds", "unknowns", "iterations", "load_factor")
 
 
 class Program:
-    """An executable as a model (`comparisons.models.plugins.Model`)."""
+    """An executable as a model (`comparisons.external.plugins.Model`)."""
 
     settings = SETTINGS
     takes_any = True  # settings, which are passed on

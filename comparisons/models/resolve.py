@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, Literal, TypeVar, cast
 from warnings import warn
 
-from comparisons.models import plugins
+from comparisons.external import plugins
 from comparisons.models.context import context
 from comparisons.models.grading import fixed, grading_of, one_size
 from comparisons.models.grids import GridLike, scene_grid

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import prod
 
-from comparisons.models import memory
+from comparisons.external import memory
 from comparisons.models.context import context
 from comparisons.models.grids import scene_grid
 from comparisons.models.spec import Elements, External, Lattice, LatticePair, Spec

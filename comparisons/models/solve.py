@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import cache
 from typing import Any, Literal
 
-from comparisons.models import plugins
+from comparisons.external import plugins
 from comparisons.models.context import context
 from comparisons.models.pair import extrapolated
 from comparisons.models.resolve import OURS, Resolved, resolve

@@ -16,8 +16,8 @@ from typing import Any, ClassVar, Self, TypedDict
 
 import numpy as np
 
+from comparisons.external import plugins
 from comparisons.external.program import PREFIX
-from comparisons.models import plugins
 from comparisons.models.grids import Elements as Count
 from comparisons.models.grids import GridLike, parse_elements, scene_grid
 from sheetbench.choices import AUTO, ELEMENTS, EXTRAPOLATED, REFERENCES

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from comparisons.models.plugins import shown_name
+from comparisons.external.plugins import shown_name
 from comparisons.models.spec import counted, spec_of
 from comparisons.runs.campaign import Run
 from comparisons.runs.store import Finished

@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.comparison.comparison import error
-from comparisons.models import plugins
+from comparisons.external import plugins
 from comparisons.models.context import running
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve, warm

@@ -12,7 +12,8 @@ from commands import run
 
 import lumped
 import sheetbench as sb
-from comparisons.models import memory, sizes
+from comparisons.external import memory
+from comparisons.models import sizes
 from comparisons.models.spec import spec_of
 from comparisons.report import amounts
 from comparisons.runs.campaign import campaign

@@ -16,7 +16,7 @@ import pytest
 from campaigns import alive, wait_for
 from commands import one_line, run
 
-from comparisons.models import plugins
+from comparisons.external import plugins
 from comparisons.models.spec import parse
 from sheetbench import face, scenes
 from sheetbench.errors import BadInput

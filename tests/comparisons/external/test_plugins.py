@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from commands import one_line, run
 
-from comparisons.models import plugins
+from comparisons.external import plugins
 from comparisons.models import solve as solvers
 from comparisons.models.spec import parse
 from comparisons.tradeoff import timing

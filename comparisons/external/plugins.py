@@ -26,8 +26,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Protocol, runtime_checkable
 
+from comparisons.external import plugin_sources
 from comparisons.external.program import PREFIX, Program
-from comparisons.models import plugin_sources
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Solution
 
